@@ -1,0 +1,24 @@
+//! Parameter spaces, and how well a set of tests covers them.
+//!
+//! A [`Space`] is the ordered list of the parameters a study leaves open. Tests are points of it, and this
+//! crate says how much of the space such points have looked at: the discrete half by [`kwise`] coverage, the
+//! continuous half by [`dispersion`] (the largest box no test has entered: the paper's measure) and by
+//! discrepancy ([`star`], [`l2`]). [`theory`] holds the bounds that are known without looking at any point.
+//!
+//! The crate computes: it opens no file and runs no simulation. Numbers called exact are exact; what a time
+//! limit cut short comes back as a certified [`Bracket`].
+
+mod bracket;
+pub mod dispersion;
+pub mod kwise;
+pub mod l2;
+mod names;
+mod points;
+mod space;
+pub mod star;
+pub mod theory;
+
+pub use bracket::{Bracket, Deadline};
+pub use names::nearest;
+pub use points::{PointSet, PointSetError};
+pub use space::{Domain, Parameter, Point, Space, SpaceError, Value, Values};

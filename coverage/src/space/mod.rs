@@ -1,0 +1,265 @@
+//! The space of tests: named parameters, and the two ways in which a test is written.
+//!
+//! A test has *values* (what a scenario reads and a log keeps) and *coordinates* (what generators propose and
+//! coverage measures): a number in `[0,1]` for each continuous parameter, a level index for each discrete
+//! one. [`Space::decode`] and [`Space::encode`] are the only way from one to the other.
+
+mod parameter;
+mod text;
+mod value;
+
+pub use parameter::{Domain, Parameter};
+pub use value::{Value, Values};
+
+use crate::names::nearest;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// A test as coordinates, in the order of the space's parameters.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Point {
+    /// One coordinate in `[0,1]` for each continuous parameter.
+    pub continuous: Vec<f64>,
+    /// One level index for each discrete parameter.
+    pub discrete: Vec<usize>,
+}
+
+/// An ordered list of parameters with distinct names.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Declaration", into = "Declaration")]
+pub struct Space {
+    parameters: Vec<Parameter>,
+}
+
+/// A space as it is written in a file, before it is checked.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Declaration {
+    #[serde(rename = "parameter")]
+    parameters: Vec<Parameter>,
+}
+
+/// Why a space cannot be built, or a test does not belong to it.
+#[derive(Debug, Error, PartialEq)]
+pub enum SpaceError {
+    /// Two parameters share a name.
+    #[error("parameter `{0}` is declared twice")]
+    Twice(String),
+    /// A parameter without a name.
+    #[error("parameter {0} has no name")]
+    Nameless(usize),
+    /// An interval without inner points, or with ends that are no numbers.
+    #[error("parameter `{name}`: interval [{lo}, {hi}], expected two finite numbers, the first below the second")]
+    Interval {
+        /// The parameter.
+        name: String,
+        /// Its lower end.
+        lo: f64,
+        /// Its upper end.
+        hi: f64,
+    },
+    /// A choice of nothing.
+    #[error("parameter `{0}`: a choice needs at least one value")]
+    EmptyChoice(String),
+    /// A choice that names a value twice.
+    #[error("parameter `{name}`: the choice names {value} twice")]
+    SameLevel {
+        /// The parameter.
+        name: String,
+        /// The repeated value.
+        value: Value,
+    },
+    /// A value that the parameter does not take.
+    #[error("parameter `{name}`: found {value}, expected {expected}{}", hint(.nearest))]
+    OutsideDomain {
+        /// The parameter.
+        name: String,
+        /// The value found.
+        value: Value,
+        /// The parameter's domain, in words.
+        expected: String,
+        /// A level that was perhaps meant.
+        nearest: Option<String>,
+    },
+    /// A name that the space does not know.
+    #[error("no parameter is called `{name}`{}", hint(.nearest))]
+    Unknown {
+        /// The name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<String>,
+    },
+    /// A test that says nothing of a parameter.
+    #[error("the test gives no value for parameter `{0}`")]
+    Missing(String),
+    /// A text that is no space.
+    #[error("{message}")]
+    Syntax {
+        /// What was found and what was expected.
+        message: String,
+        /// Line and column, from 1, where the text parser knows them.
+        at: Option<(usize, usize)>,
+    },
+}
+
+fn hint(nearest: &Option<String>) -> String {
+    nearest.as_ref().map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
+}
+
+impl Space {
+    /// A space of these parameters, in this order.
+    ///
+    /// # Errors
+    /// Two parameters share a name, or one has no name or a domain without values.
+    pub fn new(parameters: Vec<Parameter>) -> Result<Self, SpaceError> {
+        for (index, parameter) in parameters.iter().enumerate() {
+            if parameter.name.trim().is_empty() {
+                return Err(SpaceError::Nameless(index + 1));
+            }
+            if parameters[..index].iter().any(|other| other.name == parameter.name) {
+                return Err(SpaceError::Twice(parameter.name.clone()));
+            }
+            parameter.validate()?;
+        }
+        Ok(Self { parameters })
+    }
+
+    /// The unit cube with coordinates `x1` to `x{dims}`: the space of a point set that came without one.
+    pub fn unit_cube(dims: usize) -> Self {
+        let axis = |i| Parameter::new(format!("x{i}"), Domain::Interval { lo: 0.0, hi: 1.0 });
+        Self { parameters: (1..=dims).map(axis).collect() }
+    }
+
+    /// The parameters in order.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// The parameter of that name.
+    ///
+    /// # Errors
+    /// No parameter has it; the error suggests the nearest name.
+    pub fn parameter(&self, name: &str) -> Result<&Parameter, SpaceError> {
+        self.parameters.iter().find(|p| p.name == name).ok_or_else(|| SpaceError::Unknown {
+            name: name.to_owned(),
+            nearest: nearest(name, self.parameters.iter().map(|p| p.name.as_str())).map(str::to_owned),
+        })
+    }
+
+    /// The continuous parameters in order: one coordinate of [`Point::continuous`] each.
+    pub fn continuous(&self) -> impl Iterator<Item = &Parameter> {
+        self.parameters.iter().filter(|p| p.levels().is_none())
+    }
+
+    /// The discrete parameters in order: one coordinate of [`Point::discrete`] each.
+    pub fn discrete(&self) -> impl Iterator<Item = &Parameter> {
+        self.parameters.iter().filter(|p| p.levels().is_some())
+    }
+
+    /// The number of continuous coordinates.
+    pub fn dims(&self) -> usize {
+        self.continuous().count()
+    }
+
+    /// The number of levels of each discrete coordinate.
+    pub fn levels(&self) -> Vec<usize> {
+        self.parameters.iter().filter_map(Parameter::levels).map(<[Value]>::len).collect()
+    }
+
+    /// The values at these coordinates.
+    ///
+    /// # Panics
+    /// The point has another number of coordinates than the space, or a level index beyond a choice's last.
+    pub fn decode(&self, point: &Point) -> Values {
+        let mut continuous = point.continuous.iter();
+        let mut discrete = point.discrete.iter();
+        let values = self.parameters.iter().map(|parameter| {
+            let value = match &parameter.domain {
+                Domain::Interval { lo, hi } => {
+                    let u = continuous.next().expect("a coordinate for every continuous parameter");
+                    Value::Number(at(*lo, *hi, *u))
+                }
+                Domain::Choice(levels) => {
+                    levels[*discrete.next().expect("a level for every discrete parameter")].clone()
+                }
+            };
+            (parameter.name.clone(), value)
+        });
+        let values = values.collect();
+        assert!(continuous.next().is_none() && discrete.next().is_none(), "more coordinates than parameters");
+        values
+    }
+
+    /// The coordinates of these values; the inverse of [`Space::decode`].
+    ///
+    /// Decoding what this returns gives the very numbers that went in, if decoding gave them in the first
+    /// place.
+    ///
+    /// # Errors
+    /// A parameter is missing or unknown, or has a value outside its domain.
+    pub fn encode(&self, values: &Values) -> Result<Point, SpaceError> {
+        if let Some((name, _)) = values.iter().find(|(name, _)| self.parameter(name).is_err()) {
+            self.parameter(name)?;
+        }
+        let mut point = Point::default();
+        for parameter in &self.parameters {
+            let value = values.get(&parameter.name).ok_or_else(|| SpaceError::Missing(parameter.name.clone()))?;
+            parameter.check(value)?;
+            match &parameter.domain {
+                Domain::Interval { lo, hi } => {
+                    let v = value.number().expect("checked against an interval");
+                    point.continuous.push(coordinate(*lo, *hi, v));
+                }
+                Domain::Choice(levels) => {
+                    let level = levels.iter().position(|level| level == value);
+                    point.discrete.push(level.expect("checked against the choice"));
+                }
+            }
+        }
+        Ok(point)
+    }
+}
+
+impl TryFrom<Declaration> for Space {
+    type Error = SpaceError;
+
+    fn try_from(declaration: Declaration) -> Result<Self, SpaceError> {
+        Self::new(declaration.parameters)
+    }
+}
+
+impl From<Space> for Declaration {
+    fn from(space: Space) -> Self {
+        Self { parameters: space.parameters }
+    }
+}
+
+/// The number at coordinate `u` of `[lo, hi]`. The weighted sum cannot overflow, hits both ends exactly and
+/// is monotone where it matters: `u` from 0 to 1 never leaves the interval.
+fn at(lo: f64, hi: f64, u: f64) -> f64 {
+    (lo * (1.0 - u) + hi * u).clamp(lo, hi)
+}
+
+/// The coordinate of `v` in `[lo, hi]`.
+///
+/// Division alone is off by an ulp now and then, so that a logged test would come back as another one; the
+/// neighbours are tried until one decodes to `v`.
+fn coordinate(lo: f64, hi: f64, v: f64) -> f64 {
+    // Halves, because hi - lo may overflow.
+    let u = ((v * 0.5 - lo * 0.5) / (hi * 0.5 - lo * 0.5)).clamp(0.0, 1.0);
+    let (mut below, mut above) = (u, u);
+    for _ in 0..16 {
+        if at(lo, hi, below) == v {
+            return below;
+        }
+        if at(lo, hi, above) == v {
+            return above;
+        }
+        below = below.next_down().max(0.0);
+        above = above.next_up().min(1.0);
+    }
+    u
+}
+
+#[cfg(test)]
+mod tests;

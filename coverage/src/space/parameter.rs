@@ -1,0 +1,161 @@
+//! One parameter: its name, what values it takes, and its unit.
+
+use super::{SpaceError, Value};
+use crate::names::nearest;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// What values a parameter takes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Domain {
+    /// Any number from `lo` to `hi`: a continuous parameter.
+    Interval {
+        /// The lower end.
+        lo: f64,
+        /// The upper end.
+        hi: f64,
+    },
+    /// One of these values: a discrete parameter.
+    Choice(Vec<Value>),
+}
+
+impl fmt::Display for Domain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Domain::Interval { lo, hi } => write!(f, "a number in [{lo}, {hi}]"),
+            Domain::Choice(levels) => {
+                f.write_str("one of ")?;
+                for (i, level) in levels.iter().enumerate() {
+                    write!(f, "{}{level}", if i == 0 { "" } else { ", " })?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// A named parameter of a [`Space`](super::Space).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Entry", into = "Entry")]
+pub struct Parameter {
+    /// The name by which a scenario asks for it.
+    pub name: String,
+    /// What values it takes.
+    pub domain: Domain,
+    /// The unit in which its values are read, for labels.
+    pub unit: Option<String>,
+    /// The nominal value: what it is where nobody varies it, and where shrinking goes.
+    pub default: Option<Value>,
+}
+
+impl Parameter {
+    /// A parameter without unit and nominal value.
+    pub fn new(name: impl Into<String>, domain: Domain) -> Self {
+        Self { name: name.into(), domain, unit: None, default: None }
+    }
+
+    /// The values of a discrete parameter; `None` of a continuous one.
+    pub fn levels(&self) -> Option<&[Value]> {
+        match &self.domain {
+            Domain::Interval { .. } => None,
+            Domain::Choice(levels) => Some(levels),
+        }
+    }
+
+    /// The name with its unit, for an axis or a column: `speed (m/s)`.
+    pub fn label(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} ({unit})", self.name),
+            None => self.name.clone(),
+        }
+    }
+
+    /// Checks that the parameter takes this value.
+    ///
+    /// # Errors
+    /// It does not; the error says what it takes.
+    pub fn check(&self, value: &Value) -> Result<(), SpaceError> {
+        let taken = match (&self.domain, value) {
+            (Domain::Interval { lo, hi }, Value::Number(v)) => (*lo..=*hi).contains(v),
+            (Domain::Interval { .. }, Value::Word(_)) => false,
+            (Domain::Choice(levels), value) => levels.contains(value),
+        };
+        if taken {
+            return Ok(());
+        }
+        let words = self.levels().unwrap_or_default().iter().filter_map(Value::word);
+        let meant = value.word().and_then(|word| nearest(word, words));
+        Err(SpaceError::OutsideDomain {
+            name: self.name.clone(),
+            value: value.clone(),
+            expected: self.domain.to_string(),
+            nearest: meant.map(str::to_owned),
+        })
+    }
+
+    pub(super) fn validate(&self) -> Result<(), SpaceError> {
+        let name = || self.name.clone();
+        match &self.domain {
+            Domain::Interval { lo, hi } => {
+                // Written so that NaN fails.
+                if !(lo.is_finite() && hi.is_finite() && lo < hi) {
+                    return Err(SpaceError::Interval { name: name(), lo: *lo, hi: *hi });
+                }
+            }
+            Domain::Choice(levels) => {
+                if levels.is_empty() {
+                    return Err(SpaceError::EmptyChoice(name()));
+                }
+                for (i, level) in levels.iter().enumerate() {
+                    if levels[..i].contains(level) {
+                        return Err(SpaceError::SameLevel { name: name(), value: level.clone() });
+                    }
+                }
+            }
+        }
+        self.default.as_ref().map_or(Ok(()), |value| self.check(value))
+    }
+}
+
+/// A parameter as files write it: `interval = [lo, hi]` or `choice = [..]`, beside its name.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interval: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    choice: Option<Vec<Value>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    default: Option<Value>,
+}
+
+impl TryFrom<Entry> for Parameter {
+    type Error = String;
+
+    fn try_from(entry: Entry) -> Result<Self, String> {
+        let domain = match (entry.interval, entry.choice) {
+            (Some([lo, hi]), None) => Domain::Interval { lo, hi },
+            (None, Some(levels)) => Domain::Choice(levels),
+            _ => {
+                return Err(format!(
+                    "parameter `{}`: expected either `interval = [lo, hi]` or `choice = [..]`",
+                    entry.name
+                ));
+            }
+        };
+        Ok(Self { name: entry.name, domain, unit: entry.unit, default: entry.default })
+    }
+}
+
+impl From<Parameter> for Entry {
+    fn from(parameter: Parameter) -> Self {
+        let (interval, choice) = match parameter.domain {
+            Domain::Interval { lo, hi } => (Some([lo, hi]), None),
+            Domain::Choice(levels) => (None, Some(levels)),
+        };
+        Self { name: parameter.name, interval, choice, unit: parameter.unit, default: parameter.default }
+    }
+}

@@ -1,0 +1,161 @@
+//! k-wise coverage against counting in sets, and the sizes of random families against exact probabilities.
+
+use paracosm_coverage::kwise::{KwiseError, MISSING_LISTED, kwise_coverage};
+use paracosm_coverage::theory::{proposition_3_2, random_family_size, union_bound};
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+type Tuple = Vec<(usize, usize)>;
+
+/// A space of few levels, a k for it, and tests.
+fn study() -> impl Strategy<Value = (Vec<usize>, usize, Vec<Vec<usize>>)> {
+    prop::collection::vec(1..=4usize, 1..=5).prop_flat_map(|levels| {
+        let test: Vec<_> = levels.iter().map(|&v| 0..v).collect();
+        let k = 1..=levels.len();
+        (Just(levels), k, prop::collection::vec(test, 0..12))
+    })
+}
+
+/// Every choice of k of the entries, in lexicographic order.
+fn subsets(entries: &[(usize, usize)], k: usize) -> Vec<Tuple> {
+    match (k, entries) {
+        (0, _) => vec![vec![]],
+        (_, []) => vec![],
+        (_, [first, rest @ ..]) => {
+            let with = subsets(rest, k - 1).into_iter().map(|tail| [&[*first], tail.as_slice()].concat());
+            with.chain(subsets(rest, k)).collect()
+        }
+    }
+}
+
+fn tuples_of<'a>(tests: impl IntoIterator<Item = &'a Vec<usize>>, k: usize) -> BTreeSet<Tuple> {
+    let entries = |test: &Vec<usize>| test.iter().copied().enumerate().collect::<Tuple>();
+    tests.into_iter().flat_map(|test| subsets(&entries(test), k)).collect()
+}
+
+fn all_tests(levels: &[usize]) -> Vec<Vec<usize>> {
+    levels.iter().fold(vec![vec![]], |heads: Vec<Vec<usize>>, &v| {
+        heads.iter().flat_map(|head| (0..v).map(|level| [head.as_slice(), &[level]].concat())).collect()
+    })
+}
+
+proptest! {
+    #[test]
+    fn coverage_is_what_sets_of_tuples_count((levels, k, tests) in study()) {
+        let coverage = kwise_coverage(&levels, k, tests.iter().map(Vec::as_slice)).unwrap();
+        let every = all_tests(&levels);
+        let (valid, covered) = (tuples_of(&every, k), tuples_of(&tests, k));
+        prop_assert_eq!(coverage.valid, valid.len() as u64);
+        prop_assert_eq!(coverage.covered, covered.len() as u64);
+        prop_assert_eq!(coverage.ratio(), covered.len() as f64 / valid.len() as f64);
+        let parameters = |tuple: &Tuple| tuple.iter().map(|(parameter, _)| *parameter).collect::<Vec<_>>();
+        let mut missing: Vec<Tuple> = valid.difference(&covered).cloned().collect();
+        missing.sort_by_key(|tuple| (parameters(tuple), tuple.clone()));
+        missing.truncate(MISSING_LISTED);
+        prop_assert_eq!(coverage.missing, missing);
+        let distinct: BTreeSet<_> = tests.iter().collect();
+        prop_assert_eq!(coverage.combinations, distinct.len() as f64 / every.len() as f64);
+    }
+}
+
+#[test]
+fn what_cannot_be_counted_is_refused() {
+    let of =
+        |levels: &[usize], k, test: &'static [usize]| kwise_coverage(levels, k, std::iter::once(test)).unwrap_err();
+    assert_eq!(of(&[2, 2], 0, &[0, 0]), KwiseError::Strength { k: 0, parameters: 2 });
+    assert_eq!(of(&[2, 2], 3, &[0, 0]), KwiseError::Strength { k: 3, parameters: 2 });
+    assert_eq!(of(&[], 1, &[]), KwiseError::Strength { k: 1, parameters: 0 });
+    assert_eq!(of(&[2, 0], 1, &[0, 0]), KwiseError::NoLevel(1));
+    assert_eq!(of(&[2, 2], 1, &[0]), KwiseError::Ragged { index: 0, found: 1, expected: 2 });
+    assert_eq!(of(&[2, 2], 1, &[0, 2]), KwiseError::Level { index: 0, parameter: 1, found: 2, levels: 2 });
+    assert_eq!(of(&[1 << 17; 2], 2, &[0, 0]), KwiseError::TooMany { k: 2, found: 1 << 34 });
+    assert!(matches!(of(&[usize::MAX; 9], 9, &[0; 9]), KwiseError::TooMany { found: u128::MAX, .. }));
+}
+
+/// The probability that `n` uniform draws out of `values` show each of them, by inclusion and exclusion.
+fn all_shown(values: u32, n: u64) -> f64 {
+    let mut sum = 0.0;
+    let mut binomial = 1.0;
+    for absent in 0..=values {
+        let sign = if absent % 2 == 0 { 1.0 } else { -1.0 };
+        sum += sign * binomial * libm::pow(1.0 - f64::from(absent) / f64::from(values), n as f64);
+        binomial = binomial * f64::from(values - absent) / f64::from(absent + 1);
+    }
+    sum
+}
+
+#[test]
+fn a_random_family_of_the_promised_size_covers_with_the_promised_probability() {
+    for delta in [0.9, 0.5, 0.1, 0.01, 1e-6] {
+        // One set of parameters: the rows draw out of all its combinations.
+        for levels in [&[2][..], &[3], &[2, 2], &[2, 3], &[2, 2, 2], &[3, 4]] {
+            let values = levels.iter().product::<usize>() as u32;
+            let n = random_family_size(levels, levels.len(), delta);
+            assert!(all_shown(values, n) >= 1.0 - delta, "{levels:?} {delta}: {n}");
+        }
+        // k = 1: each parameter on its own.
+        for levels in [&[2, 2, 2][..], &[2, 3, 4], &[1, 5]] {
+            let n = random_family_size(levels, 1, delta);
+            let shown: f64 = levels.iter().map(|&v| all_shown(v as u32, n)).product();
+            assert!(shown >= 1.0 - delta, "{levels:?} {delta}: {n}");
+        }
+    }
+}
+
+/// The sum that the union bound keeps below delta, set by set.
+fn missed(levels: &[usize], k: usize, n: u64) -> f64 {
+    let entries: Tuple = levels.iter().copied().enumerate().collect();
+    let products = subsets(&entries, k).into_iter().map(|set| set.iter().map(|(_, v)| *v as f64).product::<f64>());
+    products.map(|p| p * libm::pow(1.0 - 1.0 / p, n as f64)).sum()
+}
+
+#[test]
+fn with_too_many_different_products_the_union_bound_still_is_one() {
+    let levels: Vec<usize> = (2..=90).collect();
+    let n = union_bound(&levels, 3, 0.05);
+    assert!(missed(&levels, 3, n) <= 0.05);
+    assert!(missed(&levels, 3, (n as f64 / 1.025) as u64) > 0.05);
+}
+
+#[test]
+fn the_union_bound_is_the_least_number_that_meets_its_sum() {
+    for levels in [&[2, 2, 2, 2][..], &[3, 2, 5, 2], &[1, 4, 4], &[1, 1]] {
+        for k in 1..=levels.len() {
+            for delta in [0.7, 0.05, 1e-9] {
+                let n = union_bound(levels, k, delta);
+                assert!(
+                    missed(levels, k, n) <= delta && missed(levels, k, n - 1) > delta,
+                    "{levels:?} {k} {delta}: {n}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_papers_formula_is_4_percent_above_the_union_bound_at_k_3_and_36_at_k_6() {
+    let mut above = Vec::new();
+    for k in 3..=6 {
+        for parameters in [10, 20, 50, 100] {
+            let levels = vec![2; parameters];
+            let paper = proposition_3_2(parameters, k, 0.05);
+            assert_eq!(random_family_size(&levels, k, 0.05), paper.ceil() as u64);
+            above.push(paper / union_bound(&levels, k, 0.05) as f64);
+        }
+    }
+    let (least, most) = (above.iter().copied().fold(f64::MAX, f64::min), above.iter().copied().fold(0.0, f64::max));
+    assert!((least - 1.04).abs() < 0.01 && (most - 1.36).abs() < 0.02, "{least} {most}");
+}
+
+#[test]
+fn where_the_papers_formula_falls_short_the_union_bound_is_taken() {
+    assert_eq!(proposition_3_2(1, 1, 0.9).ceil(), 1.0);
+    assert_eq!(union_bound(&[2], 1, 0.9), 2);
+    assert_eq!(random_family_size(&[2], 1, 0.9), 2);
+}
+
+#[test]
+fn numbers_of_rows_beyond_counting_saturate() {
+    assert_eq!(union_bound(&[1_000_000; 40], 40, 0.1), u64::MAX);
+    assert!(union_bound(&[2; 2000], 8, 0.1) > 10_000);
+}

@@ -1,0 +1,155 @@
+//! Drivers: the systems under test that come with the engine.
+//!
+//! A driver is asked at its own period for a control and is told nothing but its briefing and what there is to
+//! see. Every driver has named settings with documented values, which a study can change.
+
+mod aeb;
+mod cruise;
+mod perception;
+
+use crate::observation::{Briefing, Control, Observation};
+use paracosm_coverage::nearest;
+use thiserror::Error;
+
+/// A system under test.
+pub trait Driver: Send {
+    /// Seconds between two questions.
+    fn period(&self) -> f64;
+
+    /// Forgets everything: a new run begins.
+    fn reset(&mut self, briefing: &Briefing);
+
+    /// What to do until the next question.
+    fn step(&mut self, observation: &Observation) -> Control;
+}
+
+/// A number that a driver can be set to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setting {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is where nothing else is said.
+    pub default: f64,
+    /// Its unit, empty where it has none.
+    pub unit: &'static str,
+    /// The least and the greatest value it can have.
+    pub range: (f64, f64),
+    /// What it means.
+    pub about: &'static str,
+}
+
+/// The values of a driver's settings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings(Vec<(&'static str, f64)>);
+
+impl Settings {
+    /// The value of a setting that the driver has declared.
+    fn get(&self, name: &str) -> f64 {
+        let found = self.0.iter().find(|(key, _)| *key == name);
+        found.unwrap_or_else(|| panic!("the driver declares no setting `{name}`")).1
+    }
+}
+
+/// A kind of driver: its name, its settings, and how one is made.
+pub struct Kind {
+    /// The name by which it is chosen.
+    pub name: &'static str,
+    /// What it does, in one line.
+    pub about: &'static str,
+    /// What can be set.
+    pub settings: &'static [Setting],
+    make: fn(&Settings) -> Box<dyn Driver>,
+}
+
+/// Why there is no such driver.
+#[derive(Debug, Error, PartialEq)]
+pub enum DriverError {
+    /// No driver has that name.
+    #[error("no driver is called `{name}`{}", hint(.nearest))]
+    Unknown {
+        /// The name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// The driver has no such setting.
+    #[error("driver `{driver}` has no setting `{name}`{}", hint(.nearest))]
+    UnknownSetting {
+        /// The driver.
+        driver: &'static str,
+        /// The setting's name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// The setting cannot have that value.
+    #[error("driver `{driver}`: setting `{name}` is {value}, expected a number from {} to {}", range.0, range.1)]
+    OutOfRange {
+        /// The driver.
+        driver: &'static str,
+        /// The setting.
+        name: &'static str,
+        /// The value asked for.
+        value: f64,
+        /// Least and greatest value.
+        range: (f64, f64),
+    },
+}
+
+fn hint(nearest: &Option<&'static str>) -> String {
+    nearest.map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
+}
+
+/// Every kind of driver there is.
+pub const ALL: [&Kind; 2] = [&aeb::KIND, &cruise::KIND];
+
+/// The kind of driver of that name.
+///
+/// # Errors
+/// There is none; the error suggests the nearest name.
+pub fn find(name: &str) -> Result<&'static Kind, DriverError> {
+    ALL.into_iter().find(|kind| kind.name == name).ok_or_else(|| DriverError::Unknown {
+        name: name.to_owned(),
+        nearest: nearest(name, ALL.map(|kind| kind.name)),
+    })
+}
+
+impl Kind {
+    /// All settings: the defaults, but for what `changes` says.
+    ///
+    /// # Errors
+    /// A change names no setting, or gives it a value out of its range.
+    pub fn settings(&self, changes: &[(String, f64)]) -> Result<Settings, DriverError> {
+        let mut settings = Settings(self.settings.iter().map(|setting| (setting.name, setting.default)).collect());
+        for (name, value) in changes {
+            let index = self.settings.iter().position(|setting| setting.name == name).ok_or_else(|| {
+                let nearest = nearest(name, self.settings.iter().map(|setting| setting.name));
+                DriverError::UnknownSetting { driver: self.name, name: name.clone(), nearest }
+            })?;
+            let Setting { name, range, .. } = self.settings[index];
+            if !(range.0..=range.1).contains(value) {
+                return Err(DriverError::OutOfRange { driver: self.name, name, value: *value, range });
+            }
+            settings.0[index].1 = *value;
+        }
+        Ok(settings)
+    }
+
+    /// A driver of this kind, its settings changed so.
+    ///
+    /// # Errors
+    /// As [`Kind::settings`].
+    pub fn build(&self, changes: &[(String, f64)]) -> Result<Box<dyn Driver>, DriverError> {
+        Ok((self.make)(&self.settings(changes)?))
+    }
+}
+
+impl Settings {
+    /// Names and values in the driver's order.
+    pub fn iter(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        self.0.iter().copied()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,137 @@
+//! What a driver believes of the bodies around it: a modelled camera or radar, instead of a rendered one.
+//!
+//! Each frame shows the middle of every body in range and in the field of view, with noise, and reaches the
+//! driver only after the latency of the sensor's processing; that holds for every frame, so that the driver
+//! lives in the past all the time and not only until the first detection. Positions are kept in the frame of
+//! the road, which the car knows from its own odometry; a straight line through the last few of them by least
+//! squares gives position and velocity now.
+
+use crate::observation::Observation;
+use nalgebra::Vector2;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+use std::collections::VecDeque;
+
+/// How good the sensor is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sensor {
+    /// Metres up to which it sees.
+    pub range: f64,
+    /// Opening angle in radians.
+    pub field_of_view: f64,
+    /// Standard deviation of each coordinate of a position, in metres.
+    pub noise: f64,
+    /// Seconds from what happens to when the driver knows.
+    pub latency: f64,
+    /// How many detections a track is fitted to.
+    pub samples: usize,
+    /// Where the noise begins.
+    pub seed: u64,
+}
+
+/// Fewest detections that give a velocity worth acting on.
+const FEWEST: usize = 3;
+
+/// A body as the driver believes it to be now: relative to the car's middle, x ahead, y to the left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Track {
+    /// Metres.
+    pub position: Vector2<f64>,
+    /// Metres per second over the ground.
+    pub velocity: Vector2<f64>,
+    /// Metres.
+    pub radius: f64,
+}
+
+/// A position that was seen: along and across the road.
+#[derive(Debug, Clone, Copy)]
+struct Detection {
+    time: f64,
+    position: Vector2<f64>,
+}
+
+/// The memory of the sensor.
+#[derive(Debug)]
+pub(super) struct Perception {
+    sensor: Sensor,
+    random: Pcg64,
+    /// Of each body, what has been seen, the last first forgotten; the newest the driver does not know yet.
+    seen: Vec<VecDeque<Detection>>,
+}
+
+impl Perception {
+    pub fn new(sensor: Sensor) -> Self {
+        Self { sensor, random: Pcg64::seed_from_u64(sensor.seed), seen: Vec::new() }
+    }
+
+    /// Forgets everything, the state of the noise included: every run of a test sees the same noise.
+    pub fn reset(&mut self) {
+        *self = Self::new(self.sensor);
+    }
+
+    /// Takes a frame; `front` is the distance in metres from the car's middle to the sensor at its front.
+    pub fn see(&mut self, observation: &Observation, front: f64) {
+        self.seen.resize_with(observation.others.len(), VecDeque::new);
+        let half_angle = 0.5 * self.sensor.field_of_view;
+        let oldest = observation.time - self.memory();
+        for (body, seen) in observation.others.iter().zip(&mut self.seen) {
+            let from_sensor = body.position - Vector2::new(front, 0.0);
+            let bearing = libm::atan2(from_sensor.y, from_sensor.x).abs();
+            // Drawn for every frame, so that what is out of sight does not shift the noise of what is seen later.
+            let noise = gaussian(&mut self.random) * self.sensor.noise;
+            if from_sensor.norm() <= self.sensor.range && bearing <= half_angle {
+                let position = body.position + Vector2::new(observation.travelled, 0.0) + noise;
+                seen.push_back(Detection { time: observation.time, position });
+            }
+            while seen.front().is_some_and(|detection| detection.time < oldest) {
+                seen.pop_front();
+            }
+        }
+    }
+
+    /// Seconds after which a detection is forgotten: what is out of sight for another half second is gone.
+    fn memory(&self) -> f64 {
+        self.sensor.latency + 0.5 + 0.05 * self.sensor.samples as f64
+    }
+
+    /// What the driver believes at the time of the last frame.
+    pub fn tracks<'a>(&'a self, observation: &'a Observation) -> impl Iterator<Item = Track> + 'a {
+        let bodies = observation.others.iter().zip(&self.seen);
+        bodies.filter_map(|(body, seen)| {
+            // A whisker more than the latency, because times are sums of ticks.
+            let known = observation.time - self.sensor.latency + 1e-9;
+            let count = seen.iter().take_while(|detection| detection.time <= known).count();
+            let fitted = seen.iter().take(count).skip(count.saturating_sub(self.sensor.samples));
+            let (position, velocity) = fit(fitted, observation.time)?;
+            let position = position - Vector2::new(observation.travelled, 0.0);
+            Some(Track { position, velocity, radius: body.radius })
+        })
+    }
+}
+
+/// The straight line through the detections by least squares: position at `now` and velocity.
+fn fit<'a>(detections: impl ExactSizeIterator<Item = &'a Detection> + Clone, now: f64) -> Option<(Vector2<f64>, Vector2<f64>)> {
+    let n = detections.len();
+    if n < FEWEST {
+        return None;
+    }
+    let mean_time = detections.clone().map(|d| d.time).sum::<f64>() / n as f64;
+    let mean_position = detections.clone().map(|d| d.position).sum::<Vector2<f64>>() / n as f64;
+    let mut spread = 0.0;
+    let mut along = Vector2::zeros();
+    for detection in detections {
+        let t = detection.time - mean_time;
+        spread += t * t;
+        along += (detection.position - mean_position) * t;
+    }
+    let velocity = along / spread;
+    Some((mean_position + velocity * (now - mean_time), velocity))
+}
+
+/// Two independent standard normal numbers (Box and Muller 1958), from libm so that they are the same everywhere.
+fn gaussian(random: &mut Pcg64) -> Vector2<f64> {
+    // 1 - u is in (0, 1], where the logarithm is finite.
+    let radius = libm::sqrt(-2.0 * libm::log(1.0 - random.random::<f64>()));
+    let (sin, cos) = libm::sincos(std::f64::consts::TAU * random.random::<f64>());
+    Vector2::new(radius * cos, radius * sin)
+}

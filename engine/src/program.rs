@@ -1,0 +1,133 @@
+//! A scenario as the function that it is, and what it declares when it is run without a test.
+
+use crate::scenario::Scenario;
+use paracosm_coverage::{Domain, Parameter, Space, SpaceError, Value, Values};
+use paracosm_oracles::Requirement;
+use thiserror::Error;
+
+/// A scenario: a named function from a test to a world.
+#[derive(Debug, Clone, Copy)]
+pub struct Program {
+    /// The name by which it is called.
+    pub name: &'static str,
+    /// What it is about, in one line.
+    pub about: &'static str,
+    /// The function.
+    pub build: fn(&mut Scenario),
+}
+
+/// A parameter that a program asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Declared {
+    /// Name, domain, unit and nominal value.
+    pub parameter: Parameter,
+    /// Whether a test varies it where a study says nothing else.
+    pub open: bool,
+}
+
+impl Declared {
+    /// Its nominal value; the middle of an interval or the first level of a choice where none is declared.
+    pub fn nominal(&self) -> Value {
+        self.parameter.default.clone().unwrap_or_else(|| match &self.parameter.domain {
+            Domain::Interval { lo, hi } => Value::Number(0.5 * (lo + hi)),
+            Domain::Choice(levels) => levels[0].clone(),
+        })
+    }
+}
+
+/// What a program asks for and asks of its runs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Declaration {
+    /// Its parameters in the order in which it asks for them.
+    pub parameters: Vec<Declared>,
+    /// Its requirements.
+    pub requirements: Vec<Requirement>,
+    /// How long a run takes unless a contact ends it, in seconds.
+    pub duration: f64,
+}
+
+impl Declaration {
+    /// The test in which every parameter has its nominal value.
+    pub fn nominal(&self) -> Values {
+        self.parameters.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal())).collect()
+    }
+}
+
+/// Why a program cannot be run.
+#[derive(Debug, Error, PartialEq)]
+pub enum ProgramError {
+    /// Its parameters form no space.
+    #[error("scenario `{program}`: {source}")]
+    Parameters {
+        /// The scenario.
+        program: &'static str,
+        /// What is wrong with them.
+        source: SpaceError,
+    },
+    /// Its world cannot be built.
+    #[error("scenario `{program}`: {}", problems.join("; "))]
+    World {
+        /// The scenario.
+        program: &'static str,
+        /// What is wrong with it.
+        problems: Vec<String>,
+    },
+    /// It asks for other parameters with a test than without.
+    #[error("scenario `{program}` asked for other parameters than it was given: {}", names.join(", "))]
+    OtherParameters {
+        /// The scenario.
+        program: &'static str,
+        /// The parameters that are on one side only.
+        names: Vec<String>,
+    },
+}
+
+impl Program {
+    /// Runs the program without a test: what parameters and requirements it has.
+    ///
+    /// # Errors
+    /// The parameters form no space, or the world cannot be built with nominal values.
+    pub fn declare(&self) -> Result<Declaration, ProgramError> {
+        let scenario = self.built(None)?;
+        let parameters = scenario.parameters.borrow().clone();
+        Space::new(parameters.iter().map(|declared| declared.parameter.clone()).collect())
+            .map_err(|source| ProgramError::Parameters { program: self.name, source })?;
+        let requirements = scenario.requirements.borrow().iter().map(|stated| stated.requirement.clone()).collect();
+        Ok(Declaration { parameters, requirements, duration: scenario.duration })
+    }
+
+    /// Runs the program, with a test or without, and checks what it built.
+    pub(crate) fn built(&self, test: Option<&Values>) -> Result<Scenario, ProgramError> {
+        let mut scenario = Scenario::new(test.cloned());
+        (self.build)(&mut scenario);
+        if let Some(test) = test {
+            self.check_names(&scenario, test)?;
+        }
+        let mut problems = scenario.problems.take();
+        if scenario.cars.len() != 1 || scenario.roads.len() != 1 {
+            let (cars, roads) = (scenario.cars.len(), scenario.roads.len());
+            problems.push(format!("{cars} cars under test on {roads} roads, expected one on one"));
+        }
+        if !(scenario.duration > 0.0 && scenario.duration.is_finite()) {
+            problems.push(format!("a run takes {} s, expected a positive number", scenario.duration));
+        }
+        let requirements = scenario.requirements.borrow();
+        for (i, stated) in requirements.iter().enumerate() {
+            let id = &stated.requirement.id;
+            if requirements[..i].iter().any(|other| other.requirement.id == *id) {
+                problems.push(format!("requirement `{id}` is stated twice"));
+            }
+        }
+        drop(requirements);
+        if problems.is_empty() { Ok(scenario) } else { Err(ProgramError::World { program: self.name, problems }) }
+    }
+
+    fn check_names(&self, scenario: &Scenario, test: &Values) -> Result<(), ProgramError> {
+        let declared = scenario.parameters.borrow();
+        let asked = declared.iter().map(|declared| declared.parameter.name.as_str());
+        let not_given = asked.clone().filter(|name| test.get(name).is_none());
+        let not_asked = test.iter().map(|(name, _)| name).filter(|name| !asked.clone().any(|asked| asked == *name));
+        let names: Vec<String> = not_given.chain(not_asked).map(str::to_owned).collect();
+        if names.is_empty() { Ok(()) } else { Err(ProgramError::OtherParameters { program: self.name, names }) }
+    }
+}

@@ -1,0 +1,46 @@
+//! Where things are: poses in the ground plane, and lines across it.
+
+use nalgebra::Vector2;
+
+/// A position with a heading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Metres; x along the road, y to its left.
+    pub position: Vector2<f64>,
+    /// Radians, counter-clockwise from x.
+    pub heading: f64,
+}
+
+impl Pose {
+    /// The unit vector that the heading points along.
+    pub fn forward(&self) -> Vector2<f64> {
+        let (sin, cos) = libm::sincos(self.heading);
+        Vector2::new(cos, sin)
+    }
+
+    /// A point of the plane as seen from here: x ahead, y to the left.
+    pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
+        self.turn_to_local(point - self.position)
+    }
+
+    /// A direction or a velocity as seen from here: x ahead, y to the left.
+    pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        let ahead = self.forward();
+        Vector2::new(ahead.dot(&direction), ahead.perp(&direction))
+    }
+}
+
+/// A line across a road, with the direction in which traffic meets it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    pub(crate) name: String,
+    pub(crate) point: Vector2<f64>,
+    pub(crate) direction: Vector2<f64>,
+}
+
+impl Line {
+    /// How far the line lies ahead of a position, in metres; negative behind it.
+    pub fn ahead_of(&self, position: Vector2<f64>) -> f64 {
+        (self.point - position).dot(&self.direction)
+    }
+}

@@ -1,0 +1,89 @@
+//! Why a generator cannot be built; every message says what was found and what would have been right.
+
+use thiserror::Error;
+
+/// Why a generator cannot be built.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum GeneratorError {
+    /// No strategy has that name.
+    #[error("no strategy is called `{name}`{}", hint(.nearest))]
+    UnknownStrategy {
+        /// The name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// No discrete family has that name.
+    #[error("no discrete family is called `{name}`{}", hint(.nearest))]
+    UnknownFamily {
+        /// The name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// There is nothing to vary.
+    #[error("the space has no parameters; a generator needs at least one")]
+    EmptySpace,
+    /// No test is wanted.
+    #[error("the budget is 0 tests; a budget must be at least 1")]
+    NoBudget,
+    /// A start index for a strategy that has no order.
+    #[error("`{strategy}` is no sequence and cannot skip; the sequences are {sequences}")]
+    NoSequence {
+        /// The strategy's name.
+        strategy: &'static str,
+        /// The names of those that can.
+        sequences: String,
+    },
+    /// More than Owen-scrambled Sobol points are defined for.
+    #[error(
+        "sobol gives at most 65,536 points in 256 dimensions; asked for {points} (skipped ones included) in {dims}; \
+         use halton"
+    )]
+    SobolLimit {
+        /// How many points were asked for, those skipped included.
+        points: u64,
+        /// In how many dimensions.
+        dims: usize,
+    },
+    /// Halton indices that a double no longer tells apart.
+    #[error("halton has indices below 2^53; asked for index {last}; skip fewer")]
+    HaltonLimit {
+        /// The last index asked for.
+        last: u64,
+    },
+    /// A Latin hypercube that does not fit in memory, where it is kept whole.
+    #[error(
+        "lhs keeps its points in memory, at most 10,000,000 coordinates; asked for {points} points in {dims} \
+         dimensions; use halton"
+    )]
+    LhsLimit {
+        /// How many points were asked for.
+        points: u64,
+        /// In how many dimensions.
+        dims: usize,
+    },
+    /// A strength that the space cannot have.
+    #[error("k is {k}, but the space has {parameters} discrete parameters; k must be from 1 to their number")]
+    Strength {
+        /// The strength.
+        k: usize,
+        /// The number of discrete parameters.
+        parameters: usize,
+    },
+    /// A probability of failure that is none.
+    #[error("delta is {0}; a probability of failure must be above 0 and below 1")]
+    Delta(f64),
+    /// A family too large to run.
+    #[error("the discrete family has {rows} rows, more than 10,000,000; {advice}")]
+    FamilyTooLarge {
+        /// How many rows, in words.
+        rows: String,
+        /// What gives fewer.
+        advice: &'static str,
+    },
+}
+
+fn hint(nearest: &Option<&str>) -> String {
+    nearest.map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
+}

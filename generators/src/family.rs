@@ -1,0 +1,119 @@
+//! The discrete half of a test set: rows of level indices that cover the combinations of any k parameters.
+//!
+//! Rows are computed when they are asked for, so that a family costs nothing but its size.
+
+use crate::{
+    GeneratorError,
+    seeded::{Purpose, seeded},
+};
+use paracosm_coverage::{Space, nearest, theory};
+use rand::Rng;
+use std::str::FromStr;
+
+/// Beyond it a family is a mistake rather than a plan.
+const MOST_ROWS: u64 = 10_000_000;
+
+/// How the discrete parameters are covered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DiscreteFamily {
+    /// As many uniformly random rows as Proposition 3.2 of the paper asks for: all combinations of values of any
+    /// k parameters are among them with probability at least `1 - delta`.
+    Random {
+        /// The probability, between 0 and 1, that one is missing.
+        delta: f64,
+    },
+    /// Every combination of all parameters, the last one changing fastest.
+    Cross,
+}
+
+impl DiscreteFamily {
+    const NAMES: [&'static str; 2] = ["random", "cross"];
+}
+
+impl Default for DiscreteFamily {
+    /// Random rows that miss a combination with probability 0.05.
+    fn default() -> Self {
+        Self::Random { delta: 0.05 }
+    }
+}
+
+impl FromStr for DiscreteFamily {
+    type Err = GeneratorError;
+
+    fn from_str(name: &str) -> Result<Self, GeneratorError> {
+        match name {
+            "random" => Ok(Self::default()),
+            "cross" => Ok(Self::Cross),
+            _ => Err(GeneratorError::UnknownFamily { name: name.to_owned(), nearest: nearest(name, Self::NAMES) }),
+        }
+    }
+}
+
+/// The rows for one space. A space without discrete parameters has one empty row.
+pub(crate) struct Family {
+    levels: Vec<usize>,
+    len: u64,
+    /// The seed of random rows; none for all combinations.
+    seed: Option<u64>,
+}
+
+impl Family {
+    pub(crate) fn new(
+        space: &Space,
+        kind: DiscreteFamily,
+        k: Option<usize>,
+        seed: u64,
+    ) -> Result<Self, GeneratorError> {
+        let levels = space.levels();
+        let parameters = levels.len();
+        if let Some(k) = k
+            && !(1..=parameters).contains(&k)
+        {
+            return Err(GeneratorError::Strength { k, parameters });
+        }
+        let too_large = |rows, advice| Err(GeneratorError::FamilyTooLarge { rows, advice });
+        match kind {
+            DiscreteFamily::Random { delta } if !(delta > 0.0 && delta < 1.0) => Err(GeneratorError::Delta(delta)),
+            DiscreteFamily::Random { delta } if parameters > 0 => {
+                match theory::random_family_size(&levels, k.unwrap_or(parameters.min(2)), delta) {
+                    len if len > MOST_ROWS => too_large(len.to_string(), "use a smaller k"),
+                    len => Ok(Self { levels, len, seed: Some(seed) }),
+                }
+            }
+            // The product of no levels is the one empty row.
+            DiscreteFamily::Random { .. } | DiscreteFamily::Cross => {
+                match levels.iter().try_fold(1_u64, |rows, &n| rows.checked_mul(n as u64)) {
+                    None => too_large("over 10^19".to_owned(), "use the random family"),
+                    Some(len) if len > MOST_ROWS => too_large(len.to_string(), "use the random family"),
+                    Some(len) => Ok(Self { levels, len, seed: None }),
+                }
+            }
+        }
+    }
+
+    /// The number of rows, at least 1.
+    pub(crate) fn len(&self) -> u64 {
+        self.len
+    }
+
+    /// The row at `index`, which is below [`Family::len`].
+    pub(crate) fn row(&self, index: u64) -> Vec<usize> {
+        match self.seed {
+            Some(seed) => {
+                let mut rng = seeded(seed, Purpose::Rows, index);
+                self.levels.iter().map(|&levels| rng.random_range(0..levels)).collect()
+            }
+            None => digits(index, &self.levels),
+        }
+    }
+}
+
+/// `index` as a number whose digits, the last one changing fastest, have these many values.
+fn digits(mut index: u64, levels: &[usize]) -> Vec<usize> {
+    let mut row = vec![0; levels.len()];
+    for (digit, &levels) in row.iter_mut().zip(levels).rev() {
+        *digit = (index % levels as u64) as usize;
+        index /= levels as u64;
+    }
+    row
+}

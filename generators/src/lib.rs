@@ -1,0 +1,49 @@
+//! Strategies that propose tests.
+//!
+//! A [`Generator`] is asked for tests and told how they went; a [`Strategy`] is one by name. What it proposes
+//! follows section 3.2 of the paper (Majumdar et al., arXiv 1902.01084): a family of rows covers the discrete
+//! parameters k-wise, and every row gets a set of points of its own that leaves no large hole in the continuous
+//! ones.
+//!
+//! The same request always gives the same tests, on every machine: all chance comes from the seed.
+//!
+//! ```
+//! use paracosm_coverage::Space;
+//! use paracosm_generators::{Request, Strategy};
+//!
+//! let space = Space::unit_cube(2);
+//! let mut generator = Strategy::Halton.build(&Request::new(&space, 500))?;
+//! let tests = generator.ask(2);
+//! assert_eq!(tests[0].continuous, [1.0 / 2.0, 1.0 / 3.0]);
+//! assert_eq!(tests[1].continuous, [1.0 / 4.0, 2.0 / 3.0]);
+//! # Ok::<(), paracosm_generators::GeneratorError>(())
+//! ```
+
+mod deal;
+mod error;
+mod family;
+mod mixed;
+mod seeded;
+mod sequence;
+mod strategy;
+
+pub use error::GeneratorError;
+pub use family::DiscreteFamily;
+pub use strategy::{Request, Strategy};
+
+use paracosm_coverage::Point;
+
+/// A source of tests that may learn from how they went.
+pub trait Generator: Send {
+    /// The next tests, at most `n`.
+    ///
+    /// There may be fewer, and there are none once the strategy has nothing more to propose. Continuous
+    /// coordinates are in `[0,1)`.
+    fn ask(&mut self, n: usize) -> Vec<Point>;
+
+    /// How tests went: one robustness for each, below 0 where a requirement was violated, `None` where the test
+    /// ended in an error.
+    ///
+    /// Open-loop strategies ignore it.
+    fn tell(&mut self, _tests: &[Point], _robustness: &[Option<f64>]) {}
+}

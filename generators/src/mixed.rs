@@ -1,0 +1,50 @@
+//! The open-loop generator: the discrete rows joined with the continuous points.
+//!
+//! A test is computed from its number alone, by way of [`Deal`]; all there is to remember is which comes next.
+
+use crate::{Generator, deal::Deal, family::Family, sequence::Sequence};
+use paracosm_coverage::Point;
+
+/// The tests of a family and a sequence.
+pub(crate) struct Mixed {
+    family: Family,
+    /// None in a space without continuous parameters.
+    sequence: Option<Box<dyn Sequence>>,
+    deal: Deal,
+    /// The sequence's index that counts as 0.
+    first: u64,
+    /// The next test.
+    next: u64,
+    /// One past the last test.
+    end: u64,
+}
+
+impl Mixed {
+    /// Every row with its own block of the sequence, from index `first` on.
+    ///
+    /// With a single row the sequence goes on beyond the budget, as far as it reaches; blocks cannot grow.
+    pub(crate) fn new(family: Family, sequence: Box<dyn Sequence>, deal: Deal, first: u64) -> Self {
+        let end = if deal.rows == 1 { sequence.len() - first } else { deal.budget };
+        Self { family, sequence: Some(sequence), deal, first, next: 0, end }
+    }
+
+    /// The rows alone, once each: repeating one would be the same test again.
+    pub(crate) fn discrete(family: Family) -> Self {
+        let end = family.len();
+        Self { deal: Deal::new(end, end), family, sequence: None, first: 0, next: 0, end }
+    }
+
+    fn test(&self, number: u64) -> Point {
+        let (row, index) = self.deal.of(number);
+        let continuous = self.sequence.as_ref().map(|sequence| sequence.point(self.first + index));
+        Point { continuous: continuous.unwrap_or_default(), discrete: self.family.row(row) }
+    }
+}
+
+impl Generator for Mixed {
+    fn ask(&mut self, n: usize) -> Vec<Point> {
+        let from = self.next;
+        self.next = self.end.min(from.saturating_add(n as u64));
+        (from..self.next).map(|number| self.test(number)).collect()
+    }
+}

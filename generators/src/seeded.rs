@@ -1,0 +1,35 @@
+//! Random numbers from one seed for several purposes.
+//!
+//! Rows, points and shifts of one generator must be independent of each other although the user gives a single
+//! seed. Hence every purpose, and every row within it, has its own generator, seeded with a hash of all three.
+//! Handing out neighbouring seeds or PCG's own streams would be simpler, but those are affinely related.
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+/// What the random numbers are for. The numbers are part of the seed: never renumber.
+#[derive(Clone, Copy)]
+pub(crate) enum Purpose {
+    /// Uniformly random points.
+    Points = 0,
+    /// The shift of a sequence.
+    Shift = 1,
+    /// The cells and jitters of Latin hypercubes.
+    Cells = 2,
+    /// The rows of a random family.
+    Rows = 3,
+}
+
+/// The generator for one purpose and, within it, one `number`.
+pub(crate) fn seeded(seed: u64, purpose: Purpose, number: u64) -> Pcg64 {
+    let word = [purpose as u64, number].into_iter().fold(mix(seed), |word, part| mix(word ^ mix(part)));
+    Pcg64::seed_from_u64(word)
+}
+
+/// One step of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): a bijection, so two seeds never meet.
+fn mix(word: u64) -> u64 {
+    let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    word ^ (word >> 31)
+}

@@ -1,0 +1,81 @@
+//! Random Latin hypercubes (McKay, Beckman, Conover, Technometrics 21, 1979).
+//!
+//! Of n points there is exactly one in each of the n equal cells of every axis, so each parameter for itself is
+//! covered as evenly as n points can. The set depends on its size: it is made whole, for the whole budget.
+
+use super::Sequence;
+use crate::{
+    GeneratorError,
+    deal::Deal,
+    seeded::{Purpose, seeded},
+};
+use rand::{Rng, seq::SliceRandom};
+
+const MOST_COORDINATES: u64 = 10_000_000;
+
+/// One Latin hypercube for each row, one after the other.
+pub(crate) struct Lhs {
+    dims: usize,
+    coordinates: Vec<f64>,
+}
+
+impl Lhs {
+    /// Hypercubes of just the sizes that the rows need. The last point of a block stays unused where its row is
+    /// dealt one test fewer: a larger hypercube with a point missing would leave a cell of every axis empty.
+    pub(crate) fn new(dims: usize, seed: u64, deal: &Deal) -> Result<Self, GeneratorError> {
+        let points = deal.indices();
+        if points.saturating_mul(dims as u64) > MOST_COORDINATES {
+            return Err(GeneratorError::LhsLimit { points, dims });
+        }
+        let mut coordinates = vec![0.0; points as usize * dims];
+        for (row, block) in coordinates.chunks_mut(deal.block as usize * dims).enumerate() {
+            let mut rng = seeded(seed, Purpose::Cells, row as u64);
+            let size = deal.tests_of(row as u64);
+            for axis in 0..dims {
+                let mut cells: Vec<u64> = (0..size).collect();
+                cells.shuffle(&mut rng);
+                for (point, cell) in block.chunks_exact_mut(dims).zip(cells) {
+                    point[axis] = inside(cell, size, rng.random());
+                }
+            }
+        }
+        Ok(Self { dims, coordinates })
+    }
+}
+
+impl Sequence for Lhs {
+    fn len(&self) -> u64 {
+        (self.coordinates.len() / self.dims) as u64
+    }
+
+    fn point(&self, index: u64) -> Vec<f64> {
+        self.coordinates[index as usize * self.dims..][..self.dims].to_vec()
+    }
+}
+
+/// A number strictly inside cell `cell` of `size`, `jitter / 2^32` of the way through it.
+///
+/// Of the jitter 24 bits count, and half a step is added: the position is then exact, and at least 2^-25 of a
+/// cell from its ends, more than the division by at most 10^7 < 2^24 cells can round away.
+fn inside(cell: u64, size: u64, jitter: u32) -> f64 {
+    let within = (f64::from(jitter >> 8) + 0.5) / f64::from(1 << 24);
+    (cell as f64 + within) / size as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_never_leaves_its_cell_however_large_the_jitter() {
+        for size in [1, 3, 10, 49, 4_999_999, MOST_COORDINATES] {
+            for cell in [0, size / 3, size / 2, size - 1] {
+                for jitter in [0, u32::MAX] {
+                    let x = inside(cell, size, jitter);
+                    assert!(x < 1.0);
+                    assert_eq!((x * size as f64).floor(), cell as f64);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! Independent uniformly random points: the baseline.
+//!
+//! PCG can jump ahead in logarithmic time, which makes even these a sequence by index.
+
+use super::Sequence;
+use crate::seeded::{Purpose, seeded};
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+/// Uniformly random points of 53 bits per coordinate.
+pub(crate) struct Uniform {
+    dims: usize,
+    start: Pcg64,
+}
+
+impl Uniform {
+    pub(crate) fn new(dims: usize, seed: u64) -> Self {
+        Self { dims, start: seeded(seed, Purpose::Points, 0) }
+    }
+}
+
+impl Sequence for Uniform {
+    fn len(&self) -> u64 {
+        u64::MAX
+    }
+
+    fn point(&self, index: u64) -> Vec<f64> {
+        let mut rng = self.start.clone();
+        // A coordinate takes exactly one step of the generator.
+        rng.advance(u128::from(index) * self.dims as u128);
+        (0..self.dims).map(|_| rng.random()).collect()
+    }
+}

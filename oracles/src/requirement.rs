@@ -1,0 +1,33 @@
+//! A requirement: a formula with what a test report needs to speak of it.
+
+use crate::{Evaluation, Formula, Trace, UnknownSignal};
+
+/// What is asked of every run of a scenario.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Requirement {
+    /// The short name by which logs and commands know it: `no-collision`.
+    pub id: String,
+    /// One sentence for people.
+    pub text: String,
+    /// What is asked.
+    pub formula: Formula,
+    /// The unit of its robustness.
+    pub unit: String,
+    /// How much robustness is a lot, in that unit: requirements are compared by robustness / scale.
+    pub scale: f64,
+}
+
+impl Requirement {
+    /// Judges a trace.
+    ///
+    /// # Errors
+    /// The formula names a signal that the trace does not have.
+    pub fn judge(&self, trace: &Trace) -> Result<Evaluation, UnknownSignal> {
+        self.formula.evaluate(trace)
+    }
+
+    /// A robustness in multiples of the scale, clipped to [-10, 10]: what a search minimises.
+    pub fn normalised(&self, robustness: f64) -> f64 {
+        (robustness / self.scale).clamp(-10.0, 10.0)
+    }
+}

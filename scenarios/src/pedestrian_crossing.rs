@@ -1,0 +1,42 @@
+//! The paper's study (sections 2 and 4.2.2, Figure 9): a pedestrian steps onto the road in front of the car.
+//!
+//! The walker waits on the far sidewalk and starts when the car is nearer than `distance`; it crosses both
+//! lanes at `speed` and stops on the near sidewalk. The car comes at 60 km/h. From the far side the driver has
+//! time to see what is coming, so that whether it brakes early enough is a matter of both parameters, and a
+//! slow walker can be as dangerous as a quick one. The run lasts 25 s: enough to stop, wait and go on.
+
+use paracosm_engine::{
+    AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never,
+};
+
+pub(crate) const PROGRAM: Program = Program {
+    name: "pedestrian-crossing",
+    about: "a pedestrian crosses the road when the car is nearer than a distance",
+    build: pedestrian_crossing,
+};
+
+fn pedestrian_crossing(s: &mut Scenario) {
+    let speed = s.interval("speed", 0.5..=10.0).unit("m/s").default(1.4);
+    let distance = s.interval("distance", 5.0..=60.0).unit("m").default(30.0);
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let approach = s.nominal("approach_speed", 5.0..=30.0, 60.0 / 3.6).unit("m/s");
+    let lanes = s.nominal_choice("lanes", [2, 4, 6], 2);
+
+    let road = s.place(RoadSegment::new(800.0).lanes(lanes.value()).friction(friction));
+    let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(approach.value()));
+    let walker = s.place(Pedestrian::at(road.on_sidewalk(Side::Left, 100.0)));
+
+    let near = car.gap_along(road.crossing(100.0)).below(distance);
+    walker.walk(road.on_sidewalk(Side::Right, 100.0), speed).skip_until(&near).take_until(&walker.arrived());
+
+    s.duration(25.0);
+    s.premise(&near);
+    s.require("no-collision", never(car.collides()))
+        .text("The car touches nobody.")
+        .unit("m")
+        .scale(5.0);
+    s.require("progress", eventually(car.travelled().at_least(100.0)))
+        .text("The car comes at least 100 m far: standing still for ever is no pass.")
+        .unit("m")
+        .scale(50.0);
+}
