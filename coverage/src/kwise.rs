@@ -95,8 +95,8 @@ pub enum KwiseError {
 /// ```
 ///
 /// # Errors
-/// `k` is 0 or more than there are parameters, a parameter has no level, there are more than 2^33 combinations, or a test is none of
-/// this space.
+/// `k` is 0 or more than there are parameters, a parameter has no level, there are more than 2^33 combinations,
+/// or a test is none of this space.
 pub fn kwise_coverage<'a>(
     levels: &[usize],
     k: usize,

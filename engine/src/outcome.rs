@@ -45,9 +45,4 @@ impl Outcome {
     pub fn broken(verdict: Verdict, message: impl Into<String>) -> Self {
         Self { verdict, robustness: Vec::new(), metrics: Vec::new(), trace: None, error: Some(message.into()) }
     }
-
-    /// The simulated ticks.
-    pub fn ticks(&self) -> usize {
-        self.trace.as_ref().map_or(0, |trace| trace.len().saturating_sub(1))
-    }
 }

@@ -25,9 +25,4 @@ impl Requirement {
     pub fn judge(&self, trace: &Trace) -> Result<Evaluation, UnknownSignal> {
         self.formula.evaluate(trace)
     }
-
-    /// A robustness in multiples of the scale, clipped to [-10, 10]: what a search minimises.
-    pub fn normalised(&self, robustness: f64) -> f64 {
-        (robustness / self.scale).clamp(-10.0, 10.0)
-    }
 }

@@ -234,31 +234,39 @@ impl From<Space> for Declaration {
     }
 }
 
-/// The number at coordinate `u` of `[lo, hi]`. The weighted sum cannot overflow, hits both ends exactly and
-/// is monotone where it matters: `u` from 0 to 1 never leaves the interval.
+/// The number at coordinate `u` of `[lo, hi]`: both ends exactly, never outside, and never less where `u` is more,
+/// for each step of the sum rounds monotonically ([`coordinate`] relies on that).
 fn at(lo: f64, hi: f64, u: f64) -> f64 {
-    (lo * (1.0 - u) + hi * u).clamp(lo, hi)
+    if u >= 1.0 {
+        return hi;
+    }
+    let width = hi - lo;
+    // Halves, where the width overflows.
+    let v = if width.is_finite() { lo + u * width } else { 2.0 * (0.5 * lo + u * (0.5 * hi - 0.5 * lo)) };
+    v.clamp(lo, hi)
 }
 
 /// The coordinate of `v` in `[lo, hi]`.
 ///
-/// Division alone is off by an ulp now and then, so that a logged test would come back as another one; the
-/// neighbours are tried until one decodes to `v`.
+/// Division alone is off by an ulp now and then, so that a logged test would come back as another one. Where it
+/// is, the least coordinate that decodes to `v` or more is found by bisection; it decodes to `v`, if any does.
 fn coordinate(lo: f64, hi: f64, v: f64) -> f64 {
     // Halves, because hi - lo may overflow.
     let u = ((v * 0.5 - lo * 0.5) / (hi * 0.5 - lo * 0.5)).clamp(0.0, 1.0);
-    let (mut below, mut above) = (u, u);
-    for _ in 0..16 {
-        if at(lo, hi, below) == v {
-            return below;
-        }
-        if at(lo, hi, above) == v {
-            return above;
-        }
-        below = below.next_down().max(0.0);
-        above = above.next_up().min(1.0);
+    if at(lo, hi, u) == v {
+        return u;
     }
-    u
+    // Numbers from 0 to 1 are ordered as their bits are.
+    let (mut low, mut high) = (0, 1.0f64.to_bits());
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if at(lo, hi, f64::from_bits(middle)) < v {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    f64::from_bits(low)
 }
 
 #[cfg(test)]

@@ -1,0 +1,97 @@
+//! Work on all cores, results in order.
+//!
+//! Workers take the next index as soon as they are free, so that what is finished is nearly a prefix; results
+//! wait for the ones before them and reach the sink in the order of their indices, whatever the number of
+//! workers. The first error of the sink stops the work.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+/// The name that worker threads begin with, by which a panic of a test can be told from a panic of the program.
+pub(crate) const WORKER: &str = "paracosm-worker";
+
+/// Calls `work` for every index on `jobs` threads, each with a worker of its own, and `sink` with the results in
+/// order.
+pub(crate) fn in_order<W, T: Send, E>(
+    jobs: usize,
+    indices: Range<usize>,
+    new_worker: impl Fn() -> W + Sync,
+    work: impl Fn(&mut W, usize) -> T + Sync,
+    mut sink: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).thread_name(|i| format!("{WORKER}-{i}")).build();
+    let pool = pool.expect("the system can start threads");
+    let next = AtomicUsize::new(indices.start);
+    let stop = AtomicBool::new(false);
+    let (sender, results) = mpsc::channel();
+    pool.in_place_scope(|scope| {
+        for _ in 0..jobs {
+            let sender = sender.clone();
+            scope.spawn(|_| {
+                let sender = sender;
+                let mut worker = new_worker();
+                while !stop.load(Ordering::Relaxed) {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    if index >= indices.end || sender.send((index, work(&mut worker, index))).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let mut waiting = BTreeMap::new();
+        let mut due = indices.start;
+        for (index, result) in results {
+            waiting.insert(index, result);
+            while let Some(result) = waiting.remove(&due) {
+                due += 1;
+                if let Err(error) = sink(result) {
+                    stop.store(true, Ordering::Relaxed);
+                    return Err(error);
+                }
+            }
+        }
+        Ok(())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn results_come_in_order_whatever_the_number_of_workers() {
+        for jobs in [1, 2, 8] {
+            let mut seen = Vec::new();
+            let work = |_: &mut (), i: usize| {
+                std::thread::sleep(Duration::from_micros((i * 7919 % 50) as u64));
+                i
+            };
+            let result: Result<(), ()> = in_order(jobs, 5..200, || (), work, |i| {
+                seen.push(i);
+                Ok(())
+            });
+            assert_eq!(result, Ok(()));
+            assert!(seen.iter().copied().eq(5..200), "{jobs} jobs: {seen:?}");
+        }
+    }
+
+    #[test]
+    fn an_error_of_the_sink_stops_the_work() {
+        let mut seen = 0;
+        let result = in_order(2, 0..1_000_000, || (), |(), i| i, |i| {
+            seen += 1;
+            if i == 10 { Err("full") } else { Ok(()) }
+        });
+        assert_eq!((result, seen), (Err("full"), 11));
+    }
+
+    #[test]
+    fn nothing_to_do_is_done_at_once() {
+        let result: Result<(), ()> = in_order(2, 7..7, || (), |(), _| (), |()| Err(()));
+        assert_eq!(result, Ok(()));
+    }
+}

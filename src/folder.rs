@@ -1,0 +1,218 @@
+//! The folder of a campaign: `campaign.json` says what is run, `trials.jsonl` what became of it.
+//!
+//! Nothing is lost and nothing is overwritten: the study is written whole or not at all, every trial is handed
+//! to the system as one line as soon as those before it are there, and a folder that holds anything of ours is
+//! not begun anew. A line without its end is what a kill leaves behind; it is dropped when the campaign is
+//! resumed, and its test run again.
+
+use crate::{Error, Study, Trial};
+use std::fs::{self, File, TryLockError};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+const STUDY: &str = "campaign.json";
+const TRIALS: &str = "trials.jsonl";
+/// What is derived from the trials at the end of a campaign.
+const DERIVED: [&str; 4] = ["trials.csv", "coverage.json", "failure-map.svg", "failure-map.png"];
+
+/// The folder of a campaign, open for appending.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    log: File,
+}
+
+impl Folder {
+    /// Begins a campaign in a folder that is made if need be.
+    ///
+    /// # Errors
+    /// The folder cannot be written, or holds a campaign.
+    pub fn create(path: &Path, study: &Study) -> Result<Self, Error> {
+        fs::create_dir_all(path).map_err(Error::file("create", path))?;
+        let ours = [STUDY, TRIALS].into_iter().chain(DERIVED);
+        if let Some(name) = ours.into_iter().find(|name| path.join(name).exists()) {
+            return Err(Error::Usage(format!(
+                "{} holds a campaign already ({name}): continue it with --resume, or write elsewhere with --out",
+                path.display()
+            )));
+        }
+        let mut text = serde_json::to_string_pretty(study).expect("a study is always JSON");
+        text.push('\n');
+        write_whole(&path.join(STUDY), text.as_bytes())?;
+        Self::open_log(path)
+    }
+
+    /// Continues the campaign of this study in its folder, or begins it if there is none yet; the trials that
+    /// are there.
+    ///
+    /// # Errors
+    /// The folder holds another campaign, or a log that is broken before its end.
+    pub fn resume(path: &Path, study: &Study) -> Result<(Self, Vec<Trial>), Error> {
+        if !path.join(STUDY).exists() {
+            return Self::create(path, study).map(|folder| (folder, Vec::new()));
+        }
+        same_study(path, study)?;
+        let mut folder = Self::open_log(path)?;
+        let text = folder.read_log()?;
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        let trials = parse_trials(&path.join(TRIALS), &text[..whole])?;
+        let log = path.join(TRIALS);
+        folder.log.set_len(whole as u64).map_err(Error::file("write", &log))?;
+        folder.log.seek(SeekFrom::End(0)).map_err(Error::file("write", &log))?;
+        Ok((folder, trials))
+    }
+
+    /// Reads a campaign: its study and the trials that are there.
+    ///
+    /// # Errors
+    /// There is none, or a file of it is broken.
+    pub fn read(path: &Path) -> Result<(Study, Vec<Trial>), Error> {
+        let file = path.join(STUDY);
+        let text = fs::read_to_string(&file).map_err(Error::file("read", &file))?;
+        let study = serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
+        let log = path.join(TRIALS);
+        let text = fs::read_to_string(&log).map_err(Error::file("read", &log))?;
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        Ok((study, parse_trials(&log, &text[..whole])?))
+    }
+
+    fn open_log(path: &Path) -> Result<Self, Error> {
+        let file = path.join(TRIALS);
+        let mut options = File::options();
+        let log = options.read(true).write(true).create(true).truncate(false);
+        let log = log.open(&file).map_err(Error::file("write", &file))?;
+        match log.try_lock() {
+            Ok(()) => Ok(Self { path: path.to_owned(), log }),
+            Err(TryLockError::WouldBlock) => {
+                Err(Error::Usage(format!("another process is writing to {}", file.display())))
+            }
+            Err(TryLockError::Error(source)) => Err(Error::file("lock", &file)(source)),
+        }
+    }
+
+    fn read_log(&mut self) -> Result<String, Error> {
+        let file = self.path.join(TRIALS);
+        let mut bytes = Vec::new();
+        self.log.read_to_end(&mut bytes).map_err(Error::file("read", &file))?;
+        String::from_utf8(bytes).map_err(|error| {
+            let line = error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count() + 1;
+            Error::content(&file, line, "found bytes that are no UTF-8, expected a trial as JSON")
+        })
+    }
+
+    /// Writes a trial down.
+    ///
+    /// # Errors
+    /// The log cannot be written: the disk is full, say.
+    pub fn append(&mut self, trial: &Trial) -> Result<(), Error> {
+        let mut line = serde_json::to_string(trial).expect("a trial is always JSON");
+        line.push('\n');
+        self.log.write_all(line.as_bytes()).map_err(Error::file("write", &self.path.join(TRIALS)))
+    }
+
+    /// Writes `trials.csv`, the trials as a flat table.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_table(&self, study: &Study, trials: &[Trial]) -> Result<(), Error> {
+        write_whole(&self.path.join("trials.csv"), &table(study, trials))
+    }
+
+    /// Writes a file beside the trials, whole or not at all.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), Error> {
+        write_whole(&self.path.join(name), contents)
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+/// Checks that a folder holds the campaign of this study.
+fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
+    let file = path.join(STUDY);
+    let text = fs::read_to_string(&file).map_err(Error::file("read", &file))?;
+    let there: serde_json::Value =
+        serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
+    let here = serde_json::to_value(study).expect("a study is always JSON");
+    let keys = here.as_object().into_iter().chain(there.as_object()).flatten().map(|(key, _)| key);
+    match keys.into_iter().find(|key| here.get(key) != there.get(key)) {
+        None => Ok(()),
+        Some(key) => {
+            let show = |study: &serde_json::Value| study.get(key).map_or("nothing".into(), ToString::to_string);
+            Err(Error::Usage(format!(
+                "{} holds a different campaign: its `{key}` is {}, the one to resume has {}",
+                path.display(),
+                show(&there),
+                show(&here)
+            )))
+        }
+    }
+}
+
+fn parse_trials(file: &Path, text: &str) -> Result<Vec<Trial>, Error> {
+    let parse = |(i, line): (usize, &str)| {
+        let trial: Trial = serde_json::from_str(line)
+            .map_err(|error| Error::content(file, i + 1, format!("no trial: {error}")))?;
+        if trial.index != i {
+            let message = format!("found trial {}, expected trial {i}", trial.index);
+            return Err(Error::content(file, i + 1, message));
+        }
+        Ok(trial)
+    };
+    text.lines().enumerate().map(parse).collect()
+}
+
+/// Writes a file so that it is never seen half-written, not even after a crash.
+fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = PathBuf::from(part);
+    let write = || {
+        let mut file = File::create(&part)?;
+        file.write_all(contents)?;
+        file.sync_all()?;
+        fs::rename(&part, path)
+    };
+    write().map_err(|source| {
+        // What is left of it is of no use to anybody; that it cannot be removed either changes nothing.
+        let _ = fs::remove_file(&part);
+        Error::file("write", path)(source)
+    })
+}
+
+/// The trials as CSV: index, parameters, verdict, robustness, metrics and the rest.
+fn table(study: &Study, trials: &[Trial]) -> Vec<u8> {
+    let mut metrics: Vec<&str> = Vec::new();
+    for name in trials.iter().flat_map(Trial::metric_names) {
+        if !metrics.contains(&name) {
+            metrics.push(name);
+        }
+    }
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    let parameters = study.space.parameters().iter().map(|parameter| parameter.name.clone());
+    let requirements = study.requirements.iter().map(|requirement| format!("robustness.{}", requirement.id));
+    let header = ["index".to_owned()].into_iter().chain(parameters).chain(["verdict".to_owned()]);
+    let header = header.chain(requirements).chain(metrics.iter().map(|name| format!("metric.{name}")));
+    let header = header.chain(["ticks", "trace_hash", "error"].map(str::to_owned));
+    let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
+    write(header.collect());
+    for trial in trials {
+        let mut row = vec![trial.index.to_string()];
+        row.extend(trial.test.iter().map(|(_, value)| value.to_string()));
+        row.push(trial.verdict.to_string());
+        row.extend(study.requirements.iter().map(|requirement| {
+            trial.robustness(&requirement.id).map_or(String::new(), |value| value.to_string())
+        }));
+        row.extend(metrics.iter().map(|name| trial.metric(name).map_or(String::new(), ToString::to_string)));
+        row.push(trial.ticks.to_string());
+        row.push(trial.trace_hash.clone().unwrap_or_default());
+        row.push(trial.error.clone().unwrap_or_default());
+        write(row);
+    }
+    csv.into_inner().expect("memory does not fail to flush")
+}

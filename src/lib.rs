@@ -1,0 +1,50 @@
+//! PARACOSM: coverage-driven testing and falsification of autonomous driving systems.
+//!
+//! A [`Study`] says what is tested how: a scenario, a driver, the open parameters, a strategy and a budget. A
+//! [`Campaign`] runs it, test by test on all cores, and writes every [`Trial`] down; [`Coverage`] says how well
+//! the tests cover the space, and a [`FailureMap`] shows where they fail. The crates below each do one thing:
+//! [`coverage`] measures, [`generators`] propose, [`engine`] simulates, [`oracles`] judge, [`scenarios`] are
+//! the worlds.
+//!
+//! ```
+//! use paracosm::{Campaign, Study};
+//!
+//! let study = Study::of("pedestrian-crossing")?.driver("aeb", &[])?.strategy("halton")?.budget(20)?;
+//! let mut failures = 0;
+//! Campaign::new(&study)?.run(|trial| {
+//!     failures += usize::from(trial.is_failure());
+//!     Ok(())
+//! })?;
+//! assert!(failures > 0);
+//! # Ok::<(), paracosm::Error>(())
+//! ```
+
+mod campaign;
+mod error;
+mod estimate;
+mod executor;
+mod folder;
+mod json;
+mod plot;
+mod study;
+mod summary;
+mod tests_file;
+mod trial;
+
+#[cfg(feature = "cli")]
+pub mod cli;
+
+pub use campaign::{Campaign, simulate_trial};
+pub use error::Error;
+pub use estimate::{Continuous, Coverage, Discrete, Measure, Tests};
+pub use folder::Folder;
+pub use plot::{FailureMap, Picture};
+pub use study::{DriverChoice, RequirementText, Study};
+pub use summary::{Summary, Worst};
+pub use trial::Trial;
+
+pub use paracosm_coverage as coverage;
+pub use paracosm_engine as engine;
+pub use paracosm_generators as generators;
+pub use paracosm_oracles as oracles;
+pub use paracosm_scenarios as scenarios;

@@ -1,0 +1,312 @@
+//! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
+
+use crate::json::Record;
+use crate::{Error, Trial};
+use paracosm_coverage::{Domain, Parameter, Space, Value, Values, nearest};
+use paracosm_engine::driver::{self, Driver};
+use paracosm_engine::{DEFAULT_DT, Declaration, Program};
+use paracosm_generators::{DiscreteFamily, Generator, Request, Strategy};
+use paracosm_scenarios as scenarios;
+use serde::{Deserialize, Serialize};
+
+/// The version of the files that this software writes.
+const FORMAT: u32 = 1;
+
+/// A study: a scenario, a driver, the open parameters, a strategy and a budget.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Study {
+    format: u32,
+    version: String,
+    target: String,
+    /// The scenario's name.
+    pub scenario: String,
+    vehicle: String,
+    /// The open parameters: what the tests vary.
+    pub space: Space,
+    /// The values of all others.
+    pub fixed: Values,
+    /// What is asked of every run.
+    pub requirements: Vec<RequirementText>,
+    /// The system under test.
+    pub driver: DriverChoice,
+    strategy: String,
+    discrete: String,
+    k: Option<usize>,
+    skip: Option<u64>,
+    seed: Option<u64>,
+    /// How many tests are run.
+    pub budget: usize,
+    dt: f64,
+    duration: f64,
+    /// A program that is not in the catalogue.
+    #[serde(skip)]
+    program: Option<Program>,
+}
+
+/// A requirement as it is written down.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RequirementText {
+    /// The short name.
+    pub id: String,
+    /// One sentence.
+    pub text: String,
+    /// What is asked.
+    pub formula: String,
+    /// The unit of its robustness.
+    pub unit: String,
+    /// How much robustness is a lot, in that unit.
+    pub scale: f64,
+}
+
+/// A driver with all its settings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DriverChoice {
+    /// Its name.
+    pub name: String,
+    settings: Record<f64>,
+}
+
+impl Study {
+    /// The study of a scenario of the catalogue with all defaults: driver `aeb`, strategy `halton`, 500 tests.
+    ///
+    /// # Errors
+    /// There is no such scenario.
+    pub fn of(scenario: &str) -> Result<Self, Error> {
+        Self::new(*scenarios::find(scenario)?)
+    }
+
+    /// The study of a program, with all defaults.
+    ///
+    /// # Errors
+    /// The program cannot be run.
+    pub fn new(program: Program) -> Result<Self, Error> {
+        let Declaration { parameters, requirements, duration } = program.declare()?;
+        let (open, closed): (Vec<_>, Vec<_>) = parameters.into_iter().partition(|declared| declared.open);
+        let fixed = closed.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal()));
+        let requirements = requirements.into_iter().map(|requirement| RequirementText {
+            formula: requirement.formula.to_string(),
+            id: requirement.id,
+            text: requirement.text,
+            unit: requirement.unit,
+            scale: requirement.scale,
+        });
+        Ok(Self {
+            format: FORMAT,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            target: env!("PARACOSM_TARGET").to_owned(),
+            scenario: program.name.to_owned(),
+            vehicle: "single-track".to_owned(),
+            space: Space::new(open.into_iter().map(|declared| declared.parameter).collect())?,
+            fixed: fixed.collect(),
+            requirements: requirements.collect(),
+            driver: DriverChoice::new("aeb", &[])?,
+            strategy: Strategy::Halton.name().to_owned(),
+            discrete: "random".to_owned(),
+            k: None,
+            skip: None,
+            seed: None,
+            budget: 500,
+            dt: DEFAULT_DT,
+            duration,
+            program: Some(program),
+        })
+    }
+
+    /// Tests this driver, its settings changed so.
+    ///
+    /// # Errors
+    /// There is no such driver or setting, or a value is out of range.
+    pub fn driver(mut self, name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
+        self.driver = DriverChoice::new(name, changes)?;
+        Ok(self)
+    }
+
+    /// Chooses tests by this strategy.
+    ///
+    /// # Errors
+    /// There is no such strategy.
+    pub fn strategy(mut self, name: &str) -> Result<Self, Error> {
+        self.strategy = name.parse::<Strategy>()?.name().to_owned();
+        Ok(self)
+    }
+
+    /// Covers discrete parameters by this family of rows, and any `k` of them together.
+    ///
+    /// # Errors
+    /// There is no such family.
+    pub fn discrete(mut self, family: &str, k: Option<usize>) -> Result<Self, Error> {
+        family.parse::<DiscreteFamily>()?;
+        self.discrete = family.to_owned();
+        self.k = k;
+        Ok(self)
+    }
+
+    /// Runs this many tests.
+    ///
+    /// # Errors
+    /// It is 0.
+    pub fn budget(mut self, tests: usize) -> Result<Self, Error> {
+        if tests == 0 {
+            return Err(Error::Usage("the budget is 0, expected at least 1 test".into()));
+        }
+        self.budget = tests;
+        Ok(self)
+    }
+
+    /// Takes all chance of the strategy from this seed; without one, Halton is the plain sequence.
+    pub fn seed(mut self, seed: Option<u64>) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Starts a sequence at this index.
+    pub fn skip(mut self, skip: Option<u64>) -> Self {
+        self.skip = skip;
+        self
+    }
+
+    /// Opens a parameter: lets the tests vary it, over its declared domain or over this part of it.
+    ///
+    /// # Errors
+    /// There is no such parameter, or `over` is no part of its domain.
+    pub fn open(mut self, name: &str, over: Option<Domain>) -> Result<Self, Error> {
+        let mut parameter = self.declared(name)?;
+        if let Some(domain) = over {
+            let ends = match &domain {
+                Domain::Interval { lo, hi } => vec![Value::Number(*lo), Value::Number(*hi)],
+                Domain::Choice(levels) => levels.clone(),
+            };
+            // Of a wrong interval the order of its ends is reported first, then that they lie outside.
+            let part = Space::new(vec![Parameter::new(name, domain.clone())]);
+            part?;
+            for end in &ends {
+                parameter.check(end)?;
+            }
+            if matches!((&parameter.domain, &domain), (Domain::Choice(_), Domain::Interval { .. })) {
+                let message = format!("parameter `{name}` takes {}, which is no interval", parameter.domain);
+                return Err(Error::Usage(message));
+            }
+            parameter.domain = domain;
+            parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
+        }
+        self.fixed = self.fixed.iter().filter(|(key, _)| *key != name).map(owned).collect();
+        self.rebuild(|other| other.name == name, Some(parameter))?;
+        Ok(self)
+    }
+
+    /// Fixes a parameter at a value.
+    ///
+    /// # Errors
+    /// There is no such parameter, it does not take the value, or it was the last open one.
+    pub fn set(mut self, name: &str, value: Value) -> Result<Self, Error> {
+        self.declared(name)?.check(&value)?;
+        self.rebuild(|other| other.name == name, None)?;
+        if self.space.parameters().is_empty() {
+            return Err(Error::Usage(format!("with `{name}` fixed no parameter is left open, so there is nothing to test")));
+        }
+        self.fixed.set(name, value);
+        Ok(self)
+    }
+
+    /// Replaces the open parameters that match, keeping the order in which the scenario declares them.
+    fn rebuild(&mut self, matches: impl Fn(&Parameter) -> bool, with: Option<Parameter>) -> Result<(), Error> {
+        let declared = self.program()?.declare()?.parameters;
+        let kept = self.space.parameters().iter().filter(|parameter| !matches(parameter)).cloned();
+        let mut open: Vec<Parameter> = kept.chain(with).collect();
+        open.sort_by_key(|parameter| declared.iter().position(|other| other.parameter.name == parameter.name));
+        self.space = Space::new(open)?;
+        Ok(())
+    }
+
+    fn declared(&self, name: &str) -> Result<Parameter, Error> {
+        let declared = self.program()?.declare()?.parameters;
+        let found = declared.iter().find(|declared| declared.parameter.name == name);
+        found.map(|declared| declared.parameter.clone()).ok_or_else(|| {
+            let names = declared.iter().map(|declared| declared.parameter.name.as_str());
+            let hint = nearest(name, names.clone()).map(|name| format!(" (did you mean `{name}`?)"));
+            let all = names.collect::<Vec<_>>().join(", ");
+            Error::Usage(format!(
+                "scenario `{}` has no parameter `{name}`{}; it has {all}",
+                self.scenario,
+                hint.unwrap_or_default()
+            ))
+        })
+    }
+
+    /// The program that is run.
+    ///
+    /// # Errors
+    /// The study was read from a file and names a scenario that is not in the catalogue.
+    pub fn program(&self) -> Result<Program, Error> {
+        match self.program {
+            Some(program) => Ok(program),
+            None => Ok(*scenarios::find(&self.scenario)?),
+        }
+    }
+
+    /// A generator of the study's tests.
+    ///
+    /// # Errors
+    /// The strategy cannot do what is asked of it.
+    pub fn generator(&self) -> Result<Box<dyn Generator>, Error> {
+        let request = Request {
+            space: &self.space,
+            budget: self.budget,
+            seed: self.seed,
+            skip: self.skip,
+            discrete: self.discrete.parse()?,
+            k: self.k,
+        };
+        Ok(self.strategy.parse::<Strategy>()?.build(&request)?)
+    }
+
+    /// The strategy's name.
+    pub fn strategy_name(&self) -> &str {
+        &self.strategy
+    }
+
+    /// How many discrete parameters at a time the tests are to cover.
+    pub fn k(&self) -> Option<usize> {
+        self.k
+    }
+
+    /// The requirement that a trial comes nearest to violating, or violates most: its id and its robustness in
+    /// multiples of its scale. `None` where the trial broke or nothing was decided.
+    pub fn worst(&self, trial: &Trial) -> Option<(&str, f64)> {
+        let worth = |requirement: &'_ RequirementText| trial.robustness(&requirement.id).map(|r| r / requirement.scale);
+        let all = self.requirements.iter().filter_map(|r| worth(r).map(|worth| (r.id.as_str(), worth)));
+        all.filter(|_| trial.covers()).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// What an adaptive strategy minimises: the worst robustness, in multiples of the requirement's scale and
+    /// clipped to [-10, 10].
+    pub fn objective(&self, trial: &Trial) -> Option<f64> {
+        self.worst(trial).map(|(_, robustness)| robustness.clamp(-10.0, 10.0))
+    }
+
+    /// All values of a test: its own and the fixed ones.
+    pub fn complete(&self, test: &Values) -> Values {
+        test.iter().chain(self.fixed.iter()).map(owned).collect()
+    }
+}
+
+fn owned((name, value): (&str, &Value)) -> (String, Value) {
+    (name.to_owned(), value.clone())
+}
+
+impl DriverChoice {
+    fn new(name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
+        let settings = driver::find(name)?.settings(changes)?;
+        let settings = settings.iter().map(|(name, value)| (name.to_owned(), value)).collect();
+        Ok(Self { name: name.to_owned(), settings: Record(settings) })
+    }
+
+    /// A new driver of this kind.
+    ///
+    /// # Errors
+    /// The choice was read from a file and there is no such driver or setting.
+    pub fn build(&self) -> Result<Box<dyn Driver>, Error> {
+        Ok(driver::find(&self.name)?.build(&self.settings.0)?)
+    }
+}

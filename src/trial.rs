@@ -1,0 +1,71 @@
+//! One test with what became of it: a line of `trials.jsonl`.
+
+use crate::json::{MetricValue, Number, Record};
+use paracosm_coverage::Values;
+use paracosm_engine::{Metric, Outcome};
+use paracosm_oracles::{Trace, Verdict};
+use serde::{Deserialize, Serialize};
+
+/// A test with what became of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Trial {
+    /// Its position in the campaign, from 0.
+    pub index: usize,
+    /// The values of the open parameters.
+    pub test: Values,
+    /// What became of it.
+    pub verdict: Verdict,
+    robustness: Record<Number>,
+    metrics: Record<MetricValue>,
+    /// The simulated ticks.
+    pub ticks: usize,
+    /// The fingerprint of its trace; `None` where there was none.
+    pub trace_hash: Option<String>,
+    /// Why the verdict is `invalid` or `error`.
+    pub error: Option<String>,
+}
+
+impl Trial {
+    /// The trial of a test that ended so.
+    pub(crate) fn new(index: usize, test: Values, outcome: Outcome, trace: Option<&Trace>) -> Self {
+        let robustness = outcome.robustness.into_iter().map(|(id, value)| (id, Number(value)));
+        let metrics = outcome.metrics.into_iter().map(|(name, metric)| (name, MetricValue(metric)));
+        Self {
+            index,
+            test,
+            verdict: outcome.verdict,
+            robustness: Record(robustness.collect()),
+            metrics: Record(metrics.collect()),
+            // The first sample is the start, before any tick has passed.
+            ticks: trace.map_or(0, |trace| trace.len() - 1),
+            trace_hash: trace.map(Trace::hash),
+            error: outcome.error,
+        }
+    }
+
+    /// The robustness of a requirement in its unit; `None` where it was not decided.
+    pub fn robustness(&self, requirement: &str) -> Option<f64> {
+        self.robustness.get(requirement).and_then(|number| number.0)
+    }
+
+    /// What was measured under that name.
+    pub fn metric(&self, name: &str) -> Option<&Metric> {
+        self.metrics.get(name).map(|value| &value.0)
+    }
+
+    /// The names of what was measured, in order.
+    pub fn metric_names(&self) -> impl Iterator<Item = &str> {
+        self.metrics.0.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Whether it violates a requirement.
+    pub fn is_failure(&self) -> bool {
+        self.verdict == Verdict::Fail
+    }
+
+    /// Whether it says anything of the place where it is: broken and impossible tests cover nothing.
+    pub fn covers(&self) -> bool {
+        !matches!(self.verdict, Verdict::Error | Verdict::Invalid)
+    }
+}
