@@ -38,7 +38,7 @@ pub use campaign::{Campaign, simulate_trial};
 pub use error::Error;
 pub use estimate::{Continuous, Coverage, Discrete, Measure, Tests};
 pub use folder::Folder;
-pub use plot::{FailureMap, Picture};
+pub use plot::{Axis, FailureMap, Picture};
 pub use study::{DriverChoice, RequirementText, Study};
 pub use summary::{Summary, Worst};
 pub use trial::Trial;

@@ -261,6 +261,11 @@ impl Study {
         Ok(self.strategy.parse::<Strategy>()?.build(&request)?)
     }
 
+    /// Whether this very software has written it, so that a replay has to give the same trace.
+    pub fn is_of_this_software(&self) -> bool {
+        self.version == env!("CARGO_PKG_VERSION") && self.target == env!("PARACOSM_TARGET")
+    }
+
     /// The strategy's name.
     pub fn strategy_name(&self) -> &str {
         &self.strategy

@@ -6,62 +6,71 @@ use paracosm_coverage::{Space, Value, Values, nearest};
 use std::fs;
 use std::path::Path;
 
-/// Reads the tests in a file or in the folder of a campaign.
-///
-/// Without a space the columns of a file are coordinates in `[0,1]`, all continuous; with one, columns that are
-/// no parameters of it are passed over. Of a campaign, broken and impossible tests are left out.
-pub(crate) fn read(path: &Path, space: Option<Space>) -> Result<Tests, Error> {
-    if path.is_dir() {
-        if space.is_some() {
-            let message = format!("{} is the folder of a campaign, which has its own space: leave --space out", path.display());
-            return Err(Error::Usage(message));
-        }
-        let (study, trials) = Folder::read(path)?;
-        return of_trials(study.space, &trials);
-    }
-    let text = fs::read(path).map_err(Error::file("read", path))?;
-    if text.is_empty() {
-        return Err(Error::content(path, None, "the file is empty, expected a header with the names of the columns"));
-    }
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_slice());
-    let header = reader.headers().map_err(|error| broken(path, &error))?.clone();
-    if header.iter().all(|name| name.parse::<f64>().is_ok()) {
-        let message = "found numbers, expected a header with the names of the columns";
-        return Err(Error::content(path, 1, message));
-    }
-    let given = space.is_some();
-    let space = match space {
-        Some(space) => space,
-        None => of_columns(path, &header)?,
-    };
-    let columns = columns(path, &space, &header)?;
-    let mut points = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| broken(path, &error))?;
-        let line = record.position().map(|position| position.line() as usize);
-        let mut test = Values::default();
-        for (parameter, column) in space.parameters().iter().zip(&columns) {
-            let text = &record[*column];
-            let value = Value::parse(text);
-            if parameter.levels().is_none() && value.number().is_none() {
-                let message = format!("column `{}`: found `{text}`, expected a number", parameter.name);
-                return Err(Error::content(path, line, message));
+impl Tests {
+    /// Reads the tests in a file or in the folder of a campaign.
+    ///
+    /// Without a space the columns of a file are coordinates in `[0,1]`, all continuous; with one, columns that are
+    /// no parameters of it are passed over. Of a campaign, broken and impossible tests are left out.
+    ///
+    /// # Errors
+    /// The file cannot be read, or does not hold tests of the space: the error says in which line and why.
+    pub fn read(path: &Path, space: Option<Space>) -> Result<Self, Error> {
+        if path.is_dir() {
+            if space.is_some() {
+                let message = format!("{} is the folder of a campaign, which has its own space: leave --space out", path.display());
+                return Err(Error::Usage(message));
             }
-            test.set(parameter.name.clone(), value);
+            let (study, trials) = Folder::read(path)?;
+            return Self::of_trials(study.space, &trials);
         }
-        points.push(space.encode(&test).map_err(|error| {
-            let hint = if given { "" } else { "; name the space of the tests with --space SPACE.toml" };
-            Error::content(path, line, format!("{error}{hint}"))
-        })?);
+        let text = fs::read(path).map_err(Error::file("read", path))?;
+        if text.is_empty() {
+            return Err(Error::content(path, None, "the file is empty, expected a header with the names of the columns"));
+        }
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_slice());
+        let header = reader.headers().map_err(|error| broken(path, &error))?.clone();
+        if header.iter().all(|name| name.parse::<f64>().is_ok()) {
+            let message = "found numbers, expected a header with the names of the columns";
+            return Err(Error::content(path, 1, message));
+        }
+        let given = space.is_some();
+        let space = match space {
+            Some(space) => space,
+            None => of_columns(path, &header)?,
+        };
+        let columns = columns(path, &space, &header)?;
+        let mut points = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(|error| broken(path, &error))?;
+            let line = record.position().map(|position| position.line() as usize);
+            let mut test = Values::default();
+            for (parameter, column) in space.parameters().iter().zip(&columns) {
+                let text = &record[*column];
+                let value = Value::parse(text);
+                if parameter.levels().is_none() && value.number().is_none() {
+                    let message = format!("column `{}`: found `{text}`, expected a number", parameter.name);
+                    return Err(Error::content(path, line, message));
+                }
+                test.set(parameter.name.clone(), value);
+            }
+            points.push(space.encode(&test).map_err(|error| {
+                let hint = if given { "" } else { "; name the space of the tests with --space SPACE.toml" };
+                Error::content(path, line, format!("{error}{hint}"))
+            })?);
+        }
+        Ok(Self { space, points })
     }
-    Ok(Tests { space, points })
-}
 
-/// The tests of a campaign that say anything of where they are.
-pub(crate) fn of_trials(space: Space, trials: &[Trial]) -> Result<Tests, Error> {
-    let covering = trials.iter().filter(|trial| trial.covers());
-    let points = covering.map(|trial| space.encode(&trial.test)).collect::<Result<_, _>>()?;
-    Ok(Tests { space, points })
+    /// The tests of a campaign that say anything of where they are: not those with the verdict `error` or
+    /// `invalid`.
+    ///
+    /// # Errors
+    /// A test is not of the space.
+    pub fn of_trials(space: Space, trials: &[Trial]) -> Result<Self, Error> {
+        let covering = trials.iter().filter(|trial| trial.covers());
+        let points = covering.map(|trial| space.encode(&trial.test)).collect::<Result<_, _>>()?;
+        Ok(Self { space, points })
+    }
 }
 
 /// The unit cube whose axes are called as the columns.

@@ -1,0 +1,5 @@
+//! Tests a driver over the open parameters of a scenario.
+
+fn main() -> std::process::ExitCode {
+    paracosm::cli::fuzz()
+}

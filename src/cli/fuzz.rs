@@ -1,0 +1,50 @@
+//! The arguments of `paracosm-fuzz`.
+
+use super::{Failure, Found, Verbosity, list, replay, run};
+use clap::{Parser, Subcommand};
+
+const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz --strategy halton --budget 500       the pedestrian study of the paper, into paracosm-out/
+  paracosm-fuzz pedestrian-crossing --driver cruise --open friction=0.3..0.8 --out slippery
+  paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
+  paracosm-fuzz list                                 scenarios, strategies, drivers
+
+Exit status: 0 done, 1 a violation was found (with --fail-on-violation), 2 wrong use, bad input or a failed run.";
+
+/// Tests a driver over the open parameters of a scenario.
+#[derive(Debug, Parser)]
+#[command(name = "paracosm-fuzz", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+#[command(override_usage = "paracosm-fuzz [run] [SCENARIO] [OPTIONS]\n       paracosm-fuzz <COMMAND>")]
+pub(super) struct Command {
+    #[command(subcommand)]
+    verb: Option<Verb>,
+    #[command(flatten)]
+    run: run::Options,
+    #[command(flatten)]
+    verbosity: Verbosity,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Run one campaign; what is done when no command is named
+    #[command(after_help = EXAMPLES)]
+    Run(run::Options),
+    /// Show scenarios, strategies and drivers with their parameters
+    #[command(after_help = "Example:\n  paracosm-fuzz list")]
+    List(list::Options),
+    /// Run a logged test again and compare its trace hash with the log's
+    #[command(after_help = "Example:\n  paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv")]
+    Replay(replay::Options),
+}
+
+impl Command {
+    pub fn execute(self) -> Result<Found, Failure> {
+        match self.verb {
+            None => self.run.execute(self.verbosity),
+            Some(Verb::Run(options)) => options.execute(self.verbosity),
+            Some(Verb::List(options)) => options.execute(),
+            Some(Verb::Replay(options)) => options.execute(self.verbosity),
+        }
+    }
+}

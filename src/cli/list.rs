@@ -1,0 +1,88 @@
+//! `paracosm-fuzz list`: everything that can be chosen by name.
+
+use super::output::{Format, digits, json};
+use super::{Failure, Found, print};
+use crate::coverage::Domain;
+use crate::engine::driver;
+use crate::generators::Strategy;
+use crate::scenarios;
+use clap::Args;
+use serde_json::json;
+use std::fmt::Write;
+
+/// What `list` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// How to print it [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self) -> Result<Found, Failure> {
+        let text = match Format::or_fitting(self.format) {
+            Format::Table => table()?,
+            Format::Json => json(&as_json()?),
+        };
+        print(&text).map(|()| Found::Nothing)
+    }
+}
+
+fn table() -> Result<String, Failure> {
+    let mut text = String::from("SCENARIOS\n");
+    for program in scenarios::ALL {
+        writeln!(text, "  {:<22}{}", program.name, program.about)?;
+        for declared in program.declare()?.parameters {
+            let parameter = &declared.parameter;
+            let domain = match &parameter.domain {
+                Domain::Interval { lo, hi } => format!("{lo}..{hi}"),
+                Domain::Choice(levels) => levels.iter().map(ToString::to_string).collect::<Vec<_>>().join(","),
+            };
+            let state = match declared.nominal().number() {
+                _ if declared.open => "open".to_owned(),
+                Some(number) => format!("{} unless opened", digits(number)),
+                None => format!("{} unless opened", declared.nominal()),
+            };
+            writeln!(text, "    {:<20}{:<12}{:<6}{state}", parameter.name, domain, parameter.unit.as_deref().unwrap_or(""))?;
+        }
+    }
+    text.push_str("\nSTRATEGIES\n");
+    for strategy in Strategy::ALL {
+        writeln!(text, "  {:<22}{}", strategy.name(), strategy.about())?;
+    }
+    text.push_str("\nDRIVERS\n");
+    for kind in driver::ALL {
+        writeln!(text, "  {:<22}{}", kind.name, kind.about)?;
+        for setting in kind.settings {
+            let value = format!("{} {}", digits(setting.default), setting.unit);
+            writeln!(text, "    {:<20}{value:<12}{}", setting.name, setting.about)?;
+        }
+    }
+    text.push_str("\nParameters: --open NAME[=LO..HI], --set NAME=VALUE. Settings: --set driver.NAME=VALUE.\n");
+    Ok(text)
+}
+
+fn as_json() -> Result<serde_json::Value, Failure> {
+    let mut programs = Vec::new();
+    for program in scenarios::ALL {
+        let parameters = program.declare()?.parameters;
+        let parameters: Vec<_> = parameters
+            .iter()
+            .map(|declared| json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal()}))
+            .collect();
+        programs.push(json!({"name": program.name, "about": program.about, "parameters": parameters}));
+    }
+    let strategies = Strategy::ALL.map(|strategy| json!({"name": strategy.name(), "about": strategy.about()}));
+    let drivers = driver::ALL.map(|kind| {
+        let settings: Vec<_> = kind
+            .settings
+            .iter()
+            .map(|setting| {
+                json!({"name": setting.name, "default": setting.default, "unit": setting.unit,
+                    "range": [setting.range.0, setting.range.1], "about": setting.about})
+            })
+            .collect();
+        json!({"name": kind.name, "about": kind.about, "settings": settings})
+    });
+    Ok(json!({"scenarios": programs, "strategies": strategies, "drivers": drivers}))
+}

@@ -1,0 +1,91 @@
+//! The two programs, as the library sees them: arguments in, an exit status out.
+//!
+//! Results go to standard output, everything else to standard error. The exit status is 0 when done, 1 when a
+//! violation was found and that was asked about, 2 when the command, its input or the run was wrong.
+
+mod cover;
+mod fuzz;
+mod list;
+mod output;
+mod replay;
+mod run;
+
+use crate::executor::WORKER;
+use clap::{Args, Parser};
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::panic;
+use std::process::ExitCode;
+
+/// How much is said on standard error.
+#[derive(Debug, Clone, Copy, Args)]
+struct Verbosity {
+    /// Say nothing but errors
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say more: every test that does not pass, as it ends
+    #[arg(short, long, global = true)]
+    verbose: bool,
+}
+
+impl Verbosity {
+    /// Says something that is no result.
+    fn note(self, message: impl Display) {
+        if !self.quiet {
+            eprintln!("{message}");
+        }
+    }
+}
+
+/// What a command that did its work found.
+enum Found {
+    Nothing,
+    Violation,
+}
+
+/// Why a command could not do its work, in words.
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// The program `paracosm-fuzz`.
+pub fn fuzz() -> ExitCode {
+    quiet_workers();
+    exit(fuzz::Command::parse().execute())
+}
+
+/// The program `paracosm-cover`.
+pub fn cover() -> ExitCode {
+    exit(cover::Command::parse().execute().map(|()| Found::Nothing))
+}
+
+fn exit(result: Result<Found, Failure>) -> ExitCode {
+    match result {
+        Ok(Found::Nothing) => ExitCode::SUCCESS,
+        Ok(Found::Violation) => ExitCode::from(1),
+        // Somebody closed the pipe that we print to, as `head` does: no reason to complain.
+        Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Prints a result.
+fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    stdout.write_all(text.as_bytes())?;
+    Ok(stdout.flush()?)
+}
+
+/// Keeps panics of tests, which are recorded as trials, off the terminal.
+fn quiet_workers() {
+    let default = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        let thread = std::thread::current();
+        if !thread.name().is_some_and(|name| name.starts_with(WORKER)) {
+            default(info);
+        }
+    }));
+}

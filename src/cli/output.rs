@@ -1,0 +1,169 @@
+//! How results are printed: as a table for people, as JSON for programs.
+
+use crate::coverage::Bracket;
+use crate::estimate::{Continuous, Coverage, Discrete, Hole};
+use crate::json::Record;
+use clap::ValueEnum;
+use std::fmt::Write;
+use std::io::IsTerminal;
+
+/// The form of what is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// For people
+    Table,
+    /// For programs
+    Json,
+}
+
+impl Format {
+    /// What was asked for; otherwise a table on a terminal and JSON elsewhere.
+    pub fn or_fitting(asked: Option<Self>) -> Self {
+        asked.unwrap_or(if std::io::stdout().is_terminal() { Self::Table } else { Self::Json })
+    }
+}
+
+/// A value as JSON on lines of its own.
+pub(super) fn json(value: &impl serde::Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(value).expect("results are always JSON");
+    text.push('\n');
+    text
+}
+
+/// Names on the left, values on the right.
+#[derive(Default)]
+pub(super) struct Table {
+    text: String,
+}
+
+/// Where values begin.
+const LABEL: usize = 20;
+
+impl Table {
+    pub fn heading(&mut self, text: &str) {
+        let _ = writeln!(self.text, "{text}");
+    }
+
+    pub fn row(&mut self, label: &str, value: &str) {
+        let _ = writeln!(self.text, "  {label:<LABEL$}{value}");
+    }
+
+    pub fn finish(self) -> String {
+        self.text
+    }
+
+    /// The rows of a coverage report.
+    pub fn coverage(&mut self, coverage: &Coverage) {
+        if let Some(continuous) = &coverage.continuous {
+            self.continuous(continuous);
+        }
+        if let Some(discrete) = &coverage.discrete {
+            self.discrete(discrete);
+        }
+    }
+
+    fn continuous(&mut self, measured: &Continuous) {
+        if let Some(hole) = &measured.dispersion {
+            self.row("dispersion", &bracket(&hole.volume));
+            self.row("  largest empty box", &sides(hole));
+        }
+        if let Some(star) = &measured.star_discrepancy {
+            self.row("star discrepancy", &bracket(star));
+        }
+        let others = [
+            ("L2-star", measured.l2_star),
+            ("centered, squared", measured.centered),
+            ("wraparound, squared", measured.wraparound),
+            ("mixture, squared", measured.mixture),
+        ];
+        for (label, value) in others {
+            if let Some(value) = value {
+                self.row(label, &value.map_or("undefined without tests".into(), digits));
+            }
+        }
+    }
+
+    fn discrete(&mut self, measured: &Discrete) {
+        let Discrete { k, covered, valid, ratio, missing, combinations } = measured;
+        self.row(&format!("{k}-wise coverage"), &format!("{covered} of {valid} ({})", percent(*ratio)));
+        self.row("all combinations", &percent(*combinations));
+        for (i, tuple) in missing.iter().enumerate() {
+            let Record(values) = tuple;
+            let values: Vec<String> = values.iter().map(|(name, value)| format!("{name} {value}")).collect();
+            self.row(if i == 0 { "  missing" } else { "" }, &values.join(", "));
+        }
+        let unlisted = valid - covered - missing.len() as u64;
+        if unlisted > 0 {
+            self.row("", &format!("and {unlisted} more"));
+        }
+    }
+}
+
+fn sides(hole: &Hole) -> String {
+    let side = |(name, [lo, hi]): &(String, [f64; 2])| format!("{name} {}..{}", digits(*lo), digits(*hi));
+    hole.largest_empty_box.0.iter().map(side).collect::<Vec<_>>().join(", ")
+}
+
+/// An exact value as one number, a bracket as two.
+pub(super) fn bracket(bracket: &Bracket) -> String {
+    if bracket.is_exact() {
+        digits(bracket.lower)
+    } else {
+        format!("between {} and {}", digits(bracket.lower), digits(bracket.upper))
+    }
+}
+
+/// A share in percent with one decimal.
+pub(super) fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Five significant digits: enough to compare, few enough to read. Very small and large numbers get an exponent.
+pub(super) fn digits(number: f64) -> String {
+    let scientific = format!("{number:.4e}");
+    let exponent: i32 = scientific.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+    if number == 0.0 || !number.is_finite() {
+        return format!("{number}");
+    }
+    if !(-5..7).contains(&exponent) {
+        return scientific;
+    }
+    let decimals = (4 - exponent).max(0) as usize;
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// A word as a shell takes it.
+pub(super) fn shell_word(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,@+".contains(c);
+    if !word.is_empty() && word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_printed_with_five_digits_and_no_more_than_they_have() {
+        let cases = [
+            (0.0, "0"),
+            (1.0, "1"),
+            (0.040_509_259, "0.040509"),
+            (-12.345_678, "-12.346"),
+            (60.0, "60"),
+            (123_456.7, "123457"),
+            (1.5e-9, "1.5000e-9"),
+            (f64::INFINITY, "inf"),
+        ];
+        for (number, text) in cases {
+            assert_eq!(digits(number), text);
+        }
+    }
+
+    #[test]
+    fn words_are_quoted_where_a_shell_would_split_them() {
+        assert_eq!(shell_word("out/run-1"), "out/run-1");
+        assert_eq!(shell_word("my out"), "'my out'");
+        assert_eq!(shell_word("it's"), "'it'\\''s'");
+    }
+}

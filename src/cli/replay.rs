@@ -1,0 +1,110 @@
+//! `paracosm-fuzz replay`: one logged test once more.
+
+use super::output::{Format, Table, digits, json};
+use super::{Failure, Found, Verbosity, print};
+use crate::oracles::Trace;
+use crate::{Error, Folder, Study, Trial, simulate_trial};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+/// What `replay` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The folder of the campaign
+    dir: PathBuf,
+    /// The index of the test
+    index: usize,
+    /// Where to write the trace [default: DIR/trace-INDEX.csv]
+    #[arg(long, value_name = "FILE.csv")]
+    trace: Option<PathBuf>,
+    /// Exit with status 1 if the test violates a requirement
+    #[arg(long)]
+    fail_on_violation: bool,
+    /// How to print the outcome [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        let (study, trials) = Folder::read(&self.dir)?;
+        let logged = trials.get(self.index).ok_or_else(|| {
+            let count = trials.len();
+            let there = if count == 0 { "none".to_owned() } else { format!("0 to {}", count - 1) };
+            Error::Usage(format!("{} has no test {}, expected {there}", self.dir.display(), self.index))
+        })?;
+        let mut driver = study.driver.build()?;
+        let (trial, trace) = simulate_trial(&study.program()?, &study, driver.as_mut(), self.index, &logged.test);
+        if let Some(trace) = &trace {
+            let default = || self.dir.join(format!("trace-{}.csv", self.index));
+            let path = self.trace.clone().unwrap_or_else(default);
+            write_trace(&path, trace)?;
+            verbosity.note(format_args!("trace of {} ticks written to {}", trial.ticks, path.display()));
+        }
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => table(&study, &trial),
+            Format::Json => json(&trial),
+        })?;
+        if trial != *logged {
+            return Err(difference(&study, logged, &trial).into());
+        }
+        Ok(if self.fail_on_violation && trial.is_failure() { Found::Violation } else { Found::Nothing })
+    }
+}
+
+fn difference(study: &Study, logged: &Trial, trial: &Trial) -> String {
+    let hash = |trial: &Trial| trial.trace_hash.clone().unwrap_or_else(|| "none".into());
+    let mut message = format!(
+        "the replay of test {} differs from the log: trace hash {}, logged {}",
+        trial.index,
+        hash(trial),
+        hash(logged)
+    );
+    if !study.is_of_this_software() {
+        message.push_str("; the campaign was run by another version of this software");
+    }
+    message
+}
+
+/// The trial in words.
+fn table(study: &Study, trial: &Trial) -> String {
+    let mut table = Table::default();
+    table.heading(&format!("test {}: {}", trial.index, trial.verdict));
+    for (parameter, (name, value)) in study.space.parameters().iter().zip(trial.test.iter()) {
+        table.row(name, &format!("{value} {}", parameter.unit.as_deref().unwrap_or_default()));
+    }
+    for requirement in &study.requirements {
+        let value = trial.robustness(&requirement.id);
+        let value = value.map_or("undecided".to_owned(), |value| format!("{} {}", digits(value), requirement.unit));
+        table.row(&requirement.id, &value);
+    }
+    for name in trial.metric_names() {
+        let metric = trial.metric(name).map(ToString::to_string).filter(|text| !text.is_empty());
+        table.row(name, metric.as_deref().unwrap_or("none"));
+    }
+    if let Some(error) = &trial.error {
+        table.row("error", error);
+    }
+    table.row("trace hash", trial.trace_hash.as_deref().unwrap_or("none"));
+    table.finish()
+}
+
+/// Writes a trace as CSV: a column `time` in seconds, then one for each signal.
+fn write_trace(path: &Path, trace: &Trace) -> Result<(), Error> {
+    let write = || -> Result<(), csv::Error> {
+        let mut csv = csv::Writer::from_path(path)?;
+        csv.write_record(["time"].into_iter().chain(trace.signals().iter().map(String::as_str)))?;
+        for (tick, row) in trace.rows().enumerate() {
+            let time = tick as f64 * trace.dt();
+            csv.write_record([time].iter().chain(row).map(ToString::to_string))?;
+        }
+        Ok(csv.flush()?)
+    };
+    write().map_err(|error| {
+        let source = match error.into_kind() {
+            csv::ErrorKind::Io(source) => source,
+            other => std::io::Error::other(format!("{other:?}")),
+        };
+        Error::File { action: "write", path: path.to_owned(), source }
+    })
+}

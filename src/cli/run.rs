@@ -1,0 +1,287 @@
+//! `paracosm-fuzz run`: a campaign with everything that watches it.
+
+use super::output::{Format, Table, digits, json, percent, shell_word};
+use super::{Failure, Found, Verbosity, print};
+use crate::coverage::{Domain, Value};
+use crate::oracles::Verdict;
+use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Study, Summary, Tests, Trial};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// The time that `coverage.json` may take, as `estimate --time-limit 5`.
+const COVERAGE_LIMIT: Duration = Duration::from_secs(5);
+
+/// What `run` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The world to test in; `paracosm-fuzz list` shows them all
+    #[arg(default_value = "pedestrian-crossing")]
+    scenario: String,
+    /// How tests are chosen: random, halton, sobol or lhs
+    #[arg(long, value_name = "S", default_value = "halton")]
+    strategy: String,
+    /// How many tests to run
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    budget: usize,
+    /// The source of all chance; plain halton takes none
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Start a sequence at this index (plain Halton at 1; the paper's at 0)
+    #[arg(long, value_name = "N")]
+    skip: Option<u64>,
+    /// How discrete parameters are covered: random (Proposition 3.2) or cross (all combinations)
+    #[arg(long, value_name = "FAMILY", default_value = "random")]
+    discrete: String,
+    /// How many discrete parameters are covered together [default: 2]
+    #[arg(long, value_name = "K")]
+    k: Option<usize>,
+    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one
+    #[arg(long, value_name = "NAME[=LO..HI|=A,B,C]")]
+    open: Vec<String>,
+    /// Fix a parameter, or change a setting of the driver with driver.NAME=VALUE
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The system under test
+    #[arg(long, value_name = "NAME", default_value = "aeb")]
+    driver: String,
+    /// How many tests run at a time; results do not depend on it [default: one per core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Where to write
+    #[arg(long, value_name = "DIR", default_value = "paracosm-out")]
+    out: PathBuf,
+    /// Continue the campaign in the folder
+    #[arg(long)]
+    resume: bool,
+    /// Exit with status 1 if a test violates a requirement
+    #[arg(long)]
+    fail_on_violation: bool,
+    /// How to print the summary [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        let study = self.study()?;
+        let mut campaign = Campaign::new(&study)?;
+        if let Some(jobs) = self.jobs {
+            campaign = campaign.jobs(jobs);
+        }
+        let (mut folder, known) = if self.resume {
+            Folder::resume(&self.out, &study)?
+        } else {
+            (Folder::create(&self.out, &study)?, Vec::new())
+        };
+        let mut progress = Progress::new(&study, verbosity, known.len());
+        let mut trials = known.clone();
+        trials.iter().for_each(|trial| progress.count(&study, trial));
+        let run = campaign.resume(known).run(|trial| {
+            folder.append(trial)?;
+            progress.show(&study, trial);
+            trials.push(trial.clone());
+            Ok(())
+        });
+        progress.bar.finish_and_clear();
+        run.map_err(|error| interrupted(&error, &self.out, trials.len()))?;
+
+        let coverage = self.write_results(&folder, &study, &trials, verbosity)?;
+        let report = Report { study: &study, trials: &trials, summary: &progress.summary, coverage: &coverage, out: &self.out };
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => report.table(),
+            Format::Json => json(&report.json()),
+        })?;
+        let summary = &progress.summary;
+        if summary.tests() > 0 && summary.count(Verdict::Error) == summary.tests() {
+            let first = trials[0].error.as_deref().unwrap_or_default();
+            return Err(format!("every test ended in an error; the first: {first}").into());
+        }
+        let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
+        Ok(if violated { Found::Violation } else { Found::Nothing })
+    }
+
+    fn study(&self) -> Result<Study, Error> {
+        let mut driver_settings = Vec::new();
+        let mut fixed = Vec::new();
+        for text in &self.set {
+            let (name, value) = text.split_once('=').ok_or_else(|| {
+                Error::Usage(format!("--set {text}: expected NAME=VALUE, or driver.NAME=VALUE"))
+            })?;
+            match name.strip_prefix("driver.") {
+                None => fixed.push((name, Value::parse(value))),
+                Some(setting) => {
+                    let number = value.parse().map_err(|_| {
+                        Error::Usage(format!("--set {text}: found `{value}`, expected a number"))
+                    })?;
+                    driver_settings.push((setting.to_owned(), number));
+                }
+            }
+        }
+        let mut study = Study::of(&self.scenario)?
+            .driver(&self.driver, &driver_settings)?
+            .strategy(&self.strategy)?
+            .discrete(&self.discrete, self.k)?
+            .budget(self.budget)?
+            .seed(self.seed)
+            .skip(self.skip);
+        for text in &self.open {
+            let (name, over) = match text.split_once('=') {
+                None => (text.as_str(), None),
+                Some((name, over)) => (name, Some(domain(text, over)?)),
+            };
+            study = study.open(name, over)?;
+        }
+        for (name, value) in fixed {
+            study = study.set(name, value)?;
+        }
+        Ok(study)
+    }
+
+    fn write_results(
+        &self,
+        folder: &Folder,
+        study: &Study,
+        trials: &[Trial],
+        verbosity: Verbosity,
+    ) -> Result<Coverage, Error> {
+        folder.write_table(study, trials)?;
+        let tests = Tests::of_trials(study.space.clone(), trials)?;
+        let coverage = tests.measure(&Measure::ALL, study.k(), Some(COVERAGE_LIMIT))?;
+        folder.write("coverage.json", json(&coverage).as_bytes())?;
+        match FailureMap::of(study, trials) {
+            None => verbosity.note("no failure map: it needs two continuous open parameters"),
+            Some(map) => {
+                let picture = Picture::of(map);
+                let failed = |name: &str| {
+                    let path = self.out.join(name);
+                    move |error: Failure| Error::Picture { path, message: error.to_string() }
+                };
+                folder.write("failure-map.svg", picture.svg().map_err(failed("failure-map.svg"))?.as_bytes())?;
+                folder.write("failure-map.png", &picture.png().map_err(failed("failure-map.png"))?)?;
+            }
+        }
+        Ok(coverage)
+    }
+}
+
+/// Part of a parameter's domain as `--open` takes it: LO..HI or A,B,C.
+fn domain(text: &str, over: &str) -> Result<Domain, Error> {
+    let Some((lo, hi)) = over.split_once("..") else {
+        return Ok(Domain::Choice(over.split(',').map(Value::parse).collect()));
+    };
+    match (lo.parse(), hi.parse()) {
+        (Ok(lo), Ok(hi)) => Ok(Domain::Interval { lo, hi }),
+        _ => Err(Error::Usage(format!("--open {text}: found `{over}`, expected two numbers LO..HI or values A,B,C"))),
+    }
+}
+
+/// An error that ended the campaign, with what is left of it.
+fn interrupted(error: &Error, out: &Path, safe: usize) -> Failure {
+    format!("{error}\n  the first {safe} trials are safe in {}; --resume goes on from there", out.display()).into()
+}
+
+/// The progress bar, with the counts that it shows.
+struct Progress {
+    bar: ProgressBar,
+    summary: Summary,
+    verbose: bool,
+}
+
+impl Progress {
+    fn new(study: &Study, verbosity: Verbosity, known: usize) -> Self {
+        let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(study.budget as u64) };
+        let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {per_sec}  {eta} left  {msg}";
+        let style = ProgressStyle::with_template(template).expect("the template is one");
+        let bar = bar.with_style(style).with_position(known as u64);
+        // The rate is that of this session, not of what was there before.
+        bar.reset_eta();
+        Self { bar, summary: Summary::default(), verbose: verbosity.verbose }
+    }
+
+    fn count(&mut self, study: &Study, trial: &Trial) {
+        self.summary.add(study, trial);
+    }
+
+    fn show(&mut self, study: &Study, trial: &Trial) {
+        self.count(study, trial);
+        self.bar.set_message(format!("{} fail", self.summary.count(Verdict::Fail)));
+        self.bar.inc(1);
+        if self.verbose && trial.verdict != Verdict::Pass {
+            self.bar.suspend(|| eprintln!("test {}: {}, {}", trial.index, trial.verdict, in_words(study, trial)));
+        }
+    }
+}
+
+/// Where a test is: its values with their units.
+fn in_words(study: &Study, trial: &Trial) -> String {
+    let value = |(name, value): (&str, &Value)| {
+        let value = value.number().map_or_else(|| value.to_string(), digits);
+        let unit = study.space.parameter(name).ok().and_then(|p| p.unit.as_deref()).unwrap_or_default();
+        format!("{name} {value} {unit}").trim_end().to_owned()
+    };
+    trial.test.iter().map(value).collect::<Vec<_>>().join(", ")
+}
+
+/// What is printed at the end.
+struct Report<'a> {
+    study: &'a Study,
+    trials: &'a [Trial],
+    summary: &'a Summary,
+    coverage: &'a Coverage,
+    out: &'a Path,
+}
+
+const VERDICTS: [Verdict; 5] = [Verdict::Fail, Verdict::Pass, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
+
+impl Report<'_> {
+    fn table(&self) -> String {
+        let Self { study, summary, .. } = self;
+        let mut table = Table::default();
+        table.heading(&format!(
+            "{}, driver {}, strategy {}: {} tests",
+            study.scenario,
+            study.driver.name,
+            study.strategy_name(),
+            summary.tests()
+        ));
+        for verdict in VERDICTS {
+            let count = summary.count(verdict);
+            if count > 0 || matches!(verdict, Verdict::Fail | Verdict::Pass) {
+                let share = percent(count as f64 / summary.tests().max(1) as f64);
+                table.row(&verdict.to_string(), &format!("{count:<6}{share}"));
+            }
+        }
+        table.coverage(self.coverage);
+        table.row("written to", &self.out.display().to_string());
+        if let Some(worst) = summary.worst() {
+            let trial = &self.trials[worst.index];
+            let requirement = study.requirements.iter().find(|r| r.id == worst.requirement);
+            let robustness = trial.robustness(&worst.requirement).map(digits).unwrap_or_default();
+            let unit = requirement.map(|r| r.unit.as_str()).unwrap_or_default();
+            table.row("worst test", &format!("{}: {} {robustness} {unit}", worst.index, worst.requirement));
+            table.row("  where", &in_words(study, trial));
+            table.row("  replay", &self.replay(worst.index));
+        }
+        table.finish()
+    }
+
+    fn json(&self) -> serde_json::Value {
+        let counts = VERDICTS.map(|verdict| (verdict.to_string(), self.summary.count(verdict).into()));
+        let worst = self.summary.worst().map(|worst| {
+            json!({"index": worst.index, "requirement": worst.requirement, "test": self.trials[worst.index].test,
+                "robustness": self.trials[worst.index].robustness(&worst.requirement), "replay": self.replay(worst.index)})
+        });
+        json!({"tests": self.summary.tests(), "verdicts": serde_json::Map::from_iter(counts), "coverage": self.coverage,
+            "out": self.out, "worst": worst})
+    }
+
+    /// The command that runs a test again, with the program as it was called.
+    fn replay(&self, index: usize) -> String {
+        let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
+        format!("{} replay {} {index}", shell_word(&program), shell_word(&self.out.to_string_lossy()))
+    }
+}

@@ -1,0 +1,253 @@
+//! The failure map: every test a mark at the values of two of its parameters, as in the paper's Figure 9.
+
+use super::{FAMILY, GRID, INK};
+use crate::{Study, Trial};
+use paracosm_coverage::{Domain, Parameter};
+use paracosm_oracles::Verdict;
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::element::{Drawable, PointCollection};
+use plotters::prelude::*;
+use plotters_backend::DrawingErrorKind;
+use std::ops::Range;
+
+/// An axis: what it shows and from where to where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The name with its unit.
+    pub label: String,
+    /// The least and the greatest value.
+    pub range: (f64, f64),
+}
+
+impl Axis {
+    /// The axis of a continuous parameter.
+    fn of(parameter: &Parameter) -> Option<Self> {
+        match parameter.domain {
+            Domain::Interval { lo, hi } => Some(Self { label: parameter.label(), range: (lo, hi) }),
+            Domain::Choice(_) => None,
+        }
+    }
+}
+
+/// Tests as marks in a plane: red crosses where they fail, blue dots where they pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FailureMap {
+    /// The first line above the map.
+    pub title: String,
+    /// The second line, smaller.
+    pub note: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// The tests.
+    pub marks: Vec<(f64, f64, Verdict)>,
+}
+
+/// In the order in which they are drawn and listed: what matters most is drawn last, over all else.
+const ORDER: [Verdict; 5] = [Verdict::Pass, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error, Verdict::Fail];
+
+// Paul Tol's vibrant scheme: told apart with any colour vision, and in grey by their shapes.
+const BLUE: RGBColor = RGBColor(0x00, 0x77, 0xbb);
+const RED: RGBColor = RGBColor(0xcc, 0x33, 0x11);
+const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
+const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
+
+type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+impl FailureMap {
+    /// The map of a campaign over its first two continuous parameters; `None` where it has less than two.
+    pub fn of(study: &Study, trials: &[Trial]) -> Option<Self> {
+        let mut continuous = study.space.continuous();
+        let (x, y) = (continuous.next()?, continuous.next()?);
+        let at = |trial: &Trial, parameter: &Parameter| trial.test.get(&parameter.name)?.number();
+        let mark = |trial: &Trial| Some((at(trial, x)?, at(trial, y)?, trial.verdict));
+        Some(Self {
+            title: format!("{}, driver {}", study.scenario, study.driver.name),
+            note: format!("{} tests, strategy {}", trials.len(), study.strategy_name()),
+            x: Axis::of(x)?,
+            y: Axis::of(y)?,
+            marks: trials.iter().filter_map(mark).collect(),
+        })
+    }
+
+    /// Draws the map over the whole area, every length in pixels times `scale`.
+    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> Result<B> {
+        let px = |length: f64| (length * scale).round() as u32;
+        let small = area.dim_in_pixel().0 < px(600.0);
+        let (text, side) = if small { (14.0, 2.2) } else { (18.0, 3.2) };
+        let (header, body) = area.split_vertically(px(4.6 * text));
+        self.draw_header(&header, text * scale, side * scale)?;
+
+        let ink = TextStyle::from((FAMILY, px(text - 2.0)).into_font()).color(&INK);
+        let mut chart = ChartBuilder::on(&body)
+            .margin_right(px(1.6 * text))
+            .margin_left(px(0.5 * text))
+            .margin_bottom(px(0.5 * text))
+            .x_label_area_size(px(3.2 * text))
+            .y_label_area_size(px(4.0 * text))
+            .build_cartesian_2d(Ends(self.x.range), Ends(self.y.range))?;
+        chart
+            .configure_mesh()
+            .x_desc(&self.x.label)
+            .y_desc(&self.y.label)
+            .axis_desc_style(TextStyle::from((FAMILY, px(text)).into_font()).color(&INK))
+            .label_style(ink)
+            .axis_style(INK.stroke_width(px(1.0)))
+            .bold_line_style(GRID.stroke_width(px(1.0)))
+            .light_line_style(TRANSPARENT)
+            .x_labels(if small { 6 } else { 11 })
+            .y_labels(if small { 7 } else { 12 })
+            .draw()?;
+        for verdict in ORDER {
+            let marks = self.marks.iter().filter(|mark| mark.2 == verdict);
+            let side = side * scale;
+            chart.draw_series(marks.map(|(x, y, _)| EmptyElement::at((*x, *y)) + Mark { verdict, side }))?;
+        }
+        Ok(())
+    }
+
+    /// Title, note, and the legend with counts.
+    fn draw_header<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, text: f64, side: f64) -> Result<B> {
+        let style = |size: f64| TextStyle::from((FAMILY, size).into_font()).color(&INK);
+        let left = (0.8 * text) as i32;
+        area.draw(&Text::new(self.title.clone(), (left, (0.5 * text) as i32), style(1.15 * text)))?;
+        area.draw(&Text::new(self.note.clone(), (left, (1.95 * text) as i32), style(0.85 * text)))?;
+        let line = (3.9 * text) as i32;
+        let mut at = left + side as i32;
+        for verdict in ORDER.into_iter().rev() {
+            let count = self.marks.iter().filter(|mark| mark.2 == verdict).count();
+            let always = matches!(verdict, Verdict::Pass | Verdict::Fail);
+            if count == 0 && !always {
+                continue;
+            }
+            area.draw(&(EmptyElement::at((at, line)) + Mark { verdict, side: 1.3 * side }))?;
+            let label = format!("{verdict} {count}");
+            let style = style(0.9 * text);
+            let (width, height) = area.estimate_text_size(&label, &style)?;
+            at += (0.8 * text) as i32;
+            area.draw(&Text::new(label, (at, line - height as i32 / 2), style))?;
+            at += width as i32 + (1.8 * text) as i32;
+        }
+        Ok(())
+    }
+}
+
+/// The mark of a verdict, `side` pixels from its middle to its end.
+struct Mark {
+    verdict: Verdict,
+    side: f64,
+}
+
+impl<'a> PointCollection<'a, (i32, i32)> for &'a Mark {
+    type Point = (i32, i32);
+    type IntoIter = std::iter::Once<(i32, i32)>;
+
+    fn point_iter(self) -> Self::IntoIter {
+        std::iter::once((0, 0))
+    }
+}
+
+impl<B: DrawingBackend> Drawable<B> for Mark {
+    fn draw<I: Iterator<Item = (i32, i32)>>(
+        &self,
+        mut points: I,
+        backend: &mut B,
+        _: (u32, u32),
+    ) -> std::result::Result<(), DrawingErrorKind<B::ErrorType>> {
+        let Some((x, y)) = points.next() else { return Ok(()) };
+        let (side, stroke) = (self.side.round() as i32, (0.55 * self.side).round().max(1.0) as u32);
+        match self.verdict {
+            Verdict::Fail => {
+                let red = RED.stroke_width(stroke);
+                backend.draw_line((x - side, y - side), (x + side, y + side), &red)?;
+                backend.draw_line((x - side, y + side), (x + side, y - side), &red)
+            }
+            Verdict::Pass => backend.draw_circle((x, y), (0.75 * self.side).round() as u32, &BLUE, true),
+            Verdict::Inconclusive => {
+                backend.draw_circle((x, y), side as u32, &GREY.stroke_width(stroke), false)
+            }
+            Verdict::Invalid => backend.draw_rect((x - side, y - side), (x + side, y + side), &GREY, false),
+            Verdict::Error => {
+                let corners = [(x - side, y + side), (x + side, y + side), (x, y - side)];
+                backend.fill_polygon(corners, &ORANGE)
+            }
+        }
+    }
+}
+
+/// A range with both ends among its numbers, since they are what a reader of a map asks for first.
+struct Ends((f64, f64));
+
+impl Ranged for Ends {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let share = (value - self.0.0) / (self.0.1 - self.0.0);
+        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
+        let (lo, hi) = self.0;
+        let step = round_step((hi - lo) / hint.max_num_points().max(2) as f64);
+        let first = (lo / step).ceil() as i64;
+        let last = (hi / step).floor() as i64;
+        let inner = (first..=last).map(|i| i as f64 * step);
+        // An inner number too close to an end would be printed over it.
+        let clear = inner.filter(|x| x - lo > 0.6 * step && hi - x > 0.6 * step);
+        [lo].into_iter().chain(clear).chain([hi]).collect()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.0.0..self.0.1
+    }
+}
+
+impl ValueFormatter<f64> for Ends {
+    fn format(value: &f64) -> String {
+        // Steps are round, so that six digits hide nothing but rounding errors.
+        let text = format!("{value:.6}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    }
+}
+
+/// The least of 1, 2, 5, 10, 20, 50, ... and their tenths and hundredths that is at least `width`.
+fn round_step(width: f64) -> f64 {
+    let mut power = 1e-6;
+    loop {
+        for factor in [1.0, 2.0, 5.0] {
+            if factor * power >= width * (1.0 - 1e-9) || power > 1e12 {
+                return factor * power;
+            }
+        }
+        power *= 10.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_on_an_axis_are_round_and_include_both_ends() {
+        struct Hint;
+        impl KeyPointHint for Hint {
+            fn max_num_points(&self) -> usize {
+                11
+            }
+            fn weight(&self) -> plotters::coord::ranged1d::KeyPointWeight {
+                unreachable!("the axis has one kind of key points")
+            }
+            fn bold_points(&self) -> usize {
+                11
+            }
+        }
+        assert_eq!(Ends((0.5, 10.0)).key_points(Hint), [0.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0]);
+        assert_eq!(Ends((5.0, 60.0)).key_points(Hint).first(), Some(&5.0));
+        let text: Vec<String> = Ends((0.2, 0.8)).key_points(Hint).iter().map(Ends::format).collect();
+        assert_eq!(text.first().map(String::as_str), Some("0.2"));
+        assert!(text.iter().all(|number| number.len() <= 4), "{text:?}");
+    }
+}

@@ -1,0 +1,110 @@
+//! Pictures, as SVG for papers and PNG for everything else.
+//!
+//! Both come from the same drawing code; the PNG is drawn at twice the size, so that it is sharp on any screen.
+//! The font is in the program: pictures look the same on a machine without any.
+
+mod map;
+
+pub use map::{Axis, FailureMap};
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+use std::error::Error as StdError;
+use std::sync::Once;
+
+/// Open Sans, Apache License 2.0 (see the folder).
+const FONT: &[u8] = include_bytes!("font/OpenSans-Regular.ttf");
+/// The name by which it is drawn; viewers of an SVG that do not have it take their own sans-serif.
+const FAMILY: &str = "Open Sans, sans-serif";
+/// How much larger than the SVG the PNG is.
+const PNG_SCALE: u32 = 2;
+
+const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
+const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
+
+/// Failure maps side by side in rows.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    maps: Vec<FailureMap>,
+    columns: usize,
+    /// Width and height of each map, in pixels of the SVG.
+    size: (u32, u32),
+}
+
+type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
+
+impl Picture {
+    /// A picture of one map.
+    pub fn of(map: FailureMap) -> Self {
+        Self { maps: vec![map], columns: 1, size: (900, 680) }
+    }
+
+    /// A picture of several maps, `columns` in a row.
+    ///
+    /// # Panics
+    /// There is no map or no column.
+    pub fn grid(columns: usize, maps: Vec<FailureMap>) -> Self {
+        assert!(columns > 0 && !maps.is_empty(), "a picture shows something");
+        Self { maps, columns, size: (480, 440) }
+    }
+
+    fn extent(&self) -> (u32, u32) {
+        let rows = self.maps.len().div_ceil(self.columns);
+        (self.size.0 * self.columns as u32, self.size.1 * rows as u32)
+    }
+
+    /// The picture as the text of an SVG file.
+    ///
+    /// # Errors
+    /// The plotter fails.
+    pub fn svg(&self) -> Result<String, Box<dyn StdError + Send + Sync>> {
+        let mut text = String::new();
+        let area = SVGBackend::with_string(&mut text, self.extent()).into_drawing_area();
+        self.draw(&area, 1)?;
+        drop(area);
+        Ok(text)
+    }
+
+    /// The picture as the contents of a PNG file.
+    ///
+    /// # Errors
+    /// The plotter fails.
+    pub fn png(&self) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
+        let (width, height) = self.extent();
+        let (width, height) = (width * PNG_SCALE, height * PNG_SCALE);
+        let mut pixels = vec![0xff; (width * height * 3) as usize];
+        let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
+        self.draw(&area, PNG_SCALE)?;
+        drop(area);
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, width, height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_compression(png::Compression::Balanced);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&pixels)?;
+        writer.finish()?;
+        Ok(file)
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
+    where
+        B::ErrorType: 'static,
+    {
+        static REGISTERED: Once = Once::new();
+        REGISTERED.call_once(|| {
+            let registered = register_font(FAMILY, FontStyle::Normal, FONT);
+            assert!(registered.is_ok(), "the font in the program is a font");
+        });
+        let drawn: Result<(), DrawingAreaErrorKind<B::ErrorType>> = (|| {
+            area.fill(&WHITE)?;
+            let rows = self.maps.len().div_ceil(self.columns);
+            for (map, panel) in self.maps.iter().zip(area.split_evenly((rows, self.columns))) {
+                map.draw(&panel, f64::from(scale))?;
+            }
+            area.present()
+        })();
+        // The error borrows nothing, but plotters' type does not say so.
+        drawn.map_err(|error| error.to_string().into())
+    }
+}
