@@ -53,7 +53,7 @@ impl<'a> Campaign<'a> {
     /// # Errors
     /// That of `watch`, or a known trial that is not of this campaign.
     pub fn run(self, mut watch: impl FnMut(&Trial) -> Result<(), Error>) -> Result<(), Error> {
-        let Self { study, program, jobs, known } = self;
+        let study = self.study;
         let mut generator = study.generator()?;
         let mut done = 0;
         while done < study.budget {
@@ -62,34 +62,42 @@ impl<'a> Campaign<'a> {
                 break;
             }
             let tests: Vec<Values> = points.iter().map(|point| study.space.decode(point)).collect();
-            let mut robustness = Vec::with_capacity(tests.len());
-            for (trial, test) in known.iter().skip(done).zip(&tests) {
-                if trial.test != *test {
-                    return Err(foreign(trial));
-                }
-                robustness.push(study.objective(trial));
+            let known = self.known.get(done..).unwrap_or_default();
+            if let Some((trial, _)) = known.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {
+                return Err(foreign(trial));
             }
+            let mut robustness: Vec<_> = known.iter().take(tests.len()).map(|trial| study.objective(trial)).collect();
             let begun = robustness.len();
-            let new_driver = || study.driver.build().expect("it was built before");
-            let work = |driver: &mut Box<dyn Driver>, i: usize| {
-                let (trial, _) = simulate_trial(&program, study, driver.as_mut(), done + i, &tests[i]);
-                if trial.verdict == Verdict::Error {
-                    // What broke may have left the driver in any state.
-                    *driver = new_driver();
-                }
-                trial
-            };
-            in_order(jobs.get(), begun..tests.len(), new_driver, work, |trial| {
-                robustness.push(study.objective(&trial));
-                watch(&trial)
+            self.run_tests(&tests[begun..], done + begun, |trial| {
+                robustness.push(study.objective(trial));
+                watch(trial)
             })?;
             generator.tell(&points, &robustness);
             done += points.len();
         }
-        match known.get(done) {
-            Some(trial) => Err(foreign(trial)),
-            None => Ok(()),
-        }
+        self.known.get(done).map_or(Ok(()), |trial| Err(foreign(trial)))
+    }
+
+    /// Runs these tests instead of those that the strategy proposes; the first one gets the index `first`.
+    ///
+    /// # Errors
+    /// That of `watch`.
+    pub fn run_tests(
+        &self,
+        tests: &[Values],
+        first: usize,
+        mut watch: impl FnMut(&Trial) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let new_driver = || self.study.driver.build().expect("it was built before");
+        let work = |driver: &mut Box<dyn Driver>, i: usize| {
+            let (trial, _) = simulate_trial(&self.program, self.study, driver.as_mut(), first + i, &tests[i]);
+            if trial.verdict == Verdict::Error {
+                // What broke may have left the driver in any state.
+                *driver = new_driver();
+            }
+            trial
+        };
+        in_order(self.jobs.get(), 0..tests.len(), new_driver, work, |trial| watch(&trial))
     }
 }
 

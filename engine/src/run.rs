@@ -167,10 +167,6 @@ impl Run {
         }
         loop {
             if !self.supplied {
-                if !self.is_finite() {
-                    let message = format!("the state of the car is no number at {:.3} s", self.time());
-                    return self.end(Outcome::broken(Verdict::Error, message));
-                }
                 self.look();
                 if self.contact.is_some() || self.tick == self.ticks {
                     let outcome = self.judged();
@@ -181,13 +177,11 @@ impl Run {
                     return Step::Need(&self.observation);
                 }
             }
-            let throttle = self.control.throttle;
-            if !(-1.0..=1.0).contains(&throttle) {
-                let message = format!("the driver's throttle is {throttle} at {:.3} s, expected -1 to 1", self.time());
+            self.supplied = false;
+            if let Err(message) = self.step() {
+                let message = format!("{message} at {:.3} s", self.time());
                 return self.end(Outcome::broken(Verdict::Error, message));
             }
-            self.supplied = false;
-            self.step();
         }
     }
 
@@ -204,11 +198,6 @@ impl Run {
     fn end(&mut self, outcome: Outcome) -> Step<'static> {
         self.tick = self.ticks + 1;
         Step::Done(Box::new(outcome))
-    }
-
-    fn is_finite(&self) -> bool {
-        let Motion { speed, acceleration, travelled } = self.motion;
-        speed.is_finite() && acceleration.is_finite() && travelled.is_finite()
     }
 
     /// Evaluates the streams and records the tick.
@@ -264,12 +253,25 @@ impl Run {
     }
 
     /// Moves everything on by one tick.
-    fn step(&mut self) {
-        let friction: f64 = self.graph.value(self.friction).unwrap_or_default();
-        let demand = self.setup.vehicle.acceleration(self.control.throttle, self.motion.speed, friction);
+    ///
+    /// Inputs are checked here, where they enter: minima and maxima would swallow a NaN, and a road whose friction
+    /// is no number would pass for one that limits nothing.
+    fn step(&mut self) -> Result<(), String> {
+        let throttle = self.control.throttle;
+        if !(-1.0..=1.0).contains(&throttle) {
+            return Err(format!("the driver's throttle is {throttle}, expected -1 to 1"));
+        }
+        let friction: f64 = self.graph.value(self.friction).unwrap_or(f64::NAN);
+        if !(0.0..f64::INFINITY).contains(&friction) {
+            return Err(format!("the friction of the road is {friction}, expected a number from 0 on"));
+        }
+        let demand = self.setup.vehicle.acceleration(throttle, self.motion.speed, friction);
         self.motion = self.motion.after(demand, self.dt);
         for walker in &mut self.walkers {
             let speed = walker.input.and_then(|slot| self.graph.value(slot)).unwrap_or(0.0);
+            if !(0.0..f64::INFINITY).contains(&speed) {
+                return Err(format!("the speed of a walker is {speed}, expected a number from 0 on"));
+            }
             walker.walk(speed, self.dt);
         }
         self.world.advance(self.car_pose(), self.walkers.iter().map(|walker| walker.pose));
@@ -279,6 +281,7 @@ impl Run {
             Some(contact) => -self.missing_distance(contact, friction),
         };
         self.tick += 1;
+        Ok(())
     }
 
     /// The braking distance that was missing at a contact.

@@ -19,6 +19,9 @@ Examples:
 
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
+/// The largest point set that is made in memory: 1.6 GB of coordinates.
+const MOST_COORDINATES: usize = 200_000_000;
+
 /// Says how well a set of tests covers its space.
 #[derive(Debug, Parser)]
 #[command(name = "paracosm-cover", version, after_help = EXAMPLES)]
@@ -119,6 +122,10 @@ impl Estimate {
         let (Some(dims), Some(budget)) = (self.dims, self.budget) else {
             return Err(Error::Usage("--strategy needs --dims and --budget".into()));
         };
+        if dims.saturating_mul(budget) > MOST_COORDINATES {
+            let message = format!("{budget} points in {dims} dimensions are more than fit: at most {MOST_COORDINATES} coordinates");
+            return Err(Error::Usage(message));
+        }
         let space = Space::unit_cube(dims);
         let request = Request { seed: self.seed, skip: self.skip, ..Request::new(&space, budget) };
         let points = name.parse::<Strategy>()?.build(&request)?.ask(budget);

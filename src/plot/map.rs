@@ -77,7 +77,7 @@ impl FailureMap {
         let px = |length: f64| (length * scale).round() as u32;
         let small = area.dim_in_pixel().0 < px(600.0);
         let (text, side) = if small { (14.0, 2.2) } else { (18.0, 3.2) };
-        let (header, body) = area.split_vertically(px(4.6 * text));
+        let (header, body) = area.split_vertically(px(5.0 * text));
         self.draw_header(&header, text * scale, side * scale)?;
 
         let ink = TextStyle::from((FAMILY, px(text - 2.0)).into_font()).color(&INK);
@@ -85,8 +85,8 @@ impl FailureMap {
             .margin_right(px(1.6 * text))
             .margin_left(px(0.5 * text))
             .margin_bottom(px(0.5 * text))
-            .x_label_area_size(px(3.2 * text))
-            .y_label_area_size(px(4.0 * text))
+            .x_label_area_size(px(2.8 * text))
+            .y_label_area_size(px(3.6 * text))
             .build_cartesian_2d(Ends(self.x.range), Ends(self.y.range))?;
         chart
             .configure_mesh()
@@ -114,7 +114,7 @@ impl FailureMap {
         let left = (0.8 * text) as i32;
         area.draw(&Text::new(self.title.clone(), (left, (0.5 * text) as i32), style(1.15 * text)))?;
         area.draw(&Text::new(self.note.clone(), (left, (1.95 * text) as i32), style(0.85 * text)))?;
-        let line = (3.9 * text) as i32;
+        let line = (3.8 * text) as i32;
         let mut at = left + side as i32;
         for verdict in ORDER.into_iter().rev() {
             let count = self.marks.iter().filter(|mark| mark.2 == verdict).count();
@@ -127,7 +127,8 @@ impl FailureMap {
             let style = style(0.9 * text);
             let (width, height) = area.estimate_text_size(&label, &style)?;
             at += (0.8 * text) as i32;
-            area.draw(&Text::new(label, (at, line - height as i32 / 2), style))?;
+            // The middle of a line's lower-case letters is a little below that of its box.
+            area.draw(&Text::new(label, (at, line - (0.42 * f64::from(height)) as i32), style))?;
             at += width as i32 + (1.8 * text) as i32;
         }
         Ok(())
@@ -196,7 +197,7 @@ impl Ranged for Ends {
         let last = (hi / step).floor() as i64;
         let inner = (first..=last).map(|i| i as f64 * step);
         // An inner number too close to an end would be printed over it.
-        let clear = inner.filter(|x| x - lo > 0.6 * step && hi - x > 0.6 * step);
+        let clear = inner.filter(|x| x - lo > 0.4 * step && hi - x > 0.4 * step);
         [lo].into_iter().chain(clear).chain([hi]).collect()
     }
 
@@ -244,7 +245,7 @@ mod tests {
                 11
             }
         }
-        assert_eq!(Ends((0.5, 10.0)).key_points(Hint), [0.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0]);
+        assert_eq!(Ends((0.5, 10.0)).key_points(Hint), [0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0]);
         assert_eq!(Ends((5.0, 60.0)).key_points(Hint).first(), Some(&5.0));
         let text: Vec<String> = Ends((0.2, 0.8)).key_points(Hint).iter().map(Ends::format).collect();
         assert_eq!(text.first().map(String::as_str), Some("0.2"));

@@ -1,0 +1,93 @@
+//! The car of a whole run brakes as the friction of its road allows, at any tick.
+
+use paracosm_engine::driver::Driver;
+use paracosm_engine::{
+    AutonomousVehicle, Briefing, Control, Observation, Outcome, Program, RoadSegment, Run, Scenario, Step, eventually,
+};
+
+/// Puts on the brakes and keeps them on.
+struct FullBrakes;
+
+impl Driver for FullBrakes {
+    fn period(&self) -> f64 {
+        0.05
+    }
+
+    fn reset(&mut self, _: &Briefing) {}
+
+    fn step(&mut self, _: &Observation) -> Control {
+        Control { throttle: -1.0 }
+    }
+}
+
+fn road(s: &mut Scenario) {
+    let friction = s.nominal("friction", 0.1..=1.0, 0.8);
+    let road = s.place(RoadSegment::new(200.0).friction(friction));
+    let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(50.0 / 3.6));
+    s.duration(12.0);
+    s.require("stops", eventually(car.speed().at_most(0.0)));
+}
+
+const PROGRAM: Program = Program { name: "brakes", about: "a car that stops", build: road };
+
+fn outcome(friction: f64, dt: f64, driver: &mut dyn Driver) -> Outcome {
+    let mut test = PROGRAM.declare().unwrap().nominal();
+    test.set("friction", friction);
+    let mut run = Run::new(&PROGRAM, &test, dt, driver.period()).unwrap();
+    driver.reset(&run.briefing());
+    loop {
+        let control = match run.advance() {
+            Step::Need(observation) => driver.step(observation),
+            Step::Done(outcome) => return *outcome,
+        };
+        run.supply(control);
+    }
+}
+
+fn stopping_distance(friction: f64, dt: f64) -> f64 {
+    let trace = outcome(friction, dt, &mut FullBrakes).trace.unwrap();
+    trace.signal("car.travelled").unwrap().next_back().unwrap()
+}
+
+#[test]
+fn full_brakes_from_50_km_h_stop_within_two_percent_of_the_ideal_distance_at_any_tick() {
+    let speed: f64 = 50.0 / 3.6;
+    for friction in [0.3, 0.8] {
+        let ideal = speed * speed / (2.0 * friction * 9.80665);
+        let distances = [0.002, 0.005, 0.01].map(|dt| stopping_distance(friction, dt));
+        for distance in distances {
+            assert!((distance / ideal - 1.0).abs() < 0.02, "mu {friction}: {distance} m, ideal {ideal} m");
+            assert!((distance / distances[0] - 1.0).abs() < 0.01, "mu {friction}: {distances:?}");
+        }
+    }
+}
+
+#[test]
+fn a_control_out_of_range_ends_the_run_with_an_error_that_says_so() {
+    struct Wild(f64);
+    impl Driver for Wild {
+        fn period(&self) -> f64 {
+            0.05
+        }
+        fn reset(&mut self, _: &Briefing) {}
+        fn step(&mut self, observation: &Observation) -> Control {
+            Control { throttle: if observation.time < 1.0 { 0.0 } else { self.0 } }
+        }
+    }
+    for throttle in [1.5, f64::NAN] {
+        let outcome = outcome(0.8, 0.01, &mut Wild(throttle));
+        assert_eq!(outcome.verdict, paracosm_oracles::Verdict::Error);
+        let error = outcome.error.unwrap();
+        assert!(error.contains(&throttle.to_string()) && error.contains("1.000 s"), "{error}");
+    }
+}
+
+#[test]
+fn a_test_with_other_parameters_than_the_program_asks_for_is_named() {
+    let mut test = PROGRAM.declare().unwrap().nominal();
+    test.set("fog", 1.0);
+    let Err(error) = Run::new(&PROGRAM, &test, 0.01, 0.05) else { panic!("it was accepted") };
+    assert!(error.to_string().contains("fog"), "{error}");
+    let Err(error) = Run::new(&PROGRAM, &Default::default(), 0.01, 0.05) else { panic!("it was accepted") };
+    assert!(error.to_string().contains("friction"), "{error}");
+}

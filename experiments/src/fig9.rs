@@ -1,0 +1,241 @@
+//! The paper's Figure 9: the pedestrian study sampled at random and by the Halton sequence.
+//!
+//! The paper shows one random sample and the Halton points beside each other and says that the latter are more
+//! spread out, most of all when there are few. Here the driver is `aeb`, each panel carries its dispersion and
+//! star discrepancy, and a map of 10,000 tests on a grid, which neither sampler has a part in, tells what a
+//! sample lets one know: how much of the map is right if one believes the nearest test. Random has 30 seeds.
+
+use crate::Done;
+use crate::recovery::{Mark, Recovery, recovery};
+use indicatif::ProgressBar;
+use paracosm::coverage::{Point, Values};
+use paracosm::{Campaign, Error, FailureMap, Measure, Picture, Study, Tests, Trial};
+use std::fs;
+use std::path::Path;
+
+const SIZES: [usize; 3] = [25, 100, 500];
+const SEEDS: u64 = 30;
+/// The map has this many tests on each side.
+const SIDE: usize = 100;
+
+/// One sample of one strategy.
+struct Panel {
+    strategy: &'static str,
+    seed: Option<u64>,
+    trials: Vec<Trial>,
+    dispersion: f64,
+    star: f64,
+    recovery: Recovery,
+}
+
+/// Runs the study and writes it to a folder.
+pub fn run(out: &Path) -> Done {
+    let study = Study::of("pedestrian-crossing")?;
+    let most = SIZES[SIZES.len() - 1];
+    let bar = ProgressBar::new((SIDE * SIDE + most * (SEEDS as usize + 1)) as u64);
+    let map = reference(&study, &bar)?;
+    let marks = marks(&study, &map)?;
+
+    let mut panels = Vec::new();
+    for seed in [None].into_iter().chain((1..=SEEDS).map(Some)) {
+        let strategy = if seed.is_none() { "halton" } else { "random" };
+        let sample = study.clone().strategy(strategy)?.seed(seed).budget(most)?;
+        let mut trials = Vec::new();
+        Campaign::new(&sample)?.run(|trial| {
+            bar.inc(1);
+            trials.push(trial.clone());
+            Ok(())
+        })?;
+        // Both are sequences: the smaller samples are the beginning of the largest.
+        for size in SIZES {
+            panels.push(panel(&sample, strategy, seed, &trials[..size], &marks)?);
+        }
+    }
+    bar.finish_and_clear();
+
+    let shown = |panel: &&Panel| panel.seed.is_none_or(|seed| seed == 1);
+    let rows = ["random", "halton"].into_iter();
+    let figure: Vec<&Panel> =
+        rows.flat_map(|strategy| panels.iter().filter(shown).filter(move |p| p.strategy == strategy)).collect();
+    let maps = figure.iter().map(|panel| panel.draw(&study)).collect::<Result<_, _>>()?;
+    draw(out, "fig9", &Picture::grid(SIZES.len(), maps))?;
+    let mut dense = failure_map(&study, &map)?;
+    dense.title = format!("Reference map: {SIDE} x {SIDE} tests");
+    dense.note = "the middle of every cell of a grid".into();
+    draw(out, "reference-map", &Picture::of(dense))?;
+
+    write_panels(&out.join("panels.csv"), &panels)?;
+    write_tests(&out.join("tests.csv"), &study, &figure)?;
+    write_map(&out.join("reference-map.csv"), &study, &map)?;
+    let summary = summary(&panels);
+    write_csv(&out.join("summary.csv"), &summary)?;
+    print_summary(&summary);
+    Ok(())
+}
+
+/// The tests of the dense map, in rows of equal distance.
+fn reference(study: &Study, bar: &ProgressBar) -> Result<Vec<Trial>, Error> {
+    let middle = |i: usize| (i as f64 + 0.5) / SIDE as f64;
+    let cells = (0..SIDE * SIDE).map(|i| vec![middle(i % SIDE), middle(i / SIDE)]);
+    let tests: Vec<Values> =
+        cells.map(|continuous| study.space.decode(&Point { continuous, discrete: Vec::new() })).collect();
+    let mut trials = Vec::with_capacity(tests.len());
+    Campaign::new(study)?.run_tests(&tests, 0, |trial| {
+        bar.inc(1);
+        trials.push(trial.clone());
+        Ok(())
+    })?;
+    Ok(trials)
+}
+
+/// Where the tests are in the unit square, and whether they fail.
+fn marks(study: &Study, trials: &[Trial]) -> Result<Vec<Mark>, Error> {
+    let mark = |trial: &Trial| {
+        let point = study.space.encode(&trial.test)?.continuous;
+        Ok(([point[0], point[1]], trial.is_failure()))
+    };
+    trials.iter().map(mark).collect()
+}
+
+fn panel(
+    study: &Study,
+    strategy: &'static str,
+    seed: Option<u64>,
+    trials: &[Trial],
+    map: &[Mark],
+) -> Result<Panel, Error> {
+    let tests = Tests::of_trials(study.space.clone(), trials)?;
+    let coverage = tests.measure(&[Measure::Dispersion, Measure::Star], None, None)?;
+    let measured = coverage.continuous.expect("the study has two continuous parameters");
+    Ok(Panel {
+        strategy,
+        seed,
+        trials: trials.to_vec(),
+        dispersion: measured.dispersion.expect("it was asked for").volume.lower,
+        star: measured.star_discrepancy.expect("it was asked for").lower,
+        recovery: recovery(&marks(study, trials)?, map),
+    })
+}
+
+impl Panel {
+    fn failures(&self) -> usize {
+        self.trials.iter().filter(|trial| trial.is_failure()).count()
+    }
+
+    fn draw(&self, study: &Study) -> Result<FailureMap, Error> {
+        let mut map = failure_map(study, &self.trials)?;
+        map.title = format!("{}, {} tests", self.strategy, self.trials.len());
+        map.note = format!(
+            "dispersion {:.4}, star discrepancy {:.4}, map recovered {:.1} %",
+            self.dispersion,
+            self.star,
+            100.0 * self.recovery.accuracy
+        );
+        Ok(map)
+    }
+}
+
+fn failure_map(study: &Study, trials: &[Trial]) -> Result<FailureMap, Error> {
+    FailureMap::of(study, trials).ok_or_else(|| Error::Usage("the study has no two continuous parameters".into()))
+}
+
+fn draw(out: &Path, name: &str, picture: &Picture) -> Done {
+    fs::write(out.join(format!("{name}.svg")), picture.svg()?)?;
+    fs::write(out.join(format!("{name}.png")), picture.png()?)?;
+    Ok(())
+}
+
+fn write_csv(path: &Path, rows: &[Vec<String>]) -> Done {
+    let mut csv = csv::Writer::from_path(path)?;
+    rows.iter().try_for_each(|row| csv.write_record(row))?;
+    Ok(csv.flush()?)
+}
+
+/// What is measured of each sample, with its name. A sample without failures has no precision: NaN.
+const MEASURED: [(&str, fn(&Panel) -> f64); 6] = [
+    ("failures", |panel| panel.failures() as f64),
+    ("dispersion", |panel| panel.dispersion),
+    ("star_discrepancy", |panel| panel.star),
+    ("map_accuracy", |panel| panel.recovery.accuracy),
+    ("map_recall", |panel| panel.recovery.recall),
+    ("map_precision", |panel| panel.recovery.precision),
+];
+
+/// One row a sample.
+fn write_panels(path: &Path, panels: &[Panel]) -> Done {
+    let header = ["strategy", "seed", "tests"].into_iter().chain(MEASURED.map(|(name, _)| name));
+    let row = |panel: &Panel| {
+        let seed = panel.seed.map_or(String::new(), |seed| seed.to_string());
+        let what = [panel.strategy.to_owned(), seed, panel.trials.len().to_string()];
+        what.into_iter().chain(MEASURED.map(|(_, measure)| measure(panel).to_string())).collect()
+    };
+    let rows: Vec<_> = [header.map(str::to_owned).collect()].into_iter().chain(panels.iter().map(row)).collect();
+    write_csv(path, &rows)
+}
+
+/// Median and quartiles over the seeds: one row for each strategy at each size.
+fn summary(panels: &[Panel]) -> Vec<Vec<String>> {
+    let of = |name: &str| [name.to_owned(), format!("{name}_lower_quartile"), format!("{name}_upper_quartile")];
+    let measures = MEASURED.iter().flat_map(|(name, _)| of(name));
+    let mut rows = vec![["strategy", "tests", "seeds"].map(str::to_owned).into_iter().chain(measures).collect()];
+    for strategy in ["random", "halton"] {
+        for size in SIZES {
+            let samples = panels.iter().filter(|panel| panel.strategy == strategy && panel.trials.len() == size);
+            let what = [strategy.to_owned(), size.to_string(), samples.clone().count().to_string()];
+            let numbers = MEASURED.iter().flat_map(|(_, measure)| {
+                let mut values: Vec<f64> = samples.clone().map(measure).collect();
+                values.sort_by(f64::total_cmp);
+                [0.5, 0.25, 0.75].map(|q| format!("{:.4}", quantile(&values, q)))
+            });
+            rows.push(what.into_iter().chain(numbers).collect());
+        }
+    }
+    rows
+}
+
+/// Prints the summary for people: measure by measure, random beside Halton.
+fn print_summary(rows: &[Vec<String>]) {
+    println!("{:<18}{:>6}{:>16}{:>20}{:>10}", "measure", "tests", "random, median", "quartiles", "halton");
+    let (random, halton) = rows[1..].split_at(SIZES.len());
+    for (measure, (name, _)) in MEASURED.iter().enumerate() {
+        for (random, halton) in random.iter().zip(halton) {
+            let number = |row: &[String], i: usize| row[3 + 3 * measure + i].clone();
+            let quartiles = format!("{}..{}", number(random, 1), number(random, 2));
+            println!("{name:<18}{:>6}{:>16}{quartiles:>20}{:>10}", random[1], number(random, 0), number(halton, 0));
+        }
+    }
+}
+
+/// The quantile of sorted values, between two of them in proportion (type 7 of Hyndman and Fan 1996).
+fn quantile(sorted: &[f64], q: f64) -> f64 {
+    let at = q * (sorted.len() - 1) as f64;
+    let below = at.floor() as usize;
+    let above = (below + 1).min(sorted.len() - 1);
+    sorted[below] + (at - below as f64) * (sorted[above] - sorted[below])
+}
+
+/// Every mark of the figure.
+fn write_tests(path: &Path, study: &Study, figure: &[&Panel]) -> Done {
+    let names = study.space.parameters().iter().map(|parameter| parameter.name.clone());
+    let header = ["strategy", "tests", "index"].map(str::to_owned).into_iter().chain(names).chain(["verdict".into()]);
+    let mut rows: Vec<Vec<String>> = vec![header.collect()];
+    for panel in figure {
+        for trial in &panel.trials {
+            let what = [panel.strategy.to_owned(), panel.trials.len().to_string(), trial.index.to_string()];
+            let values = trial.test.iter().map(|(_, value)| value.to_string());
+            rows.push(what.into_iter().chain(values).chain([trial.verdict.to_string()]).collect());
+        }
+    }
+    write_csv(path, &rows)
+}
+
+/// The tests of the dense map.
+fn write_map(path: &Path, study: &Study, map: &[Trial]) -> Done {
+    let names = study.space.parameters().iter().map(|parameter| parameter.name.clone());
+    let mut rows: Vec<Vec<String>> = vec![names.chain(["verdict".into()]).collect()];
+    for trial in map {
+        let values = trial.test.iter().map(|(_, value)| value.to_string());
+        rows.push(values.chain([trial.verdict.to_string()]).collect());
+    }
+    write_csv(path, &rows)
+}

@@ -1,0 +1,132 @@
+//! Bad input: refused with exit status 2 and a message that says what is wrong where, and nothing is written.
+
+use crate::common::{cover, fuzz, refused, succeeds};
+use std::fs;
+
+#[test]
+fn wrong_campaigns_are_refused_with_the_nearest_valid_name() {
+    let dir = tempfile::tempdir().unwrap();
+    let cases: &[(&[&str], &[&str])] = &[
+        (&["pedestrian-crosing"], &["`pedestrian-crosing`", "`pedestrian-crossing`"]),
+        (&["--strategy", "haltom"], &["`haltom`", "`halton`"]),
+        (&["--driver", "eab"], &["`eab`", "`aeb`"]),
+        (&["--driver", "nothing-like-it"], &["`nothing-like-it`", "paracosm-fuzz list"]),
+        (&["--open", "fiction"], &["`fiction`", "`friction`"]),
+        (&["--set", "lane=4"], &["`lane`", "`lanes`"]),
+        (&["--set", "driver.tcc=1"], &["`tcc`", "`ttc`"]),
+        (&["--set", "lanes=3"], &["`lanes`", "found 3", "2, 4, 6"]),
+        (&["--set", "speed"], &["NAME=VALUE"]),
+        (&["--set", "driver.ttc=soon"], &["`soon`", "number"]),
+        (&["--set", "driver.ttc=NaN"], &["`ttc`", "NaN", "0 to 10"]),
+        (&["--set", "friction=NaN"], &["`friction`", "NaN"]),
+        (&["--set", "speed=1", "--set", "distance=9"], &["`distance`", "nothing to test"]),
+        (&["--budget", "0"], &["budget is 0"]),
+        (&["--budget", "-3"], &["-3"]),
+        (&["--budget", "many"], &["many"]),
+        (&["--jobs", "0"], &["--jobs"]),
+        (&["--open", "speed=5..5"], &["`speed`", "[5, 5]"]),
+        (&["--open", "speed=7..5"], &["`speed`", "[7, 5]"]),
+        (&["--open", "speed=NaN..5"], &["`speed`", "NaN"]),
+        (&["--open", "speed=1..inf"], &["`speed`", "inf"]),
+        (&["--open", "speed=1..99"], &["`speed`", "99", "[0.5, 10]"]),
+        (&["--open", "speed=a..b"], &["`a..b`", "LO..HI"]),
+        (&["--open", "lanes=2..6"], &["`lanes`", "no interval"]),
+        (&["--open", "lanes=2,3"], &["`lanes`", "found 3"]),
+        (&["--open", "lanes=2,2"], &["`lanes`", "twice"]),
+        (&["--k", "2"], &["k is 2", "0 discrete"]),
+        (&["--open", "lanes", "--k", "0"], &["k is 0"]),
+        (&["--discrete", "crosss"], &["`crosss`", "`cross`"]),
+        (&["--strategy", "random", "--skip", "3"], &["`random`", "halton"]),
+        (&["--strategy", "sobol", "--budget", "70000"], &["sobol", "65,536"]),
+        (&["--no-such-flag"], &["--no-such-flag"]),
+    ];
+    for (arguments, says) in cases {
+        refused(&fuzz(dir.path(), arguments), says);
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "{arguments:?} wrote something");
+    }
+}
+
+#[test]
+fn folders_that_cannot_be_written_are_named() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("file"), "").unwrap();
+    refused(&fuzz(dir.path(), &["--out", "file"]), &["cannot create", "file"]);
+    refused(&fuzz(dir.path(), &["--out", "file/out"]), &["cannot create", "file/out"]);
+    refused(&fuzz(dir.path(), &["--out", "/proc/paracosm"]), &["cannot create", "/proc/paracosm"]);
+}
+
+#[test]
+fn replays_of_what_is_not_there_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    refused(&fuzz(dir.path(), &["replay", "nowhere", "1"]), &["nowhere/campaign.json"]);
+    succeeds(fuzz(dir.path(), &["--budget", "3", "--out", "out", "-q"]));
+    refused(&fuzz(dir.path(), &["replay", "out", "3"]), &["no test 3", "0 to 2"]);
+    refused(&fuzz(dir.path(), &["replay", "out", "-1"]), &["-1"]);
+    refused(&fuzz(dir.path(), &["replay", "out", "1", "--trace", "no/such/trace.csv"]), &["no/such/trace.csv"]);
+    fs::write(dir.path().join("out/campaign.json"), "{\"format\": 1}").unwrap();
+    refused(&fuzz(dir.path(), &["replay", "out", "1"]), &["campaign.json", "missing field"]);
+    refused(&cover(dir.path(), &["estimate", "out"]), &["campaign.json", "missing field"]);
+}
+
+#[test]
+fn broken_files_of_tests_are_refused_with_the_line() {
+    let dir = tempfile::tempdir().unwrap();
+    let cases: &[(&[u8], &[&str])] = &[
+        (b"", &["empty", "header"]),
+        (b"a,b\n0.1,0.2\n0.3\n", &["line 3", "found 1 columns, expected 2"]),
+        (b"a,b\n0.1,far\n", &["line 2", "`b`", "`far`", "number"]),
+        (b"a,b\n0.1,\n", &["line 2", "`b`", "``"]),
+        (b"a,b\n0.1,1.2\n", &["line 2", "`b`", "1.2", "[0, 1]", "--space"]),
+        (b"a,b\n0.1,-0.2\n", &["line 2", "-0.2"]),
+        (b"a,b\n0.1,NaN\n", &["line 2", "NaN"]),
+        (b"a,b\n0.1,inf\n", &["line 2", "inf"]),
+        (b"0.5,0.5\n0.1,0.2\n", &["line 1", "header"]),
+        (b"a,a\n0.1,0.2\n", &["line 1", "`a`", "twice"]),
+        (b"a,b\n0.1,\xff\n", &["line 2", "UTF-8"]),
+    ];
+    for (contents, says) in cases {
+        fs::write(dir.path().join("tests.csv"), contents).unwrap();
+        let says = [&["tests.csv"], *says].concat();
+        refused(&cover(dir.path(), &["estimate", "tests.csv"]), &says);
+    }
+    refused(&cover(dir.path(), &["estimate", "missing.csv"]), &["missing.csv"]);
+    refused(&cover(dir.path(), &["estimate"]), &["paracosm-out"]);
+}
+
+#[test]
+fn broken_spaces_and_tests_outside_of_them_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let estimate = |space: &str, tests: &str| {
+        fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+        fs::write(dir.path().join("tests.csv"), tests).unwrap();
+        cover(dir.path(), &["estimate", "tests.csv", "--space", "SPACE.toml"])
+    };
+    let speed = "[[parameter]]\nname = \"speed\"\ninterval = [0.0, 10.0]\n";
+    let lanes = "[[parameter]]\nname = \"lanes\"\nchoice = [2, 4]\n";
+    refused(&estimate("", "speed\n1\n"), &["SPACE.toml", "parameter"]);
+    refused(&estimate("[[parameter]\n", "speed\n1\n"), &["SPACE.toml", "line 1"]);
+    refused(&estimate(&speed.replace("10.0", "0.0"), "speed\n1\n"), &["SPACE.toml", "`speed`", "[0, 0]"]);
+    refused(&estimate(&speed.replace("10.0", "nan"), "speed\n1\n"), &["SPACE.toml", "`speed`", "NaN"]);
+    refused(&estimate(&speed.repeat(2), "speed\n1\n"), &["SPACE.toml", "`speed`", "twice"]);
+    refused(&estimate(speed, "sped\n1\n"), &["tests.csv, line 1", "`speed`", "`sped`"]);
+    refused(&estimate(speed, "speed\n11\n"), &["tests.csv, line 2", "11", "[0, 10]"]);
+    refused(&estimate(&format!("{speed}{lanes}"), "speed,lanes\n1,3\n"), &["line 2", "`lanes`", "2, 4"]);
+    succeeds(estimate(&format!("{speed}{lanes}"), "lanes,verdict,speed\n2,pass,1\n"));
+}
+
+#[test]
+fn measurements_that_make_no_sense_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("none.csv"), "a,b\n").unwrap();
+    let estimate = |more: &[&str]| cover(dir.path(), &[&["estimate"], more].concat());
+    succeeds(estimate(&["none.csv"]));
+    refused(&estimate(&["none.csv", "--measures", "dispersal"]), &["`dispersal`", "`dispersion`"]);
+    refused(&estimate(&["none.csv", "--k", "2"]), &["no discrete parameters"]);
+    refused(&estimate(&["none.csv", "--time-limit", "-1"]), &["-1"]);
+    refused(&estimate(&["none.csv", "--time-limit", "NaN"]), &["NaN"]);
+    refused(&estimate(&["--strategy", "halton", "--dims", "2"]), &["--budget"]);
+    refused(&estimate(&["--strategy", "halton", "--dims", "0", "--budget", "5"]), &["no parameters"]);
+    refused(&estimate(&["--strategy", "halton", "--dims", "2", "--budget", "0"]), &["budget"]);
+    refused(&estimate(&["--strategy", "halton", "--dims", "2", "--budget", "999999999999"]), &["at most"]);
+    refused(&estimate(&["--strategy", "hlton", "--dims", "2", "--budget", "5"]), &["`halton`"]);
+}

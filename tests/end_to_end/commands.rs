@@ -1,0 +1,185 @@
+//! The commands as a user gives them: what they print and what they write.
+
+use crate::common::{cover, fuzz, golden, stderr, stdout, succeeds};
+use std::fs;
+use std::path::Path;
+
+/// A small campaign in `dir/out`.
+fn campaign(dir: &Path, more: &[&str]) -> String {
+    let arguments = [&["--budget", "40", "--out", "out", "--format", "table"], more].concat();
+    stdout(&succeeds(fuzz(dir, &arguments)))
+}
+
+/// What is printed, without the path of the program.
+fn without_program(text: &str) -> String {
+    text.replace(env!("CARGO_BIN_EXE_paracosm-fuzz"), "paracosm-fuzz")
+}
+
+#[test]
+fn a_campaign_prints_a_summary_that_ends_with_the_replay_of_the_worst_test() {
+    let dir = tempfile::tempdir().unwrap();
+    golden("summary.txt", &without_program(&campaign(dir.path(), &[])));
+}
+
+#[test]
+fn a_campaign_leaves_its_folder_as_the_contract_says() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), &[]);
+    let out = dir.path().join("out");
+    let mut names: Vec<_> =
+        fs::read_dir(&out).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    let expected =
+        ["campaign.json", "coverage.json", "failure-map.png", "failure-map.svg", "trials.csv", "trials.jsonl"];
+    assert_eq!(names, expected);
+    golden("campaign.json", &fs::read_to_string(out.join("campaign.json")).unwrap().replace(target(), "TARGET"));
+    let trials = fs::read_to_string(out.join("trials.jsonl")).unwrap();
+    assert_eq!(trials.lines().count(), 40);
+    golden("trials.head.jsonl", &trials.lines().take(4).map(|line| format!("{line}\n")).collect::<String>());
+    let table = fs::read_to_string(out.join("trials.csv")).unwrap();
+    golden("trials.head.csv", &table.lines().take(4).map(|line| format!("{line}\n")).collect::<String>());
+    golden("coverage.json", &fs::read_to_string(out.join("coverage.json")).unwrap());
+}
+
+/// The target that this test was built for, as it stands in `campaign.json`.
+fn target() -> &'static str {
+    env!("PARACOSM_TARGET")
+}
+
+#[test]
+fn the_failure_map_is_the_same_picture_everywhere() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), &[]);
+    golden("failure-map.svg", &fs::read_to_string(dir.path().join("out/failure-map.svg")).unwrap());
+    let png = fs::read(dir.path().join("out/failure-map.png")).unwrap();
+    let reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap();
+    assert_eq!((reader.info().width, reader.info().height), (1800, 1360));
+}
+
+#[test]
+fn estimate_of_a_campaign_prints_what_its_coverage_json_holds() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), &[]);
+    let printed = stdout(&succeeds(cover(dir.path(), &["estimate", "out", "--time-limit", "5", "--format", "json"])));
+    assert_eq!(printed, fs::read_to_string(dir.path().join("out/coverage.json")).unwrap());
+    let piped = stdout(&succeeds(cover(dir.path(), &["estimate", "out"])));
+    assert_eq!(piped, printed, "what goes into a pipe is JSON");
+    // The flat table of the same trials, with the space beside it, says the same.
+    let toml = "[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
+                [[parameter]]\nname = \"distance\"\ninterval = [5.0, 60.0]\n";
+    fs::write(dir.path().join("SPACE.toml"), toml).unwrap();
+    let table = cover(dir.path(), &["estimate", "out/trials.csv", "--space", "SPACE.toml"]);
+    assert_eq!(stdout(&succeeds(table)), printed);
+}
+
+#[test]
+fn estimate_of_points_in_a_file_and_of_a_strategy_agree() {
+    let dir = tempfile::tempdir().unwrap();
+    let points = "x1,x2\n0.5,0.3333333333333333\n0.25,0.6666666666666666\n0.75,0.1111111111111111\n";
+    fs::write(dir.path().join("points.csv"), points).unwrap();
+    let file = stdout(&succeeds(cover(dir.path(), &["estimate", "points.csv", "--format", "table"])));
+    golden("estimate.txt", &file);
+    let strategy = ["estimate", "--strategy", "halton", "--dims", "2", "--budget", "3", "--format", "table"];
+    let strategy = stdout(&succeeds(cover(dir.path(), &strategy)));
+    assert_eq!(strategy.lines().skip(1).collect::<Vec<_>>(), file.lines().skip(1).collect::<Vec<_>>());
+}
+
+#[test]
+fn estimate_counts_the_combinations_of_discrete_parameters() {
+    let dir = tempfile::tempdir().unwrap();
+    let toml = "[[parameter]]\nname = \"lanes\"\nchoice = [2, 4, 6]\n\
+                [[parameter]]\nname = \"weather\"\nchoice = [\"clear\", \"fog\"]\n\
+                [[parameter]]\nname = \"speed\"\ninterval = [0.0, 10.0]\n";
+    fs::write(dir.path().join("SPACE.toml"), toml).unwrap();
+    let tests = "speed,weather,lanes\n1,clear,2\n2,fog,4\n3,clear,6\n4,fog,6\n5,fog,2\n";
+    fs::write(dir.path().join("tests.csv"), tests).unwrap();
+    let printed = cover(dir.path(), &["estimate", "tests.csv", "--space", "SPACE.toml", "--format", "json"]);
+    golden("estimate-mixed.json", &stdout(&succeeds(printed)));
+}
+
+#[test]
+fn replay_repeats_a_test_with_the_same_hash_and_writes_its_trace() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), &[]);
+    let replay = succeeds(fuzz(dir.path(), &["replay", "out", "17", "--format", "json"]));
+    let line = fs::read_to_string(dir.path().join("out/trials.jsonl")).unwrap().lines().nth(17).unwrap().to_owned();
+    let printed: serde_json::Value = serde_json::from_str(&stdout(&replay)).unwrap();
+    assert_eq!(printed, serde_json::from_str::<serde_json::Value>(&line).unwrap());
+    let trace = fs::read_to_string(dir.path().join("out/trace-17.csv")).unwrap();
+    assert_eq!(trace.lines().count(), 1 + 2501);
+    golden("trace.head.csv", &trace.lines().take(3).map(|line| format!("{line}\n")).collect::<String>());
+}
+
+#[test]
+fn replay_fails_where_the_log_says_something_else() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), &[]);
+    let log = dir.path().join("out/trials.jsonl");
+    let mut lines: Vec<String> = fs::read_to_string(&log).unwrap().lines().map(str::to_owned).collect();
+    lines[3] = lines[3].replace("\"trace_hash\":\"", "\"trace_hash\":\"f00");
+    fs::write(&log, lines.join("\n") + "\n").unwrap();
+    crate::common::refused(&fuzz(dir.path(), &["replay", "out", "3"]), &["test 3", "differs", "f00"]);
+}
+
+#[test]
+fn exit_status_1_says_that_a_violation_was_found_and_only_where_asked() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), &[]);
+    let violated = fuzz(dir.path(), &["--budget", "40", "--out", "again", "--fail-on-violation"]);
+    assert_eq!(violated.status.code(), Some(1), "{}", stderr(&violated));
+    let kept = fuzz(dir.path(), &["--budget", "1", "--out", "one", "--fail-on-violation"]);
+    assert_eq!(kept.status.code(), Some(0), "{}", stderr(&kept));
+    let trials = fs::read_to_string(dir.path().join("again/trials.jsonl")).unwrap();
+    let failing = trials.lines().position(|line| line.contains("\"fail\"")).unwrap().to_string();
+    let replay = fuzz(dir.path(), &["replay", "again", &failing, "--fail-on-violation"]);
+    assert_eq!(replay.status.code(), Some(1), "{}", stderr(&replay));
+}
+
+#[test]
+fn open_and_set_change_the_space_and_the_rest() {
+    let dir = tempfile::tempdir().unwrap();
+    let options =
+        ["--open", "friction=0.3..0.8", "--open", "lanes", "--set", "speed=2", "--set", "driver.ttc=1.2"];
+    campaign(dir.path(), &options);
+    let text = fs::read_to_string(dir.path().join("out/campaign.json")).unwrap();
+    let study: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let names: Vec<_> = study["space"]["parameter"].as_array().unwrap().iter().map(|p| p["name"].clone()).collect();
+    assert_eq!(names, ["distance", "friction", "lanes"]);
+    assert_eq!(study["fixed"]["speed"], 2);
+    assert_eq!(study["driver"]["settings"]["ttc"], 1.2);
+    // Every value of `lanes` was tested, and the coverage says so.
+    let coverage: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(dir.path().join("out/coverage.json")).unwrap()).unwrap();
+    assert_eq!(coverage["discrete"]["covered"], 3);
+}
+
+#[test]
+fn list_shows_scenarios_strategies_and_drivers() {
+    let dir = tempfile::tempdir().unwrap();
+    golden("list.txt", &stdout(&succeeds(fuzz(dir.path(), &["list", "--format", "table"]))));
+    let json = stdout(&succeeds(fuzz(dir.path(), &["list", "--format", "json"])));
+    let list: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(list["drivers"][0]["name"], "aeb");
+}
+
+#[test]
+fn every_command_has_help_with_an_example() {
+    let dir = tempfile::tempdir().unwrap();
+    for arguments in [&["--help"][..], &["run", "--help"], &["list", "--help"], &["replay", "--help"]] {
+        let help = stdout(&succeeds(fuzz(dir.path(), arguments)));
+        assert!(help.contains("Example") && help.contains("paracosm-fuzz "), "{arguments:?}: {help}");
+    }
+    for arguments in [&["--help"][..], &["estimate", "--help"]] {
+        let help = stdout(&succeeds(cover(dir.path(), arguments)));
+        assert!(help.contains("Example") && help.contains("paracosm-cover "), "{arguments:?}: {help}");
+    }
+}
+
+#[test]
+fn quiet_says_nothing_and_verbose_names_the_tests_that_do_not_pass() {
+    let dir = tempfile::tempdir().unwrap();
+    let quiet = succeeds(fuzz(dir.path(), &["-q", "--budget", "40", "--out", "a"]));
+    assert_eq!(stderr(&quiet), "");
+    let verbose = succeeds(fuzz(dir.path(), &["-v", "--budget", "40", "--out", "b"]));
+    assert!(stderr(&verbose).contains(": fail, speed "), "{}", stderr(&verbose));
+}

@@ -1,0 +1,7 @@
+//! The product from outside: its programs as users call them, and campaigns as users of the library run them.
+
+mod bad_input;
+mod campaign;
+mod commands;
+mod common;
+mod pedestrian_study;
