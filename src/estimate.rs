@@ -40,15 +40,8 @@ pub enum Measure {
 
 impl Measure {
     /// Every measure.
-    pub const ALL: [Self; 7] = [
-        Self::Dispersion,
-        Self::Star,
-        Self::L2Star,
-        Self::Centered,
-        Self::Wraparound,
-        Self::Mixture,
-        Self::KWise,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Dispersion, Self::Star, Self::L2Star, Self::Centered, Self::Wraparound, Self::Mixture, Self::KWise];
 
     /// The name by which it is asked for.
     pub fn name(self) -> &'static str {
@@ -87,7 +80,7 @@ pub struct Coverage {
     pub discrete: Option<Discrete>,
 }
 
-/// How well tests cover the continuous parameters, each scaled to [0,1].
+/// How well tests cover the continuous parameters, each scaled to `[0,1]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Continuous {
     /// The parameters.

@@ -70,10 +70,16 @@ mod tests {
                 std::thread::sleep(Duration::from_micros((i * 7919 % 50) as u64));
                 i
             };
-            let result: Result<(), ()> = in_order(jobs, 5..200, || (), work, |i| {
-                seen.push(i);
-                Ok(())
-            });
+            let result: Result<(), ()> = in_order(
+                jobs,
+                5..200,
+                || (),
+                work,
+                |i| {
+                    seen.push(i);
+                    Ok(())
+                },
+            );
             assert_eq!(result, Ok(()));
             assert!(seen.iter().copied().eq(5..200), "{jobs} jobs: {seen:?}");
         }
@@ -82,10 +88,16 @@ mod tests {
     #[test]
     fn an_error_of_the_sink_stops_the_work() {
         let mut seen = 0;
-        let result = in_order(2, 0..1_000_000, || (), |(), i| i, |i| {
-            seen += 1;
-            if i == 10 { Err("full") } else { Ok(()) }
-        });
+        let result = in_order(
+            2,
+            0..1_000_000,
+            || (),
+            |(), i| i,
+            |i| {
+                seen += 1;
+                if i == 10 { Err("full") } else { Ok(()) }
+            },
+        );
         assert_eq!((result, seen), (Err("full"), 11));
     }
 

@@ -69,7 +69,8 @@ impl Folder {
     pub fn read(path: &Path) -> Result<(Study, Vec<Trial>), Error> {
         let file = path.join(STUDY);
         let text = fs::read_to_string(&file).map_err(Error::file("read", &file))?;
-        let study = serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
+        let study =
+            serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
         let log = path.join(TRIALS);
         let text = fs::read_to_string(&log).map_err(Error::file("read", &log))?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
@@ -156,8 +157,8 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
 
 fn parse_trials(file: &Path, text: &str) -> Result<Vec<Trial>, Error> {
     let parse = |(i, line): (usize, &str)| {
-        let trial: Trial = serde_json::from_str(line)
-            .map_err(|error| Error::content(file, i + 1, format!("no trial: {error}")))?;
+        let trial: Trial =
+            serde_json::from_str(line).map_err(|error| Error::content(file, i + 1, format!("no trial: {error}")))?;
         if trial.index != i {
             let message = format!("found trial {}, expected trial {i}", trial.index);
             return Err(Error::content(file, i + 1, message));
@@ -205,9 +206,12 @@ fn table(study: &Study, trials: &[Trial]) -> Vec<u8> {
         let mut row = vec![trial.index.to_string()];
         row.extend(trial.test.iter().map(|(_, value)| value.to_string()));
         row.push(trial.verdict.to_string());
-        row.extend(study.requirements.iter().map(|requirement| {
-            trial.robustness(&requirement.id).map_or(String::new(), |value| value.to_string())
-        }));
+        row.extend(
+            study
+                .requirements
+                .iter()
+                .map(|requirement| trial.robustness(&requirement.id).map_or(String::new(), |value| value.to_string())),
+        );
         row.extend(metrics.iter().map(|name| trial.metric(name).map_or(String::new(), ToString::to_string)));
         row.push(trial.ticks.to_string());
         row.push(trial.trace_hash.clone().unwrap_or_default());

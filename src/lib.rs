@@ -48,3 +48,8 @@ pub use paracosm_engine as engine;
 pub use paracosm_generators as generators;
 pub use paracosm_oracles as oracles;
 pub use paracosm_scenarios as scenarios;
+
+/// The examples of the README, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

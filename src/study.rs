@@ -203,7 +203,9 @@ impl Study {
         self.declared(name)?.check(&value)?;
         self.rebuild(|other| other.name == name, None)?;
         if self.space.parameters().is_empty() {
-            return Err(Error::Usage(format!("with `{name}` fixed no parameter is left open, so there is nothing to test")));
+            return Err(Error::Usage(format!(
+                "with `{name}` fixed no parameter is left open, so there is nothing to test"
+            )));
         }
         self.fixed.set(name, value);
         Ok(self)

@@ -17,7 +17,10 @@ impl Tests {
     pub fn read(path: &Path, space: Option<Space>) -> Result<Self, Error> {
         if path.is_dir() {
             if space.is_some() {
-                let message = format!("{} is the folder of a campaign, which has its own space: leave --space out", path.display());
+                let message = format!(
+                    "{} is the folder of a campaign, which has its own space: leave --space out",
+                    path.display()
+                );
                 return Err(Error::Usage(message));
             }
             let (study, trials) = Folder::read(path)?;
@@ -25,7 +28,11 @@ impl Tests {
         }
         let text = fs::read(path).map_err(Error::file("read", path))?;
         if text.is_empty() {
-            return Err(Error::content(path, None, "the file is empty, expected a header with the names of the columns"));
+            return Err(Error::content(
+                path,
+                None,
+                "the file is empty, expected a header with the names of the columns",
+            ));
         }
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_slice());
         let header = reader.headers().map_err(|error| broken(path, &error))?.clone();

@@ -43,6 +43,6 @@ pub use outcome::{Metric, Outcome};
 pub use program::{Declaration, Declared, Program, ProgramError};
 pub use run::{DEFAULT_DT, Run, Step, simulate};
 pub use scenario::{
-    AutonomousVehicle, Car, Line, Param, Pedestrian, Pose, Road, RoadSegment, Scenario, Side, Walk, Walker,
-    eventually, never,
+    AutonomousVehicle, Car, Line, Param, Pedestrian, Pose, Road, RoadSegment, Scenario, Side, Walk, Walker, eventually,
+    never,
 };

@@ -241,10 +241,10 @@ impl Run {
 
     fn observe(&mut self) {
         let pose = self.car_pose();
-        let others = self.walkers.iter().map(|walker| Other {
-            position: pose.to_local(walker.pose.position),
-            radius: WALKER_RADIUS,
-        });
+        let others = self
+            .walkers
+            .iter()
+            .map(|walker| Other { position: pose.to_local(walker.pose.position), radius: WALKER_RADIUS });
         self.observation.others.clear();
         self.observation.others.extend(others);
         self.observation.time = self.time();

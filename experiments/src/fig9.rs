@@ -151,8 +151,10 @@ fn write_csv(path: &Path, rows: &[Vec<String>]) -> Done {
     Ok(csv.flush()?)
 }
 
+type Measured = fn(&Panel) -> f64;
+
 /// What is measured of each sample, with its name. A sample without failures has no precision: NaN.
-const MEASURED: [(&str, fn(&Panel) -> f64); 6] = [
+const MEASURED: [(&str, Measured); 6] = [
     ("failures", |panel| panel.failures() as f64),
     ("dispersion", |panel| panel.dispersion),
     ("star_discrepancy", |panel| panel.star),

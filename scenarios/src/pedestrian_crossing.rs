@@ -5,9 +5,7 @@
 //! time to see what is coming, so that whether it brakes early enough is a matter of both parameters, and a
 //! slow walker can be as dangerous as a quick one. The run lasts 25 s: enough to stop, wait and go on.
 
-use paracosm_engine::{
-    AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never,
-};
+use paracosm_engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never};
 
 pub(crate) const PROGRAM: Program = Program {
     name: "pedestrian-crossing",
@@ -26,15 +24,12 @@ fn pedestrian_crossing(s: &mut Scenario) {
     let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(approach.value()));
     let walker = s.place(Pedestrian::at(road.on_sidewalk(Side::Left, 100.0)));
 
-    let near = car.gap_along(road.crossing(100.0)).below(distance);
+    let near = car.gap_along(&road.crossing(100.0)).below(distance);
     walker.walk(road.on_sidewalk(Side::Right, 100.0), speed).skip_until(&near).take_until(&walker.arrived());
 
     s.duration(25.0);
     s.premise(&near);
-    s.require("no-collision", never(car.collides()))
-        .text("The car touches nobody.")
-        .unit("m")
-        .scale(5.0);
+    s.require("no-collision", never(car.collides())).text("The car touches nobody.").unit("m").scale(5.0);
     s.require("progress", eventually(car.travelled().at_least(100.0)))
         .text("The car comes at least 100 m far: standing still for ever is no pass.")
         .unit("m")

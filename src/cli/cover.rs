@@ -123,7 +123,9 @@ impl Estimate {
             return Err(Error::Usage("--strategy needs --dims and --budget".into()));
         };
         if dims.saturating_mul(budget) > MOST_COORDINATES {
-            let message = format!("{budget} points in {dims} dimensions are more than fit: at most {MOST_COORDINATES} coordinates");
+            let message = format!(
+                "{budget} points in {dims} dimensions are more than fit: at most {MOST_COORDINATES} coordinates"
+            );
             return Err(Error::Usage(message));
         }
         let space = Space::unit_cube(dims);

@@ -43,7 +43,13 @@ fn table() -> Result<String, Failure> {
                 Some(number) => format!("{} unless opened", digits(number)),
                 None => format!("{} unless opened", declared.nominal()),
             };
-            writeln!(text, "    {:<20}{:<12}{:<6}{state}", parameter.name, domain, parameter.unit.as_deref().unwrap_or(""))?;
+            writeln!(
+                text,
+                "    {:<20}{:<12}{:<6}{state}",
+                parameter.name,
+                domain,
+                parameter.unit.as_deref().unwrap_or("")
+            )?;
         }
     }
     text.push_str("\nSTRATEGIES\n");

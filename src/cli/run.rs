@@ -90,7 +90,8 @@ impl Options {
         run.map_err(|error| interrupted(&error, &self.out, trials.len()))?;
 
         let coverage = self.write_results(&folder, &study, &trials, verbosity)?;
-        let report = Report { study: &study, trials: &trials, summary: &progress.summary, coverage: &coverage, out: &self.out };
+        let report =
+            Report { study: &study, trials: &trials, summary: &progress.summary, coverage: &coverage, out: &self.out };
         print(&match Format::or_fitting(self.format) {
             Format::Table => report.table(),
             Format::Json => json(&report.json()),
@@ -108,15 +109,15 @@ impl Options {
         let mut driver_settings = Vec::new();
         let mut fixed = Vec::new();
         for text in &self.set {
-            let (name, value) = text.split_once('=').ok_or_else(|| {
-                Error::Usage(format!("--set {text}: expected NAME=VALUE, or driver.NAME=VALUE"))
-            })?;
+            let (name, value) = text
+                .split_once('=')
+                .ok_or_else(|| Error::Usage(format!("--set {text}: expected NAME=VALUE, or driver.NAME=VALUE")))?;
             match name.strip_prefix("driver.") {
                 None => fixed.push((name, Value::parse(value))),
                 Some(setting) => {
-                    let number = value.parse().map_err(|_| {
-                        Error::Usage(format!("--set {text}: found `{value}`, expected a number"))
-                    })?;
+                    let number = value
+                        .parse()
+                        .map_err(|_| Error::Usage(format!("--set {text}: found `{value}`, expected a number")))?;
                     driver_settings.push((setting.to_owned(), number));
                 }
             }

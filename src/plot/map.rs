@@ -166,9 +166,7 @@ impl<B: DrawingBackend> Drawable<B> for Mark {
                 backend.draw_line((x - side, y + side), (x + side, y - side), &red)
             }
             Verdict::Pass => backend.draw_circle((x, y), (0.75 * self.side).round() as u32, &BLUE, true),
-            Verdict::Inconclusive => {
-                backend.draw_circle((x, y), side as u32, &GREY.stroke_width(stroke), false)
-            }
+            Verdict::Inconclusive => backend.draw_circle((x, y), side as u32, &GREY.stroke_width(stroke), false),
             Verdict::Invalid => backend.draw_rect((x - side, y - side), (x + side, y + side), &GREY, false),
             Verdict::Error => {
                 let corners = [(x - side, y + side), (x + side, y + side), (x, y - side)];

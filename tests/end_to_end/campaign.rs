@@ -215,7 +215,7 @@ fn a_walker_that_never_starts_leaves_the_test_inconclusive() {
         let road = s.place(RoadSegment::new(500.0));
         let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(speed.value()));
         let walker = s.place(Pedestrian::at(road.on_sidewalk(Side::Left, 100.0)));
-        let near = car.gap_along(road.crossing(100.0)).below(20.0);
+        let near = car.gap_along(&road.crossing(100.0)).below(20.0);
         walker.walk(road.on_sidewalk(Side::Right, 100.0), 1.0).skip_until(&near);
         s.premise(&near);
         s.require("no-collision", never(car.collides()));

@@ -138,8 +138,7 @@ fn exit_status_1_says_that_a_violation_was_found_and_only_where_asked() {
 #[test]
 fn open_and_set_change_the_space_and_the_rest() {
     let dir = tempfile::tempdir().unwrap();
-    let options =
-        ["--open", "friction=0.3..0.8", "--open", "lanes", "--set", "speed=2", "--set", "driver.ttc=1.2"];
+    let options = ["--open", "friction=0.3..0.8", "--open", "lanes", "--set", "speed=2", "--set", "driver.ttc=1.2"];
     campaign(dir.path(), &options);
     let text = fs::read_to_string(dir.path().join("out/campaign.json")).unwrap();
     let study: serde_json::Value = serde_json::from_str(&text).unwrap();

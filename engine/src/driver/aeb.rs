@@ -135,11 +135,8 @@ impl Driver for Aeb {
 
     fn step(&mut self, observation: &Observation) -> Control {
         self.perception.see(observation, self.half_length);
-        let (horizon, speed) = if self.braking {
-            (self.clear_ttc, observation.speed.max(CREEP))
-        } else {
-            (self.ttc, observation.speed)
-        };
+        let (horizon, speed) =
+            if self.braking { (self.clear_ttc, observation.speed.max(CREEP)) } else { (self.ttc, observation.speed) };
         let ahead = |track: Track| self.time_to_collision(&track, speed).is_some_and(|ttc| ttc <= horizon);
         if self.perception.tracks(observation).any(ahead) {
             self.braking = true;

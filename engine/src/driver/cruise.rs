@@ -4,8 +4,12 @@
 use super::{Driver, Kind, Settings};
 use crate::observation::{Briefing, Control, Observation};
 
-pub(super) const KIND: Kind =
-    Kind { name: "cruise", about: "keeps its speed and never brakes", settings: &[], make: |_: &Settings| Box::new(Cruise::default()) };
+pub(super) const KIND: Kind = Kind {
+    name: "cruise",
+    about: "keeps its speed and never brakes",
+    settings: &[],
+    make: |_: &Settings| Box::new(Cruise::default()),
+};
 
 /// Strongest acceleration and deceleration in m/s² of a comfortable speed control (ISO 15622 lets an adaptive
 /// cruise control accelerate by up to 2.0 m/s² at high speed).

@@ -110,7 +110,10 @@ impl Perception {
 }
 
 /// The straight line through the detections by least squares: position at `now` and velocity.
-fn fit<'a>(detections: impl ExactSizeIterator<Item = &'a Detection> + Clone, now: f64) -> Option<(Vector2<f64>, Vector2<f64>)> {
+fn fit<'a>(
+    detections: impl ExactSizeIterator<Item = &'a Detection> + Clone,
+    now: f64,
+) -> Option<(Vector2<f64>, Vector2<f64>)> {
     let n = detections.len();
     if n < FEWEST {
         return None;

@@ -96,7 +96,10 @@ fn a_driver_that_was_reset_does_the_same_again() {
 #[test]
 fn unknown_drivers_and_settings_are_named_with_the_nearest() {
     let message = |error: DriverError| error.to_string();
-    assert_eq!(find("aebs").map(|kind| kind.name).map_err(message).unwrap_err(), "no driver is called `aebs` (did you mean `aeb`?)");
+    assert_eq!(
+        find("aebs").map(|kind| kind.name).map_err(message).unwrap_err(),
+        "no driver is called `aebs` (did you mean `aeb`?)"
+    );
     let aeb = find("aeb").unwrap();
     let set = |name: &str, value| message(aeb.settings(&[(name.to_owned(), value)]).unwrap_err());
     assert_eq!(set("tcc", 1.0), "driver `aeb` has no setting `tcc` (did you mean `ttc`?)");

@@ -80,7 +80,7 @@ impl Car {
     }
 
     /// How far the line is ahead of its front bumper, in metres.
-    pub fn gap_along(&self, line: Line) -> Stream<f64> {
-        self.position().distance_to(&line) - 0.5 * self.vehicle.length
+    pub fn gap_along(&self, line: &Line) -> Stream<f64> {
+        self.position().distance_to(line) - 0.5 * self.vehicle.length
     }
 }

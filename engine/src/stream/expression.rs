@@ -68,13 +68,29 @@ pub(crate) enum Source {
 #[derive(Debug)]
 pub(crate) enum Node {
     Constant(Sample),
-    Output { source: Source, name: String },
+    Output {
+        source: Source,
+        name: String,
+    },
     Difference(Rc<Node>, Rc<Node>),
     /// The distance along a line's direction from a position to the line's point.
-    Towards { position: Rc<Node>, line: Line },
-    Compare { left: Rc<Node>, comparison: Comparison, right: Rc<Node> },
-    SkipUntil { stream: Rc<Node>, event: Rc<Node> },
-    TakeUntil { stream: Rc<Node>, event: Rc<Node> },
+    Towards {
+        position: Rc<Node>,
+        line: Line,
+    },
+    Compare {
+        left: Rc<Node>,
+        comparison: Comparison,
+        right: Rc<Node>,
+    },
+    SkipUntil {
+        stream: Rc<Node>,
+        event: Rc<Node>,
+    },
+    TakeUntil {
+        stream: Rc<Node>,
+        event: Rc<Node>,
+    },
 }
 
 /// The expression as one would write it, which is also the name of the signal that records it.
@@ -93,7 +109,7 @@ impl fmt::Display for Node {
     }
 }
 
-/// A stream of values of type `T`; a cheap handle, see the [module](self).
+/// A stream of values of type `T`; a cheap handle, see the [module](crate::stream).
 #[derive(Debug, Clone)]
 pub struct Stream<T> {
     pub(crate) node: Rc<Node>,

@@ -50,11 +50,9 @@ impl Graph {
             Node::Towards { position, line } => {
                 Operation::Towards { position: self.add_node(position), line: line.clone() }
             }
-            Node::Compare { left, comparison, right } => Operation::Compare {
-                left: self.add_node(left),
-                comparison: *comparison,
-                right: self.add_node(right),
-            },
+            Node::Compare { left, comparison, right } => {
+                Operation::Compare { left: self.add_node(left), comparison: *comparison, right: self.add_node(right) }
+            }
             Node::SkipUntil { stream, event } => {
                 Operation::SkipUntil { stream: self.add_node(stream), event: self.add_node(event), begun: false }
             }

@@ -2,7 +2,7 @@
 //!
 //! The model is synchronous, as in Lustre: there is one clock, and at each of its ticks a stream has a value or
 //! is absent. A [`Stream`] is a cheap handle on an immutable expression; building one computes nothing. When a
-//! run starts, all expressions that anybody reads are laid out once as a [`Graph`], operands before what uses
+//! run starts, all expressions that anybody reads are laid out once as a graph, operands before what uses
 //! them, and evaluated in that order at every tick. Since an expression can only be made of expressions that
 //! exist, none can depend on its own value at the same tick: feedback goes through the physics, whose outputs
 //! show the state at the beginning of the tick.
@@ -20,6 +20,6 @@
 mod expression;
 mod graph;
 
-pub(crate) use expression::{Node, Sample, Source};
 pub use expression::{Datum, Stream};
+pub(crate) use expression::{Node, Sample, Source};
 pub(crate) use graph::{Graph, Slot};

@@ -151,11 +151,22 @@ impl World {
         let options = ShapeCastOptions { max_time_of_impact: 1.0, ..ShapeCastOptions::default() };
         let identity = parry3d::math::Pose::IDENTITY;
         let person_at = parry3d::math::Pose::from_translation(from);
-        let hit = cast_shapes(&identity, at_height(Vector2::zeros(), 0.0), &self.outline, &person_at, motion, &person, options);
+        let hit = cast_shapes(
+            &identity,
+            at_height(Vector2::zeros(), 0.0),
+            &self.outline,
+            &person_at,
+            motion,
+            &person,
+            options,
+        );
         let side = match hit {
             Ok(Some(hit)) => Vector2::new(f64::from(hit.normal1.x), f64::from(hit.normal1.y)),
             // They overlapped already: the side that the person stands nearest to.
-            _ => start.component_div(&Vector2::new(f64::from(self.outline.half_extents.x), f64::from(self.outline.half_extents.y))),
+            _ => start.component_div(&Vector2::new(
+                f64::from(self.outline.half_extents.x),
+                f64::from(self.outline.half_extents.y),
+            )),
         };
         match (side.x.abs() >= side.y.abs(), side.x > 0.0, side.y > 0.0) {
             (true, true, _) => Face::Front,
