@@ -5,11 +5,12 @@ use paracosm_coverage::{PointSetError, SpaceError, kwise::KwiseError};
 use paracosm_engine::{ProgramError, driver::DriverError};
 use paracosm_generators::GeneratorError;
 use paracosm_scenarios::UnknownScenario;
+use std::fmt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Any error of a campaign or a measurement.
-#[derive(Debug, Error)]
+#[derive(Error)]
 pub enum Error {
     /// No such scenario.
     #[error("{0}; `paracosm-fuzz list` shows them all")]
@@ -60,9 +61,19 @@ pub enum Error {
         /// What the plotter said.
         message: String,
     },
+    /// The campaign was told to stop.
+    #[error("interrupted")]
+    Interrupted,
     /// A command that makes no sense as it is.
     #[error("{0}")]
     Usage(String),
+}
+
+/// As [`Display`](fmt::Display): a `main` that returns this error prints it by `Debug`, to people.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
 }
 
 impl Error {

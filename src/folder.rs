@@ -28,6 +28,9 @@ impl Folder {
     /// # Errors
     /// The folder cannot be written, or holds a campaign.
     pub fn create(path: &Path, study: &Study) -> Result<Self, Error> {
+        if path.exists() && !path.is_dir() {
+            return Err(Error::Usage(format!("{} is a file, expected a folder to write to", path.display())));
+        }
         fs::create_dir_all(path).map_err(Error::file("create", path))?;
         let ours = [STUDY, TRIALS].into_iter().chain(DERIVED);
         if let Some(name) = ours.into_iter().find(|name| path.join(name).exists()) {

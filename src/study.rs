@@ -243,7 +243,10 @@ impl Study {
     pub fn program(&self) -> Result<Program, Error> {
         match self.program {
             Some(program) => Ok(program),
-            None => Ok(*scenarios::find(&self.scenario)?),
+            None => scenarios::find(&self.scenario).copied().map_err(|_| {
+                let message = "the campaign was run by another program: no scenario of this one is called";
+                Error::Usage(format!("{message} `{}`", self.scenario))
+            }),
         }
     }
 
@@ -268,9 +271,12 @@ impl Study {
         self.version == env!("CARGO_PKG_VERSION") && self.target == env!("PARACOSM_TARGET")
     }
 
-    /// The strategy's name.
-    pub fn strategy_name(&self) -> &str {
-        &self.strategy
+    /// The strategy, with its seed if it was given one.
+    pub fn strategy_label(&self) -> String {
+        match self.seed {
+            Some(seed) => format!("{} (seed {seed})", self.strategy),
+            None => self.strategy.clone(),
+        }
     }
 
     /// How many discrete parameters at a time the tests are to cover.

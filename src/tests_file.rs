@@ -40,7 +40,14 @@ impl Tests {
             let message = "found numbers, expected a header with the names of the columns";
             return Err(Error::content(path, 1, message));
         }
-        let given = space.is_some();
+        if header.len() == 1 && header[0].contains(';') {
+            let message = "the columns seem to be separated by `;`, expected `,`";
+            return Err(Error::content(path, 1, message));
+        }
+        let hint = match space {
+            Some(_) => "",
+            None => "; name the space of the tests with --space SPACE.toml",
+        };
         let space = match space {
             Some(space) => space,
             None => of_columns(path, &header)?,
@@ -55,15 +62,13 @@ impl Tests {
                 let text = &record[*column];
                 let value = Value::parse(text);
                 if parameter.levels().is_none() && value.number().is_none() {
-                    let message = format!("column `{}`: found `{text}`, expected a number", parameter.name);
+                    let message = format!("column `{}`: found `{text}`, expected a number{hint}", parameter.name);
                     return Err(Error::content(path, line, message));
                 }
                 test.set(parameter.name.clone(), value);
             }
-            points.push(space.encode(&test).map_err(|error| {
-                let hint = if given { "" } else { "; name the space of the tests with --space SPACE.toml" };
-                Error::content(path, line, format!("{error}{hint}"))
-            })?);
+            let point = space.encode(&test).map_err(|error| Error::content(path, line, format!("{error}{hint}")))?;
+            points.push(point);
         }
         Ok(Self { space, points })
     }
@@ -104,7 +109,7 @@ fn broken(path: &Path, error: &csv::Error) -> Error {
     let line = error.position().map(|position| position.line() as usize);
     match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-            Error::content(path, line, format!("found {len} columns, expected {expected_len}"))
+            Error::content(path, line, format!("found {len} fields, expected {expected_len}"))
         }
         csv::ErrorKind::Utf8 { .. } => Error::content(path, line, "found bytes that are no UTF-8"),
         _ => Error::content(path, line, error.to_string()),

@@ -46,3 +46,4 @@ pub use scenario::{
     AutonomousVehicle, Car, Line, Param, Pedestrian, Pose, Road, RoadSegment, Scenario, Side, Walk, Walker, eventually,
     never,
 };
+pub use stream::Stream;

@@ -103,7 +103,13 @@ impl Program {
         if let Some(test) = test {
             self.check_names(&scenario, test)?;
         }
-        let mut problems = scenario.problems.take();
+        let mut problems = Vec::new();
+        for problem in scenario.problems.take() {
+            // The same mistake on every line that uses the same value is one mistake.
+            if !problems.contains(&problem) {
+                problems.push(problem);
+            }
+        }
         if scenario.cars.len() != 1 || scenario.roads.len() != 1 {
             let (cars, roads) = (scenario.cars.len(), scenario.roads.len());
             problems.push(format!("{cars} cars under test on {roads} roads, expected one on one"));

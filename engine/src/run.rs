@@ -191,6 +191,18 @@ impl Run {
         self.supplied = true;
     }
 
+    /// Goes to the end with this driver, which is told that a new run begins.
+    pub fn drive(&mut self, driver: &mut dyn Driver) -> Outcome {
+        driver.reset(&self.briefing());
+        loop {
+            let control = match self.advance() {
+                Step::Need(observation) => driver.step(observation),
+                Step::Done(outcome) => return *outcome,
+            };
+            self.supply(control);
+        }
+    }
+
     fn time(&self) -> f64 {
         self.tick as f64 * self.dt
     }
@@ -370,12 +382,5 @@ pub fn simulate(program: &Program, test: &Values, driver: &mut dyn Driver) -> Ou
         Err(error @ ProgramError::World { .. }) => return Outcome::broken(Verdict::Invalid, error.to_string()),
         Err(error) => return Outcome::broken(Verdict::Error, error.to_string()),
     };
-    driver.reset(&run.briefing());
-    loop {
-        let control = match run.advance() {
-            Step::Need(observation) => driver.step(observation),
-            Step::Done(outcome) => return *outcome,
-        };
-        run.supply(control);
-    }
+    run.drive(driver)
 }

@@ -2,7 +2,7 @@
 
 use paracosm_engine::driver::Driver;
 use paracosm_engine::{
-    AutonomousVehicle, Briefing, Control, Observation, Outcome, Program, RoadSegment, Run, Scenario, Step, eventually,
+    AutonomousVehicle, Briefing, Control, Observation, Outcome, Program, RoadSegment, Run, Scenario, eventually,
 };
 
 /// Puts on the brakes and keeps them on.
@@ -33,15 +33,7 @@ const PROGRAM: Program = Program { name: "brakes", about: "a car that stops", bu
 fn outcome(friction: f64, dt: f64, driver: &mut dyn Driver) -> Outcome {
     let mut test = PROGRAM.declare().unwrap().nominal();
     test.set("friction", friction);
-    let mut run = Run::new(&PROGRAM, &test, dt, driver.period()).unwrap();
-    driver.reset(&run.briefing());
-    loop {
-        let control = match run.advance() {
-            Step::Need(observation) => driver.step(observation),
-            Step::Done(outcome) => return *outcome,
-        };
-        run.supply(control);
-    }
+    Run::new(&PROGRAM, &test, dt, driver.period()).unwrap().drive(driver)
 }
 
 fn stopping_distance(friction: f64, dt: f64) -> f64 {

@@ -14,7 +14,7 @@ pub enum GeneratorError {
         nearest: Option<&'static str>,
     },
     /// No discrete family has that name.
-    #[error("no discrete family is called `{name}`{}", hint(.nearest))]
+    #[error("no discrete family is called `{name}`{}; there are random and cross", hint(.nearest))]
     UnknownFamily {
         /// The name.
         name: String,
@@ -37,8 +37,8 @@ pub enum GeneratorError {
     },
     /// More than Owen-scrambled Sobol points are defined for.
     #[error(
-        "sobol gives at most 65,536 points in 256 dimensions; asked for {points} (skipped ones included) in {dims}; \
-         use halton"
+        "sobol gives at most 65,536 points, skipped ones included, and at most 256 dimensions; asked for {points} \
+         points in {dims} dimensions; use halton"
     )]
     SobolLimit {
         /// How many points were asked for, those skipped included.

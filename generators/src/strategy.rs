@@ -73,11 +73,11 @@ impl Strategy {
     pub fn about(self) -> &'static str {
         match self {
             Self::Random => "independent uniform points: the baseline, and what statistics assume",
-            Self::Halton => "low-dispersion sequence of any length: the default for up to some ten parameters",
+            Self::Halton => "low-dispersion sequence of any length: the default for up to about ten parameters",
             Self::Sobol => {
                 "Owen-scrambled sequence for many parameters; best with a power of two, at most 65,536 tests"
             }
-            Self::Lhs => "Latin hypercube: each parameter for itself covered evenly by exactly the budget of tests",
+            Self::Lhs => "Latin hypercube: each parameter on its own covered evenly, by exactly the budget of tests",
         }
     }
 

@@ -29,9 +29,12 @@ fn pedestrian_crossing(s: &mut Scenario) {
 
     s.duration(25.0);
     s.premise(&near);
-    s.require("no-collision", never(car.collides())).text("The car touches nobody.").unit("m").scale(5.0);
+    s.require("no-collision", never(car.collides()))
+        .text("The car touches nobody: metres of clearance, or minus the braking distance that was missing.")
+        .unit("m")
+        .scale(5.0);
     s.require("progress", eventually(car.travelled().at_least(100.0)))
-        .text("The car comes at least 100 m far: standing still for ever is no pass.")
+        .text("The car comes at least 100 m far, so that standing still for ever is no pass.")
         .unit("m")
         .scale(50.0);
 }

@@ -69,7 +69,7 @@ struct Estimate {
     /// The seed of the strategy
     #[arg(long, value_name = "N", requires = "strategy")]
     seed: Option<u64>,
-    /// Start the strategy's sequence at this index
+    /// The index of the first point of the strategy's sequence [default: 1 for halton, 0 for sobol]
     #[arg(long, value_name = "N", requires = "strategy")]
     skip: Option<u64>,
     /// How to print it [default: table on a terminal, json elsewhere]

@@ -6,7 +6,7 @@ use clap::{Parser, Subcommand};
 const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz --strategy halton --budget 500       the pedestrian study of the paper, into paracosm-out/
-  paracosm-fuzz pedestrian-crossing --driver cruise --open friction=0.3..0.8 --out slippery
+  paracosm-fuzz pedestrian-crossing --driver aeb --open friction=0.3..0.8 --out slippery
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
   paracosm-fuzz list                                 scenarios, strategies, drivers
 

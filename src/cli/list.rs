@@ -32,7 +32,8 @@ fn table() -> Result<String, Failure> {
     let mut text = String::from("SCENARIOS\n");
     for program in scenarios::ALL {
         writeln!(text, "  {:<22}{}", program.name, program.about)?;
-        for declared in program.declare()?.parameters {
+        let declaration = program.declare()?;
+        for declared in &declaration.parameters {
             let parameter = &declared.parameter;
             let domain = match &parameter.domain {
                 Domain::Interval { lo, hi } => format!("{lo}..{hi}"),
@@ -50,6 +51,9 @@ fn table() -> Result<String, Failure> {
                 domain,
                 parameter.unit.as_deref().unwrap_or("")
             )?;
+        }
+        for requirement in &declaration.requirements {
+            writeln!(text, "    {:<20}{}", requirement.id, requirement.text)?;
         }
     }
     text.push_str("\nSTRATEGIES\n");

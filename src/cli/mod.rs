@@ -23,7 +23,7 @@ struct Verbosity {
     /// Say nothing but errors
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Say more: every test that does not pass, as it ends
+    /// Say more on standard error
     #[arg(short, long, global = true)]
     verbose: bool,
 }

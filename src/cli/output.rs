@@ -86,7 +86,7 @@ impl Table {
     fn discrete(&mut self, measured: &Discrete) {
         let Discrete { k, covered, valid, ratio, missing, combinations } = measured;
         self.row(&format!("{k}-wise coverage"), &format!("{covered} of {valid} ({})", percent(*ratio)));
-        self.row("all combinations", &percent(*combinations));
+        self.row("  of all combinations", &percent(*combinations));
         for (i, tuple) in missing.iter().enumerate() {
             let Record(values) = tuple;
             let values: Vec<String> = values.iter().map(|(name, value)| format!("{name} {value}")).collect();
@@ -109,7 +109,7 @@ pub(super) fn bracket(bracket: &Bracket) -> String {
     if bracket.is_exact() {
         digits(bracket.lower)
     } else {
-        format!("between {} and {}", digits(bracket.lower), digits(bracket.upper))
+        format!("between {} and {} (the time limit ended the search)", digits(bracket.lower), digits(bracket.upper))
     }
 }
 

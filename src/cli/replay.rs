@@ -2,6 +2,7 @@
 
 use super::output::{Format, Table, digits, json};
 use super::{Failure, Found, Verbosity, print};
+use crate::engine::Metric;
 use crate::oracles::Trace;
 use crate::{Error, Folder, Study, Trial, simulate_trial};
 use clap::Args;
@@ -41,13 +42,13 @@ impl Options {
             write_trace(&path, trace)?;
             verbosity.note(format_args!("trace of {} ticks written to {}", trial.ticks, path.display()));
         }
+        if trial != *logged {
+            return Err(difference(&study, logged, &trial).into());
+        }
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(&study, &trial),
             Format::Json => json(&trial),
         })?;
-        if trial != *logged {
-            return Err(difference(&study, logged, &trial).into());
-        }
         Ok(if self.fail_on_violation && trial.is_failure() { Found::Violation } else { Found::Nothing })
     }
 }
@@ -71,6 +72,7 @@ fn table(study: &Study, trial: &Trial) -> String {
     let mut table = Table::default();
     table.heading(&format!("test {}: {}", trial.index, trial.verdict));
     for (parameter, (name, value)) in study.space.parameters().iter().zip(trial.test.iter()) {
+        let value = value.number().map_or_else(|| value.to_string(), digits);
         table.row(name, &format!("{value} {}", parameter.unit.as_deref().unwrap_or_default()));
     }
     for requirement in &study.requirements {
@@ -79,13 +81,18 @@ fn table(study: &Study, trial: &Trial) -> String {
         table.row(&requirement.id, &value);
     }
     for name in trial.metric_names() {
-        let metric = trial.metric(name).map(ToString::to_string).filter(|text| !text.is_empty());
-        table.row(name, metric.as_deref().unwrap_or("none"));
+        let metric = match trial.metric(name) {
+            Some(Metric::Number(number)) => digits(*number),
+            Some(Metric::Flag(flag)) => (if *flag { "yes" } else { "no" }).to_owned(),
+            Some(Metric::Word(Some(word))) => word.clone(),
+            Some(Metric::Word(None)) | None => "none".to_owned(),
+        };
+        table.row(name, &metric);
     }
     if let Some(error) = &trial.error {
         table.row("error", error);
     }
-    table.row("trace hash", trial.trace_hash.as_deref().unwrap_or("none"));
+    table.row("trace hash", &format!("{}, as logged", trial.trace_hash.as_deref().unwrap_or("none")));
     table.finish()
 }
 

@@ -6,10 +6,12 @@ use crate::coverage::{Domain, Value};
 use crate::oracles::Verdict;
 use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Study, Summary, Tests, Trial};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::json;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The time that `coverage.json` may take, as `estimate --time-limit 5`.
@@ -27,10 +29,10 @@ pub(super) struct Options {
     /// How many tests to run
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
-    /// The source of all chance; plain halton takes none
+    /// The source of all chance; halton without it is the plain sequence, with it randomly shifted
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Start a sequence at this index (plain Halton at 1; the paper's at 0)
+    /// The index of a sequence's first point [default: 1 for halton, 0 for sobol]
     #[arg(long, value_name = "N")]
     skip: Option<u64>,
     /// How discrete parameters are covered: random (Proposition 3.2) or cross (all combinations)
@@ -80,14 +82,21 @@ impl Options {
         let mut progress = Progress::new(&study, verbosity, known.len());
         let mut trials = known.clone();
         trials.iter().for_each(|trial| progress.count(&study, trial));
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let flag = interrupted.clone();
+        // Where there can be no handler, an interrupt ends the program at once, which the log survives as well.
+        let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
         let run = campaign.resume(known).run(|trial| {
+            if interrupted.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
             folder.append(trial)?;
             progress.show(&study, trial);
             trials.push(trial.clone());
             Ok(())
         });
         progress.bar.finish_and_clear();
-        run.map_err(|error| interrupted(&error, &self.out, trials.len()))?;
+        run.map_err(|error| cut_short(&error, &self.out, trials.len()))?;
 
         let coverage = self.write_results(&folder, &study, &trials, verbosity)?;
         let report =
@@ -176,12 +185,12 @@ fn domain(text: &str, over: &str) -> Result<Domain, Error> {
     };
     match (lo.parse(), hi.parse()) {
         (Ok(lo), Ok(hi)) => Ok(Domain::Interval { lo, hi }),
-        _ => Err(Error::Usage(format!("--open {text}: found `{over}`, expected two numbers LO..HI or values A,B,C"))),
+        _ => Err(Error::Usage(format!("--open {text}: found `{over}`, expected numbers LO..HI or values A,B,C"))),
     }
 }
 
 /// An error that ended the campaign, with what is left of it.
-fn interrupted(error: &Error, out: &Path, safe: usize) -> Failure {
+fn cut_short(error: &Error, out: &Path, safe: usize) -> Failure {
     format!("{error}\n  the first {safe} trials are safe in {}; --resume goes on from there", out.display()).into()
 }
 
@@ -195,8 +204,11 @@ struct Progress {
 impl Progress {
     fn new(study: &Study, verbosity: Verbosity, known: usize) -> Self {
         let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(study.budget as u64) };
-        let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {per_sec}  {eta} left  {msg}";
+        let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {rate} tests/s  {eta} left  {msg}";
         let style = ProgressStyle::with_template(template).expect("the template is one");
+        let style = style.with_key("rate", |state: &ProgressState, text: &mut dyn std::fmt::Write| {
+            let _ = write!(text, "{:.0}", state.per_sec());
+        });
         let bar = bar.with_style(style).with_position(known as u64);
         // The rate is that of this session, not of what was there before.
         bar.reset_eta();
@@ -246,7 +258,7 @@ impl Report<'_> {
             "{}, driver {}, strategy {}: {} tests",
             study.scenario,
             study.driver.name,
-            study.strategy_name(),
+            study.strategy_label(),
             summary.tests()
         ));
         for verdict in VERDICTS {

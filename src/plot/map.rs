@@ -54,6 +54,13 @@ const RED: RGBColor = RGBColor(0xcc, 0x33, 0x11);
 const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
 const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
 
+/// What varies too, though the map does not show it.
+fn others(study: &Study, shown: [&Parameter; 2]) -> String {
+    let others = study.space.parameters().iter().filter(|parameter| shown.iter().all(|s| s.name != parameter.name));
+    let others: Vec<&str> = others.map(|parameter| parameter.name.as_str()).collect();
+    if others.is_empty() { String::new() } else { format!("; not shown, but varied too: {}", others.join(", ")) }
+}
+
 type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 impl FailureMap {
@@ -65,7 +72,7 @@ impl FailureMap {
         let mark = |trial: &Trial| Some((at(trial, x)?, at(trial, y)?, trial.verdict));
         Some(Self {
             title: format!("{}, driver {}", study.scenario, study.driver.name),
-            note: format!("{} tests, strategy {}", trials.len(), study.strategy_name()),
+            note: format!("{} tests, strategy {}{}", trials.len(), study.strategy_label(), others(study, [x, y])),
             x: Axis::of(x)?,
             y: Axis::of(y)?,
             marks: trials.iter().filter_map(mark).collect(),
@@ -102,7 +109,9 @@ impl FailureMap {
             .draw()?;
         for verdict in ORDER {
             let marks = self.marks.iter().filter(|mark| mark.2 == verdict);
-            let side = side * scale;
+            // A thousand marks have room; more of them become smaller, so that they do not run together.
+            let crowd = (self.marks.len() as f64 / 1000.0).max(1.0);
+            let side = (side / crowd.sqrt()).max(1.2) * scale;
             chart.draw_series(marks.map(|(x, y, _)| EmptyElement::at((*x, *y)) + Mark { verdict, side }))?;
         }
         Ok(())

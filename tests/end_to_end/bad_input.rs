@@ -50,7 +50,7 @@ fn wrong_campaigns_are_refused_with_the_nearest_valid_name() {
 fn folders_that_cannot_be_written_are_named() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("file"), "").unwrap();
-    refused(&fuzz(dir.path(), &["--out", "file"]), &["cannot create", "file"]);
+    refused(&fuzz(dir.path(), &["--out", "file"]), &["file is a file, expected a folder"]);
     refused(&fuzz(dir.path(), &["--out", "file/out"]), &["cannot create", "file/out"]);
     refused(&fuzz(dir.path(), &["--out", "/proc/paracosm"]), &["cannot create", "/proc/paracosm"]);
 }
@@ -73,7 +73,7 @@ fn broken_files_of_tests_are_refused_with_the_line() {
     let dir = tempfile::tempdir().unwrap();
     let cases: &[(&[u8], &[&str])] = &[
         (b"", &["empty", "header"]),
-        (b"a,b\n0.1,0.2\n0.3\n", &["line 3", "found 1 columns, expected 2"]),
+        (b"a,b\n0.1,0.2\n0.3\n", &["line 3", "found 1 fields, expected 2"]),
         (b"a,b\n0.1,far\n", &["line 2", "`b`", "`far`", "number"]),
         (b"a,b\n0.1,\n", &["line 2", "`b`", "``"]),
         (b"a,b\n0.1,1.2\n", &["line 2", "`b`", "1.2", "[0, 1]", "--space"]),

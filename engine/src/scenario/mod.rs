@@ -127,7 +127,8 @@ impl Scenario {
         Draft::new(self.requirements.clone(), id, asked)
     }
 
-    /// Says what the test is about: where `event` never occurs, its verdict is inconclusive.
+    /// Says what the test is about: where `event` never occurs and nothing is violated, its verdict is
+    /// inconclusive rather than a pass.
     pub fn premise(&mut self, event: &Stream<bool>) {
         self.premise = Some(event.clone());
     }
