@@ -3,7 +3,7 @@
 //! The campaign itself writes and prints nothing: the log, the progress bar and the summary watch it. A test
 //! that panics is a trial with the verdict `error`; the campaign goes on.
 
-use crate::executor::in_order;
+use crate::executor::{in_order, pool};
 use crate::{Error, Study, Trial};
 use paracosm_coverage::Values;
 use paracosm_engine::driver::Driver;
@@ -97,7 +97,8 @@ impl<'a> Campaign<'a> {
             }
             trial
         };
-        in_order(self.jobs.get(), 0..tests.len(), new_driver, work, |trial| watch(&trial))
+        let pool = pool(self.jobs.get().min(tests.len()).max(1))?;
+        in_order(&pool, 0..tests.len(), new_driver, work, |trial| watch(&trial))
     }
 }
 

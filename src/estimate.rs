@@ -1,14 +1,14 @@
 //! How well tests cover their space: what `paracosm-cover estimate` prints.
 
 use crate::Error;
-use crate::json::Record;
 use paracosm_coverage::dispersion::dispersion;
 use paracosm_coverage::kwise::kwise_coverage;
 use paracosm_coverage::star::star_discrepancy;
-use paracosm_coverage::{Bracket, Deadline, Domain, Parameter, Point, PointSet, Space, Value, l2, nearest};
+use paracosm_coverage::{Bracket, Deadline, Parameter, Point, PointSet, Record, Space, Value};
+use paracosm_coverage::{did_you_mean, l2, nearest};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Tests with the space that they are points of.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +17,8 @@ pub struct Tests {
     pub space: Space,
     /// Their coordinates.
     pub points: Vec<Point>,
+    /// How many discrete parameters at a time they were made to cover, if that was said.
+    pub k: Option<usize>,
 }
 
 /// A number that says how well tests cover a space.
@@ -63,7 +65,7 @@ impl FromStr for Measure {
     fn from_str(name: &str) -> Result<Self, String> {
         Self::ALL.into_iter().find(|measure| measure.name() == name).ok_or_else(|| {
             let names = Self::ALL.map(Self::name);
-            let hint = nearest(name, names).map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default();
+            let hint = did_you_mean(&nearest(name, names));
             format!("no measure is called `{name}`{hint}; there are {}", names.join(", "))
         })
     }
@@ -91,16 +93,16 @@ pub struct Continuous {
     /// The star discrepancy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub star_discrepancy: Option<Bracket>,
-    /// The L2-star discrepancy; null for no tests.
+    /// The L2-star discrepancy; null without tests or time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub l2_star: Option<Option<f64>>,
-    /// The squared centered discrepancy; null for no tests.
+    /// The squared centered discrepancy; null without tests or time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centered: Option<Option<f64>>,
-    /// The squared wraparound discrepancy; null for no tests.
+    /// The squared wraparound discrepancy; null without tests or time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wraparound: Option<Option<f64>>,
-    /// The squared mixture discrepancy; null for no tests.
+    /// The squared mixture discrepancy; null without tests or time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mixture: Option<Option<f64>>,
 }
@@ -133,8 +135,8 @@ pub struct Discrete {
 }
 
 impl Tests {
-    /// Measures how well the tests cover their space: discrete parameters `k` at a time (2 where nothing is said,
-    /// or as many as there are), and what takes long within a time limit.
+    /// Measures how well the tests cover their space: discrete parameters `k` at a time (where nothing is said, as
+    /// they were made to; else 2, or as many as there are), and all that takes long within a time limit.
     ///
     /// # Errors
     /// There are not `k` discrete parameters, or too many combinations of them to count.
@@ -147,7 +149,7 @@ impl Tests {
         let discrete = if levels.is_empty() || !measures.contains(&Measure::KWise) {
             None
         } else {
-            Some(self.discrete(k.unwrap_or(levels.len().min(2)), &levels)?)
+            Some(self.discrete(k.or(self.k).unwrap_or(levels.len().min(2)), &levels)?)
         };
         Ok(Coverage { tests: self.points.len(), continuous, discrete })
     }
@@ -156,21 +158,35 @@ impl Tests {
         let points = PointSet::new(self.space.dims(), self.points.iter().map(|point| &point.continuous))?;
         let asked = |measure| measures.contains(&measure);
         let parameters: Vec<&Parameter> = self.space.continuous().collect();
-        // Half of the time for each of the two that may need it.
-        let deadline = || limit.map_or_else(Deadline::never, |limit| Deadline::after(limit / 2));
+        // What a measure leaves of the time is for those after it.
+        let end = limit.and_then(|limit| Instant::now().checked_add(limit));
+        let mut waiting = measures.iter().filter(|measure| **measure != Measure::KWise).count() as u32;
+        let mut deadline = || {
+            let share = end.map(|end| end.saturating_duration_since(Instant::now()) / waiting.max(1));
+            waiting = waiting.saturating_sub(1);
+            share.map_or_else(Deadline::never, Deadline::after)
+        };
+        let mut mean = |measure: fn(&PointSet, Deadline) -> Option<f64>| measure(&points, deadline());
+        let l2_star = asked(Measure::L2Star).then(|| mean(l2::l2_star));
+        let centered = asked(Measure::Centered).then(|| mean(l2::centered));
+        let wraparound = asked(Measure::Wraparound).then(|| mean(l2::wraparound));
+        let mixture = asked(Measure::Mixture).then(|| mean(l2::mixture));
         Ok(Continuous {
             parameters: parameters.iter().map(|parameter| parameter.name.clone()).collect(),
             dispersion: asked(Measure::Dispersion).then(|| {
                 let found = dispersion(&points, deadline());
                 let sides = found.witness.lower.iter().zip(&found.witness.upper);
-                let sides = parameters.iter().zip(sides).map(|(p, (lo, hi))| (p.name.clone(), values(p, *lo, *hi)));
-                Hole { volume: found.volume, largest_empty_box: Record(sides.collect()) }
+                let sides = parameters
+                    .iter()
+                    .zip(sides)
+                    .map(|(p, (lo, hi))| (p.name.clone(), [*lo, *hi].map(|u| p.value_at(u))));
+                Hole { volume: found.volume, largest_empty_box: sides.collect() }
             }),
             star_discrepancy: asked(Measure::Star).then(|| star_discrepancy(&points, deadline())),
-            l2_star: asked(Measure::L2Star).then(|| l2::l2_star(&points)),
-            centered: asked(Measure::Centered).then(|| l2::centered(&points)),
-            wraparound: asked(Measure::Wraparound).then(|| l2::wraparound(&points)),
-            mixture: asked(Measure::Mixture).then(|| l2::mixture(&points)),
+            l2_star,
+            centered,
+            wraparound,
+            mixture,
         })
     }
 
@@ -187,14 +203,8 @@ impl Tests {
             valid: counted.valid,
             covered: counted.covered,
             ratio: counted.ratio(),
-            missing: counted.missing.iter().map(|tuple| Record(tuple.iter().map(name).collect())).collect(),
+            missing: counted.missing.iter().map(|tuple| tuple.iter().map(name).collect()).collect(),
             combinations: counted.combinations,
         })
     }
-}
-
-/// The values at two coordinates of a continuous parameter.
-fn values(parameter: &Parameter, lower: f64, upper: f64) -> [f64; 2] {
-    let Domain::Interval { lo, hi } = parameter.domain else { unreachable!("it is a continuous parameter") };
-    [lower, upper].map(|u| lo + u * (hi - lo))
 }

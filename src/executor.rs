@@ -4,6 +4,8 @@
 //! wait for the ones before them and reach the sink in the order of their indices, whatever the number of
 //! workers. The first error of the sink stops the work.
 
+use crate::Error;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -12,22 +14,26 @@ use std::sync::mpsc;
 /// The name that worker threads begin with, by which a panic of a test can be told from a panic of the program.
 pub(crate) const WORKER: &str = "paracosm-worker";
 
-/// Calls `work` for every index on `jobs` threads, each with a worker of its own, and `sink` with the results in
-/// order.
+/// Threads for this many workers.
+pub(crate) fn pool(workers: usize) -> Result<ThreadPool, Error> {
+    let builder = ThreadPoolBuilder::new().num_threads(workers).thread_name(|i| format!("{WORKER}-{i}"));
+    builder.build().map_err(|error| Error::Usage(format!("cannot start {workers} threads: {error}")))
+}
+
+/// Calls `work` for every index on the threads of the pool, each with a worker of its own, and `sink` with the
+/// results in order.
 pub(crate) fn in_order<W, T: Send, E>(
-    jobs: usize,
+    pool: &ThreadPool,
     indices: Range<usize>,
     new_worker: impl Fn() -> W + Sync,
     work: impl Fn(&mut W, usize) -> T + Sync,
     mut sink: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).thread_name(|i| format!("{WORKER}-{i}")).build();
-    let pool = pool.expect("the system can start threads");
     let next = AtomicUsize::new(indices.start);
     let stop = AtomicBool::new(false);
     let (sender, results) = mpsc::channel();
     pool.in_place_scope(|scope| {
-        for _ in 0..jobs {
+        for _ in 0..pool.current_num_threads() {
             let sender = sender.clone();
             scope.spawn(|_| {
                 let sender = sender;
@@ -71,7 +77,7 @@ mod tests {
                 i
             };
             let result: Result<(), ()> = in_order(
-                jobs,
+                &pool(jobs).unwrap(),
                 5..200,
                 || (),
                 work,
@@ -89,7 +95,7 @@ mod tests {
     fn an_error_of_the_sink_stops_the_work() {
         let mut seen = 0;
         let result = in_order(
-            2,
+            &pool(2).unwrap(),
             0..1_000_000,
             || (),
             |(), i| i,
@@ -103,7 +109,7 @@ mod tests {
 
     #[test]
     fn nothing_to_do_is_done_at_once() {
-        let result: Result<(), ()> = in_order(2, 7..7, || (), |(), _| (), |()| Err(()));
+        let result: Result<(), ()> = in_order(&pool(2).unwrap(), 7..7, || (), |(), _| (), |()| Err(()));
         assert_eq!(result, Ok(()));
     }
 }

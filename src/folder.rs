@@ -6,6 +6,7 @@
 //! resumed, and its test run again.
 
 use crate::{Error, Study, Trial};
+use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -52,6 +53,10 @@ impl Folder {
     /// The folder holds another campaign, or a log that is broken before its end.
     pub fn resume(path: &Path, study: &Study) -> Result<(Self, Vec<Trial>), Error> {
         if !path.join(STUDY).exists() {
+            if let Some(name) = [TRIALS].into_iter().chain(DERIVED).find(|name| path.join(name).exists()) {
+                let message = format!("{} has {name} but no {STUDY}, so it cannot be continued", path.display());
+                return Err(Error::Usage(message));
+            }
             return Self::create(path, study).map(|folder| (folder, Vec::new()));
         }
         same_study(path, study)?;
@@ -72,8 +77,9 @@ impl Folder {
     pub fn read(path: &Path) -> Result<(Study, Vec<Trial>), Error> {
         let file = path.join(STUDY);
         let text = fs::read_to_string(&file).map_err(Error::file("read", &file))?;
-        let study =
+        let study: Study =
             serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
+        study.check_format().map_err(|message| Error::content(&file, None, message))?;
         let log = path.join(TRIALS);
         let text = fs::read_to_string(&log).map_err(Error::file("read", &log))?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
@@ -109,6 +115,11 @@ impl Folder {
     /// # Errors
     /// The log cannot be written: the disk is full, say.
     pub fn append(&mut self, trial: &Trial) -> Result<(), Error> {
+        // A folder that was removed takes the log with it, though writing goes on without a complaint.
+        if !self.path.join(TRIALS).exists() {
+            let message = format!("{} was removed while the campaign ran", self.path.join(TRIALS).display());
+            return Err(Error::Usage(message));
+        }
         let mut line = serde_json::to_string(trial).expect("a trial is always JSON");
         line.push('\n');
         self.log.write_all(line.as_bytes()).map_err(Error::file("write", &self.path.join(TRIALS)))
@@ -130,9 +141,9 @@ impl Folder {
         write_whole(&self.path.join(name), contents)
     }
 
-    /// Where it is.
-    pub fn path(&self) -> &Path {
-        &self.path
+    /// Whether a file of that name in a campaign's folder is the campaign's own, not to be written by anybody else.
+    pub(crate) fn owns(name: &OsStr) -> bool {
+        [STUDY, TRIALS].into_iter().chain(DERIVED).any(|ours| ours == name)
     }
 }
 
@@ -149,7 +160,7 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
         Some(key) => {
             let show = |study: &serde_json::Value| study.get(key).map_or("nothing".into(), ToString::to_string);
             Err(Error::Usage(format!(
-                "{} holds a different campaign: its `{key}` is {}, the one to resume has {}",
+                "{} holds a different campaign: its `{key}` is {}, this command's is {}",
                 path.display(),
                 show(&there),
                 show(&here)
@@ -160,6 +171,9 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
 
 fn parse_trials(file: &Path, text: &str) -> Result<Vec<Trial>, Error> {
     let parse = |(i, line): (usize, &str)| {
+        if line.ends_with('\r') {
+            return Err(Error::content(file, i + 1, "found a carriage return at the end of the line, expected none"));
+        }
         let trial: Trial =
             serde_json::from_str(line).map_err(|error| Error::content(file, i + 1, format!("no trial: {error}")))?;
         if trial.index != i {
@@ -168,11 +182,11 @@ fn parse_trials(file: &Path, text: &str) -> Result<Vec<Trial>, Error> {
         }
         Ok(trial)
     };
-    text.lines().enumerate().map(parse).collect()
+    text.split_terminator('\n').enumerate().map(parse).collect()
 }
 
 /// Writes a file so that it is never seen half-written, not even after a crash.
-fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
+pub(crate) fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
     let mut part = path.as_os_str().to_owned();
     part.push(".part");
     let part = PathBuf::from(part);

@@ -29,6 +29,7 @@ mod plot;
 mod study;
 mod summary;
 mod tests_file;
+mod trace_file;
 mod trial;
 
 #[cfg(feature = "cli")]
@@ -41,6 +42,7 @@ pub use folder::Folder;
 pub use plot::{Axis, FailureMap, Picture};
 pub use study::{DriverChoice, RequirementText, Study};
 pub use summary::{Summary, Worst};
+pub use trace_file::write_trace;
 pub use trial::Trial;
 
 pub use paracosm_coverage as coverage;

@@ -1,8 +1,7 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
-use crate::json::Record;
 use crate::{Error, Trial};
-use paracosm_coverage::{Domain, Parameter, Space, Value, Values, nearest};
+use paracosm_coverage::{Domain, Parameter, Record, Space, Value, Values, did_you_mean, nearest};
 use paracosm_engine::driver::{self, Driver};
 use paracosm_engine::{DEFAULT_DT, Declaration, Program};
 use paracosm_generators::{DiscreteFamily, Generator, Request, Strategy};
@@ -178,8 +177,7 @@ impl Study {
                 Domain::Choice(levels) => levels.clone(),
             };
             // Of a wrong interval the order of its ends is reported first, then that they lie outside.
-            let part = Space::new(vec![Parameter::new(name, domain.clone())]);
-            part?;
+            Space::new(vec![Parameter::new(name, domain.clone())])?;
             for end in &ends {
                 parameter.check(end)?;
             }
@@ -226,13 +224,9 @@ impl Study {
         let found = declared.iter().find(|declared| declared.parameter.name == name);
         found.map(|declared| declared.parameter.clone()).ok_or_else(|| {
             let names = declared.iter().map(|declared| declared.parameter.name.as_str());
-            let hint = nearest(name, names.clone()).map(|name| format!(" (did you mean `{name}`?)"));
+            let hint = did_you_mean(&nearest(name, names.clone()));
             let all = names.collect::<Vec<_>>().join(", ");
-            Error::Usage(format!(
-                "scenario `{}` has no parameter `{name}`{}; it has {all}",
-                self.scenario,
-                hint.unwrap_or_default()
-            ))
+            Error::Usage(format!("scenario `{}` has no parameter `{name}`{hint}; it has {all}", self.scenario))
         })
     }
 
@@ -264,6 +258,17 @@ impl Study {
             k: self.k,
         };
         Ok(self.strategy.parse::<Strategy>()?.build(&request)?)
+    }
+
+    /// Checks that the study is written in the form that this software reads.
+    pub(crate) fn check_format(&self) -> Result<(), String> {
+        if self.format == FORMAT {
+            return Ok(());
+        }
+        Err(format!(
+            "found format {}, expected {FORMAT}: the campaign is of another version, {}",
+            self.format, self.version
+        ))
     }
 
     /// Whether this very software has written it, so that a replay has to give the same trace.
@@ -312,7 +317,7 @@ impl DriverChoice {
     fn new(name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
         let settings = driver::find(name)?.settings(changes)?;
         let settings = settings.iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        Ok(Self { name: name.to_owned(), settings: Record(settings) })
+        Ok(Self { name: name.to_owned(), settings })
     }
 
     /// A new driver of this kind.
@@ -320,6 +325,7 @@ impl DriverChoice {
     /// # Errors
     /// The choice was read from a file and there is no such driver or setting.
     pub fn build(&self) -> Result<Box<dyn Driver>, Error> {
-        Ok(driver::find(&self.name)?.build(&self.settings.0)?)
+        let settings: Vec<_> = self.settings.iter().map(|(name, value)| (name.to_owned(), *value)).collect();
+        Ok(driver::find(&self.name)?.build(&settings)?)
     }
 }

@@ -1,7 +1,7 @@
 //! Tests from a file: a CSV with a header, its columns named as the parameters of a space.
 
 use crate::estimate::Tests;
-use crate::{Error, Folder, Trial};
+use crate::{Error, Folder, Study, Trial};
 use paracosm_coverage::{Space, Value, Values, nearest};
 use std::fs;
 use std::path::Path;
@@ -24,7 +24,7 @@ impl Tests {
                 return Err(Error::Usage(message));
             }
             let (study, trials) = Folder::read(path)?;
-            return Self::of_trials(study.space, &trials);
+            return Self::of_trials(&study, &trials);
         }
         let text = fs::read(path).map_err(Error::file("read", path))?;
         if text.is_empty() {
@@ -70,7 +70,7 @@ impl Tests {
             let point = space.encode(&test).map_err(|error| Error::content(path, line, format!("{error}{hint}")))?;
             points.push(point);
         }
-        Ok(Self { space, points })
+        Ok(Self { space, points, k: None })
     }
 
     /// The tests of a campaign that say anything of where they are: not those with the verdict `error` or
@@ -78,10 +78,10 @@ impl Tests {
     ///
     /// # Errors
     /// A test is not of the space.
-    pub fn of_trials(space: Space, trials: &[Trial]) -> Result<Self, Error> {
+    pub fn of_trials(study: &Study, trials: &[Trial]) -> Result<Self, Error> {
         let covering = trials.iter().filter(|trial| trial.covers());
-        let points = covering.map(|trial| space.encode(&trial.test)).collect::<Result<_, _>>()?;
-        Ok(Self { space, points })
+        let points = covering.map(|trial| study.space.encode(&trial.test)).collect::<Result<_, _>>()?;
+        Ok(Self { space: study.space.clone(), points, k: study.k() })
     }
 }
 

@@ -1,7 +1,7 @@
 //! One test with what became of it: a line of `trials.jsonl`.
 
-use crate::json::{MetricValue, Number, Record};
-use paracosm_coverage::Values;
+use crate::json::{MetricValue, Number};
+use paracosm_coverage::{Record, Values};
 use paracosm_engine::{Metric, Outcome};
 use paracosm_oracles::{Trace, Verdict};
 use serde::{Deserialize, Serialize};
@@ -35,8 +35,8 @@ impl Trial {
             index,
             test,
             verdict: outcome.verdict,
-            robustness: Record(robustness.collect()),
-            metrics: Record(metrics.collect()),
+            robustness: robustness.collect(),
+            metrics: metrics.collect(),
             // The first sample is the start, before any tick has passed.
             ticks: trace.map_or(0, |trace| trace.len() - 1),
             trace_hash: trace.map(Trace::hash),
@@ -56,7 +56,7 @@ impl Trial {
 
     /// The names of what was measured, in order.
     pub fn metric_names(&self) -> impl Iterator<Item = &str> {
-        self.metrics.0.iter().map(|(name, _)| name.as_str())
+        self.metrics.iter().map(|(name, _)| name)
     }
 
     /// Whether it violates a requirement.

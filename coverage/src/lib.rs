@@ -19,6 +19,6 @@ pub mod star;
 pub mod theory;
 
 pub use bracket::{Bracket, Deadline};
-pub use names::nearest;
+pub use names::{did_you_mean, nearest};
 pub use points::{PointSet, PointSetError};
-pub use space::{Domain, Parameter, Point, Space, SpaceError, Value, Values};
+pub use space::{Domain, Parameter, Point, Record, Space, SpaceError, Value, Values};

@@ -20,3 +20,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, candidate)| candidate)
 }
+
+/// The end of a message about an unknown name: ` (did you mean `halton`?)`, or nothing.
+pub fn did_you_mean(nearest: &Option<impl AsRef<str>>) -> String {
+    nearest.as_ref().map(|name| format!(" (did you mean `{}`?)", name.as_ref())).unwrap_or_default()
+}

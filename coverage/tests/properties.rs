@@ -147,7 +147,7 @@ proptest! {
             prop_assert!((dispersion_of(3, other) - dispersion_of(3, &points)).abs() <= 1e-15);
             prop_assert!((star_of(3, other) - star_of(3, &points)).abs() <= 1e-15);
             for measure in [l2::centered, l2::wraparound, l2::mixture, l2::l2_star] {
-                let difference = measure(&set(3, other)).zip(measure(&set(3, &points))).map_or(0.0, |(a, b)| a - b);
+                let difference = measure(&set(3, other), Deadline::never()).zip(measure(&set(3, &points), Deadline::never())).map_or(0.0, |(a, b)| a - b);
                 prop_assert!(difference.abs() <= 1e-7, "{}", difference);
             }
         }
@@ -165,7 +165,7 @@ proptest! {
             squares += (x * y - inside / n) * (x * y - inside / n);
         }
         let integral = (squares / f64::from(steps * steps)).sqrt();
-        prop_assert!((l2::l2_star(&set(2, &points)).unwrap() - integral).abs() <= 0.01);
+        prop_assert!((l2::l2_star(&set(2, &points), Deadline::never()).unwrap() - integral).abs() <= 0.01);
     }
 }
 

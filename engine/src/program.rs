@@ -30,7 +30,8 @@ impl Declared {
     pub fn nominal(&self) -> Value {
         self.parameter.default.clone().unwrap_or_else(|| match &self.parameter.domain {
             Domain::Interval { lo, hi } => Value::Number(0.5 * (lo + hi)),
-            Domain::Choice(levels) => levels[0].clone(),
+            // A choice of nothing is refused as soon as the program has returned.
+            Domain::Choice(levels) => levels.first().cloned().unwrap_or(Value::Number(f64::NAN)),
         })
     }
 }

@@ -95,7 +95,8 @@ pub struct Run {
 }
 
 impl Run {
-    /// The run of a program on a test, for a driver that is asked every `period` seconds.
+    /// The run of a program on a test, for a driver that is asked every `period` seconds. Period and duration are
+    /// rounded to whole ticks of `dt` seconds.
     ///
     /// # Errors
     /// The program cannot build its world with these values.
@@ -167,7 +168,10 @@ impl Run {
         }
         loop {
             if !self.supplied {
-                self.look();
+                if let Err(message) = self.look() {
+                    let message = format!("{message} at {:.3} s", self.time());
+                    return self.end(Outcome::broken(Verdict::Error, message));
+                }
                 if self.contact.is_some() || self.tick == self.ticks {
                     let outcome = self.judged();
                     return self.end(outcome);
@@ -213,7 +217,9 @@ impl Run {
     }
 
     /// Evaluates the streams and records the tick.
-    fn look(&mut self) {
+    ///
+    /// No comparison with NaN holds, so that a signal without a value would satisfy every `never`.
+    fn look(&mut self) -> Result<(), String> {
         let mut graph = std::mem::take(&mut self.graph);
         graph.tick(|source| self.output(source));
         self.graph = graph;
@@ -224,8 +230,12 @@ impl Run {
                 Column::Stream(slot) => self.graph.sample(*slot),
             };
             self.row[index] = as_number(sample);
+            if self.row[index].is_nan() {
+                return Err(format!("the signal `{}` has no value", self.trace.signals()[index]));
+            }
         }
         self.trace.record(&self.row);
+        Ok(())
     }
 
     fn output(&self, source: Source) -> Sample {

@@ -1,4 +1,5 @@
-//! The vehicle `single-track`: two axles, each of which can push no harder than its tyres hold the road.
+//! The vehicle `single-track`: two axles, each of which can push no harder than its tyres hold the road. It drives
+//! straight on: the model is longitudinal.
 //!
 //! The car is a rigid body on a front and a rear axle. Acceleration shifts load between them
 //! (`N_f = m (g l_r - a h) / L`, `N_r = m (g l_f + a h) / L`), and an axle transmits at most `mu N`. The brakes
@@ -24,7 +25,8 @@ pub struct Vehicle {
     pub wheelbase: f64,
     /// Centre of gravity to front axle.
     pub front_axle: f64,
-    /// Centre of gravity above the road.
+    /// Height above the road of the centre of gravity (of the sprung mass, as the single-track model of the source
+    /// takes it), on which the load transfer acts.
     pub centre_of_gravity: f64,
     /// What the engine and the brakes can do, in m/s², before the road limits them.
     pub max_acceleration: f64,

@@ -5,12 +5,11 @@
 //! star discrepancy, and a map of 10,000 tests on a grid, which neither sampler has a part in, tells what a
 //! sample lets one know: how much of the map is right if one believes the nearest test. Random has 30 seeds.
 
-use crate::Done;
-use crate::recovery::{Mark, Recovery, recovery};
+use crate::recovery::{Mark, Recovery, failing, nearest_neighbour, recovery, straight_line};
+use crate::{Done, print, write};
 use indicatif::ProgressBar;
 use paracosm::coverage::{Point, Values};
 use paracosm::{Campaign, Error, FailureMap, Measure, Picture, Study, Tests, Trial};
-use std::fs;
 use std::path::Path;
 
 const SIZES: [usize; 3] = [25, 100, 500];
@@ -29,11 +28,11 @@ struct Panel {
 }
 
 /// Runs the study and writes it to a folder.
-pub fn run(out: &Path) -> Done {
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let study = Study::of("pedestrian-crossing")?;
     let most = SIZES[SIZES.len() - 1];
-    let bar = ProgressBar::new((SIDE * SIDE + most * (SEEDS as usize + 1)) as u64);
-    let map = reference(&study, &bar)?;
+    bar.set_length((SIDE * SIDE + most * (SEEDS as usize + 1)) as u64);
+    let map = reference(&study, bar)?;
     let marks = marks(&study, &map)?;
 
     let mut panels = Vec::new();
@@ -71,8 +70,10 @@ pub fn run(out: &Path) -> Done {
     write_map(&out.join("reference-map.csv"), &study, &map)?;
     let summary = summary(&panels);
     write_csv(&out.join("summary.csv"), &summary)?;
-    print_summary(&summary);
-    Ok(())
+    let halton = panels.iter().find(|panel| panel.seed.is_none() && panel.trials.len() == most);
+    let halton = halton.expect("Halton has a panel of every size");
+    write_csv(&out.join("shape.csv"), &shape(&marks, &self::marks(&study, &halton.trials)?))?;
+    print(&table(&summary))
 }
 
 /// The seed whose smallest sample has the median dispersion, the upper one of two.
@@ -114,7 +115,7 @@ fn panel(
     trials: &[Trial],
     map: &[Mark],
 ) -> Result<Panel, Error> {
-    let tests = Tests::of_trials(study.space.clone(), trials)?;
+    let tests = Tests::of_trials(study, trials)?;
     let coverage = tests.measure(&[Measure::Dispersion, Measure::Star], None, None)?;
     let measured = coverage.continuous.expect("the study has two continuous parameters");
     Ok(Panel {
@@ -151,15 +152,14 @@ fn failure_map(study: &Study, trials: &[Trial]) -> Result<FailureMap, Error> {
 }
 
 fn draw(out: &Path, name: &str, picture: &Picture) -> Done {
-    fs::write(out.join(format!("{name}.svg")), picture.svg()?)?;
-    fs::write(out.join(format!("{name}.png")), picture.png()?)?;
-    Ok(())
+    write(&out.join(format!("{name}.svg")), picture.svg()?)?;
+    write(&out.join(format!("{name}.png")), picture.png()?)
 }
 
 fn write_csv(path: &Path, rows: &[Vec<String>]) -> Done {
-    let mut csv = csv::Writer::from_path(path)?;
+    let mut csv = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| csv.write_record(row))?;
-    Ok(csv.flush()?)
+    write(path, csv.into_inner()?)
 }
 
 type Measured = fn(&Panel) -> f64;
@@ -206,17 +206,46 @@ fn summary(panels: &[Panel]) -> Vec<Vec<String>> {
     rows
 }
 
-/// Prints the summary for people: measure by measure, random beside Halton.
-fn print_summary(rows: &[Vec<String>]) {
-    println!("{:<18}{:>6}{:>16}{:>20}{:>10}", "measure", "tests", "random, median", "quartiles", "halton");
+/// The summary for people: measure by measure, random beside Halton.
+fn table(rows: &[Vec<String>]) -> String {
+    let mut text =
+        format!("{:<18}{:>6}{:>16}{:>20}{:>10}\n", "measure", "tests", "random, median", "quartiles", "halton");
     let (random, halton) = rows[1..].split_at(SIZES.len());
     for (measure, (name, _)) in MEASURED.iter().enumerate() {
         for (random, halton) in random.iter().zip(halton) {
             let number = |row: &[String], i: usize| row[3 + 3 * measure + i].clone();
             let quartiles = format!("{}..{}", number(random, 1), number(random, 2));
-            println!("{name:<18}{:>6}{:>16}{quartiles:>20}{:>10}", random[1], number(random, 0), number(halton, 0));
+            let (tests, median, halton) = (&random[1], number(random, 0), number(halton, 0));
+            text += &format!("{name:<18}{tests:>6}{median:>16}{quartiles:>20}{halton:>10}\n");
         }
     }
+    text
+}
+
+/// What can be said of the shape of the failing region: how often tests fail in each quarter of the walking
+/// speeds, and how much a straight line or the nearest neighbour explains. Of the dense map and of the Halton tests.
+fn shape(map: &[Mark], halton: &[Mark]) -> Vec<Vec<String>> {
+    let quarter = |marks: &[Mark], i: usize| {
+        let within = marks.iter().filter(|mark| (mark.0[0] * 4.0).floor() as usize == i);
+        within.clone().filter(|mark| mark.1).count() as f64 / within.count() as f64
+    };
+    let mut rows = vec![["of", "measure", "share"].map(str::to_owned).to_vec()];
+    for (of, marks) in [("reference map", map), ("halton, 500 tests", halton)] {
+        let mut row = |measure: String, share: f64| rows.push(vec![of.to_owned(), measure, format!("{share:.4}")]);
+        row("failing".into(), failing(marks));
+        (0..4).for_each(|i| row(format!("failing in quarter {} of the speeds", i + 1), quarter(marks, i)));
+    }
+    let explained = [
+        ("all passing", 1.0 - failing(halton)),
+        ("best straight line", straight_line(halton)),
+        ("nearest neighbour", nearest_neighbour(halton)),
+    ];
+    rows.extend(
+        explained.map(|(by, share)| {
+            vec!["halton, 500 tests".to_owned(), format!("explained by {by}"), format!("{share:.4}")]
+        }),
+    );
+    rows
 }
 
 /// The quantile of sorted values, between two of them in proportion (type 7 of Hyndman and Fan 1996).

@@ -6,9 +6,11 @@ mod fig9;
 mod recovery;
 
 use clap::Parser;
-use paracosm::coverage::nearest;
+use indicatif::ProgressBar;
+use paracosm::coverage::{did_you_mean, nearest};
 use std::error::Error;
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -20,7 +22,7 @@ struct Study {
     about: &'static str,
     /// On a machine with two cores.
     time: &'static str,
-    run: fn(&Path) -> Done,
+    run: fn(&Path, &ProgressBar) -> Done,
 }
 
 const STUDIES: [Study; 1] = [Study {
@@ -42,13 +44,20 @@ struct Arguments {
     /// Where to write [default: experiments/out/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Say nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
 }
 
 fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
+        // Somebody closed the pipe that we print to, as `head` does: no reason to complain.
+        Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
+            ExitCode::SUCCESS
+        }
         Err(error) => {
-            eprintln!("error: {error}");
+            let _ = writeln!(io::stderr(), "error: {error}");
             ExitCode::from(2)
         }
     }
@@ -56,21 +65,33 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Done {
     if arguments.name == "list" {
-        for Study { name, about, time, .. } in &STUDIES {
-            println!("{name:<10}{time:<8}{about}");
-        }
-        return Ok(());
+        let line = |Study { name, about, time, .. }: &Study| format!("{name:<10}{time:<8}{about}\n");
+        return print(&STUDIES.iter().map(line).collect::<String>());
     }
     let Some(study) = STUDIES.iter().find(|study| study.name == arguments.name) else {
         let names = STUDIES.iter().map(|study| study.name);
-        let hint = nearest(&arguments.name, names).map(|name| format!(" (did you mean `{name}`?)"));
-        let hint = hint.unwrap_or_default();
+        let hint = did_you_mean(&nearest(&arguments.name, names));
         return Err(format!("no study is called `{}`{hint}; `list` shows them all", arguments.name).into());
     };
     let default = || Path::new("experiments/out").join(study.name);
     let out = arguments.out.clone().unwrap_or_else(default);
     fs::create_dir_all(&out).map_err(|error| format!("cannot create {}: {error}", out.display()))?;
-    (study.run)(&out)?;
-    eprintln!("written to {}", out.display());
+    let bar = if arguments.quiet { ProgressBar::hidden() } else { ProgressBar::no_length() };
+    (study.run)(&out, &bar)?;
+    if !arguments.quiet {
+        let _ = writeln!(io::stderr(), "written to {}", out.display());
+    }
     Ok(())
+}
+
+/// Prints a result.
+fn print(text: &str) -> Done {
+    let mut stdout = io::stdout().lock();
+    stdout.write_all(text.as_bytes())?;
+    Ok(stdout.flush()?)
+}
+
+/// Writes a file of a study.
+fn write(path: &Path, contents: impl AsRef<[u8]>) -> Done {
+    fs::write(path, contents).map_err(|error| format!("cannot write {}: {error}", path.display()).into())
 }

@@ -1,5 +1,5 @@
-//! How well a sample of tests tells what a dense map shows: the verdict of the nearest test, held against the
-//! map's own.
+//! How well failures are told from where tests are: by the nearest test of a sample, held against a dense map, and
+//! by what simple explanations there are, held against the tests themselves.
 
 /// A test in the unit square with whether it failed.
 pub type Mark = ([f64; 2], bool);
@@ -30,15 +30,71 @@ pub fn recovery(sample: &[Mark], map: &[Mark]) -> Recovery {
 }
 
 /// Whether the test nearest to a place failed; the first of equals.
-fn nearest(sample: &[Mark], place: &[f64; 2]) -> bool {
+fn nearest<'a>(sample: impl IntoIterator<Item = &'a Mark>, place: &[f64; 2]) -> bool {
     let distance = |at: &[f64; 2]| (at[0] - place[0]) * (at[0] - place[0]) + (at[1] - place[1]) * (at[1] - place[1]);
-    let nearest = sample.iter().min_by(|a, b| distance(&a.0).total_cmp(&distance(&b.0)));
+    let nearest = sample.into_iter().min_by(|a, b| distance(&a.0).total_cmp(&distance(&b.0)));
     nearest.is_some_and(|(_, fails)| *fails)
+}
+
+/// The share of tests that fail.
+pub fn failing(tests: &[Mark]) -> f64 {
+    tests.iter().filter(|test| test.1).count() as f64 / tests.len() as f64
+}
+
+/// The share of tests that the nearest other one tells right.
+pub fn nearest_neighbour(tests: &[Mark]) -> f64 {
+    let told = |i: usize| nearest(tests[..i].iter().chain(&tests[i + 1..]), &tests[i].0) == tests[i].1;
+    (0..tests.len()).filter(|i| told(*i)).count() as f64 / tests.len() as f64
+}
+
+/// The largest share of tests that a straight line tells right, failing ones on one side of it.
+///
+/// A best line can be moved until it passes through two tests, or as close beside them as one likes: for every test
+/// the others are sorted by their direction, and a line turns about it.
+pub fn straight_line(tests: &[Mark]) -> f64 {
+    let failures = tests.iter().filter(|test| test.1).count();
+    let mut best = failures.max(tests.len() - failures);
+    for (pivot, (about, _)) in tests.iter().enumerate() {
+        // The line's direction goes half a turn; which side is which does not matter, as either may be the failing.
+        let others = tests.iter().enumerate().filter(|(i, _)| *i != pivot).map(|(_, test)| test);
+        let mut events: Vec<(f64, bool, bool)> = others
+            .map(|(at, fails)| {
+                let (x, y) = (at[0] - about[0], at[1] - about[1]);
+                let upper = y > 0.0 || (y == 0.0 && x >= 0.0);
+                // A number that grows with the angle of the direction, brought to the upper half-plane.
+                let (x, y) = if upper { (x, y) } else { (-x, -y) };
+                (-x / (x.abs() + y.abs()).max(f64::MIN_POSITIVE), upper, *fails)
+            })
+            .collect();
+        events.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // Failing tests on the left of the line that points along x, plus passing ones on its right.
+        let mut right = events.iter().filter(|(_, upper, fails)| upper == fails).count();
+        for (i, (angle, upper, fails)) in events.iter().enumerate() {
+            right = if upper == fails { right - 1 } else { right + 1 };
+            // Tests in one direction change sides at once; the pivot itself can be put on either side.
+            if events.get(i + 1).is_none_or(|next| next.0 - angle > 1e-12) {
+                best = best.max(right + 1).max(tests.len() - right);
+            }
+        }
+    }
+    best as f64 / tests.len() as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_straight_line_explains_what_lies_on_two_sides_and_not_what_lies_between() {
+        let line = |fails: fn(f64, f64) -> bool| {
+            let cells = (0..100).map(|i| [f64::from(i % 10) + 0.01 * f64::from(i / 10), f64::from(i / 10)]);
+            straight_line(&cells.map(|at| (at, fails(at[0], at[1]))).collect::<Vec<_>>())
+        };
+        assert_eq!(line(|x, y| x + 2.0 * y > 13.0), 1.0);
+        assert_eq!(line(|_, _| false), 1.0);
+        // A band of 20 of 100 in the middle: the best is to call all passing.
+        assert_eq!(line(|_, y| (4.0..6.0).contains(&y)), 0.8);
+    }
 
     #[test]
     fn a_sample_is_held_against_the_map_by_its_nearest_test() {

@@ -1,12 +1,13 @@
 //! Why a generator cannot be built; every message says what was found and what would have been right.
 
+use paracosm_coverage::did_you_mean;
 use thiserror::Error;
 
 /// Why a generator cannot be built.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum GeneratorError {
     /// No strategy has that name.
-    #[error("no strategy is called `{name}`{}", hint(.nearest))]
+    #[error("no strategy is called `{name}`{}", did_you_mean(.nearest))]
     UnknownStrategy {
         /// The name.
         name: String,
@@ -14,7 +15,7 @@ pub enum GeneratorError {
         nearest: Option<&'static str>,
     },
     /// No discrete family has that name.
-    #[error("no discrete family is called `{name}`{}; there are random and cross", hint(.nearest))]
+    #[error("no discrete family is called `{name}`{}; there are random and cross", did_you_mean(.nearest))]
     UnknownFamily {
         /// The name.
         name: String,
@@ -82,8 +83,4 @@ pub enum GeneratorError {
         /// What gives fewer.
         advice: &'static str,
     },
-}
-
-fn hint(nearest: &Option<&str>) -> String {
-    nearest.map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
 }

@@ -8,7 +8,7 @@ use crate::{
 };
 use paracosm_coverage::{Space, nearest, theory};
 use rand::Rng;
-use std::str::FromStr;
+use std::{collections::HashSet, str::FromStr};
 
 /// Beyond it a family is a mistake rather than a plan.
 const MOST_ROWS: u64 = 10_000_000;
@@ -53,8 +53,17 @@ impl FromStr for DiscreteFamily {
 pub(crate) struct Family {
     levels: Vec<usize>,
     len: u64,
-    /// The seed of random rows; none for all combinations.
-    seed: Option<u64>,
+    rows: Rows,
+}
+
+/// Where the rows come from.
+enum Rows {
+    /// Random ones of this seed.
+    Random(u64),
+    /// All combinations, in order.
+    Cross,
+    /// These rows of the family they were chosen from.
+    Chosen(Vec<u64>, Box<Family>),
 }
 
 impl Family {
@@ -77,7 +86,7 @@ impl Family {
             DiscreteFamily::Random { delta } if parameters > 0 => {
                 match theory::random_family_size(&levels, k.unwrap_or(parameters.min(2)), delta) {
                     len if len > MOST_ROWS => too_large(len.to_string(), "use a smaller k"),
-                    len => Ok(Self { levels, len, seed: Some(seed) }),
+                    len => Ok(Self { levels, len, rows: Rows::Random(seed) }),
                 }
             }
             // The product of no levels is the one empty row.
@@ -85,7 +94,7 @@ impl Family {
                 match levels.iter().try_fold(1_u64, |rows, &n| rows.checked_mul(n as u64)) {
                     None => too_large("over 10^19".to_owned(), "use the random family"),
                     Some(len) if len > MOST_ROWS => too_large(len.to_string(), "use the random family"),
-                    Some(len) => Ok(Self { levels, len, seed: None }),
+                    Some(len) => Ok(Self { levels, len, rows: Rows::Cross }),
                 }
             }
         }
@@ -98,13 +107,24 @@ impl Family {
 
     /// The row at `index`, which is below [`Family::len`].
     pub(crate) fn row(&self, index: u64) -> Vec<usize> {
-        match self.seed {
-            Some(seed) => {
-                let mut rng = seeded(seed, Purpose::Rows, index);
+        match &self.rows {
+            Rows::Random(seed) => {
+                let mut rng = seeded(*seed, Purpose::Rows, index);
                 self.levels.iter().map(|&levels| rng.random_range(0..levels)).collect()
             }
-            None => digits(index, &self.levels),
+            Rows::Cross => digits(index, &self.levels),
+            Rows::Chosen(chosen, family) => family.row(chosen[index as usize]),
         }
+    }
+
+    /// The family without the rows that repeat an earlier one.
+    pub(crate) fn distinct(self) -> Self {
+        if !matches!(self.rows, Rows::Random(_)) {
+            return self;
+        }
+        let mut seen = HashSet::new();
+        let chosen: Vec<u64> = (0..self.len).filter(|&index| seen.insert(self.row(index))).collect();
+        Self { levels: self.levels.clone(), len: chosen.len() as u64, rows: Rows::Chosen(chosen, Box::new(self)) }
     }
 }
 

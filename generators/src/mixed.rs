@@ -30,6 +30,7 @@ impl Mixed {
 
     /// The rows alone, once each: repeating one would be the same test again.
     pub(crate) fn discrete(family: Family) -> Self {
+        let family = family.distinct();
         let end = family.len();
         Self { deal: Deal::new(end, end), family, sequence: None, first: 0, next: 0, end }
     }

@@ -2,7 +2,7 @@
 
 mod pedestrian_crossing;
 
-use paracosm_coverage::nearest;
+use paracosm_coverage::{did_you_mean, nearest};
 use paracosm_engine::Program;
 use thiserror::Error;
 
@@ -11,7 +11,7 @@ pub const ALL: [&Program; 1] = [&pedestrian_crossing::PROGRAM];
 
 /// A name that no scenario has.
 #[derive(Debug, Error, PartialEq)]
-#[error("no scenario is called `{name}`{}", nearest.map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default())]
+#[error("no scenario is called `{name}`{}", did_you_mean(.nearest))]
 pub struct UnknownScenario {
     /// The name.
     pub name: String,

@@ -131,7 +131,7 @@ impl Estimate {
         let space = Space::unit_cube(dims);
         let request = Request { seed: self.seed, skip: self.skip, ..Request::new(&space, budget) };
         let points = name.parse::<Strategy>()?.build(&request)?.ask(budget);
-        Ok(Tests { space, points })
+        Ok(Tests { space, points, k: None })
     }
 }
 

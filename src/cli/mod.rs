@@ -32,7 +32,7 @@ impl Verbosity {
     /// Says something that is no result.
     fn note(self, message: impl Display) {
         if !self.quiet {
-            eprintln!("{message}");
+            complain(&message);
         }
     }
 }
@@ -66,10 +66,15 @@ fn exit(result: Result<Found, Failure>) -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(error) => {
-            eprintln!("error: {error}");
+            complain(&format_args!("error: {error}"));
             ExitCode::from(2)
         }
     }
+}
+
+/// Says something on standard error; where nobody listens, nothing is said.
+fn complain(message: &impl Display) {
+    let _ = writeln!(io::stderr(), "{message}");
 }
 
 /// Prints a result.

@@ -2,7 +2,6 @@
 
 use crate::coverage::Bracket;
 use crate::estimate::{Continuous, Coverage, Discrete, Hole};
-use crate::json::Record;
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -37,7 +36,7 @@ pub(super) struct Table {
 }
 
 /// Where values begin.
-const LABEL: usize = 20;
+const LABEL: usize = 22;
 
 impl Table {
     pub fn heading(&mut self, text: &str) {
@@ -78,7 +77,7 @@ impl Table {
         ];
         for (label, value) in others {
             if let Some(value) = value {
-                self.row(label, &value.map_or("undefined without tests".into(), digits));
+                self.row(label, &value.map_or("unknown: no tests, or no time".into(), digits));
             }
         }
     }
@@ -88,8 +87,7 @@ impl Table {
         self.row(&format!("{k}-wise coverage"), &format!("{covered} of {valid} ({})", percent(*ratio)));
         self.row("  of all combinations", &percent(*combinations));
         for (i, tuple) in missing.iter().enumerate() {
-            let Record(values) = tuple;
-            let values: Vec<String> = values.iter().map(|(name, value)| format!("{name} {value}")).collect();
+            let values: Vec<String> = tuple.iter().map(|(name, value)| format!("{name} {value}")).collect();
             self.row(if i == 0 { "  missing" } else { "" }, &values.join(", "));
         }
         let unlisted = valid - covered - missing.len() as u64;
@@ -100,8 +98,8 @@ impl Table {
 }
 
 fn sides(hole: &Hole) -> String {
-    let side = |(name, [lo, hi]): &(String, [f64; 2])| format!("{name} {}..{}", digits(*lo), digits(*hi));
-    hole.largest_empty_box.0.iter().map(side).collect::<Vec<_>>().join(", ")
+    let side = |(name, [lo, hi]): (&str, &[f64; 2])| format!("{name} {}..{}", digits(*lo), digits(*hi));
+    hole.largest_empty_box.iter().map(side).collect::<Vec<_>>().join(", ")
 }
 
 /// An exact value as one number, a bracket as two.

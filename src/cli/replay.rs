@@ -3,10 +3,9 @@
 use super::output::{Format, Table, digits, json};
 use super::{Failure, Found, Verbosity, print};
 use crate::engine::Metric;
-use crate::oracles::Trace;
-use crate::{Error, Folder, Study, Trial, simulate_trial};
+use crate::{Error, Folder, Study, Trial, simulate_trial, write_trace};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What `replay` takes.
 #[derive(Debug, Args)]
@@ -53,14 +52,14 @@ impl Options {
     }
 }
 
+/// What of the replay is not as it was logged.
 fn difference(study: &Study, logged: &Trial, trial: &Trial) -> String {
-    let hash = |trial: &Trial| trial.trace_hash.clone().unwrap_or_else(|| "none".into());
-    let mut message = format!(
-        "the replay of test {} differs from the log: trace hash {}, logged {}",
-        trial.index,
-        hash(trial),
-        hash(logged)
-    );
+    let fields = |trial: &Trial| serde_json::to_value(trial).expect("a trial is always JSON");
+    let (logged, found) = (fields(logged), fields(trial));
+    let keys = found.as_object().into_iter().flatten().map(|(key, _)| key);
+    let keys = keys.filter(|key| logged.get(key) != found.get(key));
+    let differ: Vec<String> = keys.map(|key| format!("{key} {}, logged {}", found[key], logged[key])).collect();
+    let mut message = format!("test {} differs from the log: {}", trial.index, differ.join("; "));
     if !study.is_of_this_software() {
         message.push_str("; the campaign was run by another version of this software");
     }
@@ -94,24 +93,4 @@ fn table(study: &Study, trial: &Trial) -> String {
     }
     table.row("trace hash", &format!("{}, as logged", trial.trace_hash.as_deref().unwrap_or("none")));
     table.finish()
-}
-
-/// Writes a trace as CSV: a column `time` in seconds, then one for each signal.
-fn write_trace(path: &Path, trace: &Trace) -> Result<(), Error> {
-    let write = || -> Result<(), csv::Error> {
-        let mut csv = csv::Writer::from_path(path)?;
-        csv.write_record(["time"].into_iter().chain(trace.signals().iter().map(String::as_str)))?;
-        for (tick, row) in trace.rows().enumerate() {
-            let time = tick as f64 * trace.dt();
-            csv.write_record([time].iter().chain(row).map(ToString::to_string))?;
-        }
-        Ok(csv.flush()?)
-    };
-    write().map_err(|error| {
-        let source = match error.into_kind() {
-            csv::ErrorKind::Io(source) => source,
-            other => std::io::Error::other(format!("{other:?}")),
-        };
-        Error::File { action: "write", path: path.to_owned(), source }
-    })
 }

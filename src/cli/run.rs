@@ -1,7 +1,7 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
 use super::output::{Format, Table, digits, json, percent, shell_word};
-use super::{Failure, Found, Verbosity, print};
+use super::{Failure, Found, Verbosity, complain, print};
 use crate::coverage::{Domain, Value};
 use crate::oracles::Verdict;
 use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Study, Summary, Tests, Trial};
@@ -95,10 +95,18 @@ impl Options {
             trials.push(trial.clone());
             Ok(())
         });
+        if let Err(error) = run {
+            progress.bar.finish_and_clear();
+            return Err(cut_short(&error, &self.out, trials.len()));
+        }
+        if trials.len() < study.budget {
+            let message = "the strategy has no more tests for these parameters than";
+            verbosity.note(format_args!("{message} {}, fewer than the budget", trials.len()));
+        }
+        progress.bar.set_message("measuring coverage");
+        let coverage = self.write_results(&folder, &study, &trials, verbosity);
         progress.bar.finish_and_clear();
-        run.map_err(|error| cut_short(&error, &self.out, trials.len()))?;
-
-        let coverage = self.write_results(&folder, &study, &trials, verbosity)?;
+        let coverage = coverage?;
         let report =
             Report { study: &study, trials: &trials, summary: &progress.summary, coverage: &coverage, out: &self.out };
         print(&match Format::or_fitting(self.format) {
@@ -145,8 +153,12 @@ impl Options {
             };
             study = study.open(name, over)?;
         }
-        for (name, value) in fixed {
-            study = study.set(name, value)?;
+        for (i, (name, value)) in fixed.iter().enumerate() {
+            let opened = self.open.iter().any(|text| text.split('=').next() == Some(name));
+            if opened || fixed[..i].iter().any(|(other, _)| other == name) {
+                return Err(Error::Usage(format!("parameter `{name}` is set and opened, or set twice")));
+            }
+            study = study.set(name, value.clone())?;
         }
         Ok(study)
     }
@@ -159,8 +171,8 @@ impl Options {
         verbosity: Verbosity,
     ) -> Result<Coverage, Error> {
         folder.write_table(study, trials)?;
-        let tests = Tests::of_trials(study.space.clone(), trials)?;
-        let coverage = tests.measure(&Measure::ALL, study.k(), Some(COVERAGE_LIMIT))?;
+        let tests = Tests::of_trials(study, trials)?;
+        let coverage = tests.measure(&Measure::ALL, None, Some(COVERAGE_LIMIT))?;
         folder.write("coverage.json", json(&coverage).as_bytes())?;
         match FailureMap::of(study, trials) {
             None => verbosity.note("no failure map: it needs two continuous open parameters"),
@@ -224,7 +236,8 @@ impl Progress {
         self.bar.set_message(format!("{} fail", self.summary.count(Verdict::Fail)));
         self.bar.inc(1);
         if self.verbose && trial.verdict != Verdict::Pass {
-            self.bar.suspend(|| eprintln!("test {}: {}, {}", trial.index, trial.verdict, in_words(study, trial)));
+            let line = format!("test {}: {}, {}", trial.index, trial.verdict, in_words(study, trial));
+            self.bar.suspend(|| complain(&line));
         }
     }
 }

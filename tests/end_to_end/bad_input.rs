@@ -17,6 +17,9 @@ fn wrong_campaigns_are_refused_with_the_nearest_valid_name() {
         (&["--set", "lanes=3"], &["`lanes`", "found 3", "2, 4, 6"]),
         (&["--set", "speed"], &["NAME=VALUE"]),
         (&["--set", "driver.ttc=soon"], &["`soon`", "number"]),
+        (&["--set", "driver.samples=3.7"], &["`samples`", "3.7", "whole number"]),
+        (&["--set", "friction=0.5", "--open", "friction"], &["`friction`", "set and opened"]),
+        (&["--set", "speed=1", "--set", "speed=2"], &["`speed`", "set twice"]),
         (&["--set", "driver.ttc=NaN"], &["`ttc`", "NaN", "0 to 10"]),
         (&["--set", "friction=NaN"], &["`friction`", "NaN"]),
         (&["--set", "speed=1", "--set", "distance=9"], &["`distance`", "nothing to test"]),
@@ -81,6 +84,7 @@ fn broken_files_of_tests_are_refused_with_the_line() {
         (b"a,b\n0.1,NaN\n", &["line 2", "NaN"]),
         (b"a,b\n0.1,inf\n", &["line 2", "inf"]),
         (b"0.5,0.5\n0.1,0.2\n", &["line 1", "header"]),
+        (b"a;b\n0.1;0.2\n", &["line 1", "`;`"]),
         (b"a,a\n0.1,0.2\n", &["line 1", "`a`", "twice"]),
         (b"a,b\n0.1,\xff\n", &["line 2", "UTF-8"]),
     ];

@@ -86,6 +86,19 @@ fn a_full_disk_ends_the_campaign_with_a_message_and_loses_nothing() {
 }
 
 #[test]
+fn a_campaign_whose_folder_is_removed_ends_and_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut child = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"));
+    let child = child.args(["--budget", "1000000", "--out", "out"]).current_dir(dir.path());
+    let child = child.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    while !dir.path().join("out/trials.jsonl").exists() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    fs::remove_dir_all(dir.path().join("out")).unwrap();
+    refused(&child.wait_with_output().unwrap(), &["out/trials.jsonl was removed"]);
+}
+
+#[test]
 fn resume_begins_a_campaign_that_is_not_there_and_does_nothing_to_a_complete_one() {
     let dir = tempfile::tempdir().unwrap();
     let begun = run(dir.path(), "out", &["--resume"]);
@@ -99,6 +112,10 @@ fn nothing_is_overwritten() {
     refused(&fuzz(dir.path(), &["--budget", "200", "--out", "out"]), &["out", "--resume", "--out"]);
     let different = fuzz(dir.path(), &["--budget", "300", "--out", "out", "--resume"]);
     refused(&different, &["out", "different campaign", "`budget` is 200", "300"]);
+    assert_eq!(before, log(dir.path(), "out"));
+    fs::remove_file(dir.path().join("out/campaign.json")).unwrap();
+    let orphan = fuzz(dir.path(), &["--budget", "200", "--out", "out", "--resume"]);
+    refused(&orphan, &["trials.jsonl but no campaign.json"]);
     assert_eq!(before, log(dir.path(), "out"));
     fs::create_dir(dir.path().join("mine")).unwrap();
     fs::write(dir.path().join("mine/failure-map.svg"), "a drawing").unwrap();
@@ -118,6 +135,7 @@ fn a_broken_line_in_the_log_is_named() {
         ("", "no trial"),
         (lines[7], "found trial 7, expected trial 2"),
         (&lines[2].replace("ticks", "tics"), "tics"),
+        (&format!("{}\r", lines[2]), "carriage return"),
     ] {
         fs::write(&path, with_third(line)).unwrap();
         for command in [&["--budget", "200", "--out", "out", "--resume"][..], &["replay", "out", "0"]] {

@@ -111,6 +111,39 @@ fn replay_repeats_a_test_with_the_same_hash_and_writes_its_trace() {
 }
 
 #[test]
+fn estimate_of_a_campaign_looks_at_as_many_parameters_together_as_the_campaign_did() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), &["--open", "lanes", "--open", "friction=0.2,0.5,0.8", "--k", "1"]);
+    let printed = stdout(&succeeds(cover(dir.path(), &["estimate", "out"])));
+    assert_eq!(printed, fs::read_to_string(dir.path().join("out/coverage.json")).unwrap());
+    let json: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!((json["discrete"]["k"].as_u64(), json["discrete"]["valid"].as_u64()), (Some(1), Some(6)));
+}
+
+#[test]
+fn a_space_without_continuous_parameters_is_tested_once_each_and_that_is_said() {
+    let dir = tempfile::tempdir().unwrap();
+    let options = ["--open", "lanes", "--open", "friction=0.2,0.5,0.8", "--set", "speed=2", "--set", "distance=20"];
+    for (family, out) in [("random", "a"), ("cross", "b")] {
+        let options = [&options[..], &["--discrete", family, "--out", out]].concat();
+        let note = stderr(&succeeds(fuzz(dir.path(), &options)));
+        assert!(note.contains("no more tests") && note.contains(" 9,"), "{note}");
+        assert!(note.contains("no failure map"), "{note}");
+        assert_eq!(fs::read_to_string(dir.path().join(out).join("trials.jsonl")).unwrap().lines().count(), 9);
+    }
+}
+
+#[test]
+fn a_trace_does_not_replace_a_file_of_the_campaign() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), &[]);
+    let before = fs::read(dir.path().join("out/trials.jsonl")).unwrap();
+    let replay = fuzz(dir.path(), &["replay", "out", "3", "--trace", "out/trials.jsonl"]);
+    crate::common::refused(&replay, &["out/trials.jsonl", "must not replace"]);
+    assert_eq!(fs::read(dir.path().join("out/trials.jsonl")).unwrap(), before);
+}
+
+#[test]
 fn replay_fails_where_the_log_says_something_else() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), &[]);

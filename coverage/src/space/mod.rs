@@ -5,13 +5,15 @@
 //! one. [`Space::decode`] and [`Space::encode`] are the only way from one to the other.
 
 mod parameter;
+mod record;
 mod text;
 mod value;
 
 pub use parameter::{Domain, Parameter};
+pub use record::Record;
 pub use value::{Value, Values};
 
-use crate::names::nearest;
+use crate::names::{did_you_mean, nearest};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -70,7 +72,7 @@ pub enum SpaceError {
         value: Value,
     },
     /// A value that the parameter does not take.
-    #[error("parameter `{name}`: found {value}, expected {expected}{}", hint(.nearest))]
+    #[error("parameter `{name}`: found {value}, expected {expected}{}", did_you_mean(.nearest))]
     OutsideDomain {
         /// The parameter.
         name: String,
@@ -82,7 +84,7 @@ pub enum SpaceError {
         nearest: Option<String>,
     },
     /// A name that the space does not know.
-    #[error("no parameter is called `{name}`{}", hint(.nearest))]
+    #[error("no parameter is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
         /// The name.
         name: String,
@@ -100,10 +102,6 @@ pub enum SpaceError {
         /// Line and column, from 1, where the text parser knows them.
         at: Option<(usize, usize)>,
     },
-}
-
-fn hint(nearest: &Option<String>) -> String {
-    nearest.as_ref().map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
 }
 
 impl Space {

@@ -62,6 +62,17 @@ impl Parameter {
         }
     }
 
+    /// The value at a coordinate in `[0,1]` of a continuous parameter.
+    ///
+    /// # Panics
+    /// The parameter is discrete.
+    pub fn value_at(&self, coordinate: f64) -> f64 {
+        match self.domain {
+            Domain::Interval { lo, hi } => super::at(lo, hi, coordinate),
+            Domain::Choice(_) => panic!("parameter `{}` is discrete and has levels", self.name),
+        }
+    }
+
     /// The name with its unit, for an axis or a column: `speed (m/s)`.
     pub fn label(&self) -> String {
         match &self.unit {

@@ -1,7 +1,7 @@
-//! Values of parameters, and the values of a whole test.
+//! Values of parameters: numbers and words.
 
-use serde::de::{Error as _, MapAccess, Visitor};
-use serde::ser::SerializeMap;
+use super::Record;
+use serde::de::Visitor;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
@@ -114,68 +114,5 @@ impl<'de> Deserialize<'de> for Value {
     }
 }
 
-/// The values of a test by parameter name, in the order in which they were given.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Values(Vec<(String, Value)>);
-
-impl Values {
-    /// The value of the parameter of that name.
-    pub fn get(&self, name: &str) -> Option<&Value> {
-        self.iter().find(|(key, _)| *key == name).map(|(_, value)| value)
-    }
-
-    /// Names and values in order.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &Value)> {
-        self.0.iter().map(|(name, value)| (name.as_str(), value))
-    }
-
-    /// Gives a parameter its value; an earlier one of the same name is replaced where it stands.
-    pub fn set(&mut self, name: impl Into<String>, value: impl Into<Value>) {
-        let (name, value) = (name.into(), value.into());
-        match self.0.iter_mut().find(|(key, _)| *key == name) {
-            Some(entry) => entry.1 = value,
-            None => self.0.push((name, value)),
-        }
-    }
-}
-
-impl FromIterator<(String, Value)> for Values {
-    fn from_iter<I: IntoIterator<Item = (String, Value)>>(entries: I) -> Self {
-        Self(entries.into_iter().collect())
-    }
-}
-
-impl Serialize for Values {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (name, value) in &self.0 {
-            map.serialize_entry(name, value)?;
-        }
-        map.end()
-    }
-}
-
-impl<'de> Deserialize<'de> for Values {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries;
-        impl<'de> Visitor<'de> for Entries {
-            type Value = Values;
-
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("values by parameter name")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Values, A::Error> {
-                let mut values = Values::default();
-                while let Some((name, value)) = map.next_entry::<String, Value>()? {
-                    if values.get(&name).is_some() {
-                        return Err(A::Error::custom(format!("parameter `{name}` has two values")));
-                    }
-                    values.0.push((name, value));
-                }
-                Ok(values)
-            }
-        }
-        deserializer.deserialize_map(Entries)
-    }
-}
+/// The values of a test by parameter name.
+pub type Values = Record<Value>;

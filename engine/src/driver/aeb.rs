@@ -6,12 +6,21 @@
 //! it goes on until nothing has been in the way for a while, looking further ahead than before, so that it does
 //! not let go in front of a person who is still crossing; then it takes up its speed again.
 //!
-//! The numbers are those of a present-day production system: pedestrians are detected up to some 60 m by a
-//! forward camera with a field of view of 50 to 60 degrees; perception and brake build-up together take about
-//! half a second; full emergency braking asks for 9 m/s² at a time to collision of 1.0 to 1.6 s (the range of
-//! last-moment braking in the Euro NCAP AEB VRU tests), and brake-by-wire builds pressure at 20 to 40 m/s³.
+//! Where the numbers come from:
+//!
+//! | setting | source |
+//! | --- | --- |
+//! | deceleration 9 m/s² | what the tyres of a car hold on dry asphalt, some 0.9 g; UN R152 asks an emergency brake for at least 5 m/s², the careful and competent driver of UN R157 brakes with 7.6 m/s² |
+//! | ttc 1.6 s | chosen later than the 2 s at which the driver of UN R157 perceives a risk, since a system that brakes for every risk is switched off by its owner |
+//! | jerk 30 m/s³ | chosen between the 12.65 m/s³ of UN R157's human driver and a step: full brakes in 0.3 s |
+//! | latency 0.5 s | chosen: from light to brake demand, through detection, confirmation over some frames and fusion; 0.35 s and 0.75 s are the reaction times of UN R157's models |
+//! | range 60 m, field of view 60° | chosen for one forward camera: at 60 km/h the range is 3.6 s ahead, and the angle loses a person 1 m beside the car at 1.4 m |
+//! | noise 0.1 m, samples 8, margin 0.3 m | chosen: 8 detections in 0.4 s give a walking speed to 0.3 m/s (one standard deviation), so that a person who stands beside the road seldom looks like one who walks onto it |
+//! | clear_ttc 3 s, release 0.5 s | chosen so that the brake is not let go in front of a person who is still crossing |
+//!
+//! The defaults for which no source is given are a study's to vary: `--set driver.NAME=VALUE`.
 
-use super::cruise::Cruise;
+use super::cruise::{Cruise, PERIOD};
 use super::perception::{Perception, Sensor, Track};
 use super::{Driver, Kind, Setting, Settings};
 use crate::observation::{Briefing, Control, Observation};
@@ -28,14 +37,14 @@ const SETTINGS: [Setting; 12] = [
     setting("field_of_view", 60.0, "deg", (0.0, 360.0), "opening angle of what it sees"),
     setting("noise", 0.1, "m", (0.0, 10.0), "standard deviation of a detected position, each coordinate"),
     setting("latency", 0.5, "s", (0.0, 5.0), "delay of every frame"),
-    setting("samples", 8.0, "", (3.0, 100.0), "detections that a motion is estimated from"),
+    whole("samples", 8.0, (3.0, 100.0), "detections that a motion is estimated from"),
     setting("ttc", 1.6, "s", (0.0, 10.0), "time to collision at which it brakes"),
     setting("clear_ttc", 3.0, "s", (0.0, 30.0), "time to collision above which the way is clear again"),
     setting("release", 0.5, "s", (0.0, 10.0), "how long the way must be clear before the brake lets go"),
     setting("deceleration", 9.0, "m/s^2", (0.0, 20.0), "what it asks of the brakes"),
     setting("jerk", 30.0, "m/s^3", (1.0, 1000.0), "how fast the brake builds up"),
     setting("margin", 0.3, "m", (0.0, 5.0), "room it wants beside the car"),
-    setting("seed", 1.0, "", (0.0, 4294967295.0), "of the noise, which is the same in every test"),
+    whole("seed", 1.0, (0.0, 4294967295.0), "of the noise, which is the same in every test"),
 ];
 
 const fn setting(
@@ -45,11 +54,13 @@ const fn setting(
     range: (f64, f64),
     about: &'static str,
 ) -> Setting {
-    Setting { name, default, unit, range, about }
+    Setting { name, default, unit, range, whole: false, about }
 }
 
-/// Seconds between two frames.
-const PERIOD: f64 = 0.05;
+const fn whole(name: &'static str, default: f64, range: (f64, f64), about: &'static str) -> Setting {
+    Setting { name, default, unit: "", range, whole: true, about }
+}
+
 /// Speed in m/s at which it imagines the slow or standing car to go on when it judges whether the way is clear.
 const CREEP: f64 = 3.0;
 
@@ -79,6 +90,7 @@ impl Aeb {
             noise: settings.get("noise"),
             latency: settings.get("latency"),
             samples: settings.get("samples") as usize,
+            period: PERIOD,
             seed: settings.get("seed") as u64,
         };
         Self {
@@ -131,6 +143,7 @@ impl Driver for Aeb {
         self.half_width = 0.5 * briefing.vehicle.width;
         self.braking = false;
         self.brake = 0.0;
+        self.blocked = 0.0;
     }
 
     fn step(&mut self, observation: &Observation) -> Control {

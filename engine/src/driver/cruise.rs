@@ -14,6 +14,8 @@ pub(super) const KIND: Kind = Kind {
 /// Strongest acceleration and deceleration in m/s² of a comfortable speed control (ISO 15622 lets an adaptive
 /// cruise control accelerate by up to 2.0 m/s² at high speed).
 const COMFORT: f64 = 2.0;
+/// Seconds between two questions: 20 Hz, a usual rate of driver assistance.
+pub(super) const PERIOD: f64 = 0.05;
 /// Acceleration per m/s of missing speed, in 1/s.
 const GAIN: f64 = 1.0;
 
@@ -38,7 +40,7 @@ impl Cruise {
 
 impl Driver for Cruise {
     fn period(&self) -> f64 {
-        0.05
+        PERIOD
     }
 
     fn reset(&mut self, briefing: &Briefing) {

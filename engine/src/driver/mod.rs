@@ -8,7 +8,7 @@ mod cruise;
 mod perception;
 
 use crate::observation::{Briefing, Control, Observation};
-use paracosm_coverage::nearest;
+use paracosm_coverage::{did_you_mean, nearest};
 use thiserror::Error;
 
 /// A system under test.
@@ -34,6 +34,8 @@ pub struct Setting {
     pub unit: &'static str,
     /// The least and the greatest value it can have.
     pub range: (f64, f64),
+    /// Whether it counts something, so that only whole numbers make sense.
+    pub whole: bool,
     /// What it means.
     pub about: &'static str,
 }
@@ -65,7 +67,7 @@ pub struct Kind {
 #[derive(Debug, Error, PartialEq)]
 pub enum DriverError {
     /// No driver has that name.
-    #[error("no driver is called `{name}`{}", hint(.nearest))]
+    #[error("no driver is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
         /// The name.
         name: String,
@@ -73,7 +75,7 @@ pub enum DriverError {
         nearest: Option<&'static str>,
     },
     /// The driver has no such setting.
-    #[error("driver `{driver}` has no setting `{name}`{}", hint(.nearest))]
+    #[error("driver `{driver}` has no setting `{name}`{}", did_you_mean(.nearest))]
     UnknownSetting {
         /// The driver.
         driver: &'static str,
@@ -83,7 +85,10 @@ pub enum DriverError {
         nearest: Option<&'static str>,
     },
     /// The setting cannot have that value.
-    #[error("driver `{driver}`: setting `{name}` is {value}, expected a number from {} to {}", range.0, range.1)]
+    #[error(
+        "driver `{driver}`: setting `{name}` is {value}, expected a {}number from {} to {}",
+        if *whole { "whole " } else { "" }, range.0, range.1
+    )]
     OutOfRange {
         /// The driver.
         driver: &'static str,
@@ -93,11 +98,9 @@ pub enum DriverError {
         value: f64,
         /// Least and greatest value.
         range: (f64, f64),
+        /// Whether it has to be a whole number.
+        whole: bool,
     },
-}
-
-fn hint(nearest: &Option<&'static str>) -> String {
-    nearest.map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
 }
 
 /// Every kind of driver there is.
@@ -126,9 +129,9 @@ impl Kind {
                 let nearest = nearest(name, self.settings.iter().map(|setting| setting.name));
                 DriverError::UnknownSetting { driver: self.name, name: name.clone(), nearest }
             })?;
-            let Setting { name, range, .. } = self.settings[index];
-            if !(range.0..=range.1).contains(value) {
-                return Err(DriverError::OutOfRange { driver: self.name, name, value: *value, range });
+            let Setting { name, range, whole, .. } = self.settings[index];
+            if !(range.0..=range.1).contains(value) || whole && value.fract() != 0.0 {
+                return Err(DriverError::OutOfRange { driver: self.name, name, value: *value, range, whole });
             }
             settings.0[index].1 = *value;
         }

@@ -25,10 +25,14 @@ pub(super) struct Sensor {
     pub latency: f64,
     /// How many detections a track is fitted to.
     pub samples: usize,
+    /// Seconds between two frames.
+    pub period: f64,
     /// Where the noise begins.
     pub seed: u64,
 }
 
+/// Seconds after which the last of a body that went out of sight is no longer acted on.
+const OUT_OF_SIGHT: f64 = 0.5;
 /// Fewest detections that give a velocity worth acting on.
 const FEWEST: usize = 3;
 
@@ -89,9 +93,9 @@ impl Perception {
         }
     }
 
-    /// Seconds after which a detection is forgotten: what is out of sight for another half second is gone.
+    /// Seconds after which a detection is forgotten.
     fn memory(&self) -> f64 {
-        self.sensor.latency + 0.5 + 0.05 * self.sensor.samples as f64
+        self.sensor.latency + OUT_OF_SIGHT + self.sensor.period * self.sensor.samples as f64
     }
 
     /// What the driver believes at the time of the last frame.

@@ -20,13 +20,9 @@ impl Pose {
 
     /// A point of the plane as seen from here: x ahead, y to the left.
     pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
-        self.turn_to_local(point - self.position)
-    }
-
-    /// A direction or a velocity as seen from here: x ahead, y to the left.
-    pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
         let ahead = self.forward();
-        Vector2::new(ahead.dot(&direction), ahead.perp(&direction))
+        let offset = point - self.position;
+        Vector2::new(ahead.dot(&offset), ahead.perp(&offset))
     }
 }
 

@@ -100,20 +100,17 @@ impl Scenario {
 
     fn declare<T: param::Plain>(&mut self, name: &str, domain: Domain, nominal: Option<Value>) -> Param<T> {
         let open = nominal.is_none();
-        let middle = || match &domain {
-            Domain::Interval { lo, hi } => Value::Number(0.5 * (lo + hi)),
-            Domain::Choice(levels) => levels.first().cloned().unwrap_or(Value::Number(f64::NAN)),
-        };
-        // A name that the test does not know is reported once the program has returned, with all the others.
-        let given = self.test.as_ref().and_then(|test| test.get(name).cloned());
-        let value = given.or_else(|| nominal.clone()).unwrap_or_else(middle);
         let mut parameter = Parameter::new(name, domain);
         parameter.default = nominal;
+        let declared = Declared { parameter, open };
+        // A name that the test does not know is reported once the program has returned, with all the others.
+        let given = self.test.as_ref().and_then(|test| test.get(name).cloned());
+        let value = given.unwrap_or_else(|| declared.nominal());
         let value = T::from_value(&value).unwrap_or_else(|| {
             self.problem(format!("parameter `{name}` has the value {value}, which is of another type"));
             T::placeholder()
         });
-        self.parameters.borrow_mut().push(Declared { parameter, open });
+        self.parameters.borrow_mut().push(declared);
         Param::new(self.parameters.clone(), value)
     }
 

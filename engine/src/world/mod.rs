@@ -1,13 +1,13 @@
 //! The bodies of a run and where they touch: the one module that speaks to rapier and parry.
 //!
 //! Bodies follow poses that the vehicle model and the programs compute in 64 bits; rapier finds the contacts.
-//! Its pipeline takes a microsecond a tick, a third of a whole test, so it is asked only when a body is within
+//! Its pipeline takes longer than all else in a tick (BENCHMARKS.md), so it is asked only when a body is within
 //! [`REACH`] of the car: nothing is integrated there, so a tick that was left out leaves no gap.
 
 use crate::scenario::Pose;
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
-use parry3d::query::{PointQuery, ShapeCastOptions, cast_shapes};
+use parry3d::query::{ShapeCastOptions, cast_shapes};
 use parry3d::shape::{Capsule, Cuboid};
 use rapier3d::prelude::{
     ActiveCollisionTypes, ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
@@ -67,6 +67,8 @@ struct Body {
 pub(crate) struct World {
     physics: PhysicsWorld,
     outline: Cuboid,
+    /// Half of the car's length and width, in metres.
+    half_extent: Vector2<f64>,
     car: Body,
     walkers: Vec<Body>,
 }
@@ -81,7 +83,8 @@ impl World {
         let (segment, radius) = (0.5 * WALKER_HEIGHT - WALKER_RADIUS, WALKER_RADIUS as f32);
         let person = || ColliderBuilder::capsule_z(segment as f32, radius);
         let walkers = walkers.map(|pose| insert(&mut physics, person(), pose, 0.5 * WALKER_HEIGHT)).collect();
-        Self { physics, outline, car, walkers }
+        let half_extent = 0.5 * Vector2::new(vehicle.length, vehicle.width);
+        Self { physics, outline, half_extent, car, walkers }
     }
 
     /// Moves everything to where it is at the next tick.
@@ -99,12 +102,11 @@ impl World {
         gaps.fold(f64::INFINITY, f64::min)
     }
 
-    /// Between the car's box and an upright person the distance is that of rectangle and circle seen from
-    /// above. It is taken in the car's frame, where 32 bits resolve a tenth of a micrometre.
+    /// Between the car's box and an upright person the distance is that of rectangle and circle seen from above.
     fn gap(&self, walker: &Body) -> f64 {
-        let at = self.car.now.to_local(walker.now.position);
-        let to_axis = self.outline.distance_to_local_point([at.x as f32, at.y as f32, 0.0].into(), true);
-        (f64::from(to_axis) - WALKER_RADIUS).max(TOUCH)
+        let at = self.car.now.to_local(walker.now.position).abs();
+        let beyond = (at - self.half_extent).sup(&Vector2::zeros());
+        (beyond.norm() - WALKER_RADIUS).max(TOUCH)
     }
 
     /// The first walker that touches the car at this tick, and where it came upon it.
@@ -163,10 +165,7 @@ impl World {
         let side = match hit {
             Ok(Some(hit)) => Vector2::new(f64::from(hit.normal1.x), f64::from(hit.normal1.y)),
             // They overlapped already: the side that the person stands nearest to.
-            _ => start.component_div(&Vector2::new(
-                f64::from(self.outline.half_extents.x),
-                f64::from(self.outline.half_extents.y),
-            )),
+            _ => start.component_div(&self.half_extent),
         };
         match (side.x.abs() >= side.y.abs(), side.x > 0.0, side.y > 0.0) {
             (true, true, _) => Face::Front,
