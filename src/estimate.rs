@@ -1,8 +1,10 @@
 //! How well tests cover their space: what `paracosm-cover estimate` prints.
 
 use crate::Error;
-use paracosm_coverage::dispersion::dispersion;
+use paracosm_coverage::dispersion::{LargestEmptyBox, dispersion};
+use paracosm_coverage::extreme::extreme_discrepancy;
 use paracosm_coverage::kwise::kwise_coverage;
+use paracosm_coverage::kwise_dispersion::kwise_dispersion;
 use paracosm_coverage::star::star_discrepancy;
 use paracosm_coverage::{Bracket, Deadline, Parameter, Point, PointSet, Record, Space, Value};
 use paracosm_coverage::{did_you_mean, l2, nearest};
@@ -28,6 +30,8 @@ pub enum Measure {
     Dispersion,
     /// The star discrepancy.
     Star,
+    /// The extreme discrepancy.
+    Extreme,
     /// The L2-star discrepancy.
     L2Star,
     /// The centered discrepancy, squared.
@@ -38,23 +42,36 @@ pub enum Measure {
     Mixture,
     /// The share of combinations of k discrete parameters that are covered.
     KWise,
+    /// The largest dispersion that any k parameters show.
+    KWiseDispersion,
 }
 
 impl Measure {
     /// Every measure.
-    pub const ALL: [Self; 7] =
-        [Self::Dispersion, Self::Star, Self::L2Star, Self::Centered, Self::Wraparound, Self::Mixture, Self::KWise];
+    pub const ALL: [Self; 9] = [
+        Self::Dispersion,
+        Self::Star,
+        Self::Extreme,
+        Self::L2Star,
+        Self::Centered,
+        Self::Wraparound,
+        Self::Mixture,
+        Self::KWise,
+        Self::KWiseDispersion,
+    ];
 
     /// The name by which it is asked for.
     pub fn name(self) -> &'static str {
         match self {
             Self::Dispersion => "dispersion",
             Self::Star => "star",
+            Self::Extreme => "extreme",
             Self::L2Star => "l2_star",
             Self::Centered => "centered",
             Self::Wraparound => "wraparound",
             Self::Mixture => "mixture",
             Self::KWise => "k-wise",
+            Self::KWiseDispersion => "k-wise-dispersion",
         }
     }
 }
@@ -80,6 +97,9 @@ pub struct Coverage {
     pub continuous: Option<Continuous>,
     /// The discrete half; `None` where the space has none.
     pub discrete: Option<Discrete>,
+    /// Both halves together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub k_wise_dispersion: Option<KwiseHole>,
 }
 
 /// How well tests cover the continuous parameters, each scaled to `[0,1]`.
@@ -93,6 +113,9 @@ pub struct Continuous {
     /// The star discrepancy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub star_discrepancy: Option<Bracket>,
+    /// The extreme discrepancy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extreme_discrepancy: Option<Bracket>,
     /// The L2-star discrepancy; null without tests or time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub l2_star: Option<Option<f64>>,
@@ -134,39 +157,70 @@ pub struct Discrete {
     pub combinations: f64,
 }
 
+/// The largest hole that any k parameters show.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct KwiseHole {
+    /// How many parameters are looked at together.
+    pub k: usize,
+    /// Its volume as a share of the values of those parameters.
+    #[serde(flatten)]
+    pub volume: Bracket,
+    /// Where it is.
+    pub worst: KwiseWorst,
+}
+
+/// The place of a hole: values of some discrete parameters, and a box over some continuous ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct KwiseWorst {
+    /// The discrete parameters among the k, with their values.
+    pub fixed: Record<Value>,
+    /// From and to of the continuous ones, as values.
+    pub empty_box: Record<[f64; 2]>,
+}
+
 impl Tests {
-    /// Measures how well the tests cover their space: discrete parameters `k` at a time (where nothing is said, as
-    /// they were made to; else 2, or as many as there are), and all that takes long within a time limit.
+    /// Measures how well the tests cover their space: `k` parameters at a time, where that matters (where nothing is
+    /// said, as the tests were made to; else 2, or as many as there are), and all that takes long within a time limit.
     ///
     /// # Errors
-    /// There are not `k` discrete parameters, or too many combinations of them to count.
+    /// There are not `k` parameters, or too many combinations of them to count.
     pub fn measure(&self, measures: &[Measure], k: Option<usize>, limit: Option<Duration>) -> Result<Coverage, Error> {
-        let continuous = if self.space.dims() == 0 { None } else { Some(self.continuous(measures, limit)?) };
-        let levels = self.space.levels();
-        if levels.is_empty() && k.is_some() {
-            return Err(Error::Usage("the space has no discrete parameters, so there is no k to cover them by".into()));
+        let parameters = self.space.parameters().len();
+        let k = k.or(self.k).unwrap_or(parameters.min(2));
+        if !(1..=parameters).contains(&k) {
+            return Err(Error::Usage(format!("k is {k}, expected 1 to {parameters}, the number of parameters")));
         }
+        let mut clock = Clock::new(limit, measures);
+        let continuous = if self.space.dims() == 0 { None } else { Some(self.continuous(measures, &mut clock)?) };
+        let levels = self.space.levels();
         let discrete = if levels.is_empty() || !measures.contains(&Measure::KWise) {
             None
         } else {
-            Some(self.discrete(k.or(self.k).unwrap_or(levels.len().min(2)), &levels)?)
+            Some(self.discrete(k.min(levels.len()), &levels)?)
         };
-        Ok(Coverage { tests: self.points.len(), continuous, discrete })
+        let k_wise_dispersion = if measures.contains(&Measure::KWiseDispersion) {
+            Some(self.kwise_hole(k, &levels, clock.next())?)
+        } else {
+            None
+        };
+        Ok(Coverage { tests: self.points.len(), continuous, discrete, k_wise_dispersion })
     }
 
-    fn continuous(&self, measures: &[Measure], limit: Option<Duration>) -> Result<Continuous, Error> {
+    fn kwise_hole(&self, k: usize, levels: &[usize], deadline: Deadline) -> Result<KwiseHole, Error> {
+        let found = kwise_dispersion(self.space.dims(), levels, &self.points, k, deadline)?;
+        let discrete: Vec<&Parameter> = self.space.discrete().collect();
+        let continuous: Vec<&Parameter> = self.space.continuous().collect();
+        let fixed = found.fixed.iter().map(|&(parameter, level)| named_level(&discrete, parameter, level)).collect();
+        let axes = found.axes.iter().map(|&axis| continuous[axis]);
+        let empty_box = found.witness.map(|witness| sides(axes, &witness)).unwrap_or_default();
+        Ok(KwiseHole { k, volume: found.volume, worst: KwiseWorst { fixed, empty_box } })
+    }
+
+    fn continuous(&self, measures: &[Measure], clock: &mut Clock) -> Result<Continuous, Error> {
         let points = PointSet::new(self.space.dims(), self.points.iter().map(|point| &point.continuous))?;
         let asked = |measure| measures.contains(&measure);
         let parameters: Vec<&Parameter> = self.space.continuous().collect();
-        // What a measure leaves of the time is for those after it.
-        let end = limit.and_then(|limit| Instant::now().checked_add(limit));
-        let mut waiting = measures.iter().filter(|measure| **measure != Measure::KWise).count() as u32;
-        let mut deadline = || {
-            let share = end.map(|end| end.saturating_duration_since(Instant::now()) / waiting.max(1));
-            waiting = waiting.saturating_sub(1);
-            share.map_or_else(Deadline::never, Deadline::after)
-        };
-        let mut mean = |measure: fn(&PointSet, Deadline) -> Option<f64>| measure(&points, deadline());
+        let mut mean = |measure: fn(&PointSet, Deadline) -> Option<f64>| measure(&points, clock.next());
         let l2_star = asked(Measure::L2Star).then(|| mean(l2::l2_star));
         let centered = asked(Measure::Centered).then(|| mean(l2::centered));
         let wraparound = asked(Measure::Wraparound).then(|| mean(l2::wraparound));
@@ -174,15 +228,12 @@ impl Tests {
         Ok(Continuous {
             parameters: parameters.iter().map(|parameter| parameter.name.clone()).collect(),
             dispersion: asked(Measure::Dispersion).then(|| {
-                let found = dispersion(&points, deadline());
-                let sides = found.witness.lower.iter().zip(&found.witness.upper);
-                let sides = parameters
-                    .iter()
-                    .zip(sides)
-                    .map(|(p, (lo, hi))| (p.name.clone(), [*lo, *hi].map(|u| p.value_at(u))));
-                Hole { volume: found.volume, largest_empty_box: sides.collect() }
+                let found = dispersion(&points, clock.next());
+                let largest_empty_box = sides(parameters.iter().copied(), &found.witness);
+                Hole { volume: found.volume, largest_empty_box }
             }),
-            star_discrepancy: asked(Measure::Star).then(|| star_discrepancy(&points, deadline())),
+            star_discrepancy: asked(Measure::Star).then(|| star_discrepancy(&points, clock.next())),
+            extreme_discrepancy: asked(Measure::Extreme).then(|| extreme_discrepancy(&points, clock.next())),
             l2_star,
             centered,
             wraparound,
@@ -193,11 +244,7 @@ impl Tests {
     fn discrete(&self, k: usize, levels: &[usize]) -> Result<Discrete, Error> {
         let parameters: Vec<&Parameter> = self.space.discrete().collect();
         let counted = kwise_coverage(levels, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
-        let name = |(parameter, level): &(usize, usize)| {
-            let parameter = parameters[*parameter];
-            let level = parameter.levels().expect("it is a discrete parameter")[*level].clone();
-            (parameter.name.clone(), level)
-        };
+        let name = |&(parameter, level): &(usize, usize)| named_level(&parameters, parameter, level);
         Ok(Discrete {
             k,
             valid: counted.valid,
@@ -206,5 +253,39 @@ impl Tests {
             missing: counted.missing.iter().map(|tuple| tuple.iter().map(name).collect()).collect(),
             combinations: counted.combinations,
         })
+    }
+}
+
+/// A discrete parameter with one of its values.
+fn named_level(parameters: &[&Parameter], parameter: usize, level: usize) -> (String, Value) {
+    let parameter = parameters[parameter];
+    (parameter.name.clone(), parameter.levels().expect("it is a discrete parameter")[level].clone())
+}
+
+/// A box over some continuous parameters, as values.
+fn sides<'a>(parameters: impl Iterator<Item = &'a Parameter>, witness: &LargestEmptyBox) -> Record<[f64; 2]> {
+    let ends = witness.lower.iter().zip(&witness.upper);
+    parameters.zip(ends).map(|(p, (&lo, &hi))| (p.name.clone(), [lo, hi].map(|u| p.value_at(u)))).collect()
+}
+
+/// A time limit for several measures: what one leaves of the time is for those after it.
+struct Clock {
+    end: Option<Instant>,
+    /// How many measures are still to come.
+    waiting: u32,
+}
+
+impl Clock {
+    fn new(limit: Option<Duration>, measures: &[Measure]) -> Self {
+        let waiting = measures.iter().filter(|measure| **measure != Measure::KWise).count() as u32;
+        Self { end: limit.and_then(|limit| Instant::now().checked_add(limit)), waiting }
+    }
+
+    /// The deadline of the next measure: its share of the time that is left.
+    fn next(&mut self) -> Deadline {
+        let waiting = self.waiting.max(1);
+        self.waiting = waiting - 1;
+        let left = self.end.map(|end| end.saturating_duration_since(Instant::now()));
+        left.map_or_else(Deadline::never, |left| Deadline::after(left / waiting))
     }
 }

@@ -37,7 +37,7 @@ pub mod cli;
 
 pub use campaign::{Campaign, simulate_trial};
 pub use error::Error;
-pub use estimate::{Continuous, Coverage, Discrete, Measure, Tests};
+pub use estimate::{Continuous, Coverage, Discrete, Hole, KwiseHole, KwiseWorst, Measure, Tests};
 pub use folder::Folder;
 pub use plot::{Axis, FailureMap, Picture};
 pub use study::{DriverChoice, RequirementText, Study};

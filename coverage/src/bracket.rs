@@ -41,6 +41,16 @@ impl Deadline {
         Self(Instant::now().checked_add(limit))
     }
 
+    /// The moment at which a share of what time is left has gone by.
+    pub(crate) fn part(self, share: f64) -> Self {
+        Self(self.left().map(|left| Instant::now() + left.mul_f64(share)))
+    }
+
+    /// The time that is left; none where there is no limit.
+    pub(crate) fn left(self) -> Option<Duration> {
+        self.0.map(|at| at.saturating_duration_since(Instant::now()))
+    }
+
     /// Whether the moment has come.
     pub fn passed(&self) -> bool {
         self.0.is_some_and(|at| Instant::now() >= at)

@@ -39,7 +39,7 @@ impl KwiseCoverage {
 #[derive(Debug, Error, PartialEq)]
 pub enum KwiseError {
     /// There are no sets of k parameters.
-    #[error("k is {k}, expected 1 to {parameters}, the number of discrete parameters")]
+    #[error("k is {k}, expected 1 to {parameters}, the number of parameters")]
     Strength {
         /// The k asked for.
         k: usize,
@@ -166,7 +166,7 @@ fn tuples(levels: &[usize], k: usize) -> u128 {
 }
 
 /// The combination with that mixed-radix number; the last parameter's level is its lowest digit.
-fn tuple(levels: &[usize], set: &[usize], mut index: usize) -> Vec<(usize, usize)> {
+pub(crate) fn tuple(levels: &[usize], set: &[usize], mut index: usize) -> Vec<(usize, usize)> {
     let mut tuple: Vec<_> = set.iter().map(|&p| (p, 0)).collect();
     for (parameter, level) in tuple.iter_mut().rev() {
         *level = index % levels[*parameter];
@@ -176,7 +176,7 @@ fn tuple(levels: &[usize], set: &[usize], mut index: usize) -> Vec<(usize, usize
 }
 
 /// Moves on to the next set of as many parameters in lexicographic order; false after the last.
-fn advance(set: &mut [usize], parameters: usize) -> bool {
+pub(crate) fn advance(set: &mut [usize], parameters: usize) -> bool {
     let k = set.len();
     let Some(i) = (0..k).rev().find(|&i| set[i] < parameters - k + i) else { return false };
     set[i] += 1;

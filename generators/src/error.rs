@@ -36,26 +36,31 @@ pub enum GeneratorError {
         /// The names of those that can.
         sequences: String,
     },
-    /// More than Owen-scrambled Sobol points are defined for.
-    #[error(
-        "sobol gives at most 65,536 points, skipped ones included, and at most 256 dimensions; asked for {points} \
-         points in {dims} dimensions; use halton"
-    )]
-    SobolLimit {
-        /// How many points were asked for, those skipped included.
-        points: u64,
-        /// In how many dimensions.
+    /// A number of continuous coordinates that the strategy is not made for.
+    #[error("`{strategy}` is made for {made_for} continuous coordinates; the space has {dims}; use {instead}")]
+    Dimensions {
+        /// The strategy's name.
+        strategy: &'static str,
+        /// How many it is made for, in words.
+        made_for: String,
+        /// How many there are.
         dims: usize,
+        /// A strategy that is made for as many.
+        instead: &'static str,
     },
-    /// Halton indices that a double no longer tells apart.
-    #[error("halton has indices below 2^53; asked for index {last}; skip fewer")]
-    HaltonLimit {
+    /// Indices that a double no longer tells apart.
+    #[error("`{strategy}` has indices below {len}; asked for index {last}; ask for fewer or skip fewer")]
+    IndexLimit {
+        /// The strategy's name.
+        strategy: &'static str,
+        /// How many points it has.
+        len: u64,
         /// The last index asked for.
         last: u64,
     },
     /// A Latin hypercube that does not fit in memory, where it is kept whole.
     #[error(
-        "lhs keeps its points in memory, at most 10,000,000 coordinates; asked for {points} points in {dims} \
+        "a Latin hypercube is kept in memory, at most 10,000,000 coordinates; asked for {points} points in {dims} \
          dimensions; use halton"
     )]
     LhsLimit {

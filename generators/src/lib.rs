@@ -22,6 +22,7 @@
 mod deal;
 mod error;
 mod family;
+mod greedy;
 mod mixed;
 mod seeded;
 mod sequence;

@@ -18,6 +18,10 @@ pub(crate) enum Purpose {
     Cells = 2,
     /// The rows of a random family.
     Rows = 3,
+    /// The scrambling of digits.
+    Scramble = 4,
+    /// The candidates of greedy points.
+    Greedy = 5,
 }
 
 /// The generator for one purpose and, within it, one `number`.
@@ -27,7 +31,7 @@ pub(crate) fn seeded(seed: u64, purpose: Purpose, number: u64) -> Pcg64 {
 }
 
 /// One step of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): a bijection, so two seeds never meet.
-fn mix(word: u64) -> u64 {
+pub(crate) fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -4,23 +4,43 @@ use crate::{
     DiscreteFamily, Generator, GeneratorError,
     deal::Deal,
     family::Family,
+    greedy::GreedyRows,
     mixed::Mixed,
-    sequence::{Halton, Lhs, Sequence, Sobol, Uniform},
+    sequence::{
+        Fibonacci, Halton, HaltonScrambled, Hammersley, Kronecker, Lhs, MOST_HALTON_SCRAMBLED_DIMS, MOST_SOBOL_DIMS,
+        PerRow, Place, Sequence, Sobol, Uniform,
+    },
 };
 use paracosm_coverage::{Space, nearest};
-use std::{fmt, str::FromStr};
+use std::{fmt, ops::RangeInclusive, str::FromStr};
 
 /// How tests are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Strategy {
     /// Independent uniformly random points.
     Random,
-    /// The Halton sequence, the paper's choice.
+    /// The Halton sequence, the paper's choice; with a seed the shifted one.
     Halton,
-    /// The Owen-scrambled Sobol sequence.
+    /// The Halton sequence, shifted modulo 1 by a random vector.
+    HaltonShifted,
+    /// The Halton sequence with random permutations of its digits.
+    HaltonScrambled,
+    /// The Sobol sequence; with a seed digitally shifted.
     Sobol,
+    /// The Sobol sequence with Owen's nested uniform scrambling.
+    SobolOwen,
+    /// The R-sequence, a Kronecker sequence; with a seed from a random point.
+    Kronecker,
+    /// The Hammersley set; with a seed shifted.
+    Hammersley,
+    /// The Fibonacci lattice in two dimensions; with a seed shifted.
+    Fibonacci,
+    /// Every point where it breaks the largest empty boxes.
+    Greedy,
     /// A random Latin hypercube.
     Lhs,
+    /// A Latin hypercube of points at the centres of their cells.
+    LhsCentred,
 }
 
 /// What a generator is built for.
@@ -37,10 +57,11 @@ pub struct Request<'a> {
     pub space: &'a Space,
     /// How many tests are wanted, at least 1. Sets that depend on their size are made for it.
     pub budget: usize,
-    /// The source of all chance. None is seed 0, except that Halton without a seed is not shifted.
+    /// The source of all chance. None is the plain set where a strategy has one (`halton sobol kronecker
+    /// hammersley fibonacci`) and seed 0 in all else, such as the copies of a plain set for further rows.
     pub seed: Option<u64>,
-    /// The index of a sequence's first point, from 0. None is 1 for Halton, whose point 0 is the corner of the
-    /// cube, and 0 for Sobol.
+    /// The index of a sequence's first point, from 0. None is 0, but 1 for `halton` and `halton-shifted`: point 0
+    /// of Halton is the corner of the cube.
     pub skip: Option<u64>,
     /// How discrete parameters are covered.
     pub discrete: DiscreteFamily,
@@ -57,15 +78,36 @@ impl<'a> Request<'a> {
 
 impl Strategy {
     /// All strategies.
-    pub const ALL: [Self; 4] = [Self::Random, Self::Halton, Self::Sobol, Self::Lhs];
+    pub const ALL: [Self; 12] = [
+        Self::Random,
+        Self::Halton,
+        Self::HaltonShifted,
+        Self::HaltonScrambled,
+        Self::Sobol,
+        Self::SobolOwen,
+        Self::Kronecker,
+        Self::Hammersley,
+        Self::Fibonacci,
+        Self::Greedy,
+        Self::Lhs,
+        Self::LhsCentred,
+    ];
 
     /// The name by which users ask for it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Random => "random",
             Self::Halton => "halton",
+            Self::HaltonShifted => "halton-shifted",
+            Self::HaltonScrambled => "halton-scrambled",
             Self::Sobol => "sobol",
+            Self::SobolOwen => "sobol-owen",
+            Self::Kronecker => "kronecker",
+            Self::Hammersley => "hammersley",
+            Self::Fibonacci => "fibonacci",
+            Self::Greedy => "greedy",
             Self::Lhs => "lhs",
+            Self::LhsCentred => "lhs-centred",
         }
     }
 
@@ -74,10 +116,26 @@ impl Strategy {
         match self {
             Self::Random => "independent uniform points: the baseline, and what statistics assume",
             Self::Halton => "low-dispersion sequence of any length: the default for up to about ten parameters",
-            Self::Sobol => {
-                "Owen-scrambled sequence for many parameters; best with a power of two, at most 65,536 tests"
-            }
+            Self::HaltonShifted => "halton moved by a random vector: repetitions that are as even as halton",
+            Self::HaltonScrambled => "halton with random digits: without its stripes in ten parameters and more",
+            Self::Sobol => "digital sequence for many parameters; best with a power of two of tests",
+            Self::SobolOwen => "sobol with Owen's nested scrambling: repetitions that are as even as sobol",
+            Self::Kronecker => "golden steps on every axis: a sequence of any length, for few parameters",
+            Self::Hammersley => "halton with one axis evenly spaced: more even than halton, by exactly the budget",
+            Self::Fibonacci => "the most even lattice for just two parameters, by exactly the budget of tests",
+            Self::Greedy => "every test into the largest holes: the lowest dispersion, at some milliseconds a test",
             Self::Lhs => "Latin hypercube: each parameter on its own covered evenly, by exactly the budget of tests",
+            Self::LhsCentred => "Latin hypercube with tests in the middle of their cells: no two close on any axis",
+        }
+    }
+
+    /// How many continuous coordinates it can cover, if a space has any.
+    pub fn dims(self) -> RangeInclusive<usize> {
+        match self {
+            Self::HaltonScrambled => 1..=MOST_HALTON_SCRAMBLED_DIMS,
+            Self::Sobol | Self::SobolOwen => 1..=MOST_SOBOL_DIMS,
+            Self::Fibonacci => 2..=2,
+            _ => 1..=usize::MAX,
         }
     }
 
@@ -107,24 +165,50 @@ impl Strategy {
         if dims == 0 {
             return Ok(Box::new(Mixed::discrete(family)));
         }
+        if !self.dims().contains(&dims) {
+            return Err(self.cannot_cover(dims));
+        }
         let deal = Deal::new(family.len(), budget as u64);
-        let end = first.saturating_add(deal.indices());
         let sequence: Box<dyn Sequence> = match self {
             Self::Random => Box::new(Uniform::new(dims, seed_or_0)),
-            Self::Halton => Box::new(Halton::new(dims, seed, end)?),
-            Self::Sobol => Box::new(Sobol::new(dims, seed_or_0, end)?),
-            Self::Lhs => Box::new(Lhs::new(dims, seed_or_0, &deal)?),
+            Self::Halton => Box::new(Halton::new(dims, seed)),
+            Self::HaltonShifted => Box::new(Halton::new(dims, Some(seed_or_0))),
+            Self::HaltonScrambled => Box::new(HaltonScrambled::new(dims, seed_or_0)),
+            Self::Sobol => Box::new(Sobol::new(dims, seed)),
+            Self::SobolOwen => Box::new(Sobol::owen(dims, seed_or_0)),
+            Self::Kronecker => Box::new(Kronecker::new(dims, seed)),
+            Self::Hammersley => Box::new(PerRow::new(deal, Hammersley::new(dims, seed))),
+            Self::Fibonacci => Box::new(PerRow::new(deal, Fibonacci::new(seed))),
+            Self::Greedy => Box::new(PerRow::new(deal, GreedyRows::new(dims, seed_or_0))),
+            Self::Lhs => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Random)?)),
+            Self::LhsCentred => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Centre)?)),
         };
+        let (end, len) = (first.saturating_add(deal.indices()), sequence.len());
+        if end > len {
+            return Err(GeneratorError::IndexLimit { strategy: self.name(), len, last: end - 1 });
+        }
         Ok(Box::new(Mixed::new(family, sequence, deal, first)))
     }
 
     /// Where a sequence starts by default; None for sets of points without an order.
     fn first_index(self) -> Option<u64> {
         match self {
-            Self::Halton => Some(1),
-            Self::Sobol => Some(0),
-            Self::Random | Self::Lhs => None,
+            Self::Halton | Self::HaltonShifted => Some(1),
+            Self::HaltonScrambled | Self::Sobol | Self::SobolOwen | Self::Kronecker => Some(0),
+            Self::Random | Self::Hammersley | Self::Fibonacci | Self::Greedy | Self::Lhs | Self::LhsCentred => None,
         }
+    }
+
+    fn cannot_cover(self, dims: usize) -> GeneratorError {
+        let (least, most) = self.dims().into_inner();
+        let made_for = if least == most { format!("exactly {most}") } else { format!("at most {most}") };
+        // Whatever has such a limit, an alternative is needed in few dimensions, in many, or in very many.
+        let instead = match dims {
+            ..10 => Self::Kronecker,
+            10..=MOST_SOBOL_DIMS => Self::SobolOwen,
+            _ => Self::Halton,
+        };
+        GeneratorError::Dimensions { strategy: self.name(), made_for, dims, instead: instead.name() }
     }
 
     fn cannot_skip(self) -> GeneratorError {

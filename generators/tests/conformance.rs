@@ -23,12 +23,16 @@ fn choice(name: &str, levels: u32) -> Parameter {
     Parameter::new(name, Domain::Choice((0..levels).map(|level| Value::Number(level.into())).collect()))
 }
 
-/// Every strategy with every space and family.
+/// Every strategy with every space that it covers and every family.
 fn cases(spaces: &[Space]) -> impl Iterator<Item = (Strategy, Request<'_>)> {
     let requests = spaces
         .iter()
         .flat_map(|space| FAMILIES.map(|discrete| Request { seed: Some(3), discrete, ..Request::new(space, BUDGET) }));
-    requests.flat_map(|request| Strategy::ALL.map(|strategy| (strategy, request)))
+    let covers = |strategy: &Strategy, dims| dims == 0 || strategy.dims().contains(&dims);
+    requests.flat_map(move |request| {
+        let strategies = Strategy::ALL.into_iter().filter(move |strategy| covers(strategy, request.space.dims()));
+        strategies.map(move |strategy| (strategy, request))
+    })
 }
 
 fn build(strategy: Strategy, request: &Request) -> Box<dyn Generator> {

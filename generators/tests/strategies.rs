@@ -2,7 +2,7 @@
 
 use paracosm_coverage::{Deadline, Domain, Parameter, Point, PointSet, Space, Value, dispersion::dispersion, theory};
 use paracosm_generators::{DiscreteFamily, GeneratorError, Request, Strategy};
-use std::{collections::BTreeSet, fs};
+use std::collections::BTreeSet;
 
 fn mixed(dims: usize, levels: &[usize]) -> Space {
     let choice = |(i, &levels): (usize, &usize)| {
@@ -40,55 +40,64 @@ fn assert_one_point_per_cell(points: &[Vec<f64>]) {
     }
 }
 
-#[test]
-fn halton_equals_the_reference_points() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/point_sets.json");
-    let text = fs::read_to_string(path).expect("the reference data");
-    let reference: serde_json::Value = serde_json::from_str(&text).expect("valid JSON");
-    let sets = reference["sets"].as_array().expect("a list of sets");
-    let mut compared = 0;
-    for set in sets.iter().filter(|set| set["name"].as_str().is_some_and(|name| name.starts_with("halton_"))) {
-        let points: Vec<Vec<f64>> = serde_json::from_value(set["points"].clone()).expect("a list of points");
-        let space = Space::unit_cube(points[0].len());
-        let ours = tests(Strategy::Halton, &Request::new(&space, points.len()));
-        for (ours, theirs) in ours.iter().zip(&points) {
-            for (ours, theirs) in ours.continuous.iter().zip(theirs) {
-                assert!((ours - theirs).abs() <= 1e-15, "{}: {ours} is not {theirs}", set["name"]);
-            }
-            compared += 1;
-        }
-    }
-    assert!(compared > 100, "only {compared} points compared");
+/// The vector by which all points are moved, modulo 1; None if there is no such vector.
+fn shift_between(from: &[Point], to: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let difference = |a: &Point, b: &[f64]| -> Vec<f64> {
+        a.continuous.iter().zip(b).map(|(a, b)| (b - a).rem_euclid(1.0)).collect()
+    };
+    let shift = difference(&from[0], &to[0]);
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-12 || (a - b).abs() > 1.0 - 1e-12;
+    let same = |(a, b): (&Point, &Vec<f64>)| difference(a, b).into_iter().zip(&shift).all(|(a, &b)| near(a, b));
+    from.iter().zip(to).all(same).then_some(shift)
 }
 
 #[test]
 fn skipping_starts_a_sequence_later_and_skip_0_at_the_corner() {
     let space = Space::unit_cube(3);
-    for strategy in [Strategy::Halton, Strategy::Sobol] {
+    use Strategy::{Halton, HaltonScrambled, HaltonShifted, Kronecker, Sobol, SobolOwen};
+    for strategy in [Halton, HaltonShifted, HaltonScrambled, Sobol, SobolOwen, Kronecker] {
         let from = |skip| tests(strategy, &Request { skip: Some(skip), ..Request::new(&space, 50) });
         assert_eq!(from(0)[7..], from(7)[..43]);
     }
-    let from_0 = tests(Strategy::Halton, &Request { skip: Some(0), ..Request::new(&space, 50) });
+    let from_0 = tests(Halton, &Request { skip: Some(0), ..Request::new(&space, 50) });
     assert_eq!(from_0[0].continuous, [0.0; 3]);
-    assert_eq!(from_0[1..], tests(Strategy::Halton, &Request::new(&space, 49))[..]);
+    assert_eq!(from_0[1..], tests(Halton, &Request::new(&space, 49))[..]);
 }
 
 #[test]
-fn a_seed_shifts_all_halton_points_by_the_same_vector() {
-    let space = Space::unit_cube(4);
-    let plain = tests(Strategy::Halton, &Request::new(&space, 100));
-    let shifted = tests(Strategy::Halton, &Request { seed: Some(0), ..Request::new(&space, 100) });
-    let shift = |i: usize, axis: usize| (shifted[i].continuous[axis] - plain[i].continuous[axis]).rem_euclid(1.0);
-    for axis in 0..4 {
-        assert!(shift(0, axis) > 0.0);
-        assert!((1..100).all(|i| (shift(i, axis) - shift(0, axis)).abs() < 1e-12));
+fn a_seed_shifts_all_points_by_the_same_vector() {
+    let space = Space::unit_cube(2);
+    for strategy in [Strategy::Halton, Strategy::Kronecker, Strategy::Hammersley, Strategy::Fibonacci] {
+        let plain = tests(strategy, &Request::new(&space, 100));
+        let shifted = |seed| {
+            let tests = tests(strategy, &Request { seed: Some(seed), ..Request::new(&space, 100) });
+            let points: Vec<_> = tests.into_iter().map(|test| test.continuous).collect();
+            shift_between(&plain, &points).unwrap_or_else(|| panic!("{strategy} is not shifted"))
+        };
+        assert!(shifted(0).iter().all(|&shift| shift > 0.0), "{strategy}");
+        assert_ne!(shifted(0), shifted(1), "{strategy}");
     }
+}
+
+#[test]
+fn halton_shifted_is_halton_with_a_seed_and_without_one_seed_0() {
+    let space = Space::unit_cube(4);
+    let request = Request::new(&space, 100);
+    for seed in [0, 7] {
+        let seeded = Request { seed: Some(seed), ..request };
+        assert_eq!(tests(Strategy::HaltonShifted, &seeded), tests(Strategy::Halton, &seeded));
+    }
+    let seeded = Request { seed: Some(0), ..request };
+    assert_eq!(tests(Strategy::HaltonShifted, &request), tests(Strategy::Halton, &seeded));
 }
 
 #[test]
 fn every_row_of_a_mixed_family_gets_a_contiguous_block_of_the_sequence() {
     let (space, cube) = (mixed(2, &[3, 2]), Space::unit_cube(2));
-    for (strategy, seed) in [(Strategy::Halton, None), (Strategy::Sobol, Some(5)), (Strategy::Random, Some(5))] {
+    use Strategy::{Halton, Kronecker, Random, Sobol, SobolOwen};
+    for (strategy, seed) in
+        [(Halton, None), (Sobol, None), (SobolOwen, Some(5)), (Kronecker, Some(5)), (Random, Some(5))]
+    {
         let request = Request { seed, discrete: DiscreteFamily::Cross, ..Request::new(&space, 500) };
         let dealt = tests(strategy, &request);
         // 500 tests over 6 rows: blocks of 84, of which the last four rows use 83.
@@ -125,11 +134,16 @@ fn the_first_tests_go_round_all_rows() {
 }
 
 #[test]
-fn lhs_has_one_point_per_cell_on_every_axis() {
+fn latin_hypercubes_have_one_point_per_cell_on_every_axis_and_centred_ones_in_its_middle() {
     for (dims, n) in [(1, 1), (1, 10), (3, 49), (20, 1000)] {
         let space = Space::unit_cube(dims);
-        let points = tests(Strategy::Lhs, &Request::new(&space, n));
-        assert_one_point_per_cell(&points.into_iter().map(|test| test.continuous).collect::<Vec<_>>());
+        for strategy in [Strategy::Lhs, Strategy::LhsCentred] {
+            let points = tests(strategy, &Request::new(&space, n));
+            assert_one_point_per_cell(&points.into_iter().map(|test| test.continuous).collect::<Vec<_>>());
+        }
+        let centred = tests(Strategy::LhsCentred, &Request::new(&space, n));
+        let places = centred.iter().flat_map(|test| &test.continuous).map(|u| u * n as f64);
+        assert!(places.into_iter().all(|place| (place - place.floor() - 0.5).abs() < 1e-9));
     }
 }
 
@@ -137,49 +151,41 @@ fn lhs_has_one_point_per_cell_on_every_axis() {
 fn every_row_gets_a_latin_hypercube_of_its_own_even_where_the_budget_does_not_divide() {
     let space = mixed(3, &[3, 2]);
     let request = Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 500) };
-    let dealt = tests(Strategy::Lhs, &request);
-    let hypercubes: Vec<_> = (0..6).map(|row| of_row(&dealt, &[row / 2, row % 2])).collect();
-    hypercubes.iter().for_each(|points| assert_one_point_per_cell(points));
-    assert_ne!(hypercubes[0], hypercubes[1]);
-}
-
-#[test]
-fn lhs_ends_with_its_budget_and_sequences_go_on() {
-    let space = Space::unit_cube(2);
-    for strategy in Strategy::ALL {
-        let mut generator = strategy.build(&Request::new(&space, 10)).expect("a generator");
-        assert_eq!(generator.ask(1000).len(), if strategy == Strategy::Lhs { 10 } else { 1000 }, "{strategy}");
+    for strategy in [Strategy::Lhs, Strategy::LhsCentred] {
+        let dealt = tests(strategy, &request);
+        let hypercubes: Vec<_> = (0..6).map(|row| of_row(&dealt, &[row / 2, row % 2])).collect();
+        hypercubes.iter().for_each(|points| assert_one_point_per_cell(points));
+        assert_ne!(hypercubes[0], hypercubes[1]);
     }
 }
 
 #[test]
-fn a_power_of_two_of_sobol_points_is_stratified_on_every_axis_in_all_256_dimensions() {
-    let space = Space::unit_cube(256);
-    let points = tests(Strategy::Sobol, &Request { seed: Some(9), ..Request::new(&space, 1024) });
-    assert_one_point_per_cell(&points.into_iter().map(|test| test.continuous).collect::<Vec<_>>());
+fn every_row_gets_a_lattice_of_just_its_size_and_only_the_first_one_unshifted() {
+    let (space, cube) = (mixed(2, &[3, 2]), Space::unit_cube(2));
+    for strategy in [Strategy::Hammersley, Strategy::Fibonacci] {
+        let request = Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 500) };
+        let dealt = tests(strategy, &request);
+        let mut shifts = BTreeSet::new();
+        for row in 0..6 {
+            let points = of_row(&dealt, &[row / 2, row % 2]);
+            let plain = tests(strategy, &Request::new(&cube, points.len()));
+            let shift = shift_between(&plain, &points).expect("a shifted copy");
+            assert_eq!(shift == [0.0; 2], row == 0, "{strategy}, row {row}");
+            shifts.insert(format!("{shift:?}"));
+        }
+        assert_eq!(shifts.len(), 6, "{strategy}");
+    }
 }
 
 #[test]
-fn sobol_refuses_what_it_cannot_give() {
-    let (cube, wide, rows) = (Space::unit_cube(2), Space::unit_cube(257), mixed(2, &[2, 3]));
-    let limit = |points, dims| GeneratorError::SobolLimit { points, dims };
-    let request = Request::new(&cube, 65_536);
-    assert!(Strategy::Sobol.build(&request).is_ok());
-    assert_eq!(refusal(Strategy::Sobol, &Request { skip: Some(1), ..request }), limit(65_537, 2));
-    assert_eq!(refusal(Strategy::Sobol, &Request { skip: Some(u64::MAX), ..request }), limit(u64::MAX, 2));
-    assert_eq!(refusal(Strategy::Sobol, &Request::new(&wide, 10)), limit(10, 257));
-    // 6 rows with blocks of 10,923.
-    let request = Request { discrete: DiscreteFamily::Cross, ..Request::new(&rows, 65_536) };
-    assert_eq!(refusal(Strategy::Sobol, &request), limit(65_538, 2));
-    assert!(limit(65_537, 2).to_string().contains("at most 65,536 points"));
-}
-
-#[test]
-fn sobol_ends_where_its_points_end() {
-    let space = Space::unit_cube(1);
-    let mut generator = Strategy::Sobol.build(&Request::new(&space, 10)).expect("a generator");
-    assert_eq!(generator.ask(100_000).len(), 65_536);
-    assert!(generator.ask(1).is_empty());
+fn sets_end_with_their_budget_and_sequences_go_on() {
+    use Strategy::{Fibonacci, Greedy, Hammersley, Lhs, LhsCentred};
+    let space = Space::unit_cube(2);
+    for strategy in Strategy::ALL {
+        let mut generator = strategy.build(&Request::new(&space, 10)).expect("a generator");
+        let ends = [Hammersley, Fibonacci, Greedy, Lhs, LhsCentred].contains(&strategy);
+        assert_eq!(generator.ask(1000).len(), if ends { 10 } else { 1000 }, "{strategy}");
+    }
 }
 
 #[test]
@@ -247,11 +253,12 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     let check = |strategy, request: Request, message: &str| {
         assert_eq!(refusal(strategy, &request).to_string(), message);
     };
-    use Strategy::{Halton, Lhs, Random};
+    use Strategy::{Fibonacci, Halton, HaltonScrambled, Hammersley, Kronecker, Lhs, Random, Sobol};
     check(Halton, Request::new(&empty, 5), "the space has no parameters; a generator needs at least one");
     check(Halton, Request::new(&cube, 0), "the budget is 0 tests; a budget must be at least 1");
-    for strategy in [Random, Lhs] {
-        let message = format!("`{strategy}` is no sequence and cannot skip; the sequences are halton, sobol");
+    let sequences = "halton, halton-shifted, halton-scrambled, sobol, sobol-owen, kronecker";
+    for strategy in [Random, Lhs, Fibonacci, Hammersley] {
+        let message = format!("`{strategy}` is no sequence and cannot skip; the sequences are {sequences}");
         check(strategy, Request { skip: Some(3), ..Request::new(&cube, 5) }, &message);
     }
     for k in [0, 3] {
@@ -277,13 +284,43 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     check(
         Lhs,
         Request::new(&cube, usize::MAX),
-        "lhs keeps its points in memory, at most 10,000,000 coordinates; asked for 18446744073709551615 points in \
+        "a Latin hypercube is kept in memory, at most 10,000,000 coordinates; asked for 18446744073709551615 points in \
          2 dimensions; use halton",
     );
     check(
         Halton,
         Request { skip: Some(1 << 53), ..Request::new(&cube, 5) },
-        "halton has indices below 2^53; asked for index 9007199254740996; skip fewer",
+        "`halton` has indices below 9007199254740992; asked for index 9007199254740996; ask for fewer or skip fewer",
+    );
+    for strategy in [Sobol, Kronecker] {
+        let message = format!(
+            "`{strategy}` has indices below 9007199254740992; asked for index 18446744073709551614; ask for fewer or \
+             skip fewer"
+        );
+        check(strategy, Request { skip: Some(u64::MAX), ..Request::new(&cube, 5) }, &message);
+    }
+    check(
+        Hammersley,
+        Request::new(&cube, usize::MAX),
+        "`hammersley` has indices below 9007199254740992; asked for index 18446744073709551614; ask for fewer or \
+         skip fewer",
+    );
+    let cubes = [1, 3, 1001, 21_202].map(Space::unit_cube);
+    check(
+        Fibonacci,
+        Request::new(&cubes[1], 5),
+        "`fibonacci` is made for exactly 2 continuous coordinates; the space has 3; use kronecker",
+    );
+    assert!(Fibonacci.build(&Request::new(&cubes[0], 5)).is_err());
+    check(
+        HaltonScrambled,
+        Request::new(&cubes[2], 5),
+        "`halton-scrambled` is made for at most 1000 continuous coordinates; the space has 1001; use sobol-owen",
+    );
+    check(
+        Sobol,
+        Request::new(&cubes[3], 5),
+        "`sobol` is made for at most 21201 continuous coordinates; the space has 21202; use halton",
     );
 }
 

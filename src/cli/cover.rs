@@ -48,10 +48,11 @@ struct Estimate {
     /// The space of the tests in a CSV; without it its columns are in [0,1]
     #[arg(long, value_name = "SPACE.toml", conflicts_with = "strategy")]
     space: Option<PathBuf>,
-    /// How many discrete parameters are looked at together [default: 2]
+    /// How many parameters are looked at together [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
-    /// What to measure, of dispersion, star, l2_star, centered, wraparound, mixture, k-wise [default: all]
+    /// What to measure, of dispersion, star, extreme, l2_star, centered, wraparound, mixture, k-wise,
+    /// k-wise-dispersion [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     measures: Vec<Measure>,
     /// Time that the measuring may take, all together; what does not finish comes back as a bracket
@@ -69,7 +70,7 @@ struct Estimate {
     /// The seed of the strategy
     #[arg(long, value_name = "N", requires = "strategy")]
     seed: Option<u64>,
-    /// The index of the first point of the strategy's sequence [default: 1 for halton, 0 for sobol]
+    /// The index of the first point of the strategy's sequence [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N", requires = "strategy")]
     skip: Option<u64>,
     /// How to print it [default: table on a terminal, json elsewhere]

@@ -1,7 +1,7 @@
 //! How results are printed: as a table for people, as JSON for programs.
 
 use crate::coverage::Bracket;
-use crate::estimate::{Continuous, Coverage, Discrete, Hole};
+use crate::estimate::{Continuous, Coverage, Discrete};
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -59,15 +59,24 @@ impl Table {
         if let Some(discrete) = &coverage.discrete {
             self.discrete(discrete);
         }
+        if let Some(hole) = &coverage.k_wise_dispersion {
+            self.row(&format!("{}-wise dispersion", hole.k), &bracket(&hole.volume));
+            let fixed = hole.worst.fixed.iter().map(|(name, value)| format!("{name} {value}"));
+            let place: Vec<String> = fixed.chain(hole.worst.empty_box.iter().map(side)).collect();
+            self.row("  largest hole", &place.join(", "));
+        }
     }
 
     fn continuous(&mut self, measured: &Continuous) {
         if let Some(hole) = &measured.dispersion {
             self.row("dispersion", &bracket(&hole.volume));
-            self.row("  largest empty box", &sides(hole));
+            self.row("  largest empty box", &hole.largest_empty_box.iter().map(side).collect::<Vec<_>>().join(", "));
         }
         if let Some(star) = &measured.star_discrepancy {
             self.row("star discrepancy", &bracket(star));
+        }
+        if let Some(extreme) = &measured.extreme_discrepancy {
+            self.row("extreme discrepancy", &bracket(extreme));
         }
         let others = [
             ("L2-star", measured.l2_star),
@@ -97,9 +106,9 @@ impl Table {
     }
 }
 
-fn sides(hole: &Hole) -> String {
-    let side = |(name, [lo, hi]): (&str, &[f64; 2])| format!("{name} {}..{}", digits(*lo), digits(*hi));
-    hole.largest_empty_box.iter().map(side).collect::<Vec<_>>().join(", ")
+/// One side of a box: a parameter from and to.
+fn side((name, [lo, hi]): (&str, &[f64; 2])) -> String {
+    format!("{name} {}..{}", digits(*lo), digits(*hi))
 }
 
 /// An exact value as one number, a bracket as two.

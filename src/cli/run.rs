@@ -23,16 +23,16 @@ pub(super) struct Options {
     /// The world to test in; `paracosm-fuzz list` shows them all
     #[arg(default_value = "pedestrian-crossing")]
     scenario: String,
-    /// How tests are chosen: random, halton, sobol or lhs
+    /// How tests are chosen; `paracosm-fuzz list` shows all strategies
     #[arg(long, value_name = "S", default_value = "halton")]
     strategy: String,
     /// How many tests to run
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
-    /// The source of all chance; halton without it is the plain sequence, with it randomly shifted
+    /// The source of all chance; sequences without it are plain, with it randomly shifted
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// The index of a sequence's first point [default: 1 for halton, 0 for sobol]
+    /// The index of a sequence's first point [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N")]
     skip: Option<u64>,
     /// How discrete parameters are covered: random (Proposition 3.2) or cross (all combinations)

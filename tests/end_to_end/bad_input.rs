@@ -40,7 +40,8 @@ fn wrong_campaigns_are_refused_with_the_nearest_valid_name() {
         (&["--open", "lanes", "--k", "0"], &["k is 0"]),
         (&["--discrete", "crosss"], &["`crosss`", "`cross`"]),
         (&["--strategy", "random", "--skip", "3"], &["`random`", "halton"]),
-        (&["--strategy", "sobol", "--budget", "70000"], &["sobol", "65,536"]),
+        (&["--strategy", "fibonacci", "--open", "friction"], &["fibonacci", "exactly 2"]),
+        (&["--skip", "9007199254740992"], &["halton"]),
         (&["--no-such-flag"], &["--no-such-flag"]),
     ];
     for (arguments, says) in cases {
@@ -125,7 +126,8 @@ fn measurements_that_make_no_sense_are_refused() {
     let estimate = |more: &[&str]| cover(dir.path(), &[&["estimate"], more].concat());
     succeeds(estimate(&["none.csv"]));
     refused(&estimate(&["none.csv", "--measures", "dispersal"]), &["`dispersal`", "`dispersion`"]);
-    refused(&estimate(&["none.csv", "--k", "2"]), &["no discrete parameters"]);
+    refused(&estimate(&["none.csv", "--k", "3"]), &["k is 3", "1 to 2"]);
+    refused(&estimate(&["none.csv", "--k", "0"]), &["k is 0"]);
     refused(&estimate(&["none.csv", "--time-limit", "-1"]), &["-1"]);
     refused(&estimate(&["none.csv", "--time-limit", "NaN"]), &["NaN"]);
     refused(&estimate(&["--strategy", "halton", "--dims", "2"]), &["--budget"]);

@@ -1,9 +1,10 @@
-//! Random Latin hypercubes (McKay, Beckman, Conover, Technometrics 21, 1979).
+//! Latin hypercubes (McKay, Beckman, Conover, Technometrics 21, 1979).
 //!
 //! Of n points there is exactly one in each of the n equal cells of every axis, so each parameter for itself is
-//! covered as evenly as n points can. The set depends on its size: it is made whole, for the whole budget.
+//! covered as evenly as n points can. The point is anywhere in its cell, or in the middle of it. The set depends
+//! on its size: it is made whole, for the whole budget.
 
-use super::Sequence;
+use super::per_row::RowSet;
 use crate::{
     GeneratorError,
     deal::Deal,
@@ -13,16 +14,25 @@ use rand::{Rng, seq::SliceRandom};
 
 const MOST_COORDINATES: u64 = 10_000_000;
 
+/// Where in its cell a point is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place {
+    Random,
+    Centre,
+}
+
 /// One Latin hypercube for each row, one after the other.
 pub(crate) struct Lhs {
     dims: usize,
+    /// The number of points from the start of one hypercube to that of the next.
+    block: u64,
     coordinates: Vec<f64>,
 }
 
 impl Lhs {
-    /// Hypercubes of just the sizes that the rows need. The last point of a block stays unused where its row is
-    /// dealt one test fewer: a larger hypercube with a point missing would leave a cell of every axis empty.
-    pub(crate) fn new(dims: usize, seed: u64, deal: &Deal) -> Result<Self, GeneratorError> {
+    /// Hypercubes of just the sizes that the rows need: a larger one with a point missing would leave a cell of
+    /// every axis empty.
+    pub(crate) fn new(dims: usize, seed: u64, deal: &Deal, place: Place) -> Result<Self, GeneratorError> {
         let points = deal.indices();
         if points.saturating_mul(dims as u64) > MOST_COORDINATES {
             return Err(GeneratorError::LhsLimit { points, dims });
@@ -35,21 +45,21 @@ impl Lhs {
                 let mut cells: Vec<u64> = (0..size).collect();
                 cells.shuffle(&mut rng);
                 for (point, cell) in block.chunks_exact_mut(dims).zip(cells) {
-                    point[axis] = inside(cell, size, rng.random());
+                    point[axis] = match place {
+                        Place::Random => inside(cell, size, rng.random()),
+                        Place::Centre => (cell as f64 + 0.5) / size as f64,
+                    };
                 }
             }
         }
-        Ok(Self { dims, coordinates })
+        Ok(Self { dims, block: deal.block, coordinates })
     }
 }
 
-impl Sequence for Lhs {
-    fn len(&self) -> u64 {
-        (self.coordinates.len() / self.dims) as u64
-    }
-
-    fn point(&self, index: u64) -> Vec<f64> {
-        self.coordinates[index as usize * self.dims..][..self.dims].to_vec()
+impl RowSet for Lhs {
+    fn point(&self, row: u64, _size: u64, index: u64) -> Vec<f64> {
+        let number = row * self.block + index;
+        self.coordinates[number as usize * self.dims..][..self.dims].to_vec()
     }
 }
 

@@ -1,39 +1,147 @@
-//! The Owen-scrambled Sobol sequence: more even than Halton in many dimensions, but of limited length.
+//! The Sobol sequence: more even than Halton in many dimensions, best in powers of two.
 //!
-//! The points are those of the crate `sobol_burley` (Burley, JCGT 9(4), 2020). It always scrambles, with hash
-//! functions in place of random bits; it has 24 bits per coordinate; and beyond its limits it returns numbers
-//! that look like points and are none. This module is the guard in front of it.
+//! The direction numbers are those of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008; file new-joe-kuo-6.21201), which
+//! the crate `sobol` carries; of that crate nothing else is used, since it can only go from a point to the next.
+//! Point i takes the bits of i in Gray code (Antonov and Saleev, 1979), which is the order of scipy and most other
+//! implementations: the same first 2^m points as without, for every m. A coordinate is a 64-bit word; an index
+//! below 2^53 makes use of its upper 53 bits, and so the plain points are exact.
+//!
+//! The origin belongs to the net of the first 2^m points, and so the sequence starts with it (Owen, "On dropping
+//! the first Sobol' point", 2020). With a seed it is shifted digitally: the same random bits flipped in all points.
 
-use super::Sequence;
-use crate::GeneratorError;
+use super::{Sequence, owen, radical::INDICES, unit};
+use crate::seeded::{Purpose, seeded};
+use rand::Rng;
+use sobol::params::{JoeKuoD6, JoeKuoD6Dim};
 
-/// How many points the direction numbers reach for.
-const LEN: u64 = 1 << 16;
+/// For how many dimensions there are direction numbers.
+pub(crate) const MOST_DIMS: usize = 21_201;
 
-/// The scrambled sequence of one seed.
+/// The bits of an index.
+const BITS: usize = 53;
+
+/// For each bit of an index what it flips in a coordinate.
+type Directions = [u64; BITS];
+
+/// The sequence, randomised or not.
 pub(crate) struct Sobol {
-    dims: u32,
-    seed: u32,
+    axes: Vec<Directions>,
+    randomisation: Randomisation,
+}
+
+/// With a word for each axis.
+enum Randomisation {
+    /// The bits to flip.
+    Shift(Vec<u64>),
+    /// The trees of an Owen scrambling.
+    Owen(Vec<u64>),
 }
 
 impl Sobol {
-    /// The sequence of which the points before index `end` will be used.
-    pub(crate) fn new(dims: usize, seed: u64, end: u64) -> Result<Self, GeneratorError> {
-        if dims > sobol_burley::NUM_DIMENSIONS as usize || end > LEN {
-            return Err(GeneratorError::SobolLimit { points: end, dims });
-        }
-        // The crate takes 32 bits; fold the others in, so that a seed beyond them is still another seed.
-        Ok(Self { dims: dims as u32, seed: (seed ^ (seed >> 32)) as u32 })
+    /// The plain sequence in at most [`MOST_DIMS`] dimensions, or with a seed a digitally shifted one.
+    pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
+        let shift = seed.map_or_else(|| vec![0; dims], |seed| words(dims, seed, Purpose::Shift));
+        Self { axes: directions(dims), randomisation: Randomisation::Shift(shift) }
+    }
+
+    /// The scrambled sequence of a seed in at most [`MOST_DIMS`] dimensions.
+    pub(crate) fn owen(dims: usize, seed: u64) -> Self {
+        Self { axes: directions(dims), randomisation: Randomisation::Owen(words(dims, seed, Purpose::Scramble)) }
     }
 }
 
 impl Sequence for Sobol {
     fn len(&self) -> u64 {
-        LEN
+        INDICES
     }
 
     fn point(&self, index: u64) -> Vec<f64> {
-        debug_assert!(index < LEN);
-        (0..self.dims).map(|axis| f64::from(sobol_burley::sample(index as u32, axis, self.seed))).collect()
+        let words = self.axes.iter().map(|directions| word(directions, index));
+        match &self.randomisation {
+            Randomisation::Shift(shift) => words.zip(shift).map(|(word, shift)| unit(word ^ shift)).collect(),
+            Randomisation::Owen(keys) => words.zip(keys).map(|(word, &key)| unit(owen::scramble(word, key))).collect(),
+        }
+    }
+}
+
+/// One coordinate of the plain sequence.
+fn word(directions: &Directions, index: u64) -> u64 {
+    let mut gray = index ^ (index >> 1);
+    let mut word = 0;
+    while gray > 0 {
+        word ^= directions[gray.trailing_zeros() as usize];
+        gray &= gray - 1;
+    }
+    word
+}
+
+/// A random word for each axis.
+fn words(dims: usize, seed: u64, purpose: Purpose) -> Vec<u64> {
+    let mut rng = seeded(seed, purpose, 0);
+    (0..dims).map(|_| rng.random()).collect()
+}
+
+/// The directions of all axes.
+fn directions(dims: usize) -> Vec<Directions> {
+    // The tables are packed; unpacking the longest one takes a while.
+    let table = match dims {
+        ..=100 => JoeKuoD6::minimal(),
+        101..=1000 => JoeKuoD6::standard(),
+        _ => JoeKuoD6::extended(),
+    };
+    // The first axis mirrors the bits and is not in the table.
+    let first = std::array::from_fn(|k| 1 << (63 - k));
+    [first].into_iter().chain(table.dim_params.iter().map(of_polynomial)).take(dims).collect()
+}
+
+/// The directions that follow from a primitive polynomial and the numbers to begin with (Joe and Kuo, equation 2).
+fn of_polynomial(JoeKuoD6Dim { a, m, .. }: &JoeKuoD6Dim) -> Directions {
+    let degree = m.len();
+    let mut directions = [0; BITS];
+    for k in 0..BITS {
+        directions[k] = match m.get(k) {
+            Some(&m) => u64::from(m) << (63 - k),
+            None => {
+                let begin = directions[k - degree] ^ (directions[k - degree] >> degree);
+                // The coefficients between the first and the last, which are 1.
+                let inner = (1..degree).filter(|i| (a >> (degree - 1 - i)) & 1 == 1);
+                inner.fold(begin, |word, i| word ^ directions[k - i])
+            }
+        };
+    }
+    directions
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_sixteen_bits_are_those_of_sobol_burley_in_all_its_dimensions() {
+        let axes = directions(sobol_burley::NUM_DIMENSIONS as usize);
+        for index in (0..1_u32 << 16).step_by(7).chain([0xffff]) {
+            let gray = index ^ (index >> 1);
+            for (axis, directions) in (0..).zip(&axes) {
+                let theirs = sobol_burley::parts::sobol_rev(gray.reverse_bits(), axis).reverse_bits();
+                assert_eq!(word(directions, index.into()) >> 32, theirs.into(), "index {index}, axis {axis}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_axis_takes_each_of_two_to_the_m_values_once() {
+        // Each direction begins a bit further down: all prefixes of the matrix are triangular.
+        for directions in directions(MOST_DIMS) {
+            assert!((0..BITS).all(|k| directions[k].trailing_zeros() as usize == 63 - k));
+        }
+    }
+
+    #[test]
+    fn the_tables_continue_each_other() {
+        let all = directions(MOST_DIMS);
+        assert_eq!(all.len(), MOST_DIMS);
+        for dims in [1, 2, 100, 101, 1000, 1001] {
+            assert!(directions(dims) == all[..dims], "{dims} dimensions");
+        }
     }
 }

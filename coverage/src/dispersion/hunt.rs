@@ -1,0 +1,258 @@
+//! The search of the whole cube, on all cores and against the clock.
+//!
+//! What is small is done on one thread. The rest is split into parts that cores take from each other; they share a bar,
+//! the volume of the largest box found, but walk one and the same tree, so that volume and witness of an exact result do
+//! not depend on their number.
+//!
+//! Where the time is limited and the exact search is not done in a share of it, two things follow. A large neighbourhood
+//! search raises the lower end: it finds larger boxes than a depth-first search, which stays in one corner of the tree.
+//! Then the upper end is lowered by iterative deepening (after Korf, Depth-first iterative-deepening, Artificial
+//! Intelligence 27, 1985): a search that forgets what is below a goal proves that nothing is above it, in no memory to
+//! speak of, where a best-first search of the same tree fills gigabytes.
+
+use super::search::{Bar, Found, Open, Search};
+use super::side::{Side, inside, volume};
+use super::{Dispersion, LargestEmptyBox};
+use crate::bracket::Watch;
+use crate::{Bracket, Deadline, PointSet};
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// How many boxes are explored on one thread before the rest is shared out: what is small is done by then.
+const ALONE: usize = 2_000;
+/// Into how many parts the rest is shared out: enough for cores to be busy until the end.
+const PARTS: usize = 256;
+/// The share of a time limit after which the search stops hoping to be exact and works on the upper end.
+const HOPE: f64 = 0.2;
+/// The share of what is left then that goes into a better lower end.
+const IMPROVEMENT: f64 = 0.2;
+/// From how many dimensions on it pays to look for a better lower end before anything else.
+const EARLY_IMPROVEMENT: usize = 4;
+/// How many attempts are made at that between two looks at the clock.
+const ROUND: u64 = 64;
+/// How many boxes one attempt explores.
+const ATTEMPT: usize = 500;
+
+/// The search for the largest empty box on all cores.
+pub(super) struct Hunt<'a> {
+    points: &'a PointSet,
+    /// The volume of the witness, for all threads to see.
+    bar: Bar,
+    witness: LargestEmptyBox,
+    /// What has not been explored to the end, the largest first.
+    open: Vec<Open>,
+    /// No box that is left is larger.
+    upper: f64,
+    /// How often a better witness was looked for.
+    attempts: u64,
+}
+
+impl<'a> Hunt<'a> {
+    /// A search that has found the witness so far, and is for boxes larger than it and than `above`.
+    pub fn new(points: &'a PointSet, witness: LargestEmptyBox, above: f64) -> Self {
+        let sides = vec![Side::between(0.0, 1.0); points.dims()];
+        let all = 0..points.len() as u32;
+        let inside = all.filter(|&point| inside(points.point(point as usize), &sides)).collect();
+        let open = vec![Open { volume: 1.0, sides, inside }];
+        Self { points, bar: Bar::new(witness.volume().max(above)), witness, open, upper: 1.0, attempts: 0 }
+    }
+
+    /// Searches to the end, or until the deadline.
+    pub fn run(mut self, deadline: Deadline) -> Dispersion {
+        self.begin(deadline);
+        if self.points.dims() >= EARLY_IMPROVEMENT {
+            while !self.open.is_empty() && !deadline.passed() && self.attempt() {}
+        }
+        self.explore(0.0, deadline.part(HOPE));
+        self.improve(deadline.part(IMPROVEMENT));
+        self.deepen(deadline);
+        let lower = self.witness.volume();
+        if self.open.is_empty() {
+            return Dispersion { volume: Bracket::exact(lower), witness: self.witness };
+        }
+        // Each factor and each product may have lost half an ulp.
+        let upper = (self.upper * (1.0 + 2.0 * self.points.dims() as f64 * f64::EPSILON)).min(1.0);
+        Dispersion { volume: Bracket { lower, upper }, witness: self.witness }
+    }
+
+    /// Explores a little on one thread: what is small is done by then.
+    fn begin(&mut self, deadline: Deadline) {
+        let mut nodes = 0;
+        let mut watch = Watch::new(deadline);
+        self.step(|work| {
+            nodes += 1;
+            nodes <= ALONE && !watch.passed_after(work)
+        });
+        self.split(0.0);
+    }
+
+    /// Branches the largest open boxes until there are enough above a volume to share out, the largest first.
+    fn split(&mut self, above: f64) {
+        self.open.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+        while let Some(largest) = self.open.last()
+            && largest.volume > above
+            && self.open.iter().rev().take(PARTS).filter(|open| open.volume > above).count() < PARTS
+        {
+            let mut first = true;
+            self.step(|_| std::mem::take(&mut first));
+            // Children are fewer than 2 d and smaller than most: a sort of what is nearly sorted.
+            self.open.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+        }
+        self.open.reverse();
+        self.close(1.0);
+    }
+
+    /// Explores the last of the open boxes while `go_on`.
+    fn step(&mut self, go_on: impl FnMut(usize) -> bool) {
+        let Some(root) = self.open.pop() else { return };
+        let best = self.bar.get();
+        let found = Search::new(self.points, best).explore(&root, &self.bar, best, go_on);
+        self.open.extend(found.open);
+        self.witness = found.witness.unwrap_or_else(|| self.witness.clone());
+    }
+
+    /// Explores all open boxes on all cores, down to a volume; whether that was done before the deadline. What is
+    /// done is closed, if nothing was left out that could be larger than the witness.
+    fn explore(&mut self, down_to: f64, deadline: Deadline) -> bool {
+        let floor = self.bar.get();
+        let bar = Bar::new(floor.max(down_to));
+        let lowered = down_to > floor;
+        let explore = |search: &mut Search, part: &Open| {
+            let mut watch = Watch::new(deadline);
+            let mut late = deadline.passed();
+            search.explore(part, &bar, floor.max(down_to), |work| {
+                late |= watch.passed_after(work);
+                !late
+            })
+        };
+        let found: Vec<Found> = self
+            .open
+            .par_iter()
+            .with_max_len(1)
+            .map_init(|| Search::new(self.points, floor), |search, part| explore(search, part))
+            .collect();
+        let done = found.iter().all(|found| found.open.is_empty());
+        let mut left = Vec::new();
+        for found in found {
+            left.extend(found.open);
+            if let Some(witness) = found.witness
+                && witness.volume() > self.witness.volume()
+            {
+                self.witness = witness;
+            }
+        }
+        self.bar.raise(self.witness.volume());
+        if !lowered {
+            self.open = left;
+            self.open.sort_by(|a, b| b.volume.total_cmp(&a.volume));
+        }
+        self.close(if done { down_to } else { 1.0 });
+        done
+    }
+
+    /// Looks for larger boxes near the witness: some of its ends go back to the walls of the cube, and the points that
+    /// come in are cut away anew in the best way (a large neighbourhood search).
+    fn improve(&mut self, deadline: Deadline) {
+        while !self.open.is_empty() && !deadline.passed() {
+            self.attempt();
+        }
+    }
+
+    /// A round of such attempts; whether it found a larger box. Each has a bar of its own, so that what it finds does not depend on the others.
+    fn attempt(&mut self) -> bool {
+        let best = self.bar.get();
+        let attempt = |search: &mut Search, seed: u64| {
+            let mut nodes = 0;
+            let few = |_| {
+                nodes += 1;
+                nodes <= ATTEMPT
+            };
+            search.explore(&self.relaxed(seed), &Bar::new(best), best, few).witness
+        };
+        let seeds: Vec<u64> = (self.attempts..self.attempts + ROUND).collect();
+        let new_search = || Search::new(self.points, best);
+        let found: Vec<_> =
+            seeds.into_par_iter().with_max_len(1).map_init(new_search, |search, seed| attempt(search, seed)).collect();
+        self.attempts += ROUND;
+        for witness in found.into_iter().flatten() {
+            if witness.volume() > self.witness.volume() {
+                self.witness = witness;
+            }
+        }
+        self.bar.raise(self.witness.volume());
+        self.close(1.0);
+        self.bar.get() > best
+    }
+
+    /// The witness with some of its ends at the walls.
+    fn relaxed(&self, seed: u64) -> Open {
+        // A multiplicative hash is random enough to choose ends by.
+        let mut state = (seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let mut below = |n: usize| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 32) as usize % n
+        };
+        let ends = 2 * self.points.dims();
+        let freed = 2 + below(ends.clamp(2, 16) - 1);
+        let mut sides: Vec<Side> = self
+            .witness
+            .lower
+            .iter()
+            .zip(&self.witness.upper)
+            .map(|(&lower, &upper)| Side::between(lower, upper))
+            .collect();
+        for _ in 0..freed {
+            let end = below(ends);
+            let side = &mut sides[end / 2];
+            *side = if end % 2 == 0 { Side::between(0.0, side.upper) } else { Side::between(side.lower, 1.0) };
+        }
+        let points = 0..self.points.len() as u32;
+        let inside = points.filter(|&point| inside(self.points.point(point as usize), &sides)).collect();
+        Open { volume: volume(&sides), sides, inside }
+    }
+
+    /// Forgets open boxes that are not larger than the witness, and lowers the upper end to the largest of the rest
+    /// and to what has been proved.
+    fn close(&mut self, proved: f64) {
+        let best = self.bar.get();
+        self.open.retain(|open| open.volume > best);
+        let largest = self.open.iter().map(|open| open.volume).fold(best, f64::max);
+        self.upper = self.upper.min(largest).min(proved.max(best)).max(best);
+    }
+
+    /// Proves lower and lower upper ends, each by a search that goes down to it and forgets what is below: it takes
+    /// no memory to speak of, and what it does again in every pass is little, because each takes a few times as long
+    /// as the one before.
+    fn deepen(&mut self, deadline: Deadline) {
+        let mut passes: Vec<(f64, f64)> = Vec::new();
+        while !self.open.is_empty() && !deadline.passed() {
+            let (best, upper) = (self.bar.get(), self.upper);
+            let left = deadline.left().map_or(f64::INFINITY, |left| left.as_secs_f64());
+            let next = next_goal(best, upper, &passes, left);
+            let begun = Instant::now();
+            self.split(next);
+            if self.explore(next, deadline) {
+                passes.push((libm::log(next), libm::log(begun.elapsed().as_secs_f64().max(1e-6))));
+            }
+        }
+    }
+}
+
+/// Which upper end to try to prove next, in the time that is left.
+///
+/// The time grows as a power of the goal, which the last two passes tell; the next one is to take four times as long
+/// as the last, or the time that is left where a further one would not fit in.
+fn next_goal(best: f64, upper: f64, passes: &[(f64, f64)], left: f64) -> f64 {
+    let (low, high) = (libm::log(best), libm::log(upper));
+    let goal = match passes {
+        [.., (goal_before, time_before), (goal, time)] if goal < goal_before && time > time_before => {
+            let slope = (time - time_before) / (goal_before - goal);
+            let wanted = if left < 20.0 * libm::exp(*time) { libm::log(0.8 * left) } else { time + libm::log(4.0) };
+            (goal - (wanted - time).max(0.05) / slope).max(high - 0.5 * (high - low))
+        }
+        _ => high - 0.2 * (high - low),
+    };
+    libm::exp(goal.max(low)).max(best)
+}

@@ -1,0 +1,83 @@
+//! Dispersion: the largest open axis-parallel box in the unit cube that no point has entered.
+//!
+//! Every empty box is what is left of the cube after each point has been cut away along some axis, on one of its
+//! two sides. The search branches on that: it takes a point inside the box at hand, the pivot, and tries its
+//! `2d` cuts. A box without points inside is a candidate; one that is no larger than the best candidate is
+//! dropped. Three things keep this small:
+//!
+//! * Children are disjoint. The cuts of a pivot are tried in an order, and the child of a later cut carries the
+//!   constraint that the earlier ones were not made (`Side::kept`), so that no empty box is found twice. The larger a child, the later in the order and the more constrained it is.
+//! * The pivot is chosen well: the one whose children's volumes have the least sum of cubes. That prefers points
+//!   near the centre, and above all points that constraints and the best candidate leave few cuts.
+//! * Volumes are products of differences, which floating-point rounding keeps monotone: a box inside another is
+//!   never computed to be larger. Pruning on computed volumes is exact, without tolerances.
+//!
+//! The search of one box (`search.rs`) is depth-first with a stack of its own, because boxes can be cut `n` deep; the
+//! larger children are explored first, which finds good candidates early. The search of the cube (`hunt.rs`) shares
+//! boxes out to all cores; under a time limit it gives up being exact in time to close in on the answer from both
+//! sides.
+
+mod hunt;
+mod search;
+mod side;
+
+use crate::{Bracket, Deadline, PointSet};
+use hunt::Hunt;
+
+/// An open box in the unit cube that holds no point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LargestEmptyBox {
+    /// Its lower corner.
+    pub lower: Vec<f64>,
+    /// Its upper corner.
+    pub upper: Vec<f64>,
+}
+
+impl LargestEmptyBox {
+    /// Its volume, as a share of the cube's.
+    pub fn volume(&self) -> f64 {
+        self.lower.iter().zip(&self.upper).map(|(lower, upper)| upper - lower).product()
+    }
+}
+
+/// The dispersion of a set of points, with the box that shows it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dispersion {
+    /// The largest volume; its lower end is the volume of `witness`.
+    pub volume: Bracket,
+    /// The largest empty box that was found.
+    pub witness: LargestEmptyBox,
+}
+
+/// The largest volume over the open axis-parallel boxes in `[0,1]^d` that hold none of the points. A point on a
+/// face of a box is not in it; of a set without points the largest is the cube, with volume 1 (Rote, Tichy,
+/// Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23, 1996).
+///
+/// Exact, in any dimension, unless `deadline` cuts the search short. Volume and witness of an exact result do not
+/// depend on the number of threads.
+pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
+    larger_than(points, f64::NEG_INFINITY, deadline).expect("every volume is larger")
+}
+
+/// The dispersion, if it is not proved to be at most `above`.
+pub(crate) fn larger_than(points: &PointSet, above: f64, deadline: Deadline) -> Option<Dispersion> {
+    let found = Hunt::new(points, widest_slab(points), above).run(deadline);
+    (found.volume.upper > above).then_some(found)
+}
+
+/// The widest gap between neighbouring coordinates along any axis, as a box across the whole cube: the candidate
+/// that the search starts from.
+fn widest_slab(points: &PointSet) -> LargestEmptyBox {
+    let dims = points.dims();
+    let gaps = (0..dims).flat_map(|axis| {
+        let mut coordinates: Vec<f64> = points.iter().map(|point| point[axis]).chain([0.0, 1.0]).collect();
+        coordinates.sort_unstable_by(f64::total_cmp);
+        let gaps = coordinates.windows(2).map(|gap| (axis, gap[0], gap[1]));
+        gaps.collect::<Vec<_>>()
+    });
+    let width = |gap: &(usize, f64, f64)| gap.2 - gap.1;
+    let (axis, lower, upper) = gaps.max_by(|a, b| width(a).total_cmp(&width(b))).expect("0 and 1 are apart");
+    let mut slab = LargestEmptyBox { lower: vec![0.0; dims], upper: vec![1.0; dims] };
+    (slab.lower[axis], slab.upper[axis]) = (lower, upper);
+    slab
+}

@@ -1,0 +1,213 @@
+//! The depth-first search of one box: every empty box inside it that is larger than a bar.
+//!
+//! The tree is the same whatever the bar: which pivot is taken and what is promised to children does not depend on
+//! what has been found so far, only on the `reference` volume that is fixed beforehand. A bar that rises sooner
+//! or later, because another thread has found something, therefore leaves out more or less of one and the same tree,
+//! and the first largest box in its order is always the same.
+
+use super::LargestEmptyBox;
+use super::side::{End, Side, inside, volume};
+use crate::PointSet;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A volume that many threads raise. Non-negative floats are ordered as their bits are.
+#[derive(Debug)]
+pub(super) struct Bar(AtomicU64);
+
+impl Bar {
+    pub fn new(volume: f64) -> Self {
+        Self(AtomicU64::new(volume.to_bits()))
+    }
+
+    pub fn get(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
+
+    pub fn raise(&self, volume: f64) {
+        self.0.fetch_max(volume.to_bits(), Ordering::Relaxed);
+    }
+}
+
+/// A box with the points strictly inside it, waiting to be explored.
+#[derive(Debug, Clone)]
+pub(super) struct Open {
+    pub volume: f64,
+    pub sides: Vec<Side>,
+    pub inside: Vec<u32>,
+}
+
+/// A way to get rid of a point: an end of the box moves to it.
+#[derive(Debug, Clone, Copy)]
+struct Cut {
+    axis: u32,
+    end: End,
+    /// What is left of the box.
+    volume: f64,
+}
+
+/// A box on the stack; its sides lie on a stack of their own.
+struct Node {
+    volume: f64,
+    /// Where the points inside the box that it was cut from are listed, and the axis of the cut, which is all that
+    /// they need be compared along.
+    around: Range<usize>,
+    cut: Option<u32>,
+}
+
+/// What a search came to.
+#[derive(Debug)]
+pub(super) struct Found {
+    /// The first of the largest empty boxes above the bar, if there is one.
+    pub witness: Option<LargestEmptyBox>,
+    /// What was not explored for lack of nodes.
+    pub open: Vec<Open>,
+}
+
+pub(super) struct Search<'a> {
+    points: &'a PointSet,
+    /// The volume that pivots are chosen for: boxes below it are not expected to matter.
+    reference: f64,
+    nodes: Vec<Node>,
+    sides: Vec<Side>,
+    /// The points inside each box, as a stack: a list outlives the lists of the boxes inside its own.
+    lists: Vec<u32>,
+    cuts: Vec<Cut>,
+    /// One over the length of each side.
+    scales: Vec<f64>,
+}
+
+impl<'a> Search<'a> {
+    pub fn new(points: &'a PointSet, reference: f64) -> Self {
+        let (nodes, sides, lists, cuts, scales) = Default::default();
+        Self { points, reference, nodes, sides, lists, cuts, scales }
+    }
+
+    /// Explores a box as long as `go_on`, which is told how many points each step looks at.
+    ///
+    /// Left out is what is below the shared bar, and what is at or below `floor`: boxes that large need not be found.
+    /// What this search finds raises both.
+    pub fn explore(&mut self, root: &Open, shared: &Bar, floor: f64, mut go_on: impl FnMut(usize) -> bool) -> Found {
+        let dims = self.points.dims();
+        self.lists.clear();
+        self.lists.extend_from_slice(&root.inside);
+        self.sides.clear();
+        self.sides.extend_from_slice(&root.sides);
+        self.nodes.clear();
+        self.nodes.push(Node { volume: root.volume, around: 0..self.lists.len(), cut: None });
+        let mut found = Found { witness: None, open: Vec::new() };
+        let mut best = floor;
+        let mut sides = Vec::with_capacity(dims);
+        while let Some(node) = self.nodes.pop() {
+            let top = self.nodes.len() * dims;
+            sides.clear();
+            sides.extend(self.sides.drain(top..));
+            if node.volume <= best || node.volume < shared.get() {
+                continue;
+            }
+            if !go_on(node.around.len()) {
+                self.sides.extend_from_slice(&sides);
+                self.nodes.push(node);
+                found.open = self.left(best.max(shared.get()));
+                break;
+            }
+            if self.branch(&node, &mut sides, best, shared.get()) {
+                let lower = sides.iter().map(|side| side.lower).collect();
+                let upper = sides.iter().map(|side| side.upper).collect();
+                found.witness = Some(LargestEmptyBox { lower, upper });
+                best = node.volume;
+                shared.raise(best);
+            }
+        }
+        found
+    }
+
+    /// What waits on the stack, above a volume.
+    fn left(&mut self, above: f64) -> Vec<Open> {
+        let dims = self.points.dims();
+        let mut open = Vec::new();
+        for (node, sides) in self.nodes.drain(..).zip(self.sides.chunks_exact(dims)) {
+            if node.volume > above {
+                let points = self.lists[node.around].iter();
+                let holds = |point: &&u32| inside(self.points.point(**point as usize), sides);
+                open.push(Open {
+                    volume: node.volume,
+                    sides: sides.to_vec(),
+                    inside: points.filter(holds).copied().collect(),
+                });
+            }
+        }
+        open
+    }
+
+    /// Puts the children of a box on the stack; whether it has none because there is no point inside.
+    fn branch(&mut self, node: &Node, sides: &mut [Side], best: f64, shared: f64) -> bool {
+        let list = self.list(node, sides);
+        let Some(pivot) = self.pivot(list.clone(), sides) else { return true };
+        let pivot = self.points.point(pivot);
+        self.cuts.clear();
+        for (axis, &x) in pivot.iter().enumerate() {
+            let side = sides[axis];
+            for end in [End::Lower, End::Upper] {
+                if side.allows(x, end) {
+                    sides[axis] = side.moved(x, end);
+                    self.cuts.push(Cut { axis: axis as u32, end, volume: volume(sides) });
+                }
+            }
+            sides[axis] = side;
+        }
+        // The largest comes last: most constrained, and on top of the stack.
+        self.cuts.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+        for cut in &self.cuts {
+            let axis = cut.axis as usize;
+            let (side, x) = (sides[axis], pivot[axis]);
+            if cut.volume > best && cut.volume >= shared {
+                sides[axis] = side.moved(x, cut.end);
+                self.nodes.push(Node { volume: cut.volume, around: list.clone(), cut: Some(cut.axis) });
+                self.sides.extend_from_slice(sides);
+            }
+            sides[axis] = side.kept(x, cut.end);
+        }
+        false
+    }
+
+    /// Lists the points inside a box on top of those of the box that it was cut from.
+    fn list(&mut self, node: &Node, sides: &[Side]) -> Range<usize> {
+        self.lists.truncate(node.around.end);
+        let Some(axis) = node.cut else { return node.around.clone() };
+        let axis = axis as usize;
+        let side = sides[axis];
+        for i in node.around.clone() {
+            let point = self.lists[i];
+            if side.holds(self.points.point(point as usize)[axis]) {
+                self.lists.push(point);
+            }
+        }
+        node.around.end..self.lists.len()
+    }
+
+    /// The listed point whose possible cuts leave the least sum of cubed volumes.
+    ///
+    /// Shares of the box's volume serve to choose; whether a cut is worth exploring is decided by its volume.
+    fn pivot(&mut self, list: Range<usize>, sides: &[Side]) -> Option<usize> {
+        let least = self.reference / volume(sides);
+        self.scales.clear();
+        self.scales.extend(sides.iter().map(|side| 1.0 / side.length()));
+        let cubed = |possible: bool, share: f64| if possible & (share > least) { share * share * share } else { 0.0 };
+        let (mut best, mut pivot) = (f64::INFINITY, None);
+        for &point in &self.lists[list] {
+            let mut score = 0.0;
+            for ((side, scale), &x) in sides.iter().zip(&self.scales).zip(self.points.point(point as usize)) {
+                let share = (x - side.lower) * scale;
+                score += cubed(side.allows(x, End::Upper), share) + cubed(side.allows(x, End::Lower), 1.0 - share);
+                if score >= best {
+                    break;
+                }
+            }
+            if score < best {
+                (best, pivot) = (score, Some(point as usize));
+            }
+        }
+        pivot
+    }
+}

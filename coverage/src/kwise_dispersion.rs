@@ -1,0 +1,144 @@
+//! K-wise dispersion: the largest hole that any k parameters show, discrete and continuous ones together.
+//!
+//! It joins both halves of the paper's notion of coverage in one number. Every choice of k parameters, and every
+//! combination of values of the discrete ones among them, selects tests; projected on the continuous ones among the k
+//! they have a dispersion; the largest of these is the k-wise dispersion. Where none of the k is continuous it is 0 if
+//! a test has the values and 1 if not. A failure that depends on at most k parameters and takes up more than this share
+//! of their values has been hit.
+//!
+//! Projections have few dimensions, so that the number stays exact where the dispersion of the whole space is out of
+//! reach. Projections are looked at in blocks; within a block each is searched only for holes larger than the largest
+//! of the blocks before, so that most are done as soon as they are begun, and the result does not depend on threads.
+
+use crate::dispersion::{LargestEmptyBox, larger_than};
+use crate::kwise::{KwiseError, advance, tuple};
+use crate::{Bracket, Deadline, Point, PointSet};
+use rayon::prelude::*;
+
+/// How many projections make a block.
+const BLOCK: usize = 64;
+
+/// The k-wise dispersion of a set of tests, with where it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KwiseDispersion {
+    /// The largest dispersion.
+    pub volume: Bracket,
+    /// The values of the discrete parameters among the k: positions among the discrete ones, and levels.
+    pub fixed: Vec<(usize, usize)>,
+    /// The continuous parameters among the k, by their position among the continuous ones.
+    pub axes: Vec<usize>,
+    /// The largest empty box over those axes; `None` where there is none among the k.
+    pub witness: Option<LargestEmptyBox>,
+}
+
+/// Some of the parameters, with values for the discrete ones.
+struct Projection {
+    fixed: Vec<(usize, usize)>,
+    axes: Vec<usize>,
+}
+
+/// The largest dispersion over all choices of `k` parameters out of `dims` continuous ones and discrete ones with these
+/// numbers of levels, and over all their values.
+///
+/// Exact, unless `deadline` cuts it short: then the upper end is 1 if some projection was not even begun.
+///
+/// # Errors
+/// `k` is 0 or more than there are parameters, or a discrete parameter has no level.
+///
+/// # Panics
+/// A test is none of this space.
+pub fn kwise_dispersion(
+    dims: usize,
+    levels: &[usize],
+    tests: &[Point],
+    k: usize,
+    deadline: Deadline,
+) -> Result<KwiseDispersion, KwiseError> {
+    let parameters = dims + levels.len();
+    if k == 0 || k > parameters {
+        return Err(KwiseError::Strength { k, parameters });
+    }
+    if let Some(parameter) = levels.iter().position(|&levels| levels == 0) {
+        return Err(KwiseError::NoLevel(parameter));
+    }
+    let mut projections = Projections::new(dims, levels, k);
+    let mut worst: Option<KwiseDispersion> = None;
+    let mut upper = 0.0f64;
+    loop {
+        let block: Vec<Projection> = projections.by_ref().take(BLOCK).collect();
+        if block.is_empty() {
+            break;
+        }
+        if deadline.passed() {
+            upper = 1.0;
+            break;
+        }
+        let above = worst.as_ref().map_or(f64::NEG_INFINITY, |worst| worst.volume.lower);
+        let found: Vec<_> = block.into_par_iter().map(|projection| hole(projection, tests, above, deadline)).collect();
+        for hole in found.into_iter().flatten() {
+            upper = upper.max(hole.volume.upper);
+            if worst.as_ref().is_none_or(|worst| hole.volume.lower > worst.volume.lower) {
+                worst = Some(hole);
+            }
+        }
+    }
+    let mut worst = worst.unwrap_or_else(|| {
+        // The deadline came before anything: the least that can be said.
+        let first = Projections::new(dims, levels, k).next().expect("k is at most the number of parameters");
+        KwiseDispersion { volume: Bracket::exact(0.0), fixed: first.fixed, axes: Vec::new(), witness: None }
+    });
+    worst.volume.upper = upper.max(worst.volume.lower);
+    Ok(worst)
+}
+
+/// The largest hole of a projection; `None` where it is proved to be no larger than `above`.
+fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline) -> Option<KwiseDispersion> {
+    let Projection { fixed, axes } = projection;
+    let mut selected =
+        tests.iter().filter(|test| fixed.iter().all(|&(parameter, level)| test.discrete[parameter] == level));
+    if axes.is_empty() {
+        let volume = if selected.next().is_some() { 0.0 } else { 1.0 };
+        let hole = KwiseDispersion { volume: Bracket::exact(volume), fixed, axes, witness: None };
+        return (volume > above).then_some(hole);
+    }
+    let projected = selected.map(|test| axes.iter().map(|&axis| test.continuous[axis]).collect::<Vec<_>>());
+    let points = PointSet::new(axes.len(), projected).expect("the tests are of the unit cube");
+    let found = larger_than(&points, above, deadline)?;
+    Some(KwiseDispersion { volume: found.volume, fixed, axes, witness: Some(found.witness) })
+}
+
+/// All choices of parameters in lexicographic order, the continuous ones first, each with all values.
+struct Projections<'a> {
+    dims: usize,
+    /// The number of values of each parameter; a continuous one is not given any, which is one way.
+    ways: Vec<usize>,
+    levels: &'a [usize],
+    set: Option<Vec<usize>>,
+    next: usize,
+}
+
+impl<'a> Projections<'a> {
+    fn new(dims: usize, levels: &'a [usize], k: usize) -> Self {
+        let ways = std::iter::repeat_n(1, dims).chain(levels.iter().copied()).collect();
+        Self { dims, ways, levels, set: Some((0..k).collect()), next: 0 }
+    }
+}
+
+impl Iterator for Projections<'_> {
+    type Item = Projection;
+
+    fn next(&mut self) -> Option<Projection> {
+        let set = self.set.as_mut()?;
+        let values = tuple(&self.ways, set, self.next);
+        self.next += 1;
+        if self.next == set.iter().map(|&parameter| self.ways[parameter]).product::<usize>() {
+            self.next = 0;
+            if !advance(set, self.dims + self.levels.len()) {
+                self.set = None;
+            }
+        }
+        let (axes, fixed): (Vec<_>, Vec<_>) = values.into_iter().partition(|(parameter, _)| *parameter < self.dims);
+        let fixed = fixed.into_iter().map(|(parameter, level)| (parameter - self.dims, level)).collect();
+        Some(Projection { fixed, axes: axes.into_iter().map(|(axis, _)| axis).collect() })
+    }
+}

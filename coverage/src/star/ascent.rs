@@ -1,0 +1,179 @@
+//! Large differences by local search: from a random box, one side after the other goes to its best position,
+//! until no side can do better. Where threshold accepting (Gnewuch, Wahlstrom, Winzen, A new randomized
+//! algorithm to approximate the star discrepancy based on threshold accepting, SIAM J. Numer. Anal. 50, 2012)
+//! tries a few neighbours, this looks at all positions of a side at once: that takes no longer than counting the
+//! points of one box.
+
+use super::cell::Kind;
+use super::sides::Sides;
+use crate::Deadline;
+
+/// A local search over the boxes of some points.
+pub(super) struct Ascent<'a> {
+    sides: &'a Sides<'a>,
+    /// Per side, the points in the order of their coordinates.
+    orders: Vec<Vec<u32>>,
+    /// The box that is being moved, and along how many sides each point is outside.
+    positions: Vec<f64>,
+    outside: Vec<u32>,
+}
+
+impl<'a> Ascent<'a> {
+    /// More coordinates than that are left to the other search: sorting them takes memory.
+    const MOST_COORDINATES: usize = 1 << 26;
+    /// With no more coordinates than that, an ascent takes no time to speak of, and is made even if there is none.
+    const FEW_COORDINATES: usize = 1 << 16;
+
+    pub(super) fn new(sides: &'a Sides<'a>) -> Self {
+        Self { sides, orders: Vec::new(), positions: vec![0.0; sides.count()], outside: vec![0; sides.points()] }
+    }
+
+    /// The largest difference found by the ascents with these numbers, until the deadline.
+    pub(super) fn run(&mut self, ascents: std::ops::Range<usize>, deadline: Deadline) -> f64 {
+        let coordinates = self.sides.points() * self.sides.count();
+        if coordinates > Self::MOST_COORDINATES {
+            return 0.0;
+        }
+        for side in self.orders.len()..self.sides.count() {
+            if coordinates > Self::FEW_COORDINATES && deadline.passed() {
+                return 0.0;
+            }
+            self.orders.push(self.order(side));
+        }
+        let mut best = 0.0f64;
+        for ascent in ascents {
+            let mut random = SplitMix(ascent as u64);
+            let kind = if ascent % 2 == 0 { Kind::Open } else { Kind::Closed };
+            self.start(&mut random, kind);
+            best = best.max(self.climb(kind, deadline));
+            if deadline.passed() {
+                break;
+            }
+        }
+        best
+    }
+
+    fn order(&self, side: usize) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..self.sides.points() as u32).collect();
+        let coordinate = |point: &u32| self.sides.coordinate(*point as usize, side);
+        order.sort_by(|a, b| coordinate(a).total_cmp(&coordinate(b)));
+        order
+    }
+
+    /// Takes a random box whose volume is spread evenly, more or less.
+    fn start(&mut self, random: &mut SplitMix, kind: Kind) {
+        let dims = self.sides.count() / self.sides.per_axis();
+        for axis in 0..dims {
+            let width = libm::pow(random.next(), 1.0 / dims as f64);
+            if self.sides.per_axis() == 1 {
+                self.positions[axis] = width;
+            } else {
+                let lower = random.next() * (1.0 - width);
+                (self.positions[2 * axis], self.positions[2 * axis + 1]) = (-lower, lower + width);
+            }
+        }
+        for (point, outside) in self.outside.iter_mut().enumerate() {
+            let is_outside = |&side: &usize| beyond(self.sides.coordinate(point, side), self.positions[side], kind);
+            *outside = (0..self.sides.count()).filter(is_outside).count() as u32;
+        }
+    }
+
+    /// Moves sides until all are where they are best or the deadline has passed, and says how large the difference is.
+    fn climb(&mut self, kind: Kind, deadline: Deadline) -> f64 {
+        let mut best = f64::NEG_INFINITY;
+        let mut unmoved = 0;
+        for side in (0..self.sides.count()).cycle() {
+            let (value, position) = self.best_position(side, kind);
+            if value > best {
+                best = value;
+                unmoved = 0;
+                self.place(side, position, kind);
+            } else {
+                unmoved += 1;
+            }
+            if unmoved >= self.sides.count() || deadline.passed() {
+                break;
+            }
+        }
+        best
+    }
+
+    /// The best position of a side while the others stay, and the difference there.
+    fn best_position(&self, side: usize, kind: Kind) -> (f64, f64) {
+        let sides = self.sides;
+        let mut positions = self.positions.clone();
+        let mut best = (f64::NEG_INFINITY, positions[side]);
+        let mut consider = |position: f64, count: usize| {
+            positions[side] = position;
+            // In the order of the axes, as everywhere.
+            let volume = sides.volume(&positions);
+            let value = match kind {
+                Kind::Open => volume - sides.share(count),
+                Kind::Closed => sides.share(count) - volume,
+            };
+            if value > best.0 {
+                best = (value, position);
+            }
+        };
+        let mut count = 0;
+        for &point in &self.orders[side] {
+            let coordinate = sides.coordinate(point as usize, side);
+            let here = u32::from(beyond(coordinate, self.positions[side], kind));
+            if self.outside[point as usize] > here {
+                continue;
+            }
+            match kind {
+                Kind::Open => {
+                    consider(coordinate.min(sides.end(side)), count);
+                    count += 1;
+                }
+                Kind::Closed => {
+                    count += 1;
+                    consider(coordinate, count);
+                }
+            }
+        }
+        if kind == Kind::Open {
+            // A point at the end of the cube is in no open box.
+            let at_end = |point: &&u32| sides.coordinate(**point as usize, side) >= sides.end(side);
+            let ending = self.orders[side].iter().rev().take_while(at_end);
+            let inside = |point: &&u32| {
+                let here = u32::from(beyond(sides.coordinate(**point as usize, side), self.positions[side], kind));
+                self.outside[**point as usize] <= here
+            };
+            consider(sides.end(side), count - ending.filter(inside).count());
+        }
+        best
+    }
+
+    /// Moves a side.
+    fn place(&mut self, side: usize, position: f64, kind: Kind) {
+        let from = std::mem::replace(&mut self.positions[side], position);
+        for (point, outside) in self.outside.iter_mut().enumerate() {
+            let coordinate = self.sides.coordinate(point, side);
+            *outside -= u32::from(beyond(coordinate, from, kind));
+            *outside += u32::from(beyond(coordinate, position, kind));
+        }
+    }
+}
+
+/// Whether a coordinate is outside of a box along a side.
+fn beyond(coordinate: f64, position: f64, kind: Kind) -> bool {
+    match kind {
+        Kind::Open => coordinate >= position,
+        Kind::Closed => coordinate > position,
+    }
+}
+
+/// Random numbers in `[0, 1)` (Steele, Lea, Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
+struct SplitMix(u64);
+
+impl SplitMix {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (((z ^ (z >> 31)) >> 11) as f64) / (1u64 << 53) as f64
+    }
+}

@@ -1,0 +1,162 @@
+//! Branch and bound over cells of boxes.
+//!
+//! Cells are cut until their relaxation is exact or says that they hold nothing above the best value. Tasks
+//! explore cells depth first, each with a stack of its own, of which it gives half away while a thread is idle.
+//! What is found does not depend on the order: bounds and values are computed by monotone operations, so that
+//! the result is the largest computed value of all boxes, wherever it is found.
+//!
+//! Depth first alone is a poor way to close a bracket, for it leaves large cells for last. Against a deadline
+//! the search therefore proves one upper bound after the other: a pass drops what a target bounds, and a pass
+//! that comes to its end has proved its target. Only the cells that are open on the way to one cell are kept.
+
+use super::ascent::Ascent;
+use super::cell::{Cell, Kind, Relaxed, Scratch};
+use super::sides::Sides;
+use crate::bracket::Watch;
+use crate::{Bracket, Deadline};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// How many ascents precede the search; more cost more than they save.
+const ASCENTS: usize = 64;
+/// The share of the time in which the search tries to come to its end without proving bounds on the way.
+const TIME_TO_THE_END: f64 = 0.2;
+/// The share of what is left then in which ascents raise the lower bound.
+const TIME_FOR_ASCENTS: f64 = 0.15;
+/// Of the way from the best value to the bound, how much the next pass leaves: it takes some two or three times as
+/// long as the last. When that would be too long, the second.
+const NEXT_TARGET: [f64; 2] = [0.76, 0.9];
+/// How many numbers the stack of a task may hold: some 200 MiB.
+const MOST_NUMBERS: usize = 1 << 24;
+
+/// The largest difference between volume and share of points over the boxes that `sides` describes.
+pub(crate) fn largest_difference(sides: &Sides, deadline: Deadline) -> Bracket {
+    let best = Ascent::new(sides).run(0..ASCENTS, deadline.part(TIME_FOR_ASCENTS));
+    let first = Pass::over(sides, best, best, deadline.part(TIME_TO_THE_END));
+    if first.left <= first.best {
+        return Bracket::exact(first.best);
+    }
+    // Without a limit it was memory that ended the pass.
+    let ascents = ASCENTS..if deadline.left().is_some() { usize::MAX } else { 16 * ASCENTS };
+    let mut best = Ascent::new(sides).run(ascents, deadline.part(TIME_FOR_ASCENTS)).max(first.best);
+    let mut upper = first.left;
+    let mut last = Duration::ZERO;
+    while upper > best && !deadline.passed() {
+        let begun = Instant::now();
+        let is_short = deadline.left().is_some_and(|left| left < 4 * last);
+        let target = best + NEXT_TARGET[usize::from(is_short)] * (upper - best);
+        let pass = Pass::over(sides, best, target, deadline);
+        let got_no_further = pass.left >= upper;
+        (best, upper) = (pass.best, pass.left.min(upper));
+        last = begun.elapsed();
+        if got_no_further {
+            break;
+        }
+    }
+    if upper <= best {
+        return Bracket::exact(best);
+    }
+    // Rounding may have lost half an ulp of 1 in every product and difference.
+    let rounding = (sides.count() + 2) as f64 * f64::EPSILON;
+    Bracket { lower: best, upper: (upper + rounding).min(1.0) }
+}
+
+/// A pass over all boxes.
+struct Pass<'a> {
+    sides: &'a Sides<'a>,
+    /// Cells without boxes above it are dropped.
+    target: f64,
+    deadline: Deadline,
+    stopped: AtomicBool,
+    /// How many tasks are at work.
+    tasks: AtomicUsize,
+    /// The largest value that some box has.
+    best: Most,
+    /// The largest bound of a cell that was left unexplored.
+    left: Most,
+}
+
+/// What a pass has found.
+struct Outcome {
+    best: f64,
+    /// What no box exceeds.
+    left: f64,
+}
+
+impl<'a> Pass<'a> {
+    fn over(sides: &'a Sides<'a>, best: f64, target: f64, deadline: Deadline) -> Outcome {
+        let roots = [Kind::Open, Kind::Closed].map(|kind| (kind, Cell::root(sides, kind)));
+        let pass = Self {
+            sides,
+            target,
+            deadline,
+            stopped: AtomicBool::new(false),
+            tasks: AtomicUsize::new(1),
+            best: Most::new(best),
+            left: Most::new(target),
+        };
+        rayon::scope(|scope| pass.explore(scope, roots.into()));
+        Outcome { best: pass.best.get(), left: pass.left.get().max(pass.best.get()) }
+    }
+
+    /// Explores the cells of a stack.
+    fn explore<'s>(&'s self, scope: &rayon::Scope<'s>, mut stack: Vec<(Kind, Cell)>) {
+        let (mut scratch, mut watch) = (Scratch::default(), Watch::new(self.deadline));
+        let mut numbers: usize = stack.iter().map(|(_, cell)| cell.size()).sum();
+        while let Some((kind, mut cell)) = stack.pop() {
+            numbers -= cell.size();
+            let threshold = self.best.get().max(self.target);
+            if cell.bound <= threshold {
+                continue;
+            }
+            match cell.relax(self.sides, kind, threshold, &mut scratch) {
+                Relaxed::Nothing => continue,
+                Relaxed::Solved(value) => {
+                    self.best.raise(value);
+                    continue;
+                }
+                Relaxed::Bounded => {}
+            }
+            if watch.passed_after(cell.size()) || self.stopped.load(Ordering::Relaxed) {
+                self.stopped.store(true, Ordering::Relaxed);
+                self.left.raise(cell.bound);
+                stack.iter().for_each(|(_, cell)| self.left.raise(cell.bound));
+                break;
+            }
+            if numbers + 2 * cell.size() > MOST_NUMBERS {
+                self.left.raise(cell.bound);
+                continue;
+            }
+            let [below, above] = cell.split(self.sides, kind, &mut scratch);
+            numbers += below.size() + above.size();
+            let [worse, better] = if above.bound > below.bound { [below, above] } else { [above, below] };
+            stack.push((kind, worse));
+            stack.push((kind, better));
+            if self.tasks.load(Ordering::Relaxed) < rayon::current_num_threads() {
+                // The bottom of the stack has the largest cells.
+                let given: Vec<_> = stack.drain(..stack.len() / 2).collect();
+                numbers -= given.iter().map(|(_, cell)| cell.size()).sum::<usize>();
+                self.tasks.fetch_add(1, Ordering::Relaxed);
+                scope.spawn(|scope| self.explore(scope, given));
+            }
+        }
+        self.tasks.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+/// A number that threads raise together. Numbers that are not negative have the order of their bits.
+struct Most(AtomicU64);
+
+impl Most {
+    fn new(number: f64) -> Self {
+        Self(AtomicU64::new(number.max(0.0).to_bits()))
+    }
+
+    fn get(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
+
+    fn raise(&self, number: f64) {
+        self.0.fetch_max(number.max(0.0).to_bits(), Ordering::Relaxed);
+    }
+}

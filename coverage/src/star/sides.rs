@@ -1,0 +1,85 @@
+//! Boxes as the positions of their free sides, so that one search serves anchored boxes and all boxes.
+//!
+//! A side's position says how far the box reaches in the side's direction: `y` for an upper side at `y`, `-a`
+//! for a lower side at `a`. Points have coordinates of the same kind, and a box holds a point where the point's
+//! coordinate is below the position on every side. Negation is exact, and sums and products of floating-point
+//! numbers are monotone: a box inside another is never computed to be larger, and what is pruned by a computed
+//! bound is no more than the computed value of any box that was dropped.
+
+use crate::PointSet;
+
+/// A set of points as the free sides of boxes see it.
+pub(crate) struct Sides<'a> {
+    points: &'a PointSet,
+    anchored: bool,
+}
+
+impl<'a> Sides<'a> {
+    /// Boxes `[0, y)`: one free side per axis.
+    pub(crate) fn of_anchored_boxes(points: &'a PointSet) -> Self {
+        Self { points, anchored: true }
+    }
+
+    /// All boxes: the sides `2 j` and `2 j + 1` bound axis `j` from below and above.
+    pub(crate) fn of_all_boxes(points: &'a PointSet) -> Self {
+        Self { points, anchored: false }
+    }
+
+    /// How many free sides a box has.
+    pub(super) fn count(&self) -> usize {
+        self.points.dims() * self.per_axis()
+    }
+
+    pub(super) fn per_axis(&self) -> usize {
+        if self.anchored { 1 } else { 2 }
+    }
+
+    pub(super) fn points(&self) -> usize {
+        self.points.len()
+    }
+
+    /// A point's coordinate in the direction of a side.
+    pub(super) fn coordinate(&self, point: usize, side: usize) -> f64 {
+        let point = self.points.point(point);
+        if self.anchored {
+            return point[side];
+        }
+        let x = point[side / 2];
+        if side % 2 == 1 { x } else { -x }
+    }
+
+    /// The farthest position that lies in the cube.
+    pub(super) fn end(&self, side: usize) -> f64 {
+        if self.anchored || side % 2 == 1 { 1.0 } else { 0.0 }
+    }
+
+    /// How wide a box is along an axis; nothing where its sides have passed each other.
+    pub(super) fn width(&self, axis: usize, positions: &[f64]) -> f64 {
+        if self.anchored { positions[axis] } else { above_0(positions[2 * axis] + positions[2 * axis + 1]) }
+    }
+
+    /// The volume of a box: the product of its widths, in the order of the axes.
+    pub(super) fn volume(&self, positions: &[f64]) -> f64 {
+        (0..self.points.dims()).map(|axis| self.width(axis, positions)).product()
+    }
+
+    /// The product of a box's widths along all axes but one.
+    pub(super) fn volume_across(&self, without: usize, positions: &[f64]) -> f64 {
+        (0..self.points.dims()).filter(|axis| *axis != without).map(|axis| self.width(axis, positions)).product()
+    }
+
+    /// How far a side may go at most for the box to have a width along the side's axis.
+    pub(super) fn position(&self, side: usize, width: f64, positions: &[f64]) -> f64 {
+        if self.anchored { width } else { width - positions[side ^ 1] }
+    }
+
+    /// A number of points as a share of all.
+    pub(super) fn share(&self, count: usize) -> f64 {
+        count as f64 / self.points.len() as f64
+    }
+}
+
+/// The number, or 0 if it is negative.
+pub(super) fn above_0(x: f64) -> f64 {
+    if x > 0.0 { x } else { 0.0 }
+}

@@ -1,0 +1,286 @@
+//! The next test where it breaks the largest holes: points of low dispersion, any number of them, after any others.
+//!
+//! A point in the very centre of the largest empty box is worse than Halton's: coordinates collide, and boxes that
+//! are alike are cut alike. Instead a point is sought near the centre that also breaks other large boxes well. How
+//! bad a set is, is the sum of the eighth powers of its empty boxes' volumes, a smooth stand-in for the largest:
+//! each box that holds the new point is replaced by the `2d` parts that it leaves. Parts that are not maximal count
+//! too; to leave them out takes far longer and gains nothing. Some two dozen random candidates are compared,
+//! and the best is moved by ever smaller random steps.
+//!
+//! The dispersion over that of Halton's points from index 1, 20 seeds, and the time on one core (the example `greedy`
+//! prints the table):
+//!
+//! | d | n   | median | quartiles    | ms a point |
+//! | - | --- | ------ | ------------ | ---------- |
+//! | 2 | 100 | 0.688  | 0.684, 0.704 | 0.02       |
+//! | 2 | 500 | 0.665  | 0.663, 0.666 | 0.05       |
+//! | 3 | 100 | 0.609  | 0.603, 0.616 | 0.2        |
+//! | 3 | 500 | 0.632  | 0.629, 0.636 | 0.9        |
+//! | 5 | 200 | 0.538  | 0.532, 0.540 | 4.3        |
+//! | 8 | 100 | 0.495  | 0.489, 0.499 | 3.9        |
+//!
+//! Trying the most promising points to the end, up to twenty points ahead, changes these little; points of
+//! several of the largest boxes make them worse.
+//!
+//! [`EmptyBoxes`] knows all boxes as long as they are not too many. Where they are, in five dimensions and more or
+//! after some hundred tests, it keeps the larger ones, and later what is left of these: then the point is no
+//! longer in the very largest box for certain, and the gain shrinks slowly with the number of points (0.68 of
+//! Halton's dispersion for d = 3 and n = 2000, 0.76 for d = 4 and 0.91 for d = 5 with n = 1000).
+
+use crate::seeded::{Purpose, seeded};
+use crate::sequence::RowSet;
+use paracosm_coverage::{PointSetError, empty_boxes::EmptyBoxes};
+use rand::Rng;
+use rand_pcg::Pcg64;
+use std::collections::HashMap;
+use std::sync::Mutex;
+
+/// Random candidates for a point.
+const CANDIDATES: usize = 24;
+
+/// Random steps from the best of them.
+const STEPS: usize = 60;
+
+/// The first step, as a share of the room, and what a step that does not help leaves of its length.
+const FIRST_STEP: f64 = 0.25;
+const SHORTER: f64 = 0.93;
+
+/// The part of the largest box, in its middle, in which points are placed.
+const ROOM: f64 = 0.7;
+
+/// Boxes smaller than this share of the largest do not count.
+const LARGE: f64 = 0.65;
+
+/// The points so far, and the holes between them.
+pub(crate) struct Greedy {
+    dims: usize,
+    boxes: EmptyBoxes,
+    rng: Pcg64,
+}
+
+impl Greedy {
+    /// Points of `[0,1)^dims` that fill the holes that `existing` ones leave.
+    ///
+    /// # Errors
+    /// `dims` is 0, or an existing point has another number of coordinates or one that is not in `[0,1]`.
+    pub(crate) fn new(dims: usize, rng: Pcg64, existing: Vec<Vec<f64>>) -> Result<Self, PointSetError> {
+        let mut boxes = EmptyBoxes::at_most(dims, most_boxes(dims))?;
+        for point in &existing {
+            boxes.add(point)?;
+        }
+        Ok(Self { dims, boxes, rng })
+    }
+
+    /// The next point.
+    pub(crate) fn next(&mut self) -> Vec<f64> {
+        let largest = self.boxes.largest();
+        let sides = largest.lower.iter().zip(&largest.upper);
+        let room: Vec<(f64, f64)> = sides
+            .map(|(lower, upper)| {
+                let width = ROOM * (upper - lower);
+                (0.5 * (lower + upper) - 0.5 * width, width)
+            })
+            .collect();
+        let holes = Holes::around(&self.boxes, &room);
+        let mut best = (f64::INFINITY, vec![0.0; self.dims]);
+        let mut candidate = vec![0.0; self.dims];
+        let mut step = FIRST_STEP;
+        for number in 0..CANDIDATES + STEPS {
+            for ((x, from), (lower, width)) in candidate.iter_mut().zip(&best.1).zip(&room) {
+                let random: f64 = self.rng.random();
+                *x = if number < CANDIDATES {
+                    lower + width * random
+                } else {
+                    reflect(from + width * step * (2.0 * random - 1.0), *lower, lower + width)
+                };
+            }
+            let left = holes.left_by(&candidate);
+            if left < best.0 {
+                best.0 = left;
+                best.1.copy_from_slice(&candidate);
+            } else if number >= CANDIDATES {
+                step *= SHORTER;
+            }
+        }
+        self.boxes.add(&best.1).expect("a point of the cube");
+        best.1
+    }
+}
+
+/// Greedy points for every discrete row, found as they are asked for and remembered.
+pub(crate) struct GreedyRows {
+    dims: usize,
+    seed: u64,
+    rows: Mutex<HashMap<u64, Row>>,
+}
+
+/// The points of a row so far, and what finds the next.
+struct Row {
+    greedy: Greedy,
+    points: Vec<Vec<f64>>,
+}
+
+impl GreedyRows {
+    pub(crate) fn new(dims: usize, seed: u64) -> Self {
+        Self { dims, seed, rows: Mutex::default() }
+    }
+}
+
+impl RowSet for GreedyRows {
+    fn point(&self, row: u64, _size: u64, index: u64) -> Vec<f64> {
+        let mut rows = self.rows.lock().expect("nobody panics while holding it");
+        let Row { greedy, points } = rows.entry(row).or_insert_with(|| {
+            let rng = seeded(self.seed, Purpose::Greedy, row);
+            Row { greedy: Greedy::new(self.dims, rng, Vec::new()).expect("there is an axis"), points: Vec::new() }
+        });
+        while points.len() as u64 <= index {
+            points.push(greedy.next());
+        }
+        points[index as usize].clone()
+    }
+}
+
+/// As many boxes as can be looked after in some milliseconds: a box has `2d` parts with `2d` faces each.
+fn most_boxes(dims: usize) -> usize {
+    (2_500_000 / dims.saturating_mul(dims).max(1)).clamp(100, 100_000)
+}
+
+/// A number mirrored in the end that it is beyond. Moving it to the end would make coordinates collide.
+fn reflect(x: f64, lower: f64, upper: f64) -> f64 {
+    if x < lower {
+        2.0 * lower - x
+    } else if x > upper {
+        2.0 * upper - x
+    } else {
+        x
+    }
+}
+
+/// The large boxes that a point can break.
+struct Holes {
+    dims: usize,
+    /// For each the eighth power of its volume over the largest's.
+    weights: Vec<f64>,
+    /// For each, axis by axis, its lower end and one over its width.
+    sides: Vec<(f64, f64)>,
+}
+
+impl Holes {
+    /// Those that meet the room.
+    fn around(boxes: &EmptyBoxes, room: &[(f64, f64)]) -> Self {
+        let dims = room.len();
+        let largest = boxes.largest().volume();
+        let mut holes = Self { dims, weights: Vec::new(), sides: Vec::new() };
+        for hole in boxes.larger_than(LARGE * largest) {
+            let meets = |(axis, (from, width)): (usize, &(f64, f64))| {
+                let (lower, upper) = hole.side(axis);
+                lower < from + width && *from < upper
+            };
+            if room.iter().enumerate().all(meets) {
+                holes.weights.push(eighth_power(hole.volume() / largest));
+                let sides = (0..dims).map(|axis| hole.side(axis));
+                holes.sides.extend(sides.map(|(lower, upper)| (lower, 1.0 / (upper - lower))));
+            }
+        }
+        holes
+    }
+
+    /// By how much a point changes the sum of the eighth powers of all volumes.
+    fn left_by(&self, point: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for (weight, sides) in self.weights.iter().zip(self.sides.chunks_exact(self.dims)) {
+            let shares = || sides.iter().zip(point).map(|((lower, per_width), x)| (x - lower) * per_width);
+            if shares().all(|share| 0.0 < share && share < 1.0) {
+                let parts = shares().map(|share| eighth_power(share) + eighth_power(1.0 - share));
+                sum += weight * (parts.sum::<f64>() - 1.0);
+            }
+        }
+        sum
+    }
+}
+
+fn eighth_power(x: f64) -> f64 {
+    let square = x * x;
+    let fourth = square * square;
+    fourth * fourth
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Request, Strategy};
+    use paracosm_coverage::{Deadline, PointSet, Space, dispersion::dispersion};
+
+    fn points(dims: usize, seed: u64, n: usize) -> Vec<Vec<f64>> {
+        let mut greedy = Greedy::new(dims, seeded(seed, Purpose::Greedy, 0), vec![]).unwrap();
+        (0..n).map(|_| greedy.next()).collect()
+    }
+
+    fn dispersion_of(dims: usize, points: &[Vec<f64>]) -> f64 {
+        dispersion(&PointSet::new(dims, points).unwrap(), Deadline::never()).volume.lower
+    }
+
+    /// The dispersion over that of Halton's points.
+    fn ratio(dims: usize, seed: u64, n: usize) -> f64 {
+        let space = Space::unit_cube(dims);
+        let mut halton = Strategy::Halton.build(&Request::new(&space, n)).unwrap();
+        let halton: Vec<_> = halton.ask(n).into_iter().map(|point| point.continuous).collect();
+        dispersion_of(dims, &points(dims, seed, n)) / dispersion_of(dims, &halton)
+    }
+
+    fn median_ratio(dims: usize, n: usize, seeds: u64) -> f64 {
+        let mut ratios: Vec<f64> = (0..seeds).map(|seed| ratio(dims, seed, n)).collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios[ratios.len() / 2]
+    }
+
+    #[test]
+    fn the_dispersion_is_far_below_haltons() {
+        for (dims, n, seeds, most) in [(2, 100, 9, 0.75), (2, 500, 3, 0.75), (3, 100, 9, 0.7), (5, 100, 1, 0.75)] {
+            let ratio = median_ratio(dims, n, seeds);
+            assert!(ratio <= most, "{dims} dimensions, {n} points: {ratio}");
+        }
+    }
+
+    #[test]
+    fn the_seed_alone_decides() {
+        assert_eq!(points(3, 7, 40), points(3, 7, 40));
+        assert_ne!(points(3, 7, 40), points(3, 8, 40));
+    }
+
+    #[test]
+    fn asking_for_more_goes_on_with_the_same_points() {
+        assert_eq!(points(2, 1, 60)[..30], points(2, 1, 30));
+    }
+
+    #[test]
+    fn points_lie_in_the_cube_and_share_no_coordinate() {
+        for dims in [1, 2, 4, 20, 150] {
+            let points = points(dims, 3, 30);
+            for axis in 0..dims {
+                let mut coordinates: Vec<f64> = points.iter().map(|point| point[axis]).collect();
+                coordinates.sort_by(f64::total_cmp);
+                assert!(coordinates[0] >= 0.0 && coordinates[29] < 1.0);
+                coordinates.dedup();
+                assert_eq!(coordinates.len(), 30);
+            }
+        }
+    }
+
+    #[test]
+    fn existing_points_are_built_upon() {
+        let existing: Vec<Vec<f64>> = points(2, 5, 200).into_iter().filter(|point| point[0] < 0.5).collect();
+        let mut greedy = Greedy::new(2, seeded(6, Purpose::Greedy, 0), existing.clone()).unwrap();
+        let more: Vec<Vec<f64>> = (0..100).map(|_| greedy.next()).collect();
+        let right = more.iter().filter(|point| point[0] > 0.45).count();
+        assert!(right >= 90, "{right}");
+        assert!(dispersion_of(2, &[existing, more].concat()) < 0.02);
+    }
+
+    #[test]
+    fn existing_points_that_are_none_are_refused() {
+        assert!(Greedy::new(0, seeded(0, Purpose::Greedy, 0), vec![]).is_err());
+        assert!(Greedy::new(2, seeded(0, Purpose::Greedy, 0), vec![vec![0.5]]).is_err());
+        assert!(Greedy::new(1, seeded(0, Purpose::Greedy, 0), vec![vec![1.5]]).is_err());
+    }
+}

@@ -1,0 +1,53 @@
+//! The Fibonacci lattice, for two coordinates.
+//!
+//! With two Fibonacci numbers f' < f in a row, point i of f is (i/f, i f'/f modulo 1). No set of f points has a
+//! smaller dispersion on the torus, where boxes go on across the border (Breneis and Hinrichs, "Fibonacci
+//! lattices have minimal dispersion on the two-dimensional torus", 2020).
+//!
+//! Users ask for n points, not for Fibonacci numbers. They get (i/n, i f'/f modulo 1), where f is the first
+//! Fibonacci number that is at least n: the first n points of a lattice, widened to fill the cube. That is the
+//! lattice itself for n = f, exactly n points otherwise, and since f'/f hardly differs from the golden section,
+//! about as even in between.
+
+use super::{per_row::RowSet, radical::ratio, shift::Shift};
+
+/// The lattice, both of its axes shifted or none.
+pub(crate) struct Fibonacci {
+    seed: Option<u64>,
+}
+
+impl Fibonacci {
+    /// The plain set, with shifted copies for the rows after the first, or with a seed shifted ones throughout.
+    pub(crate) fn new(seed: Option<u64>) -> Self {
+        Self { seed }
+    }
+}
+
+impl RowSet for Fibonacci {
+    fn point(&self, row: u64, size: u64, index: u64) -> Vec<f64> {
+        let (before, number) = around(size);
+        let (index, size) = (u128::from(index), u128::from(size));
+        let point = [ratio(index, size), ratio(index * before % number, number)];
+        Shift::of_row(2, self.seed, row).apply(point)
+    }
+}
+
+/// The first Fibonacci number that is at least `size`, and the one before it.
+fn around(size: u64) -> (u128, u128) {
+    let (mut before, mut number) = (1, 1);
+    while number < u128::from(size) {
+        (before, number) = (number, before + number);
+    }
+    (before, number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_meets_the_fibonacci_number_that_is_no_smaller() {
+        assert_eq!([1, 2, 3, 4, 54, 55, 56].map(around).map(|pair| pair.1), [1, 2, 3, 5, 55, 55, 89]);
+        assert_eq!(around(55), (34, 55));
+    }
+}

@@ -1,0 +1,75 @@
+//! The Halton sequence with random digits (Owen, "A randomized Halton algorithm in R", arXiv 1706.02808, 2017).
+//!
+//! In large bases the plain sequence climbs in long parallel stripes: the first 50 points of the axes 31 and 37
+//! lie close to the diagonal. Here every position of every base has a random permutation of its own, through
+//! which the digit at that position goes before it is mirrored. That breaks up the stripes and makes each point
+//! uniformly random; any b^k points in a row still fill the b^k intervals of length b^-k, one each.
+//!
+//! A number has infinitely many leading zeros, and those are permuted too: otherwise point 0 would stay where it
+//! is in all low digits. Digits below 2^-53 make no difference to a double and are left out.
+
+use super::{
+    Sequence,
+    radical::{INDICES, primes, ratio},
+};
+use crate::seeded::{Purpose, seeded};
+use rand::seq::SliceRandom;
+
+/// The permutations of as many dimensions take 37 MB, and twice as many four times that.
+pub(crate) const MOST_DIMS: usize = 1000;
+
+/// The scrambled sequence of one seed.
+pub(crate) struct HaltonScrambled {
+    axes: Vec<Axis>,
+}
+
+/// One coordinate.
+struct Axis {
+    base: u64,
+    /// The permutations one after the other, that of the last digit, which becomes the first, at the front.
+    permutations: Vec<u16>,
+    /// The base to the power of the number of digits.
+    scale: u128,
+}
+
+impl HaltonScrambled {
+    /// The sequence of a seed in at most [`MOST_DIMS`] dimensions.
+    pub(crate) fn new(dims: usize, seed: u64) -> Self {
+        Self { axes: primes().take(dims).enumerate().map(|(axis, base)| Axis::new(axis, base, seed)).collect() }
+    }
+}
+
+impl Axis {
+    fn new(axis: usize, base: u64, seed: u64) -> Self {
+        let mut rng = seeded(seed, Purpose::Scramble, axis as u64);
+        let (mut permutations, mut scale) = (Vec::new(), 1);
+        // No index has more digits.
+        while scale < u128::from(INDICES) {
+            let start = permutations.len();
+            permutations.extend(0..base as u16);
+            permutations[start..].shuffle(&mut rng);
+            scale *= u128::from(base);
+        }
+        Self { base, permutations, scale }
+    }
+
+    fn coordinate(&self, mut index: u64) -> f64 {
+        let mut mirrored = 0;
+        for permutation in self.permutations.chunks_exact(self.base as usize) {
+            let digit = permutation[(index % self.base) as usize];
+            mirrored = mirrored * u128::from(self.base) + u128::from(digit);
+            index /= self.base;
+        }
+        ratio(mirrored, self.scale)
+    }
+}
+
+impl Sequence for HaltonScrambled {
+    fn len(&self) -> u64 {
+        INDICES
+    }
+
+    fn point(&self, index: u64) -> Vec<f64> {
+        self.axes.iter().map(|axis| axis.coordinate(index)).collect()
+    }
+}

@@ -1,0 +1,32 @@
+//! The Hammersley set (Hammersley, Ann. New York Acad. Sci. 86, 1960): Halton with a coordinate to spare.
+//!
+//! Of n points, point i has i/n as its first coordinate and the radical inverses of i in the first primes as the
+//! others. One prime fewer is one source of unevenness fewer, at the price that n is known beforehand.
+
+use super::{
+    per_row::RowSet,
+    radical::{primes, radical_inverse, ratio},
+    shift::Shift,
+};
+
+/// The Hammersley set, all of its axes shifted or none.
+pub(crate) struct Hammersley {
+    dims: usize,
+    bases: Vec<u64>,
+    seed: Option<u64>,
+}
+
+impl Hammersley {
+    /// The plain set, with shifted copies for the rows after the first, or with a seed shifted ones throughout.
+    pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
+        Self { dims, bases: primes().take(dims - 1).collect(), seed }
+    }
+}
+
+impl RowSet for Hammersley {
+    fn point(&self, row: u64, size: u64, index: u64) -> Vec<f64> {
+        let even = ratio(index.into(), size.into());
+        let inverses = self.bases.iter().map(|&base| radical_inverse(base, index));
+        Shift::of_row(self.dims, self.seed, row).apply([even].into_iter().chain(inverses))
+    }
+}

@@ -1,0 +1,68 @@
+//! The R-sequence: a Kronecker sequence that generalises the golden section (Roberts, "The Unreasonable
+//! Effectiveness of Quasirandom Sequences", 2018).
+//!
+//! Point i is 1/2 + i a modulo 1, where a = (1/g, 1/g^2, ..., 1/g^d) and g is the root above 1 of
+//! x^(d+1) = x + 1: the golden ratio for d = 1, the plastic number for d = 2. Roberts' program starts with what is
+//! index 1 here; index 0 is the centre of the cube.
+//!
+//! A coordinate is an integer, in units of 2^-64, and wraps round as they do. So nothing is lost far out: from
+//! wherever a stretch starts, it is the beginning shifted. The steps have the precision of a double, which
+//! begins to matter after some 2^26 points.
+
+use super::{Sequence, radical::INDICES, unit};
+use crate::seeded::{Purpose, seeded};
+use rand::Rng;
+
+/// The sequence from one point on.
+pub(crate) struct Kronecker {
+    /// Where the sequence starts and how far it steps, per axis.
+    axes: Vec<(u64, u64)>,
+}
+
+impl Kronecker {
+    /// From the centre of the cube, or with a seed from a random point.
+    pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
+        let mut rng = seed.map(|seed| seeded(seed, Purpose::Shift, 0));
+        let mut start = || rng.as_mut().map_or(1 << 63, Rng::random);
+        Self { axes: steps(dims).map(|step| (start(), step)).collect() }
+    }
+}
+
+impl Sequence for Kronecker {
+    fn len(&self) -> u64 {
+        INDICES
+    }
+
+    fn point(&self, index: u64) -> Vec<f64> {
+        self.axes.iter().map(|&(start, step)| unit(start.wrapping_add(index.wrapping_mul(step)))).collect()
+    }
+}
+
+/// The steps of the axes, in units of 2^-64.
+fn steps(dims: usize) -> impl Iterator<Item = u64> {
+    let ratio = ratio(dims);
+    let unit = libm::ldexp(1.0, 64);
+    std::iter::successors(Some(1.0 / ratio), move |power| Some(power / ratio))
+        .take(dims)
+        .map(move |a| (a * unit) as u64)
+}
+
+/// The root above 1 of x^(dims+1) = x + 1.
+fn ratio(dims: usize) -> f64 {
+    let exponent = 1.0 / (dims as f64 + 1.0);
+    // Each step brings it nearer by a factor of 3 at least.
+    (0..64).fold(2.0, |x, _| libm::pow(1.0 + x, exponent))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ratios_are_the_published_ones() {
+        let published = [1.618_033_988_749_895, 1.324_717_957_244_746, 1.220_744_084_605_759_5];
+        for (dims, published) in (1..).zip(published) {
+            assert!((ratio(dims) - published).abs() < 1e-15);
+        }
+    }
+}

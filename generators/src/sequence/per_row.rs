@@ -1,0 +1,39 @@
+//! Sets that depend on their size, one for every discrete row.
+//!
+//! Half of a Latin hypercube is none, so a row cannot be given a stretch of a longer one: its set is made for
+//! just as many tests as the row is dealt. To the rest of the crate the rows' sets, one after the other, are a
+//! sequence like any other, which ends with the budget.
+
+use super::{Sequence, radical::INDICES};
+use crate::deal::Deal;
+
+/// A point set of every size, and another one for every row.
+pub(crate) trait RowSet: Send {
+    /// Point `index` of the `size` points of row `row`.
+    fn point(&self, row: u64, size: u64, index: u64) -> Vec<f64>;
+}
+
+/// The rows' sets, one after the other.
+///
+/// The last point of a block stays unused where its row is dealt one test fewer.
+pub(crate) struct PerRow<S> {
+    deal: Deal,
+    set: S,
+}
+
+impl<S: RowSet> PerRow<S> {
+    pub(crate) fn new(deal: Deal, set: S) -> Self {
+        Self { deal, set }
+    }
+}
+
+impl<S: RowSet> Sequence for PerRow<S> {
+    fn len(&self) -> u64 {
+        self.deal.indices().min(INDICES)
+    }
+
+    fn point(&self, index: u64) -> Vec<f64> {
+        let row = index / self.deal.block;
+        self.set.point(row, self.deal.tests_of(row), index % self.deal.block)
+    }
+}
