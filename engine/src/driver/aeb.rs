@@ -14,7 +14,7 @@
 //! | ttc 1.6 s | chosen later than the 2 s at which the driver of UN R157 perceives a risk, since a system that brakes for every risk is switched off by its owner |
 //! | jerk 30 m/s³ | chosen between the 12.65 m/s³ of UN R157's human driver and a step: full brakes in 0.3 s |
 //! | latency 0.5 s | chosen: from light to brake demand, through detection, confirmation over some frames and fusion; 0.35 s and 0.75 s are the reaction times of UN R157's models |
-//! | range 60 m, field of view 60° | chosen for one forward camera: at 60 km/h the range is 3.6 s ahead, and the angle loses a person 1 m beside the car at 1.4 m |
+//! | range 60 m, field of view 60° | chosen for one forward camera: at 60 km/h the range is 3.6 s ahead, and the angle loses a person 1 m beside the car when the bumper is 3.1 m away |
 //! | noise 0.1 m, samples 8, margin 0.3 m | chosen: 8 detections in 0.4 s give a walking speed to 0.3 m/s (one standard deviation), so that a person who stands beside the road seldom looks like one who walks onto it |
 //! | clear_ttc 3 s, release 0.5 s | chosen so that the brake is not let go in front of a person who is still crossing |
 //!
