@@ -4,7 +4,7 @@ use crate::{Error, Trial};
 use paracosm_coverage::{Domain, Parameter, Record, Space, Value, Values, did_you_mean, nearest};
 use paracosm_engine::driver::{self, Driver};
 use paracosm_engine::{DEFAULT_DT, Declaration, Program};
-use paracosm_generators::{DiscreteFamily, Generator, Request, Strategy};
+use paracosm_generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +32,8 @@ pub struct Study {
     strategy: String,
     discrete: String,
     k: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    measure: Option<String>,
     skip: Option<u64>,
     seed: Option<u64>,
     /// How many tests are run.
@@ -103,6 +105,7 @@ impl Study {
             strategy: Strategy::Halton.name().to_owned(),
             discrete: "random".to_owned(),
             k: None,
+            measure: None,
             skip: None,
             seed: None,
             budget: 500,
@@ -130,14 +133,28 @@ impl Study {
         Ok(self)
     }
 
-    /// Covers discrete parameters by this family of rows, and any `k` of them together.
+    /// Covers discrete parameters by this family of rows.
     ///
     /// # Errors
     /// There is no such family.
-    pub fn discrete(mut self, family: &str, k: Option<usize>) -> Result<Self, Error> {
+    pub fn discrete(mut self, family: &str) -> Result<Self, Error> {
         family.parse::<DiscreteFamily>()?;
         self.discrete = family.to_owned();
+        Ok(self)
+    }
+
+    /// Covers any `k` parameters together; without it, two.
+    pub fn k(mut self, k: Option<usize>) -> Self {
         self.k = k;
+        self
+    }
+
+    /// Makes this measure small, with the strategy `greedy`.
+    ///
+    /// # Errors
+    /// It is none that can be aimed at.
+    pub fn measure(mut self, measure: &str) -> Result<Self, Error> {
+        self.measure = Some(measure.parse::<Aim>()?.name().to_owned());
         Ok(self)
     }
 
@@ -256,6 +273,8 @@ impl Study {
             skip: self.skip,
             discrete: self.discrete.parse()?,
             k: self.k,
+            aim: self.measure.as_deref().map(str::parse).transpose()?,
+            existing: &[],
         };
         Ok(self.strategy.parse::<Strategy>()?.build(&request)?)
     }
@@ -284,8 +303,8 @@ impl Study {
         }
     }
 
-    /// How many discrete parameters at a time the tests are to cover.
-    pub fn k(&self) -> Option<usize> {
+    /// How many parameters at a time the tests are to cover.
+    pub fn strength(&self) -> Option<usize> {
         self.k
     }
 

@@ -81,7 +81,7 @@ impl Tests {
     pub fn of_trials(study: &Study, trials: &[Trial]) -> Result<Self, Error> {
         let covering = trials.iter().filter(|trial| trial.covers());
         let points = covering.map(|trial| study.space.encode(&trial.test)).collect::<Result<_, _>>()?;
-        Ok(Self { space: study.space.clone(), points, k: study.k() })
+        Ok(Self { space: study.space.clone(), points, k: study.strength() })
     }
 }
 

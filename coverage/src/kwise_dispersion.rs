@@ -31,10 +31,40 @@ pub struct KwiseDispersion {
     pub witness: Option<LargestEmptyBox>,
 }
 
-/// Some of the parameters, with values for the discrete ones.
-struct Projection {
-    fixed: Vec<(usize, usize)>,
-    axes: Vec<usize>,
+/// A choice of some of the parameters, with values for the discrete ones: the tests with those values, seen along the
+/// continuous ones.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Projection {
+    /// The discrete parameters with their values: positions among the discrete ones, and levels.
+    pub fixed: Vec<(usize, usize)>,
+    /// The continuous parameters, by their position among the continuous ones.
+    pub axes: Vec<usize>,
+}
+
+impl Projection {
+    /// Whether a test has the values.
+    ///
+    /// # Panics
+    /// The test has fewer discrete coordinates.
+    pub fn selects(&self, test: &Point) -> bool {
+        self.fixed.iter().all(|&(parameter, level)| test.discrete[parameter] == level)
+    }
+
+    /// The coordinates of a test along the axes.
+    ///
+    /// # Panics
+    /// The test has fewer continuous coordinates.
+    pub fn of(&self, test: &Point) -> Vec<f64> {
+        self.axes.iter().map(|&axis| test.continuous[axis]).collect()
+    }
+}
+
+/// All choices of `k` parameters out of `dims` continuous ones and discrete ones with these numbers of levels, each
+/// with all combinations of values: in lexicographic order, the continuous parameters first.
+///
+/// There are none where there are fewer than `k` parameters, or `k` is 0.
+pub fn projections(dims: usize, levels: &[usize], k: usize) -> impl Iterator<Item = Projection> {
+    Projections::new(dims, levels, k)
 }
 
 /// The largest dispersion over all choices of `k` parameters out of `dims` continuous ones and discrete ones with these
@@ -93,17 +123,17 @@ pub fn kwise_dispersion(
 
 /// The largest hole of a projection; `None` where it is proved to be no larger than `above`.
 fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline) -> Option<KwiseDispersion> {
-    let Projection { fixed, axes } = projection;
-    let mut selected =
-        tests.iter().filter(|test| fixed.iter().all(|&(parameter, level)| test.discrete[parameter] == level));
-    if axes.is_empty() {
+    let mut selected = tests.iter().filter(|test| projection.selects(test));
+    if projection.axes.is_empty() {
         let volume = if selected.next().is_some() { 0.0 } else { 1.0 };
+        let Projection { fixed, axes } = projection;
         let hole = KwiseDispersion { volume: Bracket::exact(volume), fixed, axes, witness: None };
         return (volume > above).then_some(hole);
     }
-    let projected = selected.map(|test| axes.iter().map(|&axis| test.continuous[axis]).collect::<Vec<_>>());
-    let points = PointSet::new(axes.len(), projected).expect("the tests are of the unit cube");
+    let projected = selected.map(|test| projection.of(test));
+    let points = PointSet::new(projection.axes.len(), projected).expect("the tests are of the unit cube");
     let found = larger_than(&points, above, deadline)?;
+    let Projection { fixed, axes } = projection;
     Some(KwiseDispersion { volume: found.volume, fixed, axes, witness: Some(found.witness) })
 }
 
@@ -113,14 +143,17 @@ struct Projections<'a> {
     /// The number of values of each parameter; a continuous one is not given any, which is one way.
     ways: Vec<usize>,
     levels: &'a [usize],
+    /// The parameters of the next choice; none after the last.
     set: Option<Vec<usize>>,
+    /// The number of the next combination of their values.
     next: usize,
 }
 
 impl<'a> Projections<'a> {
     fn new(dims: usize, levels: &'a [usize], k: usize) -> Self {
         let ways = std::iter::repeat_n(1, dims).chain(levels.iter().copied()).collect();
-        Self { dims, ways, levels, set: Some((0..k).collect()), next: 0 }
+        let set = (1..=dims + levels.len()).contains(&k).then(|| (0..k).collect());
+        Self { dims, ways, levels, set, next: 0 }
     }
 }
 

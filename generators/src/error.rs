@@ -69,6 +69,48 @@ pub enum GeneratorError {
         /// In how many dimensions.
         dims: usize,
     },
+    /// A strategy that does not look at what is there.
+    #[error("`{strategy}` does not look at existing tests and cannot extend them; use greedy")]
+    NoExtension {
+        /// The strategy's name.
+        strategy: &'static str,
+    },
+    /// A measure for a strategy that does not look at any.
+    #[error("`{strategy}` aims at no measure; greedy does")]
+    NoAim {
+        /// The strategy's name.
+        strategy: &'static str,
+    },
+    /// No measure that can be aimed at has that name.
+    #[error("greedy cannot aim at `{name}`{}; it can at dispersion and k-wise-dispersion", did_you_mean(.nearest))]
+    UnknownAim {
+        /// The name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// An existing test of another space.
+    #[error("existing test {index} is none of the space")]
+    Foreign {
+        /// The test's position, from 0.
+        index: usize,
+    },
+    /// More choices of k parameters than greedy can look after.
+    #[error("there are more than {most} choices of {k} parameters with their values; use a smaller k")]
+    Views {
+        /// The strength.
+        k: usize,
+        /// How many there may be.
+        most: usize,
+    },
+    /// A strength that the space cannot have, where all parameters count.
+    #[error("k is {k}, but the space has {parameters} parameters; k must be from 1 to their number")]
+    AllStrength {
+        /// The strength.
+        k: usize,
+        /// The number of parameters.
+        parameters: usize,
+    },
     /// A strength that the space cannot have.
     #[error("k is {k}, but the space has {parameters} discrete parameters; k must be from 1 to their number")]
     Strength {

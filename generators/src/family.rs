@@ -6,9 +6,12 @@ use crate::{
     GeneratorError,
     seeded::{Purpose, seeded},
 };
-use paracosm_coverage::{Space, nearest, theory};
+use paracosm_coverage::{Point, nearest, theory};
 use rand::Rng;
-use std::{collections::HashSet, str::FromStr};
+use std::{
+    collections::{HashMap, HashSet},
+    str::FromStr,
+};
 
 /// Beyond it a family is a mistake rather than a plan.
 const MOST_ROWS: u64 = 10_000_000;
@@ -68,12 +71,11 @@ enum Rows {
 
 impl Family {
     pub(crate) fn new(
-        space: &Space,
+        levels: &[usize],
         kind: DiscreteFamily,
         k: Option<usize>,
         seed: u64,
     ) -> Result<Self, GeneratorError> {
-        let levels = space.levels();
         let parameters = levels.len();
         if let Some(k) = k
             && !(1..=parameters).contains(&k)
@@ -84,9 +86,9 @@ impl Family {
         match kind {
             DiscreteFamily::Random { delta } if !(delta > 0.0 && delta < 1.0) => Err(GeneratorError::Delta(delta)),
             DiscreteFamily::Random { delta } if parameters > 0 => {
-                match theory::random_family_size(&levels, k.unwrap_or(parameters.min(2)), delta) {
+                match theory::random_family_size(levels, k.unwrap_or(parameters.min(2)), delta) {
                     len if len > MOST_ROWS => too_large(len.to_string(), "use a smaller k"),
-                    len => Ok(Self { levels, len, rows: Rows::Random(seed) }),
+                    len => Ok(Self { levels: levels.to_vec(), len, rows: Rows::Random(seed) }),
                 }
             }
             // The product of no levels is the one empty row.
@@ -94,7 +96,7 @@ impl Family {
                 match levels.iter().try_fold(1_u64, |rows, &n| rows.checked_mul(n as u64)) {
                     None => too_large("over 10^19".to_owned(), "use the random family"),
                     Some(len) if len > MOST_ROWS => too_large(len.to_string(), "use the random family"),
-                    Some(len) => Ok(Self { levels, len, rows: Rows::Cross }),
+                    Some(len) => Ok(Self { levels: levels.to_vec(), len, rows: Rows::Cross }),
                 }
             }
         }
@@ -117,14 +119,26 @@ impl Family {
         }
     }
 
-    /// The family without the rows that repeat an earlier one.
-    pub(crate) fn distinct(self) -> Self {
-        if !matches!(self.rows, Rows::Random(_)) {
+    /// The family without the rows that repeat an earlier one, or one of the tests that are there already.
+    pub(crate) fn without(self, existing: &[Point]) -> Self {
+        if existing.is_empty() && !matches!(self.rows, Rows::Random(_)) {
             return self;
         }
-        let mut seen = HashSet::new();
+        let mut seen: HashSet<Vec<usize>> = existing.iter().map(|test| test.discrete.clone()).collect();
         let chosen: Vec<u64> = (0..self.len).filter(|&index| seen.insert(self.row(index))).collect();
         Self { levels: self.levels.clone(), len: chosen.len() as u64, rows: Rows::Chosen(chosen, Box::new(self)) }
+    }
+
+    /// The continuous points that each row has among tests, by the row's number: of rows that are alike, the first.
+    pub(crate) fn points_of_rows(&self, tests: &[Point]) -> HashMap<u64, Vec<Vec<f64>>> {
+        let mut by_row: HashMap<&[usize], Vec<Vec<f64>>> = HashMap::new();
+        for test in tests {
+            by_row.entry(&test.discrete).or_default().push(test.continuous.clone());
+        }
+        if by_row.is_empty() {
+            return HashMap::new();
+        }
+        (0..self.len).filter_map(|index| by_row.remove(&self.row(index)[..]).map(|points| (index, points))).collect()
     }
 }
 

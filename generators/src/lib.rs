@@ -30,6 +30,7 @@ mod strategy;
 
 pub use error::GeneratorError;
 pub use family::DiscreteFamily;
+pub use greedy::Aim;
 pub use strategy::{Request, Strategy};
 
 use paracosm_coverage::Point;

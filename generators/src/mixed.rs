@@ -28,9 +28,8 @@ impl Mixed {
         Self { family, sequence: Some(sequence), deal, first, next: 0, end }
     }
 
-    /// The rows alone, once each: repeating one would be the same test again.
+    /// The rows alone.
     pub(crate) fn discrete(family: Family) -> Self {
-        let family = family.distinct();
         let end = family.len();
         Self { deal: Deal::new(end, end), family, sequence: None, first: 0, next: 0, end }
     }

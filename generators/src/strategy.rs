@@ -4,14 +4,15 @@ use crate::{
     DiscreteFamily, Generator, GeneratorError,
     deal::Deal,
     family::Family,
-    greedy::GreedyRows,
+    greedy::{Aim, GreedyRows, KwiseGreedy},
     mixed::Mixed,
+    seeded::{Purpose, seeded},
     sequence::{
         Fibonacci, Halton, HaltonScrambled, Hammersley, Kronecker, Lhs, MOST_HALTON_SCRAMBLED_DIMS, MOST_SOBOL_DIMS,
         PerRow, Place, Sequence, Sobol, Uniform,
     },
 };
-use paracosm_coverage::{Space, nearest};
+use paracosm_coverage::{Point, Space, nearest};
 use std::{fmt, ops::RangeInclusive, str::FromStr};
 
 /// How tests are chosen.
@@ -65,14 +66,29 @@ pub struct Request<'a> {
     pub skip: Option<u64>,
     /// How discrete parameters are covered.
     pub discrete: DiscreteFamily,
-    /// Of how many discrete parameters all combinations are covered. None is 2, or as many as there are.
+    /// How many parameters are covered together: the discrete ones by a family of rows, all of them by `greedy` where
+    /// it aims at k-wise dispersion. None is 2, or as many as there are.
     pub k: Option<usize>,
+    /// What `greedy` is to make small. None is the dispersion in a continuous space, and the k-wise dispersion where
+    /// there are discrete parameters too.
+    pub aim: Option<Aim>,
+    /// Tests that are there already, which new ones complete.
+    pub existing: &'a [Point],
 }
 
 impl<'a> Request<'a> {
     /// `budget` tests of `space`, and the default for all else.
     pub fn new(space: &'a Space, budget: usize) -> Self {
-        Self { space, budget, seed: None, skip: None, discrete: DiscreteFamily::default(), k: None }
+        Self {
+            space,
+            budget,
+            seed: None,
+            skip: None,
+            discrete: DiscreteFamily::default(),
+            k: None,
+            aim: None,
+            existing: &[],
+        }
     }
 }
 
@@ -145,10 +161,10 @@ impl Strategy {
     /// all rows of the family. In a continuous space a sequence goes on.
     ///
     /// # Errors
-    /// The space is empty, the budget 0, `k` or `delta` out of range, the family too large, or the strategy
-    /// cannot give that many points, in that many dimensions, or skip.
+    /// The space is empty, the budget 0, `k` or `delta` out of range, the family too large, an existing test none of
+    /// the space, or the strategy cannot give that many points, in that many dimensions, skip, extend, or aim.
     pub fn build(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
-        let &Request { space, budget, seed, skip, discrete, k } = request;
+        let &Request { space, budget, seed, skip, discrete, k, aim, existing } = request;
         if space.parameters().is_empty() {
             return Err(GeneratorError::EmptySpace);
         }
@@ -159,11 +175,30 @@ impl Strategy {
             (None, Some(_)) => return Err(self.cannot_skip()),
             (default, skip) => skip.or(default).unwrap_or(0),
         };
+        if aim.is_some() && self != Self::Greedy {
+            return Err(GeneratorError::NoAim { strategy: self.name() });
+        }
         let seed_or_0 = seed.unwrap_or(0);
-        let family = Family::new(space, discrete, k, seed_or_0)?;
         let dims = space.dims();
+        let levels = space.levels();
+        check_existing(space, existing)?;
+        if self == Self::Greedy && dims > 0 {
+            let k = k.unwrap_or(2.min(space.parameters().len()));
+            // Of all parameters together, the k-wise dispersion is the dispersion.
+            let is_dispersion = levels.is_empty() && k == dims;
+            let aim = aim.unwrap_or(if levels.is_empty() { Aim::Dispersion } else { Aim::KwiseDispersion });
+            if aim == Aim::KwiseDispersion && !is_dispersion {
+                let rng = seeded(seed_or_0, Purpose::Greedy, 0);
+                return Ok(Box::new(KwiseGreedy::new(dims, &levels, k, rng, existing)?));
+            }
+        }
+        let family = Family::new(&levels, discrete, k, seed_or_0)?;
         if dims == 0 {
-            return Ok(Box::new(Mixed::discrete(family)));
+            // Once each: repeating a row would be the same test again.
+            return Ok(Box::new(Mixed::discrete(family.without(existing))));
+        }
+        if self != Self::Greedy && !existing.is_empty() {
+            return Err(GeneratorError::NoExtension { strategy: self.name() });
         }
         if !self.dims().contains(&dims) {
             return Err(self.cannot_cover(dims));
@@ -179,7 +214,9 @@ impl Strategy {
             Self::Kronecker => Box::new(Kronecker::new(dims, seed)),
             Self::Hammersley => Box::new(PerRow::new(deal, Hammersley::new(dims, seed))),
             Self::Fibonacci => Box::new(PerRow::new(deal, Fibonacci::new(seed))),
-            Self::Greedy => Box::new(PerRow::new(deal, GreedyRows::new(dims, seed_or_0))),
+            Self::Greedy => {
+                Box::new(PerRow::new(deal, GreedyRows::new(dims, seed_or_0, family.points_of_rows(existing))))
+            }
             Self::Lhs => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Random)?)),
             Self::LhsCentred => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Centre)?)),
         };
@@ -215,6 +252,19 @@ impl Strategy {
         let sequences = Self::ALL.into_iter().filter(|s| s.first_index().is_some()).map(Self::name);
         GeneratorError::NoSequence { strategy: self.name(), sequences: sequences.collect::<Vec<_>>().join(", ") }
     }
+}
+
+/// Existing tests come from files: they may be of another space.
+fn check_existing(space: &Space, existing: &[Point]) -> Result<(), GeneratorError> {
+    let (dims, levels) = (space.dims(), space.levels());
+    let belongs = |test: &Point| {
+        test.continuous.len() == dims
+            && test.continuous.iter().all(|x| (0.0..=1.0).contains(x))
+            && test.discrete.len() == levels.len()
+            && test.discrete.iter().zip(&levels).all(|(level, levels)| level < levels)
+    };
+    let foreign = existing.iter().position(|test| !belongs(test));
+    foreign.map_or(Ok(()), |index| Err(GeneratorError::Foreign { index }))
 }
 
 impl fmt::Display for Strategy {

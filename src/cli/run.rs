@@ -3,6 +3,7 @@
 use super::output::{Format, Table, digits, json, percent, shell_word};
 use super::{Failure, Found, Verbosity, complain, print};
 use crate::coverage::{Domain, Value};
+use crate::generators::Aim;
 use crate::oracles::Verdict;
 use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Study, Summary, Tests, Trial};
 use clap::Args;
@@ -35,12 +36,16 @@ pub(super) struct Options {
     /// The index of a sequence's first point [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N")]
     skip: Option<u64>,
-    /// How discrete parameters are covered: random (Proposition 3.2) or cross (all combinations)
-    #[arg(long, value_name = "FAMILY", default_value = "random")]
-    discrete: String,
-    /// How many discrete parameters are covered together [default: 2]
+    /// How discrete parameters are covered: random (Proposition 3.2) or cross (all combinations) [default: random]
+    #[arg(long, value_name = "FAMILY")]
+    discrete: Option<String>,
+    /// How many parameters are covered together [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
+    /// What greedy makes small: dispersion or k-wise-dispersion [default: dispersion of continuous spaces and for each
+    /// row of --discrete, k-wise-dispersion of others]
+    #[arg(long, value_name = "MEASURE")]
+    measure: Option<String>,
     /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one
     #[arg(long, value_name = "NAME[=LO..HI|=A,B,C]")]
     open: Vec<String>,
@@ -139,13 +144,21 @@ impl Options {
                 }
             }
         }
+        // Who names a family wants its rows.
+        let rows = self.discrete.as_ref().filter(|_| self.strategy == "greedy").map(|_| Aim::Dispersion.name());
         let mut study = Study::of(&self.scenario)?
             .driver(&self.driver, &driver_settings)?
             .strategy(&self.strategy)?
-            .discrete(&self.discrete, self.k)?
+            .k(self.k)
             .budget(self.budget)?
             .seed(self.seed)
             .skip(self.skip);
+        if let Some(family) = &self.discrete {
+            study = study.discrete(family)?;
+        }
+        if let Some(measure) = self.measure.as_deref().or(rows) {
+            study = study.measure(measure)?;
+        }
         for text in &self.open {
             let (name, over) = match text.split_once('=') {
                 None => (text.as_str(), None),

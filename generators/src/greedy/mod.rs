@@ -27,13 +27,19 @@
 //! longer in the very largest box for certain, and the gain shrinks slowly with the number of points (0.68 of
 //! Halton's dispersion for d = 3 and n = 2000, 0.76 for d = 4 and 0.91 for d = 5 with n = 1000).
 
-use crate::seeded::{Purpose, seeded};
-use crate::sequence::RowSet;
-use paracosm_coverage::{PointSetError, empty_boxes::EmptyBoxes};
+mod holes;
+mod kwise;
+mod rows;
+
+pub(crate) use kwise::KwiseGreedy;
+pub(crate) use rows::GreedyRows;
+
+use crate::GeneratorError;
+use holes::Holes;
+use paracosm_coverage::{PointSetError, dispersion::LargestEmptyBox, empty_boxes::EmptyBoxes, nearest};
 use rand::Rng;
 use rand_pcg::Pcg64;
-use std::collections::HashMap;
-use std::sync::Mutex;
+use std::str::FromStr;
 
 /// Random candidates for a point.
 const CANDIDATES: usize = 24;
@@ -48,8 +54,38 @@ const SHORTER: f64 = 0.93;
 /// The part of the largest box, in its middle, in which points are placed.
 const ROOM: f64 = 0.7;
 
-/// Boxes smaller than this share of the largest do not count.
-const LARGE: f64 = 0.65;
+/// What greedy tests are to make small.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aim {
+    /// The largest empty box over all continuous parameters, for every row of the discrete family on its own.
+    Dispersion,
+    /// The largest dispersion that any k parameters show, discrete and continuous ones: there are no rows then.
+    KwiseDispersion,
+}
+
+impl Aim {
+    /// Everything that can be aimed at.
+    pub const ALL: [Self; 2] = [Self::Dispersion, Self::KwiseDispersion];
+
+    /// The name of the measure.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dispersion => "dispersion",
+            Self::KwiseDispersion => "k-wise-dispersion",
+        }
+    }
+}
+
+impl FromStr for Aim {
+    type Err = GeneratorError;
+
+    fn from_str(name: &str) -> Result<Self, GeneratorError> {
+        Self::ALL.into_iter().find(|aim| aim.name() == name).ok_or_else(|| GeneratorError::UnknownAim {
+            name: name.to_owned(),
+            nearest: nearest(name, Self::ALL.map(Self::name)),
+        })
+    }
+}
 
 /// The points so far, and the holes between them.
 pub(crate) struct Greedy {
@@ -63,10 +99,14 @@ impl Greedy {
     ///
     /// # Errors
     /// `dims` is 0, or an existing point has another number of coordinates or one that is not in `[0,1]`.
-    pub(crate) fn new(dims: usize, rng: Pcg64, existing: Vec<Vec<f64>>) -> Result<Self, PointSetError> {
+    pub(crate) fn new(
+        dims: usize,
+        rng: Pcg64,
+        existing: impl IntoIterator<Item = impl AsRef<[f64]>>,
+    ) -> Result<Self, PointSetError> {
         let mut boxes = EmptyBoxes::at_most(dims, most_boxes(dims))?;
-        for point in &existing {
-            boxes.add(point)?;
+        for point in existing {
+            boxes.add(point.as_ref())?;
         }
         Ok(Self { dims, boxes, rng })
     }
@@ -74,14 +114,8 @@ impl Greedy {
     /// The next point.
     pub(crate) fn next(&mut self) -> Vec<f64> {
         let largest = self.boxes.largest();
-        let sides = largest.lower.iter().zip(&largest.upper);
-        let room: Vec<(f64, f64)> = sides
-            .map(|(lower, upper)| {
-                let width = ROOM * (upper - lower);
-                (0.5 * (lower + upper) - 0.5 * width, width)
-            })
-            .collect();
-        let holes = Holes::around(&self.boxes, &room);
+        let room = room(largest);
+        let holes = Holes::around(&self.boxes, &room, largest.volume());
         let mut best = (f64::INFINITY, vec![0.0; self.dims]);
         let mut candidate = vec![0.0; self.dims];
         let mut step = FIRST_STEP;
@@ -107,37 +141,14 @@ impl Greedy {
     }
 }
 
-/// Greedy points for every discrete row, found as they are asked for and remembered.
-pub(crate) struct GreedyRows {
-    dims: usize,
-    seed: u64,
-    rows: Mutex<HashMap<u64, Row>>,
-}
-
-/// The points of a row so far, and what finds the next.
-struct Row {
-    greedy: Greedy,
-    points: Vec<Vec<f64>>,
-}
-
-impl GreedyRows {
-    pub(crate) fn new(dims: usize, seed: u64) -> Self {
-        Self { dims, seed, rows: Mutex::default() }
-    }
-}
-
-impl RowSet for GreedyRows {
-    fn point(&self, row: u64, _size: u64, index: u64) -> Vec<f64> {
-        let mut rows = self.rows.lock().expect("nobody panics while holding it");
-        let Row { greedy, points } = rows.entry(row).or_insert_with(|| {
-            let rng = seeded(self.seed, Purpose::Greedy, row);
-            Row { greedy: Greedy::new(self.dims, rng, Vec::new()).expect("there is an axis"), points: Vec::new() }
-        });
-        while points.len() as u64 <= index {
-            points.push(greedy.next());
-        }
-        points[index as usize].clone()
-    }
+/// Where in a box a point may be placed: along each axis the lower end and the width.
+fn room(hole: &LargestEmptyBox) -> Vec<(f64, f64)> {
+    let sides = hole.lower.iter().zip(&hole.upper);
+    let middle = |(lower, upper): (&f64, &f64)| {
+        let width = ROOM * (upper - lower);
+        (0.5 * (lower + upper) - 0.5 * width, width)
+    };
+    sides.map(middle).collect()
 }
 
 /// As many boxes as can be looked after in some milliseconds: a box has `2d` parts with `2d` faces each.
@@ -156,63 +167,15 @@ fn reflect(x: f64, lower: f64, upper: f64) -> f64 {
     }
 }
 
-/// The large boxes that a point can break.
-struct Holes {
-    dims: usize,
-    /// For each the eighth power of its volume over the largest's.
-    weights: Vec<f64>,
-    /// For each, axis by axis, its lower end and one over its width.
-    sides: Vec<(f64, f64)>,
-}
-
-impl Holes {
-    /// Those that meet the room.
-    fn around(boxes: &EmptyBoxes, room: &[(f64, f64)]) -> Self {
-        let dims = room.len();
-        let largest = boxes.largest().volume();
-        let mut holes = Self { dims, weights: Vec::new(), sides: Vec::new() };
-        for hole in boxes.larger_than(LARGE * largest) {
-            let meets = |(axis, (from, width)): (usize, &(f64, f64))| {
-                let (lower, upper) = hole.side(axis);
-                lower < from + width && *from < upper
-            };
-            if room.iter().enumerate().all(meets) {
-                holes.weights.push(eighth_power(hole.volume() / largest));
-                let sides = (0..dims).map(|axis| hole.side(axis));
-                holes.sides.extend(sides.map(|(lower, upper)| (lower, 1.0 / (upper - lower))));
-            }
-        }
-        holes
-    }
-
-    /// By how much a point changes the sum of the eighth powers of all volumes.
-    fn left_by(&self, point: &[f64]) -> f64 {
-        let mut sum = 0.0;
-        for (weight, sides) in self.weights.iter().zip(self.sides.chunks_exact(self.dims)) {
-            let shares = || sides.iter().zip(point).map(|((lower, per_width), x)| (x - lower) * per_width);
-            if shares().all(|share| 0.0 < share && share < 1.0) {
-                let parts = shares().map(|share| eighth_power(share) + eighth_power(1.0 - share));
-                sum += weight * (parts.sum::<f64>() - 1.0);
-            }
-        }
-        sum
-    }
-}
-
-fn eighth_power(x: f64) -> f64 {
-    let square = x * x;
-    let fourth = square * square;
-    fourth * fourth
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::seeded::{Purpose, seeded};
     use crate::{Request, Strategy};
     use paracosm_coverage::{Deadline, PointSet, Space, dispersion::dispersion};
 
     fn points(dims: usize, seed: u64, n: usize) -> Vec<Vec<f64>> {
-        let mut greedy = Greedy::new(dims, seeded(seed, Purpose::Greedy, 0), vec![]).unwrap();
+        let mut greedy = Greedy::new(dims, seeded(seed, Purpose::Greedy, 0), [[0.0; 0]; 0]).unwrap();
         (0..n).map(|_| greedy.next()).collect()
     }
 
@@ -270,7 +233,7 @@ mod tests {
     #[test]
     fn existing_points_are_built_upon() {
         let existing: Vec<Vec<f64>> = points(2, 5, 200).into_iter().filter(|point| point[0] < 0.5).collect();
-        let mut greedy = Greedy::new(2, seeded(6, Purpose::Greedy, 0), existing.clone()).unwrap();
+        let mut greedy = Greedy::new(2, seeded(6, Purpose::Greedy, 0), &existing).unwrap();
         let more: Vec<Vec<f64>> = (0..100).map(|_| greedy.next()).collect();
         let right = more.iter().filter(|point| point[0] > 0.45).count();
         assert!(right >= 90, "{right}");
@@ -279,7 +242,7 @@ mod tests {
 
     #[test]
     fn existing_points_that_are_none_are_refused() {
-        assert!(Greedy::new(0, seeded(0, Purpose::Greedy, 0), vec![]).is_err());
+        assert!(Greedy::new(0, seeded(0, Purpose::Greedy, 0), [[0.0; 0]; 0]).is_err());
         assert!(Greedy::new(2, seeded(0, Purpose::Greedy, 0), vec![vec![0.5]]).is_err());
         assert!(Greedy::new(1, seeded(0, Purpose::Greedy, 0), vec![vec![1.5]]).is_err());
     }

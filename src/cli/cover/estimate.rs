@@ -1,13 +1,13 @@
-//! The program `paracosm-cover`: how well tests cover a space.
+//! `paracosm-cover estimate`: how well tests cover their space.
 
-use super::output::{Format, Table, json};
-use super::{Failure, Verbosity, print};
+use super::{check_size, read_space};
+use crate::cli::output::{Format, Table, json};
+use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::{Parameter, Space};
 use crate::generators::{Request, Strategy};
 use crate::{Error, Measure, Tests};
-use clap::{Args, Parser, Subcommand};
-use std::fs;
-use std::path::{Path, PathBuf};
+use clap::Args;
+use std::path::PathBuf;
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
@@ -19,29 +19,10 @@ Examples:
 
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
-/// The largest point set that is made in memory: 1.6 GB of coordinates.
-const MOST_COORDINATES: usize = 200_000_000;
-
-/// Says how well a set of tests covers its space.
-#[derive(Debug, Parser)]
-#[command(name = "paracosm-cover", version, after_help = EXAMPLES)]
-pub(super) struct Command {
-    #[command(subcommand)]
-    verb: Verb,
-    #[command(flatten)]
-    verbosity: Verbosity,
-}
-
-#[derive(Debug, Subcommand)]
-enum Verb {
-    /// Measure how well tests cover their space
-    #[command(after_help = EXAMPLES)]
-    Estimate(Estimate),
-}
-
 /// What `estimate` takes.
 #[derive(Debug, Args)]
-struct Estimate {
+#[command(after_help = EXAMPLES)]
+pub(super) struct Estimate {
     /// A CSV of tests, or the folder of a campaign [default: paracosm-out]
     #[arg(value_name = "TESTS.csv|DIR", conflicts_with = "strategy")]
     tests: Option<PathBuf>,
@@ -78,16 +59,8 @@ struct Estimate {
     format: Option<Format>,
 }
 
-impl Command {
-    pub fn execute(self) -> Result<(), Failure> {
-        match self.verb {
-            Verb::Estimate(estimate) => estimate.execute(self.verbosity),
-        }
-    }
-}
-
 impl Estimate {
-    fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let limit = Duration::try_from_secs_f64(self.time_limit).map_err(|_| {
             Error::Usage(format!("--time-limit {}: expected a number of seconds from 0 on", self.time_limit))
         })?;
@@ -123,25 +96,10 @@ impl Estimate {
         let (Some(dims), Some(budget)) = (self.dims, self.budget) else {
             return Err(Error::Usage("--strategy needs --dims and --budget".into()));
         };
-        if dims.saturating_mul(budget) > MOST_COORDINATES {
-            let message = format!(
-                "{budget} points in {dims} dimensions are more than fit: at most {MOST_COORDINATES} coordinates"
-            );
-            return Err(Error::Usage(message));
-        }
+        check_size(budget, dims)?;
         let space = Space::unit_cube(dims);
         let request = Request { seed: self.seed, skip: self.skip, ..Request::new(&space, budget) };
         let points = name.parse::<Strategy>()?.build(&request)?.ask(budget);
         Ok(Tests { space, points, k: None })
     }
-}
-
-fn read_space(path: &Path) -> Result<Space, Error> {
-    let text = fs::read_to_string(path).map_err(Error::file("read", path))?;
-    Space::from_toml(&text).map_err(|error| match error {
-        paracosm_coverage::SpaceError::Syntax { message, at: Some((line, column)) } => {
-            Error::content(path, line, format!("column {column}: {message}"))
-        }
-        error => Error::content(path, None, error.to_string()),
-    })
 }

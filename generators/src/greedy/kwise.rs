@@ -1,0 +1,271 @@
+//! The next test where it breaks the largest holes that any k parameters show, discrete and continuous at once.
+//!
+//! Every choice of k parameters, with every combination of values of the discrete ones among them, is a *view* of the
+//! tests: a set of points over its continuous parameters, with empty boxes of its own, or just the question whether
+//! there is such a test. The k-wise dispersion is the largest hole of all views. A test is a point of many views, and
+//! is to break as much as it can in all of them: it starts in the largest hole, and its coordinates are chosen one
+//! after the other, twice over, each from two dozen candidates by the sum that [`Holes`] explains.
+//!
+//! On a discrete space alone this is the greedy covering array of Cohen, Dalal, Fredman and Patton (The AETG system,
+//! IEEE Trans. Softw. Eng. 23, 1997).
+
+use super::{Holes, room};
+use crate::{Generator, GeneratorError};
+use paracosm_coverage::kwise_dispersion::{Projection, projections};
+use paracosm_coverage::{Point, empty_boxes::EmptyBoxes};
+use rand::Rng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
+
+/// Beginnings of which the best is taken.
+const BEGINNINGS: usize = 3;
+
+/// How often each coordinate is chosen: once from anywhere, then near what it is.
+const ROUNDS: usize = 2;
+
+/// Candidates for a coordinate.
+const CANDIDATES: usize = 24;
+
+/// How far candidates of the second round are from the first one's choice, at most.
+const NEAR: f64 = 0.02;
+
+/// More views are a mistake rather than a plan.
+const MOST_VIEWS: usize = 200_000;
+
+/// How many boxes all views keep together.
+const MOST_BOXES: usize = 2_000_000;
+
+/// Some of the parameters, with values for the discrete ones, and the holes that they show.
+struct View {
+    projection: Projection,
+    /// Its parameters among all, the continuous ones first.
+    coordinates: Vec<usize>,
+    holes: Kept,
+}
+
+/// What is known of a view.
+enum Kept {
+    /// The empty boxes over its continuous parameters.
+    Boxes(EmptyBoxes),
+    /// Whether a test has its values, where all of its parameters are discrete.
+    Covered(bool),
+}
+
+/// The holes of a view that count at the moment.
+enum Hole {
+    /// Large boxes.
+    Boxes(Holes),
+    /// Values that no test has, which is as bad as can be.
+    Row,
+}
+
+/// The holes of all views that count at the moment.
+struct LargeHoles<'a> {
+    dims: usize,
+    levels: &'a [usize],
+    holes: Vec<(&'a Projection, Hole)>,
+    /// The positions of those that each coordinate belongs to.
+    of_coordinate: Vec<Vec<usize>>,
+}
+
+/// The tests so far, and the holes that they show in any k parameters.
+pub(crate) struct KwiseGreedy {
+    dims: usize,
+    levels: Vec<usize>,
+    views: Vec<View>,
+    rng: Pcg64,
+}
+
+impl KwiseGreedy {
+    /// Tests that fill the holes that `existing` ones leave in any `k` of the parameters.
+    ///
+    /// # Errors
+    /// `k` is not in 1 to the number of parameters, or there are too many views.
+    pub(crate) fn new(
+        dims: usize,
+        levels: &[usize],
+        k: usize,
+        rng: Pcg64,
+        existing: &[Point],
+    ) -> Result<Self, GeneratorError> {
+        let parameters = dims + levels.len();
+        if !(1..=parameters).contains(&k) {
+            return Err(GeneratorError::AllStrength { k, parameters });
+        }
+        let chosen: Vec<Projection> = projections(dims, levels, k).take(MOST_VIEWS + 1).collect();
+        if chosen.len() > MOST_VIEWS {
+            return Err(GeneratorError::Views { k, most: MOST_VIEWS });
+        }
+        let most = (MOST_BOXES / chosen.len()).max(100);
+        let kept = |projection: &Projection| match projection.axes.len() {
+            0 => Kept::Covered(false),
+            axes => Kept::Boxes(EmptyBoxes::at_most(axes, most).expect("there is an axis")),
+        };
+        let view = |projection: Projection| View {
+            holes: kept(&projection),
+            coordinates: coordinates(&projection, dims),
+            projection,
+        };
+        let views = chosen.into_iter().map(view).collect();
+        let mut greedy = Self { dims, levels: levels.to_vec(), views, rng };
+        for test in existing {
+            greedy.add(test);
+        }
+        Ok(greedy)
+    }
+
+    /// Takes one more test.
+    fn add(&mut self, test: &Point) {
+        for View { projection, holes, .. } in &mut self.views {
+            if projection.selects(test) {
+                match holes {
+                    Kept::Boxes(boxes) => boxes.add(&projection.of(test)).expect("a point of the cube"),
+                    Kept::Covered(covered) => *covered = true,
+                }
+            }
+        }
+    }
+
+    /// The next test.
+    fn next(&mut self) -> Point {
+        let Self { dims, levels, views, rng } = self;
+        let largest = views.iter().map(View::largest).fold(0.0, f64::max);
+        let worst: Vec<&View> = views.iter().filter(|view| view.largest() == largest).collect();
+        let holes = LargeHoles::of(views, largest, *dims, levels);
+        let beginnings = (0..BEGINNINGS).map(|_| {
+            let test = holes.begin(worst[rng.random_range(0..worst.len())], rng);
+            (holes.left_by(None, &test), test)
+        });
+        let (_, best) = beginnings.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there are beginnings");
+        self.add(&best);
+        best
+    }
+}
+
+/// The parameters of a projection among all, the continuous ones first.
+fn coordinates(projection: &Projection, dims: usize) -> Vec<usize> {
+    let discrete = projection.fixed.iter().map(|(parameter, _)| dims + parameter);
+    projection.axes.iter().copied().chain(discrete).collect()
+}
+
+impl<'a> LargeHoles<'a> {
+    /// Those beside a largest one of all views.
+    fn of(views: &'a [View], largest: f64, dims: usize, levels: &'a [usize]) -> Self {
+        let of_coordinate = vec![Vec::new(); dims + levels.len()];
+        let mut large = Self { dims, levels, holes: Vec::new(), of_coordinate };
+        for view in views {
+            let Some(hole) = view.hole(largest) else { continue };
+            for &coordinate in &view.coordinates {
+                large.of_coordinate[coordinate].push(large.holes.len());
+            }
+            large.holes.push((&view.projection, hole));
+        }
+        large
+    }
+
+    /// By how much a test changes the sum over the views that a coordinate belongs to, or over all.
+    fn left_by(&self, coordinate: Option<usize>, test: &Point) -> f64 {
+        let left = |(projection, hole): &(&Projection, Hole)| match hole {
+            _ if !projection.selects(test) => 0.0,
+            Hole::Row => -1.0,
+            Hole::Boxes(holes) => holes.left_by(&projection.of(test)),
+        };
+        match coordinate {
+            None => self.holes.iter().map(left).sum(),
+            Some(coordinate) => self.of_coordinate[coordinate].iter().map(|&hole| left(&self.holes[hole])).sum(),
+        }
+    }
+
+    /// A test in the largest hole of a view that also breaks others well.
+    fn begin(&self, first: &View, rng: &mut Pcg64) -> Point {
+        let View { projection, holes: kept, .. } = first;
+        let mut test = Point {
+            continuous: (0..self.dims).map(|_| rng.random()).collect(),
+            discrete: self.levels.iter().map(|&levels| rng.random_range(0..levels)).collect(),
+        };
+        // Along its axes the test stays in the hole, and it keeps the hole's values.
+        let mut rooms = vec![(0.0, 1.0); self.dims];
+        if let Kept::Boxes(boxes) = kept {
+            for (&axis, (lower, width)) in projection.axes.iter().zip(room(boxes.largest())) {
+                rooms[axis] = (lower, width);
+                test.continuous[axis] = lower + width * test.continuous[axis];
+            }
+        }
+        let mut free: Vec<usize> = (0..self.dims + self.levels.len()).collect();
+        for &(parameter, level) in &projection.fixed {
+            test.discrete[parameter] = level;
+            free.retain(|coordinate| *coordinate != self.dims + parameter);
+        }
+        for round in 0..ROUNDS {
+            free.shuffle(rng);
+            for &coordinate in &free {
+                match coordinate.checked_sub(self.dims) {
+                    None => self.choose_number(coordinate, rooms[coordinate], round, &mut test, rng),
+                    Some(parameter) => self.choose_level(parameter, &mut test),
+                }
+            }
+        }
+        test
+    }
+
+    /// Moves a test along an axis to where it breaks most.
+    fn choose_number(&self, axis: usize, (lower, width): (f64, f64), round: usize, test: &mut Point, rng: &mut Pcg64) {
+        let now = test.continuous[axis];
+        let mut best = (self.left_by(Some(axis), test), now);
+        for _ in 0..CANDIDATES {
+            let random: f64 = rng.random();
+            let candidate = if round == 0 { lower + width * random } else { now + NEAR * width * (2.0 * random - 1.0) };
+            if !(lower..lower + width).contains(&candidate) {
+                continue;
+            }
+            test.continuous[axis] = candidate;
+            let left = self.left_by(Some(axis), test);
+            if left < best.0 {
+                best = (left, candidate);
+            }
+        }
+        test.continuous[axis] = best.1;
+    }
+
+    /// Gives a test the level of a parameter at which it breaks most.
+    fn choose_level(&self, parameter: usize, test: &mut Point) {
+        let mut best = (f64::INFINITY, 0);
+        // From a random level on, so that no level is preferred where there is nothing to choose.
+        let (levels, start) = (self.levels[parameter], test.discrete[parameter]);
+        for level in (start..levels).chain(0..start) {
+            test.discrete[parameter] = level;
+            let left = self.left_by(Some(self.dims + parameter), test);
+            if left < best.0 {
+                best = (left, level);
+            }
+        }
+        test.discrete[parameter] = best.1;
+    }
+}
+
+impl View {
+    /// The volume of the largest hole.
+    fn largest(&self) -> f64 {
+        match &self.holes {
+            Kept::Boxes(boxes) => boxes.largest().volume(),
+            Kept::Covered(covered) => f64::from(u8::from(!covered)),
+        }
+    }
+
+    /// The holes that count beside a largest one of all views.
+    fn hole(&self, largest: f64) -> Option<Hole> {
+        match &self.holes {
+            Kept::Covered(covered) => (!covered).then_some(Hole::Row),
+            Kept::Boxes(boxes) => {
+                let anywhere = vec![(0.0, 1.0); self.projection.axes.len()];
+                Some(Holes::around(boxes, &anywhere, largest)).filter(|holes| !holes.is_empty()).map(Hole::Boxes)
+            }
+        }
+    }
+}
+
+impl Generator for KwiseGreedy {
+    fn ask(&mut self, n: usize) -> Vec<Point> {
+        (0..n).map(|_| self.next()).collect()
+    }
+}

@@ -1,0 +1,43 @@
+//! Greedy points for every discrete row, each row's as low in dispersion as if it were alone.
+
+use super::Greedy;
+use crate::seeded::{Purpose, seeded};
+use crate::sequence::RowSet;
+use std::collections::HashMap;
+use std::sync::Mutex;
+
+/// Greedy points for every discrete row, found as they are asked for and remembered.
+pub(crate) struct GreedyRows {
+    dims: usize,
+    seed: u64,
+    existing: HashMap<u64, Vec<Vec<f64>>>,
+    rows: Mutex<HashMap<u64, Row>>,
+}
+
+/// The points of a row so far, and what finds the next.
+struct Row {
+    greedy: Greedy,
+    points: Vec<Vec<f64>>,
+}
+
+impl GreedyRows {
+    /// `existing` holds the points that a row has already, by its number.
+    pub(crate) fn new(dims: usize, seed: u64, existing: HashMap<u64, Vec<Vec<f64>>>) -> Self {
+        Self { dims, seed, existing, rows: Mutex::default() }
+    }
+}
+
+impl RowSet for GreedyRows {
+    fn point(&self, row: u64, _size: u64, index: u64) -> Vec<f64> {
+        let mut rows = self.rows.lock().expect("nobody panics while holding it");
+        let Row { greedy, points } = rows.entry(row).or_insert_with(|| {
+            let rng = seeded(self.seed, Purpose::Greedy, row);
+            let existing = self.existing.get(&row).into_iter().flatten();
+            Row { greedy: Greedy::new(self.dims, rng, existing).expect("points of the cube"), points: Vec::new() }
+        });
+        while points.len() as u64 <= index {
+            points.push(greedy.next());
+        }
+        points[index as usize].clone()
+    }
+}

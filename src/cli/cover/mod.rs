@@ -1,0 +1,70 @@
+//! The program `paracosm-cover`: how well tests cover a space, and tests that cover it well.
+
+mod estimate;
+mod generate;
+
+use super::{Failure, Verbosity};
+use crate::Error;
+use crate::coverage::{Space, SpaceError};
+use clap::{Parser, Subcommand};
+use std::fs;
+use std::path::Path;
+
+const EXAMPLES: &str = "\
+Examples:
+  paracosm-cover estimate                            the campaign in paracosm-out/
+  paracosm-cover estimate --strategy halton --dims 3 --budget 500
+  paracosm-cover generate --dims 3 --strategy sobol --budget 256 > points.csv
+  paracosm-cover generate --dims 3 --extend points.csv --budget 20
+
+Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
+
+/// Says how well a set of tests covers its space, and makes sets that cover it well.
+#[derive(Debug, Parser)]
+#[command(name = "paracosm-cover", version, after_help = EXAMPLES)]
+pub(super) struct Command {
+    #[command(subcommand)]
+    verb: Verb,
+    #[command(flatten)]
+    verbosity: Verbosity,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Measure how well tests cover their space
+    Estimate(estimate::Estimate),
+    /// Make tests: CSV on standard output
+    Generate(generate::Generate),
+}
+
+impl Command {
+    pub fn execute(self) -> Result<(), Failure> {
+        match self.verb {
+            Verb::Estimate(estimate) => estimate.execute(self.verbosity),
+            Verb::Generate(generate) => generate.execute(self.verbosity),
+        }
+    }
+}
+
+/// The largest point set that is kept in memory: 1.6 GB of coordinates.
+const MOST_COORDINATES: usize = 200_000_000;
+
+/// Refuses what does not fit in memory.
+fn check_size(tests: usize, dims: usize) -> Result<(), Error> {
+    if dims.saturating_mul(tests) <= MOST_COORDINATES {
+        return Ok(());
+    }
+    let message =
+        format!("{tests} points in {dims} dimensions are more than fit: at most {MOST_COORDINATES} coordinates");
+    Err(Error::Usage(message))
+}
+
+fn read_space(path: &Path) -> Result<Space, Error> {
+    let text = fs::read_to_string(path).map_err(Error::file("read", path))?;
+    Space::from_toml(&text).map_err(|error| match error {
+        SpaceError::Syntax { message, at: Some((line, column)) } => {
+            Error::content(path, line, format!("column {column}: {message}"))
+        }
+        error => Error::content(path, None, error.to_string()),
+    })
+}

@@ -1,0 +1,103 @@
+//! `paracosm-cover generate` as a user gives it: tests as CSV, and those that a test set lacks.
+
+use crate::common::{cover, stderr, stdout, succeeds};
+use std::fs;
+use std::path::Path;
+
+const SPACE: &str = "\
+[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
+[[parameter]]\nname = \"lanes\"\nchoice = [2, 4, 6]\n\
+[[parameter]]\nname = \"sky, today\"\nchoice = [\"clear\", \"rain\"]\n";
+
+fn generated(dir: &Path, arguments: &[&str]) -> String {
+    stdout(&succeeds(cover(dir, &[&["generate"], arguments].concat())))
+}
+
+/// The value at a path of what `estimate` prints as JSON.
+fn measured(dir: &Path, arguments: &[&str], path: &str) -> f64 {
+    let printed = stdout(&succeeds(cover(dir, &[&["estimate"], arguments].concat())));
+    let json: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    json.pointer(path).and_then(serde_json::Value::as_f64).unwrap_or_else(|| panic!("no number {path} in {printed}"))
+}
+
+#[test]
+fn the_tests_are_the_strategy_s_and_a_sequence_goes_on_where_it_is_told() {
+    let dir = tempfile::tempdir().unwrap();
+    let four = generated(dir.path(), &["--dims", "2", "--budget", "4"]);
+    let expected = "x1,x2\n0.5,0.3333333333333333\n0.25,0.6666666666666666\n0.75,0.1111111111111111\n\
+                    0.125,0.4444444444444444\n";
+    assert_eq!(four, expected);
+    let later = generated(dir.path(), &["--dims", "2", "--budget", "2", "--skip", "3"]);
+    assert_eq!(later.lines().skip(1).collect::<Vec<_>>(), expected.lines().skip(3).collect::<Vec<_>>());
+}
+
+#[test]
+fn values_are_written_as_the_space_writes_them_and_read_back_as_the_same_tests() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
+    let arguments = ["--space", "SPACE.toml", "--strategy", "greedy", "--budget", "30", "--seed", "5"];
+    let csv = generated(dir.path(), &arguments);
+    assert!(csv.starts_with("speed,lanes,\"sky, today\"\n"), "{csv}");
+    assert_eq!(csv.lines().count(), 31);
+    assert_eq!(generated(dir.path(), &arguments), csv, "the seed decides");
+    fs::write(dir.path().join("tests.csv"), csv).unwrap();
+    let estimate = ["tests.csv", "--space", "SPACE.toml"];
+    assert_eq!(measured(dir.path(), &estimate, "/discrete/ratio"), 1.0);
+    assert!(measured(dir.path(), &estimate, "/k_wise_dispersion/upper") < 0.25);
+}
+
+#[test]
+fn a_space_without_continuous_parameters_gives_the_rows_of_the_family_alone() {
+    let dir = tempfile::tempdir().unwrap();
+    let space = SPACE.split("[[parameter]]").skip(2).map(|rest| format!("[[parameter]]{rest}")).collect::<String>();
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let rows = generated(dir.path(), &["--space", "SPACE.toml", "--discrete", "cross"]);
+    assert_eq!(rows, "lanes,\"sky, today\"\n2,clear\n2,rain\n4,clear\n4,rain\n6,clear\n6,rain\n");
+}
+
+#[test]
+fn what_is_added_to_a_test_set_fills_its_holes() {
+    let dir = tempfile::tempdir().unwrap();
+    let old = generated(dir.path(), &["--dims", "2", "--budget", "100"]);
+    let half: Vec<&str> = old.lines().filter(|line| line.starts_with("x1") || line.starts_with("0.0")).collect();
+    fs::write(dir.path().join("old.csv"), half.join("\n") + "\n").unwrap();
+    assert!(measured(dir.path(), &["old.csv"], "/continuous/dispersion/lower") > 0.9);
+    let added = generated(dir.path(), &["--extend", "old.csv", "--budget", "20"]);
+    assert_eq!(added.lines().count(), 21, "those to add, not those there are");
+    let all = [&half[..], &added.lines().skip(1).collect::<Vec<_>>()].concat().join("\n");
+    fs::write(dir.path().join("all.csv"), all + "\n").unwrap();
+    assert!(measured(dir.path(), &["all.csv"], "/continuous/dispersion/upper") < 0.2);
+}
+
+#[test]
+fn what_cannot_be_generated_is_refused_with_the_reason() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
+    fs::write(dir.path().join("tests.csv"), "x1,x2\n0.5,1.5\n").unwrap();
+    let cases: [(&[&str], &str); 7] = [
+        (&["--dims", "0"], "error: the space has no parameters; a generator needs at least one\n"),
+        (&["--dims", "2", "--strategy", "haltom"], "error: no strategy is called `haltom` (did you mean `halton`?)\n"),
+        (&["--dims", "2", "--budget", "0"], "error: the budget is 0 tests; a budget must be at least 1\n"),
+        (
+            &["--extend", "tests.csv"],
+            "error: tests.csv, line 2: parameter `x2`: found 1.5, expected a number in [0, 1]; name the space of the \
+             tests with --space SPACE.toml\n",
+        ),
+        (
+            &["--dims", "3", "--extend", "tests.csv"],
+            "error: tests.csv, line 1: no column is called `x3` (is it `x2`?)\n",
+        ),
+        (
+            &["--space", "SPACE.toml", "--measure", "kwise-dispersion"],
+            "error: greedy cannot aim at `kwise-dispersion` (did you mean `k-wise-dispersion`?); it can at dispersion \
+             and k-wise-dispersion\n",
+        ),
+        (&["--space", "SPACE.toml", "--measure", "dispersion"], "error: `halton` aims at no measure; greedy does\n"),
+    ];
+    for (arguments, message) in cases {
+        let output = cover(dir.path(), &[&["generate"], arguments].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert_eq!(stderr(&output), message);
+        assert_eq!(stdout(&output), "", "no test is written");
+    }
+}
