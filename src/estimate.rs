@@ -1,7 +1,7 @@
 //! How well tests cover their space: what `paracosm-cover estimate` prints.
 
 use crate::Error;
-use paracosm_coverage::dispersion::{LargestEmptyBox, dispersion};
+use paracosm_coverage::dispersion::{LargestEmptyBox, dispersion_watched};
 use paracosm_coverage::extreme::extreme_discrepancy;
 use paracosm_coverage::kwise::kwise_coverage;
 use paracosm_coverage::kwise_dispersion::kwise_dispersion;
@@ -59,6 +59,10 @@ impl Measure {
         Self::KWise,
         Self::KWiseDispersion,
     ];
+
+    /// Those of the continuous parameters alone, in the order in which they are measured.
+    const CONTINUOUS: [Self; 7] =
+        [Self::L2Star, Self::Centered, Self::Wraparound, Self::Mixture, Self::Dispersion, Self::Star, Self::Extreme];
 
     /// The name by which it is asked for.
     pub fn name(self) -> &'static str {
@@ -130,6 +134,22 @@ pub struct Continuous {
     pub mixture: Option<Option<f64>>,
 }
 
+impl Continuous {
+    /// Nothing measured yet.
+    fn of(parameters: Vec<String>) -> Self {
+        Self {
+            parameters,
+            dispersion: None,
+            star_discrepancy: None,
+            extreme_discrepancy: None,
+            l2_star: None,
+            centered: None,
+            wraparound: None,
+            mixture: None,
+        }
+    }
+}
+
 /// The largest box that no test has entered.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Hole {
@@ -185,20 +205,38 @@ impl Tests {
     /// # Errors
     /// There are not `k` parameters, or too many combinations of them to count.
     pub fn measure(&self, measures: &[Measure], k: Option<usize>, limit: Option<Duration>) -> Result<Coverage, Error> {
+        self.measure_watched(measures, k, limit, &mut |_, _| ())
+    }
+
+    /// [`Tests::measure`], while `watch` is told which measure is at work, and within which bracket it knows the number
+    /// by now.
+    ///
+    /// # Errors
+    /// As `measure`.
+    pub fn measure_watched(
+        &self,
+        measures: &[Measure],
+        k: Option<usize>,
+        limit: Option<Duration>,
+        watch: &mut dyn FnMut(Measure, Option<Bracket>),
+    ) -> Result<Coverage, Error> {
         let parameters = self.space.parameters().len();
         let k = k.or(self.k).unwrap_or(parameters.min(2));
         if !(1..=parameters).contains(&k) {
             return Err(Error::Usage(format!("k is {k}, expected 1 to {parameters}, the number of parameters")));
         }
         let mut clock = Clock::new(limit, measures);
-        let continuous = if self.space.dims() == 0 { None } else { Some(self.continuous(measures, &mut clock)?) };
+        let continuous =
+            if self.space.dims() == 0 { None } else { Some(self.continuous(measures, &mut clock, watch)?) };
         let levels = self.space.levels();
         let discrete = if levels.is_empty() || !measures.contains(&Measure::KWise) {
             None
         } else {
+            watch(Measure::KWise, None);
             Some(self.discrete(k.min(levels.len()), &levels)?)
         };
         let k_wise_dispersion = if measures.contains(&Measure::KWiseDispersion) {
+            watch(Measure::KWiseDispersion, None);
             Some(self.kwise_hole(k, &levels, clock.next())?)
         } else {
             None
@@ -216,29 +254,36 @@ impl Tests {
         Ok(KwiseHole { k, volume: found.volume, worst: KwiseWorst { fixed, empty_box } })
     }
 
-    fn continuous(&self, measures: &[Measure], clock: &mut Clock) -> Result<Continuous, Error> {
+    fn continuous(
+        &self,
+        measures: &[Measure],
+        clock: &mut Clock,
+        watch: &mut dyn FnMut(Measure, Option<Bracket>),
+    ) -> Result<Continuous, Error> {
         let points = PointSet::new(self.space.dims(), self.points.iter().map(|point| &point.continuous))?;
-        let asked = |measure| measures.contains(&measure);
         let parameters: Vec<&Parameter> = self.space.continuous().collect();
-        let mut mean = |measure: fn(&PointSet, Deadline) -> Option<f64>| measure(&points, clock.next());
-        let l2_star = asked(Measure::L2Star).then(|| mean(l2::l2_star));
-        let centered = asked(Measure::Centered).then(|| mean(l2::centered));
-        let wraparound = asked(Measure::Wraparound).then(|| mean(l2::wraparound));
-        let mixture = asked(Measure::Mixture).then(|| mean(l2::mixture));
-        Ok(Continuous {
-            parameters: parameters.iter().map(|parameter| parameter.name.clone()).collect(),
-            dispersion: asked(Measure::Dispersion).then(|| {
-                let found = dispersion(&points, clock.next());
-                let largest_empty_box = sides(parameters.iter().copied(), &found.witness);
-                Hole { volume: found.volume, largest_empty_box }
-            }),
-            star_discrepancy: asked(Measure::Star).then(|| star_discrepancy(&points, clock.next())),
-            extreme_discrepancy: asked(Measure::Extreme).then(|| extreme_discrepancy(&points, clock.next())),
-            l2_star,
-            centered,
-            wraparound,
-            mixture,
-        })
+        let mut coverage = Continuous::of(parameters.iter().map(|parameter| parameter.name.clone()).collect());
+        // From the fastest to the slowest: what one leaves of the time is for those after it.
+        for measure in Measure::CONTINUOUS.into_iter().filter(|measure| measures.contains(measure)) {
+            watch(measure, None);
+            let deadline = clock.next();
+            match measure {
+                Measure::L2Star => coverage.l2_star = Some(l2::l2_star(&points, deadline)),
+                Measure::Centered => coverage.centered = Some(l2::centered(&points, deadline)),
+                Measure::Wraparound => coverage.wraparound = Some(l2::wraparound(&points, deadline)),
+                Measure::Mixture => coverage.mixture = Some(l2::mixture(&points, deadline)),
+                Measure::Dispersion => {
+                    let mut closing = |bracket| watch(measure, Some(bracket));
+                    let found = dispersion_watched(&points, deadline, &mut closing);
+                    let largest_empty_box = sides(parameters.iter().copied(), &found.witness);
+                    coverage.dispersion = Some(Hole { volume: found.volume, largest_empty_box });
+                }
+                Measure::Star => coverage.star_discrepancy = Some(star_discrepancy(&points, deadline)),
+                Measure::Extreme => coverage.extreme_discrepancy = Some(extreme_discrepancy(&points, deadline)),
+                Measure::KWise | Measure::KWiseDispersion => unreachable!("measures of both halves"),
+            }
+        }
+        Ok(coverage)
     }
 
     fn discrete(&self, k: usize, levels: &[usize]) -> Result<Discrete, Error> {

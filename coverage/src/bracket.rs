@@ -42,7 +42,7 @@ impl Deadline {
     }
 
     /// The moment at which a share of what time is left has gone by.
-    pub(crate) fn part(self, share: f64) -> Self {
+    pub fn part(self, share: f64) -> Self {
         Self(self.left().map(|left| Instant::now() + left.mul_f64(share)))
     }
 

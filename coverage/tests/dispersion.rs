@@ -1,6 +1,6 @@
 //! The search for the largest empty box: the same on any number of threads, and honest about what it did not finish.
 
-use paracosm_coverage::dispersion::{Dispersion, dispersion};
+use paracosm_coverage::dispersion::{Dispersion, dispersion, dispersion_watched, is_at_most};
 use paracosm_coverage::{Deadline, PointSet};
 use std::time::{Duration, Instant};
 
@@ -65,4 +65,37 @@ fn a_limited_search_in_many_dimensions_ends_in_time() {
     // Generous: the machine may be busy with other tests.
     assert!(begun.elapsed() < Duration::from_secs(5), "{:?}", begun.elapsed());
     assert!(0.0 < found.lower && found.lower <= found.upper && found.upper <= 1.0, "{found:?}");
+}
+
+#[test]
+fn whether_it_is_at_most_something_is_known_on_either_side_of_it() {
+    for (dims, n) in [(1, 20), (2, 300), (3, 200), (5, 100), (6, 60)] {
+        for rounded in [false, true] {
+            let points = points(dims, n, rounded);
+            let exact = dispersion(&points, Deadline::never()).volume.lower;
+            let at_most = |volume| is_at_most(&points, volume, Deadline::never());
+            assert_eq!(at_most(exact), Some(true), "d = {dims}");
+            assert_eq!(at_most(exact.next_down()), Some(false), "d = {dims}");
+            assert_eq!((at_most(0.0), at_most(1.0)), (Some(false), Some(true)));
+        }
+    }
+    // In no time nothing is claimed that is not so.
+    let points = points(6, 300, false);
+    let exact = dispersion(&points, Deadline::never()).volume.lower;
+    let at_once = |volume| is_at_most(&points, volume, Deadline::after(Duration::ZERO));
+    assert_ne!(at_once(exact), Some(false));
+    assert_ne!(at_once(exact.next_down()), Some(true));
+}
+
+#[test]
+fn whoever_watches_sees_the_bracket_close_and_never_open_again() {
+    let points = points(9, 300, false);
+    let mut seen = Vec::new();
+    let limit = Deadline::after(Duration::from_secs(1));
+    let found = dispersion_watched(&points, limit, &mut |bracket| seen.push(bracket)).volume;
+    seen.push(found);
+    assert!(seen.len() > 1);
+    for pair in seen.windows(2) {
+        assert!(pair[0].lower <= pair[1].lower && pair[1].upper <= pair[0].upper, "{pair:?}");
+    }
 }

@@ -1,7 +1,7 @@
 //! k-wise coverage against counting in sets, and the sizes of random families against exact probabilities.
 
 use paracosm_coverage::kwise::{KwiseError, MISSING_LISTED, kwise_coverage};
-use paracosm_coverage::theory::{proposition_3_2, random_family_size, union_bound};
+use paracosm_coverage::theory::rows::{proposition_3_2, random_family_size, union_bound};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 

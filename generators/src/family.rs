@@ -86,7 +86,7 @@ impl Family {
         match kind {
             DiscreteFamily::Random { delta } if !(delta > 0.0 && delta < 1.0) => Err(GeneratorError::Delta(delta)),
             DiscreteFamily::Random { delta } if parameters > 0 => {
-                match theory::random_family_size(levels, k.unwrap_or(parameters.min(2)), delta) {
+                match theory::rows::random_family_size(levels, k.unwrap_or(parameters.min(2)), delta) {
                     len if len > MOST_ROWS => too_large(len.to_string(), "use a smaller k"),
                     len => Ok(Self { levels: levels.to_vec(), len, rows: Rows::Random(seed) }),
                 }

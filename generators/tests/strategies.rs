@@ -200,7 +200,7 @@ fn a_random_family_covers_all_pairs_at_least_as_often_as_promised() {
             let discrete = DiscreteFamily::Random { delta };
             let rows = rows(&Request { seed: Some(seed), discrete, k: Some(2), ..Request::new(&space, 1) });
             // Rows that repeat one are left out: they would be the same test again.
-            assert!(rows.len() as u64 <= theory::random_family_size(&levels, 2, delta));
+            assert!(rows.len() as u64 <= theory::rows::random_family_size(&levels, 2, delta));
             assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len());
             (0..levels.len()).all(|i| {
                 (0..i).all(|j| {
@@ -218,7 +218,7 @@ fn a_random_family_covers_all_pairs_at_least_as_often_as_promised() {
 #[test]
 fn the_random_family_has_as_many_rows_as_the_proposition_asks_for() {
     let (levels, delta) = ([2; 8], 0.2);
-    let size = theory::random_family_size(&levels, 2, delta) as usize;
+    let size = theory::rows::random_family_size(&levels, 2, delta) as usize;
     let space = mixed(1, &levels);
     let request = Request { discrete: DiscreteFamily::Random { delta }, ..Request::new(&space, 3 * size) };
     let tests = Strategy::Halton.build(&request).expect("a generator").ask(3 * size);

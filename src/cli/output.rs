@@ -47,6 +47,11 @@ impl Table {
         let _ = writeln!(self.text, "  {label:<LABEL$}{value}");
     }
 
+    /// A row that has columns of its own.
+    pub fn line(&mut self, text: &str) {
+        let _ = writeln!(self.text, "  {text}");
+    }
+
     pub fn finish(self) -> String {
         self.text
     }
@@ -117,6 +122,15 @@ pub(super) fn bracket(bracket: &Bracket) -> String {
         digits(bracket.lower)
     } else {
         format!("between {} and {} (the time limit ended the search)", digits(bracket.lower), digits(bracket.upper))
+    }
+}
+
+/// A bracket where there is little room.
+pub(super) fn short_bracket(bracket: &Bracket) -> String {
+    if bracket.is_exact() {
+        digits(bracket.lower)
+    } else {
+        format!("{}..{}", digits(bracket.lower), digits(bracket.upper))
     }
 }
 

@@ -1,11 +1,13 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
-use super::output::{Format, Table, digits, json, percent, shell_word};
+use super::output::{Format, Table, digits, json, percent, shell_word, short_bracket};
 use super::{Failure, Found, Verbosity, complain, print};
 use crate::coverage::{Domain, Value};
 use crate::generators::Aim;
 use crate::oracles::Verdict;
-use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Study, Summary, Tests, Trial};
+use crate::{
+    Campaign, Coverage, Error, FailureMap, Folder, LiveCoverage, Measure, Picture, Study, Summary, Tests, Trial,
+};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::json;
@@ -223,6 +225,7 @@ fn cut_short(error: &Error, out: &Path, safe: usize) -> Failure {
 struct Progress {
     bar: ProgressBar,
     summary: Summary,
+    coverage: LiveCoverage,
     verbose: bool,
 }
 
@@ -237,16 +240,25 @@ impl Progress {
         let bar = bar.with_style(style).with_position(known as u64);
         // The rate is that of this session, not of what was there before.
         bar.reset_eta();
-        Self { bar, summary: Summary::default(), verbose: verbosity.verbose }
+        let coverage = LiveCoverage::new(&study.space);
+        Self { bar, summary: Summary::default(), coverage, verbose: verbosity.verbose }
     }
 
     fn count(&mut self, study: &Study, trial: &Trial) {
         self.summary.add(study, trial);
+        // Where nobody sees the bar, it need not be known.
+        if trial.covers()
+            && !self.bar.is_hidden()
+            && let Ok(point) = study.space.encode(&trial.test)
+        {
+            self.coverage.add(&point).expect("a point of the space");
+        }
     }
 
     fn show(&mut self, study: &Study, trial: &Trial) {
         self.count(study, trial);
-        self.bar.set_message(format!("{} fail", self.summary.count(Verdict::Fail)));
+        let dispersion = self.coverage.dispersion().map(|volume| format!("  dispersion {}", short_bracket(&volume)));
+        self.bar.set_message(format!("{} fail{}", self.summary.count(Verdict::Fail), dispersion.unwrap_or_default()));
         self.bar.inc(1);
         if self.verbose && trial.verdict != Verdict::Pass {
             let line = format!("test {}: {}, {}", trial.index, trial.verdict, in_words(study, trial));

@@ -6,3 +6,4 @@ mod commands;
 mod common;
 mod generate;
 mod pedestrian_study;
+mod plan;

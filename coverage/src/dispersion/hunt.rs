@@ -57,22 +57,54 @@ impl<'a> Hunt<'a> {
         Self { points, bar: Bar::new(witness.volume().max(above)), witness, open, upper: 1.0, attempts: 0 }
     }
 
-    /// Searches to the end, or until the deadline.
-    pub fn run(mut self, deadline: Deadline) -> Dispersion {
+    /// Searches to the end, or until the deadline; `watch` sees the bracket close.
+    pub fn run(mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
         self.begin(deadline);
         if self.points.dims() >= EARLY_IMPROVEMENT {
-            while !self.open.is_empty() && !deadline.passed() && self.attempt() {}
+            while !self.open.is_empty() && !deadline.passed() && self.attempt() {
+                watch(self.bracket());
+            }
         }
+        watch(self.bracket());
         self.explore(0.0, deadline.part(HOPE));
-        self.improve(deadline.part(IMPROVEMENT));
-        self.deepen(deadline);
+        self.improve(deadline.part(IMPROVEMENT), watch);
+        self.deepen(deadline, watch);
+        Dispersion { volume: self.bracket(), witness: self.witness }
+    }
+
+    /// Whether no box is larger than `above`, for which the search was made; `None` if that was not known at the
+    /// deadline.
+    pub fn finds_none(mut self, above: f64, deadline: Deadline) -> Option<bool> {
+        self.begin(deadline);
+        let bar = Bar::new(self.bar.get());
+        let explore = |search: &mut Search, part: &Open| {
+            let mut watch = Watch::new(deadline);
+            let mut over = deadline.passed();
+            search.explore(part, &bar, above, |work| {
+                // A single larger box answers the question.
+                over |= watch.passed_after(work) || bar.get() > above;
+                !over
+            })
+        };
+        let new_search = || Search::new(self.points, above);
+        let parts = self.open.par_iter().with_max_len(1);
+        let done: Vec<bool> =
+            parts.map_init(new_search, |search, part| explore(search, part).open.is_empty()).collect();
+        if self.witness.volume().max(bar.get()) > above {
+            return Some(false);
+        }
+        done.into_iter().all(|done| done).then_some(true)
+    }
+
+    /// What is known by now.
+    fn bracket(&self) -> Bracket {
         let lower = self.witness.volume();
         if self.open.is_empty() {
-            return Dispersion { volume: Bracket::exact(lower), witness: self.witness };
+            return Bracket::exact(lower);
         }
         // Each factor and each product may have lost half an ulp.
         let upper = (self.upper * (1.0 + 2.0 * self.points.dims() as f64 * f64::EPSILON)).min(1.0);
-        Dispersion { volume: Bracket { lower, upper }, witness: self.witness }
+        Bracket { lower, upper }
     }
 
     /// Explores a little on one thread: what is small is done by then.
@@ -152,9 +184,10 @@ impl<'a> Hunt<'a> {
 
     /// Looks for larger boxes near the witness: some of its ends go back to the walls of the cube, and the points that
     /// come in are cut away anew in the best way (a large neighbourhood search).
-    fn improve(&mut self, deadline: Deadline) {
+    fn improve(&mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) {
         while !self.open.is_empty() && !deadline.passed() {
             self.attempt();
+            watch(self.bracket());
         }
     }
 
@@ -225,7 +258,7 @@ impl<'a> Hunt<'a> {
     /// Proves lower and lower upper ends, each by a search that goes down to it and forgets what is below: it takes
     /// no memory to speak of, and what it does again in every pass is little, because each takes a few times as long
     /// as the one before.
-    fn deepen(&mut self, deadline: Deadline) {
+    fn deepen(&mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) {
         let mut passes: Vec<(f64, f64)> = Vec::new();
         while !self.open.is_empty() && !deadline.passed() {
             let (best, upper) = (self.bar.get(), self.upper);
@@ -236,6 +269,7 @@ impl<'a> Hunt<'a> {
             if self.explore(next, deadline) {
                 passes.push((libm::log(next), libm::log(begun.elapsed().as_secs_f64().max(1e-6))));
             }
+            watch(self.bracket());
         }
     }
 }

@@ -56,12 +56,23 @@ pub struct Dispersion {
 /// Exact, in any dimension, unless `deadline` cuts the search short. Volume and witness of an exact result do not
 /// depend on the number of threads.
 pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
-    larger_than(points, f64::NEG_INFINITY, deadline).expect("every volume is larger")
+    dispersion_watched(points, deadline, &mut |_| ())
+}
+
+/// The [`dispersion`], while `watch` sees the bracket close.
+pub fn dispersion_watched(points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
+    Hunt::new(points, widest_slab(points), f64::NEG_INFINITY).run(deadline, watch)
+}
+
+/// Whether the dispersion is at most `volume`; `None` if that was not known at the deadline. To know it takes less
+/// than to know the dispersion.
+pub fn is_at_most(points: &PointSet, volume: f64, deadline: Deadline) -> Option<bool> {
+    Hunt::new(points, widest_slab(points), volume).finds_none(volume, deadline)
 }
 
 /// The dispersion, if it is not proved to be at most `above`.
 pub(crate) fn larger_than(points: &PointSet, above: f64, deadline: Deadline) -> Option<Dispersion> {
-    let found = Hunt::new(points, widest_slab(points), above).run(deadline);
+    let found = Hunt::new(points, widest_slab(points), above).run(deadline, &mut |_| ());
     (found.volume.upper > above).then_some(found)
 }
 

@@ -44,6 +44,7 @@ struct View {
 }
 
 /// What is known of a view.
+#[expect(clippy::large_enum_variant, reason = "nearly all are the large one")]
 enum Kept {
     /// The empty boxes over its continuous parameters.
     Boxes(EmptyBoxes),

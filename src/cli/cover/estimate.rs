@@ -1,12 +1,13 @@
 //! `paracosm-cover estimate`: how well tests cover their space.
 
-use super::{check_size, read_space};
-use crate::cli::output::{Format, Table, json};
+use super::{check_size, read_space, time_limit};
+use crate::cli::output::{Format, Table, json, short_bracket};
 use crate::cli::{Failure, Verbosity, print};
-use crate::coverage::{Parameter, Space};
+use crate::coverage::{Bracket, Parameter, Space};
 use crate::generators::{Request, Strategy};
 use crate::{Error, Measure, Tests};
 use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -22,7 +23,7 @@ Dispersion is the largest volume of an axis-parallel box that no test has entere
 /// What `estimate` takes.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub(super) struct Estimate {
+pub(super) struct Options {
     /// A CSV of tests, or the folder of a campaign [default: paracosm-out]
     #[arg(value_name = "TESTS.csv|DIR", conflicts_with = "strategy")]
     tests: Option<PathBuf>,
@@ -59,11 +60,9 @@ pub(super) struct Estimate {
     format: Option<Format>,
 }
 
-impl Estimate {
+impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
-        let limit = Duration::try_from_secs_f64(self.time_limit).map_err(|_| {
-            Error::Usage(format!("--time-limit {}: expected a number of seconds from 0 on", self.time_limit))
-        })?;
+        let limit = time_limit(self.time_limit)?;
         let (tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read()?,
@@ -73,7 +72,15 @@ impl Estimate {
             let names: Vec<&str> = measures.iter().map(|measure| measure.name()).collect();
             verbosity.note(format_args!("measuring {} of {} tests", names.join(", "), tests.points.len()));
         }
-        let coverage = tests.measure(&measures, self.k, Some(limit))?;
+        let bar = spinner(verbosity);
+        let mut watch = |measure: Measure, closing: Option<Bracket>| {
+            let closing = closing.filter(|bracket| !bracket.is_exact());
+            let between = closing.map(|bracket| format!("  {}", short_bracket(&bracket)));
+            bar.set_message(format!("{}{}", measure.name(), between.unwrap_or_default()));
+        };
+        let coverage = tests.measure_watched(&measures, self.k, Some(limit), &mut watch);
+        bar.finish_and_clear();
+        let coverage = coverage?;
         print(&match Format::or_fitting(self.format) {
             Format::Json => json(&coverage),
             Format::Table => {
@@ -102,4 +109,12 @@ impl Estimate {
         let points = name.parse::<Strategy>()?.build(&request)?.ask(budget);
         Ok(Tests { space, points, k: None })
     }
+}
+
+/// Something that moves while the measures are at work.
+fn spinner(verbosity: Verbosity) -> ProgressBar {
+    let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+    let style = ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("the template is one");
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar.with_style(style)
 }

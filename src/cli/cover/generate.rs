@@ -23,7 +23,7 @@ const BATCH: usize = 64;
 /// What `generate` takes.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true).multiple(true))]
-pub(super) struct Generate {
+pub(super) struct Options {
     /// The space of the tests
     #[arg(long, value_name = "SPACE.toml", conflicts_with = "dims", group = "of")]
     space: Option<PathBuf>,
@@ -57,7 +57,7 @@ pub(super) struct Generate {
     extend: Option<PathBuf>,
 }
 
-impl Generate {
+impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let space = match (&self.space, self.dims) {
             (Some(path), _) => Some(read_space(path)?),

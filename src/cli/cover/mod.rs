@@ -2,6 +2,7 @@
 
 mod estimate;
 mod generate;
+mod plan;
 
 use super::{Failure, Verbosity};
 use crate::Error;
@@ -9,6 +10,7 @@ use crate::coverage::{Space, SpaceError};
 use clap::{Parser, Subcommand};
 use std::fs;
 use std::path::Path;
+use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -16,6 +18,7 @@ Examples:
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
   paracosm-cover generate --dims 3 --strategy sobol --budget 256 > points.csv
   paracosm-cover generate --dims 3 --extend points.csv --budget 20
+  paracosm-cover plan --dims 5 --epsilon 0.1
 
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
@@ -32,9 +35,11 @@ pub(super) struct Command {
 #[derive(Debug, Subcommand)]
 enum Verb {
     /// Measure how well tests cover their space
-    Estimate(estimate::Estimate),
+    Estimate(estimate::Options),
     /// Make tests: CSV on standard output
-    Generate(generate::Generate),
+    Generate(generate::Options),
+    /// Say how many tests each guarantee asks for
+    Plan(plan::Options),
 }
 
 impl Command {
@@ -42,12 +47,19 @@ impl Command {
         match self.verb {
             Verb::Estimate(estimate) => estimate.execute(self.verbosity),
             Verb::Generate(generate) => generate.execute(self.verbosity),
+            Verb::Plan(plan) => plan.execute(self.verbosity),
         }
     }
 }
 
 /// The largest point set that is kept in memory: 1.6 GB of coordinates.
 const MOST_COORDINATES: usize = 200_000_000;
+
+/// A time limit as it is given.
+fn time_limit(seconds: f64) -> Result<Duration, Error> {
+    Duration::try_from_secs_f64(seconds)
+        .map_err(|_| Error::Usage(format!("--time-limit {seconds}: expected a number of seconds from 0 on")))
+}
 
 /// Refuses what does not fit in memory.
 fn check_size(tests: usize, dims: usize) -> Result<(), Error> {

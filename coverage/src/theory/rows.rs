@@ -1,8 +1,8 @@
-//! What is known about a set of tests before any test is drawn.
+//! How many random rows cover the discrete parameters k-wise.
 //!
-//! The paper's Proposition 3.2 says how many random tests cover k-wise. Its proof is a union bound over the
-//! combinations that could be missed, rounded to a formula one can remember; here are both, the formula as it
-//! is printed and the bound behind it, which also serves parameters with more than two levels.
+//! The proof of the paper's Proposition 3.2 is a union bound over the combinations that could be missed, rounded to a
+//! formula one can remember; here are both, the formula as it is printed and the bound behind it, which also serves
+//! parameters with more than two levels.
 
 use std::collections::BTreeMap;
 

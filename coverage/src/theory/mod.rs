@@ -1,0 +1,6 @@
+//! What is known about a set of tests before any test is drawn.
+//!
+//! [`rows`] has the bounds for the discrete half of a test set, [`points`] those for the continuous half.
+
+pub mod points;
+pub mod rows;

@@ -1,0 +1,98 @@
+//! `paracosm-cover plan`: how many tests each guarantee asks for.
+
+use super::{check_size, read_space, time_limit};
+use crate::cli::output::{Format, Table, json};
+use crate::cli::{Failure, Verbosity, print};
+use crate::coverage::Space;
+use crate::{Need, Plan};
+use clap::{ArgGroup, Args};
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  paracosm-cover plan --space SPACE.toml --k 2 --epsilon 0.1 --delta 0.05
+  paracosm-cover plan --dims 5 --epsilon 0.1
+
+A set is (k, epsilon)-covering if any k discrete parameters show all their combinations, and for each of its rows the
+continuous points leave no empty box of volume above epsilon.";
+
+/// What `plan` takes.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true))]
+pub(super) struct Options {
+    /// The space of the tests
+    #[arg(long, value_name = "SPACE.toml", group = "of")]
+    space: Option<PathBuf>,
+    /// The unit cube of that many dimensions
+    #[arg(long, value_name = "D", group = "of")]
+    dims: Option<usize>,
+    /// How many discrete parameters are covered together [default: 2]
+    #[arg(long, value_name = "K")]
+    k: Option<usize>,
+    /// The largest volume of a box without a test, as a share of the continuous parameters' space
+    #[arg(long, value_name = "E", default_value_t = 0.1)]
+    epsilon: f64,
+    /// The probability with which a random set may fail
+    #[arg(long, value_name = "D", default_value_t = 0.05)]
+    delta: f64,
+    /// Time that the measuring may take, all together
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
+    time_limit: f64,
+    /// How to print it [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
+        let space = match (&self.space, self.dims.unwrap_or(0)) {
+            (Some(path), _) => read_space(path)?,
+            (None, dims) => {
+                check_size(1, dims)?;
+                Space::unit_cube(dims)
+            }
+        };
+        let plan = Plan::of(&space, self.k, self.epsilon, self.delta, time_limit(self.time_limit)?)?;
+        if space.dims() > 3 {
+            verbosity.note("above three dimensions the a-priori bounds are useless: rely on what was measured");
+        }
+        print(&match Format::or_fitting(self.format) {
+            Format::Json => json(&plan),
+            Format::Table => table(&plan, space.dims()),
+        })
+    }
+}
+
+fn table(plan: &Plan, dims: usize) -> String {
+    let mut table = Table::default();
+    let Plan { k, epsilon, delta, rows, points, tests } = plan;
+    if let (Some(rows), Some(k)) = (rows, k) {
+        table.heading(&format!("rows that cover the discrete parameters {k}-wise, delta {delta}"));
+        needs(&mut table, rows);
+    }
+    if let Some(points) = points {
+        table.heading(&format!("points in {dims} dimensions with a dispersion of at most {epsilon}, delta {delta}"));
+        needs(&mut table, points);
+    }
+    if let Some(tests) = tests {
+        table.heading("tests that do both, every row with points of its own");
+        needs(&mut table, tests);
+    }
+    table.finish()
+}
+
+fn needs(table: &mut Table, needs: &[Need]) {
+    let width = needs.iter().map(|need| need.of.len()).max().unwrap_or(0);
+    for Need { of, tests, over, guarantee } in needs {
+        let tests = match (tests, over) {
+            (Some(tests), _) => tests.to_string(),
+            (None, Some(over)) => format!("over {over}"),
+            (None, None) => "over 10^19".to_owned(),
+        };
+        let guarantee = match over {
+            Some(_) => "measured until the time limit",
+            None => guarantee.words(),
+        };
+        table.line(&format!("{of:<width$}  {tests:>20}  {guarantee}"));
+    }
+}

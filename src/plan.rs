@@ -1,0 +1,269 @@
+//! How many tests a guarantee asks for, before any is run: what `paracosm-cover plan` prints.
+//!
+//! A bound that is proved, a probability and a measurement are different things. Every number here says which it is, and
+//! numbers of two halves are only joined into one that claims no more than either.
+
+use crate::Error;
+use paracosm_coverage::dispersion::is_at_most;
+use paracosm_coverage::theory::{points, rows};
+use paracosm_coverage::{Deadline, PointSet, Space};
+use paracosm_generators::{Generator, Request, Strategy};
+use serde::{Serialize, Serializer};
+use std::time::Duration;
+
+/// What a number of tests is good for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Guarantee {
+    /// Proved: no smaller set can do it, whatever its tests.
+    NeededByAny,
+    /// Proved of this set.
+    Proved,
+    /// So many random tests do it with this probability or a higher one.
+    Probable,
+    /// Measured: so many tests of this strategy do it, and one fewer does not.
+    Measured,
+    /// Worked out from measured numbers, but not measured as a whole.
+    Estimated,
+}
+
+impl Guarantee {
+    /// The guarantee in words, as it is printed.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::NeededByAny => "needed by any set",
+            Self::Proved => "proved for this set",
+            Self::Probable => "with probability 1-delta",
+            Self::Measured => "measured",
+            Self::Estimated => "estimated from measured",
+        }
+    }
+}
+
+impl Serialize for Guarantee {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.words())
+    }
+}
+
+/// A number of tests with what it guarantees.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Need {
+    /// The tests in question.
+    pub of: String,
+    /// How many; `None` where they cannot be counted in 64 bits, or were not measured in time.
+    pub tests: Option<u64>,
+    /// So many are not enough: what a measurement knew when its time was up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub over: Option<u64>,
+    /// What is known about that number.
+    pub guarantee: Guarantee,
+}
+
+/// How many tests each guarantee of a (k, epsilon)-covering set asks for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Plan {
+    /// How many discrete parameters are to be covered together.
+    pub k: Option<usize>,
+    /// The dispersion that is not to be exceeded for any row.
+    pub epsilon: f64,
+    /// How improbable a failure of a random set is to be.
+    pub delta: f64,
+    /// Rows that cover the discrete parameters k-wise; `None` where the space has none.
+    pub rows: Option<Vec<Need>>,
+    /// Points that leave no hole above epsilon in the continuous parameters; `None` where the space has none.
+    pub points: Option<Vec<Need>>,
+    /// Tests that do both, each row with points of its own; `None` where one half is all.
+    pub tests: Option<Vec<Need>>,
+}
+
+/// The strategies that are measured: a longer beginning of each is never worse.
+const MEASURED: [Strategy; 3] = [Strategy::Halton, Strategy::Sobol, Strategy::Greedy];
+
+/// More points than this are not measured.
+const MOST_MEASURED: usize = 1 << 20;
+
+impl Plan {
+    /// The plan for a space. The measuring may take as long as `limit`, all together.
+    ///
+    /// # Errors
+    /// The space is empty, `k` is not in 1 to the number of discrete parameters, or epsilon or delta not in (0, 1).
+    pub fn of(space: &Space, k: Option<usize>, epsilon: f64, delta: f64, limit: Duration) -> Result<Self, Error> {
+        for (name, share) in [("epsilon", epsilon), ("delta", delta)] {
+            if !(share > 0.0 && share < 1.0) {
+                return Err(Error::Usage(format!("{name} is {share}, expected a number above 0 and below 1")));
+            }
+        }
+        if space.parameters().is_empty() {
+            return Err(Error::Usage("the space has no parameters, so there is nothing to plan".into()));
+        }
+        let (dims, levels) = (space.dims(), space.levels());
+        let k = match (k, levels.len()) {
+            (None, parameters) => parameters.min(2),
+            (Some(k), parameters) if (1..=parameters).contains(&k) => k,
+            (Some(_), 0) => return Err(Error::Usage("--k is for discrete parameters, of which there are none".into())),
+            (Some(k), parameters) => {
+                let message = format!("k is {k}, expected 1 to {parameters}, the number of discrete parameters");
+                return Err(Error::Usage(message));
+            }
+        };
+        let rows = (!levels.is_empty()).then(|| rows_needed(&levels, k, delta));
+        let points = if dims == 0 { None } else { Some(points_needed(dims, epsilon, delta, limit)?) };
+        let tests = rows.as_ref().zip(points.as_ref()).map(|(rows, points)| joined(rows, points));
+        Ok(Self { k: (!levels.is_empty()).then_some(k), epsilon, delta, rows, points, tests })
+    }
+}
+
+/// How many rows cover discrete parameters k-wise.
+fn rows_needed(levels: &[usize], k: usize, delta: f64) -> Vec<Need> {
+    let mut sorted = levels.to_vec();
+    sorted.sort_unstable_by(|a, b| b.cmp(a));
+    let product = |levels: &[usize]| levels.iter().try_fold(1u64, |product, &v| product.checked_mul(v as u64));
+    let random = |name: &str, tests| Need {
+        of: format!("random rows, {name}"),
+        tests,
+        over: None,
+        guarantee: Guarantee::Probable,
+    };
+    let countable = |tests| (tests < u64::MAX).then_some(tests);
+    let mut needs = vec![
+        Need { of: "any rows".into(), tests: product(&sorted[..k]), over: None, guarantee: Guarantee::NeededByAny },
+        Need { of: "all combinations".into(), tests: product(levels), over: None, guarantee: Guarantee::Proved },
+    ];
+    if levels.iter().all(|&v| v == 2) {
+        needs.push(random("Proposition 3.2", countable(rows::random_family_size(levels, k, delta))));
+    }
+    needs.push(random("union bound", countable(rows::union_bound(levels, k, delta))));
+    needs
+}
+
+/// How many points have a dispersion of at most epsilon.
+fn points_needed(dims: usize, epsilon: f64, delta: f64, limit: Duration) -> Result<Vec<Need>, Error> {
+    let need = |of: &str, tests, guarantee| Need { of: of.to_owned(), tests, over: None, guarantee };
+    let mut needs = vec![
+        need("any points", points::needed_by_any_set(dims, epsilon), Guarantee::NeededByAny),
+        need("halton, a-priori bound", points::enough_of_halton(dims, epsilon), Guarantee::Proved),
+        need("hammersley, a-priori bound", points::enough_of_hammersley(dims, epsilon), Guarantee::Proved),
+        need("sobol, a-priori bound", points::enough_of_sobol(dims, epsilon), Guarantee::Proved),
+        need("random, a-priori bound", points::enough_at_random(dims, epsilon, delta), Guarantee::Probable),
+    ];
+    let deadline = Deadline::after(limit);
+    for (i, strategy) in MEASURED.into_iter().enumerate().filter(|(_, strategy)| strategy.dims().contains(&dims)) {
+        let share = 1.0 / (MEASURED.len() - i) as f64;
+        let (tests, over) = match enough_of(strategy, dims, epsilon, deadline.part(share))? {
+            Enough::Least(tests) => (Some(tests), None),
+            Enough::Over(tests) => (None, Some(tests)),
+        };
+        needs.push(Need { over, ..need(strategy.name(), tests, Guarantee::Measured) });
+    }
+    Ok(needs)
+}
+
+/// How many points are enough.
+enum Enough {
+    /// So many, and no fewer.
+    Least(u64),
+    /// More than so many.
+    Over(u64),
+}
+
+/// With how many points a strategy begins that have a dispersion of at most epsilon.
+fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) -> Result<Enough, Error> {
+    let space = Space::unit_cube(dims);
+    let mut generator = strategy.build(&Request::new(&space, MOST_MEASURED))?;
+    let mut all = Vec::new();
+    let mut is_enough = |n: usize, generator: &mut dyn Generator| -> Result<Option<bool>, Error> {
+        while all.len() < n {
+            if deadline.passed() {
+                return Ok(None);
+            }
+            all.extend(generator.ask((n - all.len()).min(64)));
+        }
+        let points = PointSet::new(dims, all[..n].iter().map(|point| &point.continuous))?;
+        Ok(is_at_most(&points, epsilon, deadline))
+    };
+    // Longer beginnings are never worse: double until one is enough, then halve the distance.
+    let (mut short, mut long) = (0, 1);
+    loop {
+        match is_enough(long, generator.as_mut())? {
+            Some(true) => break,
+            Some(false) if long < MOST_MEASURED => (short, long) = (long, 2 * long),
+            _ => return Ok(Enough::Over(short as u64)),
+        }
+    }
+    while long - short > 1 {
+        let middle = short + (long - short) / 2;
+        match is_enough(middle, generator.as_mut())? {
+            Some(true) => long = middle,
+            Some(false) => short = middle,
+            None => return Ok(Enough::Over(short as u64)),
+        }
+    }
+    Ok(Enough::Least(long as u64))
+}
+
+/// Every row with points of its own: the fewest tests of each guarantee.
+fn joined(rows: &[Need], points: &[Need]) -> Vec<Need> {
+    let fewest = |needs: &[Need], guarantee: Guarantee| {
+        let known = needs.iter().filter(|need| need.guarantee == guarantee);
+        known.filter(|need| need.tests.is_some()).min_by_key(|need| need.tests).cloned()
+    };
+    let pair = |of_rows, of_points, guarantee| {
+        let (row, point) = (fewest(rows, of_rows)?, fewest(points, of_points)?);
+        let tests = row.tests.zip(point.tests).and_then(|(rows, points)| rows.checked_mul(points));
+        let of = match guarantee {
+            Guarantee::NeededByAny => "any tests".to_owned(),
+            _ => format!("{} x {}", row.of, point.of),
+        };
+        Some(Need { of, tests, over: None, guarantee })
+    };
+    use Guarantee::{Estimated, Measured, NeededByAny, Probable, Proved};
+    let pairs = [
+        pair(NeededByAny, NeededByAny, NeededByAny),
+        pair(Proved, Proved, Proved),
+        pair(Probable, Proved, Probable),
+        // The points of one row were measured; those of the others are others.
+        pair(Probable, Measured, Estimated),
+        pair(Proved, Measured, Estimated),
+    ];
+    pairs.into_iter().flatten().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMIT: Duration = Duration::from_secs(600);
+
+    fn tests_of(needs: &[Need], of: &str) -> Option<u64> {
+        needs.iter().find(|need| need.of == of).unwrap_or_else(|| panic!("no {of}")).tests
+    }
+
+    #[test]
+    fn measured_numbers_are_the_least_that_do_and_lie_between_the_bounds() {
+        let points = points_needed(3, 0.1, 0.05, LIMIT).unwrap();
+        let space = Space::unit_cube(3);
+        for strategy in MEASURED {
+            let n = tests_of(&points, strategy.name()).unwrap();
+            assert!(n >= tests_of(&points, "any points").unwrap(), "{strategy}");
+            let all = strategy.build(&Request::new(&space, n as usize)).unwrap().ask(n as usize);
+            let set = |n: usize| PointSet::new(3, all[..n].iter().map(|point| &point.continuous)).unwrap();
+            assert_eq!(is_at_most(&set(n as usize), 0.1, Deadline::never()), Some(true), "{strategy}");
+            assert_eq!(is_at_most(&set(n as usize - 1), 0.1, Deadline::never()), Some(false), "{strategy}");
+        }
+        assert!(tests_of(&points, "halton") < tests_of(&points, "halton, a-priori bound"));
+    }
+
+    #[test]
+    fn the_reference_s_example_of_five_dimensions_comes_out() {
+        let points = points_needed(5, 0.1, 0.05, LIMIT).unwrap();
+        assert_eq!(tests_of(&points, "halton, a-priori bound"), Some(739_200));
+        assert_eq!(tests_of(&points, "halton"), Some(141));
+    }
+
+    #[test]
+    fn what_was_not_measured_in_time_is_unknown() {
+        let points = points_needed(6, 0.01, 0.05, Duration::ZERO).unwrap();
+        assert_eq!(tests_of(&points, "halton"), None);
+        assert_eq!(tests_of(&points, "any points"), Some(120));
+    }
+}

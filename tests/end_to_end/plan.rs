@@ -1,0 +1,45 @@
+//! `paracosm-cover plan` as a user gives it.
+
+use crate::common::{cover, golden, refused, stderr, stdout, succeeds};
+use std::fs;
+
+const SPACE: &str = "\
+[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
+[[parameter]]\nname = \"distance\"\ninterval = [5, 60]\n\
+[[parameter]]\nname = \"lanes\"\nchoice = [2, 4]\n\
+[[parameter]]\nname = \"lit\"\nchoice = [\"no\", \"yes\"]\n\
+[[parameter]]\nname = \"wet\"\nchoice = [\"no\", \"yes\"]\n";
+
+#[test]
+fn a_plan_says_of_every_number_what_it_guarantees() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
+    let plan = ["plan", "--space", "SPACE.toml", "--k", "2", "--epsilon", "0.1", "--delta", "0.05"];
+    golden("plan.txt", &stdout(&succeeds(cover(dir.path(), &[&plan[..], &["--format", "table"]].concat()))));
+    golden("plan.json", &stdout(&succeeds(cover(dir.path(), &plan))));
+}
+
+#[test]
+fn beyond_three_dimensions_one_is_told_to_rely_on_what_was_measured() {
+    let dir = tempfile::tempdir().unwrap();
+    let plan = |dims: &str| succeeds(cover(dir.path(), &["plan", "--dims", dims, "--epsilon", "0.2"]));
+    assert_eq!(stderr(&plan("3")), "");
+    assert!(stderr(&plan("4")).contains("rely on what was measured"));
+}
+
+#[test]
+fn what_cannot_be_planned_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
+    let cases: [(&[&str], &[&str]); 6] = [
+        (&[], &["--space <SPACE.toml>|--dims <D>"]),
+        (&["--dims", "0"], &["no parameters"]),
+        (&["--dims", "2", "--k", "2"], &["--k is for discrete parameters"]),
+        (&["--space", "SPACE.toml", "--k", "4"], &["k is 4", "1 to 3"]),
+        (&["--dims", "2", "--epsilon", "1"], &["epsilon is 1", "above 0 and below 1"]),
+        (&["--dims", "2", "--delta", "nan"], &["delta is NaN", "above 0 and below 1"]),
+    ];
+    for (arguments, says) in cases {
+        refused(&cover(dir.path(), &[&["plan"], arguments].concat()), says);
+    }
+}
