@@ -108,9 +108,9 @@ fn totient(mut n: u64) -> u64 {
     let mut coprime = n;
     let mut factor = 2;
     while factor * factor <= n {
-        if n % factor == 0 {
+        if n.is_multiple_of(factor) {
             coprime -= coprime / factor;
-            while n % factor == 0 {
+            while n.is_multiple_of(factor) {
                 n /= factor;
             }
         }
