@@ -51,6 +51,27 @@ fn plain_points_equal_the_reference_points() {
 }
 
 #[test]
+fn plain_points_equal_those_of_scipy_in_many_dimensions_and_far_into_the_sequence() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/qmc_points.json");
+    let text = fs::read_to_string(path).expect("the reference data");
+    let reference: serde_json::Value = serde_json::from_str(&text).expect("valid JSON");
+    let sets = reference["sets"].as_array().expect("a list of sets");
+    assert_eq!(sets.len(), 3);
+    for set in sets {
+        let strategy: Strategy = set["strategy"].as_str().expect("a name").parse().expect("a strategy");
+        let dims = set["dims"].as_u64().expect("a number") as usize;
+        for (index, theirs) in set["points"].as_object().expect("points by index") {
+            let theirs: Vec<f64> = serde_json::from_value(theirs.clone()).expect("a point");
+            let ours = points_from(strategy, dims, 1, None, Some(index.parse().expect("an index")));
+            assert_eq!(theirs.len(), dims);
+            for (ours, theirs) in ours[0].iter().zip(&theirs) {
+                assert!((ours - theirs).abs() <= 1e-15, "{strategy} {index}: {ours} is not {theirs}");
+            }
+        }
+    }
+}
+
+#[test]
 fn kronecker_equals_the_points_of_its_author() {
     // z = (0.5 + g^-(j+1) i) % 1 from i = 1, as published.
     let expected =
