@@ -1,10 +1,10 @@
 //! How well tests cover their space: what `paracosm-cover estimate` prints.
 
 use crate::Error;
-use paracosm_coverage::dispersion::{LargestEmptyBox, dispersion};
+use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox, dispersion};
 use paracosm_coverage::extreme::extreme_discrepancy;
 use paracosm_coverage::kwise::kwise_coverage;
-use paracosm_coverage::kwise_dispersion::kwise_dispersion;
+use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion};
 use paracosm_coverage::star::star_discrepancy;
 use paracosm_coverage::{Bracket, Deadline, Parameter, Point, PointSet, Record, Space, Value};
 use paracosm_coverage::{did_you_mean, l2, nearest};
@@ -178,6 +178,14 @@ pub struct KwiseWorst {
     pub empty_box: Record<[f64; 2]>,
 }
 
+/// The holes behind a report, in coordinates.
+#[derive(Debug, Default)]
+pub(crate) struct Holes {
+    pub dispersion: Option<Dispersion>,
+    /// With how many parameters were looked at together.
+    pub k_wise: Option<(usize, KwiseDispersion)>,
+}
+
 impl Tests {
     /// Measures how well the tests cover their space: `k` parameters at a time, where that matters (where nothing is
     /// said, as the tests were made to; else 2, or as many as there are), and all that takes long within a time limit.
@@ -185,13 +193,25 @@ impl Tests {
     /// # Errors
     /// There are not `k` parameters, or too many combinations of them to count.
     pub fn measure(&self, measures: &[Measure], k: Option<usize>, limit: Option<Duration>) -> Result<Coverage, Error> {
+        Ok(self.measure_holes(measures, k, limit)?.0)
+    }
+
+    /// [`Tests::measure`], with the holes as they were found.
+    pub(crate) fn measure_holes(
+        &self,
+        measures: &[Measure],
+        k: Option<usize>,
+        limit: Option<Duration>,
+    ) -> Result<(Coverage, Holes), Error> {
         let parameters = self.space.parameters().len();
         let k = k.or(self.k).unwrap_or(parameters.min(2));
         if !(1..=parameters).contains(&k) {
             return Err(Error::Usage(format!("k is {k}, expected 1 to {parameters}, the number of parameters")));
         }
         let mut clock = Clock::new(limit, measures);
-        let continuous = if self.space.dims() == 0 { None } else { Some(self.continuous(measures, &mut clock)?) };
+        let mut holes = Holes::default();
+        let continuous =
+            if self.space.dims() == 0 { None } else { Some(self.continuous(measures, &mut clock, &mut holes)?) };
         let levels = self.space.levels();
         let discrete = if levels.is_empty() || !measures.contains(&Measure::KWise) {
             None
@@ -199,24 +219,32 @@ impl Tests {
             Some(self.discrete(k.min(levels.len()), &levels)?)
         };
         let k_wise_dispersion = if measures.contains(&Measure::KWiseDispersion) {
-            Some(self.kwise_hole(k, &levels, clock.next())?)
+            let found = kwise_dispersion(self.space.dims(), &levels, &self.points, k, clock.next())?;
+            let worst = self.place(&found.fixed, &found.axes, found.witness.as_ref());
+            let volume = found.volume;
+            holes.k_wise = Some((k, found));
+            Some(KwiseHole { k, volume, worst })
         } else {
             None
         };
-        Ok(Coverage { tests: self.points.len(), continuous, discrete, k_wise_dispersion })
+        Ok((Coverage { tests: self.points.len(), continuous, discrete, k_wise_dispersion }, holes))
     }
 
-    fn kwise_hole(&self, k: usize, levels: &[usize], deadline: Deadline) -> Result<KwiseHole, Error> {
-        let found = kwise_dispersion(self.space.dims(), levels, &self.points, k, deadline)?;
+    /// The place of a hole, as values.
+    pub(crate) fn place(
+        &self,
+        fixed: &[(usize, usize)],
+        axes: &[usize],
+        witness: Option<&LargestEmptyBox>,
+    ) -> KwiseWorst {
         let discrete: Vec<&Parameter> = self.space.discrete().collect();
         let continuous: Vec<&Parameter> = self.space.continuous().collect();
-        let fixed = found.fixed.iter().map(|&(parameter, level)| named_level(&discrete, parameter, level)).collect();
-        let axes = found.axes.iter().map(|&axis| continuous[axis]);
-        let empty_box = found.witness.map(|witness| sides(axes, &witness)).unwrap_or_default();
-        Ok(KwiseHole { k, volume: found.volume, worst: KwiseWorst { fixed, empty_box } })
+        let fixed = fixed.iter().map(|&(parameter, level)| named_level(&discrete, parameter, level)).collect();
+        let axes = axes.iter().map(|&axis| continuous[axis]);
+        KwiseWorst { fixed, empty_box: witness.map(|witness| sides(axes, witness)).unwrap_or_default() }
     }
 
-    fn continuous(&self, measures: &[Measure], clock: &mut Clock) -> Result<Continuous, Error> {
+    fn continuous(&self, measures: &[Measure], clock: &mut Clock, holes: &mut Holes) -> Result<Continuous, Error> {
         let points = PointSet::new(self.space.dims(), self.points.iter().map(|point| &point.continuous))?;
         let asked = |measure| measures.contains(&measure);
         let parameters: Vec<&Parameter> = self.space.continuous().collect();
@@ -230,7 +258,9 @@ impl Tests {
             dispersion: asked(Measure::Dispersion).then(|| {
                 let found = dispersion(&points, clock.next());
                 let largest_empty_box = sides(parameters.iter().copied(), &found.witness);
-                Hole { volume: found.volume, largest_empty_box }
+                let volume = found.volume;
+                holes.dispersion = Some(found);
+                Hole { volume, largest_empty_box }
             }),
             star_discrepancy: asked(Measure::Star).then(|| star_discrepancy(&points, clock.next())),
             extreme_discrepancy: asked(Measure::Extreme).then(|| extreme_discrepancy(&points, clock.next())),

@@ -20,6 +20,7 @@
 //! ```
 
 mod campaign;
+mod certificate;
 mod error;
 mod estimate;
 mod executor;
@@ -36,6 +37,7 @@ mod trial;
 pub mod cli;
 
 pub use campaign::{Campaign, simulate_trial};
+pub use certificate::{Certificate, Choice, Claim, Interval, Witness};
 pub use error::Error;
 pub use estimate::{Continuous, Coverage, Discrete, Hole, KwiseHole, KwiseWorst, Measure, Tests};
 pub use folder::Folder;
