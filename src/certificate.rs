@@ -6,11 +6,13 @@
 //! `tests/check_certificate.py`, which shares nothing with this software, checks it.
 
 use crate::estimate::{Holes, KwiseWorst};
+use crate::folder::write_whole;
 use crate::{Coverage, Error, Measure, Tests};
 use paracosm_coverage::dispersion::LargestEmptyBox;
 use paracosm_coverage::proof::{Budget, Proof, Scope, prove};
-use paracosm_coverage::{Bracket, Deadline, Value};
+use paracosm_coverage::{Bracket, Deadline, Parameter, Value};
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// The version of the form of certificates.
@@ -18,6 +20,9 @@ const FORMAT: u32 = 1;
 
 /// How many pivots the proofs of one claim may have: some 30 MB of them.
 const MOST_PIVOTS: usize = 5_000_000;
+
+/// By how much, as a share, a bound may be above what was measured without being called another one.
+const ROUNDING: f64 = 1e-9;
 
 /// The share of a time limit that the measures have before proofs are looked for.
 const MEASURING: f64 = 0.5;
@@ -72,7 +77,7 @@ pub struct Claim {
     pub witness: Option<Witness>,
     /// No hole is larger.
     pub upper: f64,
-    /// Why the upper bound is not the one that was measured, if it is not.
+    /// Why the upper bound is larger than the one that was measured, if it is.
     pub note: Option<String>,
     /// The proofs of the upper bound, one for each projection; none where it is 1.
     pub proofs: Vec<Proof>,
@@ -100,6 +105,28 @@ struct Measured {
     fixed: Vec<(usize, usize)>,
     axes: Vec<usize>,
     witness: Option<LargestEmptyBox>,
+}
+
+impl Certificate {
+    /// Writes it to a file, whole or not at all.
+    ///
+    /// # Errors
+    /// The file cannot be written, or exists.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        Self::is_new(path)?;
+        let mut text = serde_json::to_vec(self).expect("a certificate is always JSON");
+        text.push(b'\n');
+        write_whole(path, &text)
+    }
+
+    /// Checks that a file does not exist yet.
+    pub(crate) fn is_new(path: &Path) -> Result<(), Error> {
+        if path.exists() {
+            let message = format!("{} exists; a certificate does not replace a file", path.display());
+            return Err(Error::Usage(message));
+        }
+        Ok(())
+    }
 }
 
 impl Tests {
@@ -130,14 +157,8 @@ impl Tests {
             self.claim(measured, deadline)
         });
         let claims = claims.collect::<Result<_, _>>()?;
-        let interval = |p: &paracosm_coverage::Parameter| Interval {
-            name: p.name.clone(),
-            interval: [0.0, 1.0].map(|u| p.value_at(u)),
-        };
-        let choice = |p: &paracosm_coverage::Parameter| Choice {
-            name: p.name.clone(),
-            values: p.levels().unwrap_or_default().to_vec(),
-        };
+        let interval = |p: &Parameter| Interval { name: p.name.clone(), interval: [0.0, 1.0].map(|u| p.value_at(u)) };
+        let choice = |p: &Parameter| Choice { name: p.name.clone(), values: p.levels().unwrap_or_default().to_vec() };
         let certificate = Certificate {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -150,6 +171,7 @@ impl Tests {
         Ok((coverage, certificate))
     }
 
+    /// What there is to prove, the harder part last, which has all the time that is left.
     fn measured(&self, holes: Holes) -> Vec<Measured> {
         let whole = holes.dispersion.map(|found| Measured {
             scope: Scope::Continuous,
@@ -165,17 +187,18 @@ impl Tests {
             axes: found.axes,
             witness: found.witness,
         });
-        whole.into_iter().chain(k_wise).collect()
+        k_wise.into_iter().chain(whole).collect()
     }
 
     fn claim(&self, measured: Measured, deadline: Deadline) -> Result<Claim, Error> {
         let Measured { scope, volume, fixed, axes, witness } = measured;
         let budget = Budget { pivots: MOST_PIVOTS, deadline };
         let proved = prove(self.space.dims(), &self.space.levels(), &self.points, scope, volume, budget)?;
-        let weaker = proved.upper > volume.upper * (1.0 + 1e-9);
+        let weaker = proved.upper > volume.upper * (1.0 + ROUNDING) || (proved.upper >= 1.0 && volume.lower < 1.0);
         let note = weaker.then(|| {
             format!(
-                "{} was measured, but a proof of that was not found within {MOST_PIVOTS} pivots and the time limit",
+                "the volume was found to be at most {}; no proof of that was found within {MOST_PIVOTS} boxes and the time \
+                 limit",
                 volume.upper
             )
         });

@@ -20,7 +20,7 @@
 //! ```
 
 mod campaign;
-mod certificate;
+pub mod certificate;
 mod error;
 mod estimate;
 mod executor;
@@ -37,7 +37,6 @@ mod trial;
 pub mod cli;
 
 pub use campaign::{Campaign, simulate_trial};
-pub use certificate::{Certificate, Choice, Claim, Interval, Witness};
 pub use error::Error;
 pub use estimate::{Continuous, Coverage, Discrete, Hole, KwiseHole, KwiseWorst, Measure, Tests};
 pub use folder::Folder;

@@ -16,10 +16,10 @@
 //! tests. Where none of the parameters is continuous, a box has no sides, its volume is that of a product without factors,
 //! 1, and any selected test is a pivot that leaves nothing of it: the same rules hold.
 
+use crate::bracket::Watch;
 use crate::dispersion::trail;
 use crate::kwise::KwiseError;
 use crate::kwise_dispersion::{Projection, Projections};
-use crate::bracket::Watch;
 use crate::{Bracket, Deadline, Point};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -27,9 +27,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// By how much, as a share, a bound is larger than the volumes that need no pivot.
 pub const MARGIN: f64 = 1e-12;
-
-/// The largest number of projections that are proved one by one.
-const MOST_PROJECTIONS: usize = 1_000_000;
 
 /// How many bounds are tried where the one that is known asks for too much, or is not known to be the least.
 const ATTEMPTS: usize = 10;
@@ -102,10 +99,11 @@ pub fn prove(
     let projections: Vec<Projection> = match scope {
         Scope::Continuous if dims == 0 => return Err(KwiseError::Strength { k: 0, parameters: 0 }),
         Scope::Continuous => vec![Projection { fixed: Vec::new(), axes: (0..dims).collect() }],
-        Scope::Every(k) => Projections::new(dims, levels, k)?.take(MOST_PROJECTIONS + 1).collect(),
+        // Each needs a pivot.
+        Scope::Every(k) => Projections::new(dims, levels, k)?.take(budget.pivots.saturating_add(1)).collect(),
     };
     let mut proved = Proved { upper: 1.0, proofs: Vec::new() };
-    if projections.len() > MOST_PROJECTIONS {
+    if projections.len() > budget.pivots {
         return Ok(proved);
     }
     // Nothing below this can be proved: along an axis, n tests leave a gap of 1 / (n + 1).
@@ -143,8 +141,7 @@ fn all(projections: &[Projection], tests: &[Point], upper: f64, budget: Budget) 
         }
         let selected: Vec<usize> = (0..tests.len()).filter(|&test| projection.selects(&tests[test])).collect();
         let mut watch = Watch::new(budget.deadline);
-        let mut go_on =
-            |work| taken.fetch_add(1, Ordering::Relaxed) < budget.pivots && !watch.passed_after(work);
+        let mut go_on = |work| taken.fetch_add(1, Ordering::Relaxed) < budget.pivots && !watch.passed_after(work);
         let pivots = if projection.axes.is_empty() {
             selected.first().filter(|_| go_on(1)).map(|&test| vec![test])
         } else {

@@ -1,5 +1,6 @@
 //! The program `paracosm-cover`: how well tests cover a space.
 
+use super::certificate;
 use super::output::{Format, Table, json};
 use super::{Failure, Verbosity, print};
 use crate::coverage::{Parameter, Space};
@@ -16,6 +17,7 @@ Examples:
   paracosm-cover estimate points.csv                 columns in [0,1], one row a test
   paracosm-cover estimate tests.csv --space SPACE.toml --k 2
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
+  paracosm-cover estimate tests.csv --certificate proof.json
 
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
@@ -58,6 +60,10 @@ struct Estimate {
     /// Time that the measuring may take, all together; what does not finish comes back as a bracket
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
+    /// Write a certificate of dispersion and k-wise dispersion, witnesses and proofs as JSON, to a file that does not
+    /// exist yet
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// Measure a point set of this strategy instead of tests in a file
     #[arg(long, value_name = "S", requires_all = ["dims", "budget"])]
     strategy: Option<String>,
@@ -91,6 +97,7 @@ impl Estimate {
         let limit = Duration::try_from_secs_f64(self.time_limit).map_err(|_| {
             Error::Usage(format!("--time-limit {}: expected a number of seconds from 0 on", self.time_limit))
         })?;
+        self.certificate.as_deref().map_or(Ok(()), certificate::is_new)?;
         let (tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read()?,
@@ -100,7 +107,10 @@ impl Estimate {
             let names: Vec<&str> = measures.iter().map(|measure| measure.name()).collect();
             verbosity.note(format_args!("measuring {} of {} tests", names.join(", "), tests.points.len()));
         }
-        let coverage = tests.measure(&measures, self.k, Some(limit))?;
+        let coverage = match &self.certificate {
+            None => tests.measure(&measures, self.k, Some(limit))?,
+            Some(file) => certificate::write(file, &tests, &measures, self.k, limit, verbosity)?,
+        };
         print(&match Format::or_fitting(self.format) {
             Format::Json => json(&coverage),
             Format::Table => {
