@@ -1,10 +1,10 @@
 //! How well tests cover their space: what `paracosm-cover estimate` prints.
 
 use crate::Error;
-use paracosm_coverage::dispersion::{LargestEmptyBox, dispersion_watched};
+use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox, dispersion_watched};
 use paracosm_coverage::extreme::extreme_discrepancy;
 use paracosm_coverage::kwise::kwise_coverage;
-use paracosm_coverage::kwise_dispersion::kwise_dispersion;
+use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion};
 use paracosm_coverage::star::star_discrepancy;
 use paracosm_coverage::{Bracket, Deadline, Parameter, Point, PointSet, Record, Space, Value};
 use paracosm_coverage::{did_you_mean, l2, nearest};
@@ -91,6 +91,9 @@ impl FromStr for Measure {
         })
     }
 }
+
+/// What is told who watches a measurement: the measure at work, and its bracket by now.
+pub type Watch<'a> = dyn FnMut(Measure, Option<Bracket>) + 'a;
 
 /// How well a set of tests covers its space. Measures that were not asked for are absent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -198,6 +201,14 @@ pub struct KwiseWorst {
     pub empty_box: Record<[f64; 2]>,
 }
 
+/// The holes behind a report, in coordinates.
+#[derive(Debug, Default)]
+pub(crate) struct Holes {
+    pub dispersion: Option<Dispersion>,
+    /// With how many parameters were looked at together.
+    pub k_wise: Option<(usize, KwiseDispersion)>,
+}
+
 impl Tests {
     /// Measures how well the tests cover their space: `k` parameters at a time, where that matters (where nothing is
     /// said, as the tests were made to; else 2, or as many as there are), and all that takes long within a time limit.
@@ -218,16 +229,30 @@ impl Tests {
         measures: &[Measure],
         k: Option<usize>,
         limit: Option<Duration>,
-        watch: &mut dyn FnMut(Measure, Option<Bracket>),
+        watch: &mut Watch,
     ) -> Result<Coverage, Error> {
+        Ok(self.measure_holes(measures, k, limit, watch)?.0)
+    }
+
+    /// [`Tests::measure_watched`], with the holes as they were found.
+    pub(crate) fn measure_holes(
+        &self,
+        measures: &[Measure],
+        k: Option<usize>,
+        limit: Option<Duration>,
+        watch: &mut Watch,
+    ) -> Result<(Coverage, Holes), Error> {
         let parameters = self.space.parameters().len();
         let k = k.or(self.k).unwrap_or(parameters.min(2));
         if !(1..=parameters).contains(&k) {
             return Err(Error::Usage(format!("k is {k}, expected 1 to {parameters}, the number of parameters")));
         }
         let mut clock = Clock::new(limit, measures);
-        let continuous =
-            if self.space.dims() == 0 { None } else { Some(self.continuous(measures, &mut clock, watch)?) };
+        let mut holes = Holes::default();
+        let continuous = match self.space.dims() {
+            0 => None,
+            _ => Some(self.continuous(measures, &mut clock, &mut holes, watch)?),
+        };
         let levels = self.space.levels();
         let discrete = if levels.is_empty() || !measures.contains(&Measure::KWise) {
             None
@@ -237,28 +262,37 @@ impl Tests {
         };
         let k_wise_dispersion = if measures.contains(&Measure::KWiseDispersion) {
             watch(Measure::KWiseDispersion, None);
-            Some(self.kwise_hole(k, &levels, clock.next())?)
+            let found = kwise_dispersion(self.space.dims(), &levels, &self.points, k, clock.next())?;
+            let worst = self.place(&found.fixed, &found.axes, found.witness.as_ref());
+            let volume = found.volume;
+            holes.k_wise = Some((k, found));
+            Some(KwiseHole { k, volume, worst })
         } else {
             None
         };
-        Ok(Coverage { tests: self.points.len(), continuous, discrete, k_wise_dispersion })
+        Ok((Coverage { tests: self.points.len(), continuous, discrete, k_wise_dispersion }, holes))
     }
 
-    fn kwise_hole(&self, k: usize, levels: &[usize], deadline: Deadline) -> Result<KwiseHole, Error> {
-        let found = kwise_dispersion(self.space.dims(), levels, &self.points, k, deadline)?;
+    /// The place of a hole, as values.
+    pub(crate) fn place(
+        &self,
+        fixed: &[(usize, usize)],
+        axes: &[usize],
+        witness: Option<&LargestEmptyBox>,
+    ) -> KwiseWorst {
         let discrete: Vec<&Parameter> = self.space.discrete().collect();
         let continuous: Vec<&Parameter> = self.space.continuous().collect();
-        let fixed = found.fixed.iter().map(|&(parameter, level)| named_level(&discrete, parameter, level)).collect();
-        let axes = found.axes.iter().map(|&axis| continuous[axis]);
-        let empty_box = found.witness.map(|witness| sides(axes, &witness)).unwrap_or_default();
-        Ok(KwiseHole { k, volume: found.volume, worst: KwiseWorst { fixed, empty_box } })
+        let fixed = fixed.iter().map(|&(parameter, level)| named_level(&discrete, parameter, level)).collect();
+        let axes = axes.iter().map(|&axis| continuous[axis]);
+        KwiseWorst { fixed, empty_box: witness.map(|witness| sides(axes, witness)).unwrap_or_default() }
     }
 
     fn continuous(
         &self,
         measures: &[Measure],
         clock: &mut Clock,
-        watch: &mut dyn FnMut(Measure, Option<Bracket>),
+        holes: &mut Holes,
+        watch: &mut Watch,
     ) -> Result<Continuous, Error> {
         let points = PointSet::new(self.space.dims(), self.points.iter().map(|point| &point.continuous))?;
         let parameters: Vec<&Parameter> = self.space.continuous().collect();
@@ -277,6 +311,7 @@ impl Tests {
                     let found = dispersion_watched(&points, deadline, &mut closing);
                     let largest_empty_box = sides(parameters.iter().copied(), &found.witness);
                     coverage.dispersion = Some(Hole { volume: found.volume, largest_empty_box });
+                    holes.dispersion = Some(found);
                 }
                 Measure::Star => coverage.star_discrepancy = Some(star_discrepancy(&points, deadline)),
                 Measure::Extreme => coverage.extreme_discrepancy = Some(extreme_discrepancy(&points, deadline)),

@@ -32,7 +32,7 @@ pub struct Deadline(Option<Instant>);
 
 impl Deadline {
     /// No limit: the algorithm runs to the end.
-    pub fn never() -> Self {
+    pub const fn never() -> Self {
         Self(None)
     }
 

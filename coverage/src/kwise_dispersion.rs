@@ -57,13 +57,19 @@ impl Projection {
     pub fn of(&self, test: &Point) -> Vec<f64> {
         self.axes.iter().map(|&axis| test.continuous[axis]).collect()
     }
+
+    /// Tests as points over the axes, of which there must be some.
+    pub(crate) fn points<'a>(&self, tests: impl Iterator<Item = &'a Point>) -> PointSet {
+        PointSet::new(self.axes.len(), tests.map(|test| self.of(test))).expect("the tests are of the unit cube")
+    }
 }
 
 /// All choices of `k` parameters out of `dims` continuous ones and discrete ones with these numbers of levels, each
 /// with all combinations of values: in lexicographic order, the continuous parameters first.
 ///
-/// There are none where there are fewer than `k` parameters, or `k` is 0.
-pub fn projections(dims: usize, levels: &[usize], k: usize) -> impl Iterator<Item = Projection> {
+/// # Errors
+/// `k` is 0 or more than there are parameters, or a discrete parameter has no level.
+pub fn projections(dims: usize, levels: &[usize], k: usize) -> Result<impl Iterator<Item = Projection>, KwiseError> {
     Projections::new(dims, levels, k)
 }
 
@@ -84,14 +90,7 @@ pub fn kwise_dispersion(
     k: usize,
     deadline: Deadline,
 ) -> Result<KwiseDispersion, KwiseError> {
-    let parameters = dims + levels.len();
-    if k == 0 || k > parameters {
-        return Err(KwiseError::Strength { k, parameters });
-    }
-    if let Some(parameter) = levels.iter().position(|&levels| levels == 0) {
-        return Err(KwiseError::NoLevel(parameter));
-    }
-    let mut projections = Projections::new(dims, levels, k);
+    let mut projections = Projections::new(dims, levels, k)?;
     let mut worst: Option<KwiseDispersion> = None;
     let mut upper = 0.0f64;
     loop {
@@ -112,11 +111,14 @@ pub fn kwise_dispersion(
             }
         }
     }
-    let mut worst = worst.unwrap_or_else(|| {
+    let mut worst = match worst {
+        Some(worst) => worst,
         // The deadline came before anything: the least that can be said.
-        let first = Projections::new(dims, levels, k).next().expect("k is at most the number of parameters");
-        KwiseDispersion { volume: Bracket::exact(0.0), fixed: first.fixed, axes: Vec::new(), witness: None }
-    });
+        None => {
+            let first = Projections::new(dims, levels, k)?.next().expect("k is at most the number of parameters");
+            KwiseDispersion { volume: Bracket::exact(0.0), fixed: first.fixed, axes: Vec::new(), witness: None }
+        }
+    };
     worst.volume.upper = upper.max(worst.volume.lower);
     Ok(worst)
 }
@@ -124,21 +126,18 @@ pub fn kwise_dispersion(
 /// The largest hole of a projection; `None` where it is proved to be no larger than `above`.
 fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline) -> Option<KwiseDispersion> {
     let mut selected = tests.iter().filter(|test| projection.selects(test));
-    if projection.axes.is_empty() {
+    let (volume, witness) = if projection.axes.is_empty() {
         let volume = if selected.next().is_some() { 0.0 } else { 1.0 };
-        let Projection { fixed, axes } = projection;
-        let hole = KwiseDispersion { volume: Bracket::exact(volume), fixed, axes, witness: None };
-        return (volume > above).then_some(hole);
-    }
-    let projected = selected.map(|test| projection.of(test));
-    let points = PointSet::new(projection.axes.len(), projected).expect("the tests are of the unit cube");
-    let found = larger_than(&points, above, deadline)?;
+        (volume > above).then_some((Bracket::exact(volume), None))
+    } else {
+        larger_than(&projection.points(selected), above, deadline).map(|found| (found.volume, Some(found.witness)))
+    }?;
     let Projection { fixed, axes } = projection;
-    Some(KwiseDispersion { volume: found.volume, fixed, axes, witness: Some(found.witness) })
+    Some(KwiseDispersion { volume, fixed, axes, witness })
 }
 
 /// All choices of parameters in lexicographic order, the continuous ones first, each with all values.
-struct Projections<'a> {
+pub(crate) struct Projections<'a> {
     dims: usize,
     /// The number of values of each parameter; a continuous one is not given any, which is one way.
     ways: Vec<usize>,
@@ -150,10 +149,20 @@ struct Projections<'a> {
 }
 
 impl<'a> Projections<'a> {
-    fn new(dims: usize, levels: &'a [usize], k: usize) -> Self {
+    /// All choices of `k` parameters.
+    ///
+    /// # Errors
+    /// `k` is 0 or more than there are parameters, or a discrete parameter has no level.
+    pub fn new(dims: usize, levels: &'a [usize], k: usize) -> Result<Self, KwiseError> {
+        let parameters = dims + levels.len();
+        if k == 0 || k > parameters {
+            return Err(KwiseError::Strength { k, parameters });
+        }
+        if let Some(parameter) = levels.iter().position(|&levels| levels == 0) {
+            return Err(KwiseError::NoLevel(parameter));
+        }
         let ways = std::iter::repeat_n(1, dims).chain(levels.iter().copied()).collect();
-        let set = (1..=dims + levels.len()).contains(&k).then(|| (0..k).collect());
-        Self { dims, ways, levels, set, next: 0 }
+        Ok(Self { dims, ways, levels, set: Some((0..k).collect()), next: 0 })
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod campaign;
+mod certificate;
 mod commands;
 mod common;
 mod generate;

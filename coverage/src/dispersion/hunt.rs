@@ -50,11 +50,8 @@ pub(super) struct Hunt<'a> {
 impl<'a> Hunt<'a> {
     /// A search that has found the witness so far, and is for boxes larger than it and than `above`.
     pub fn new(points: &'a PointSet, witness: LargestEmptyBox, above: f64) -> Self {
-        let sides = vec![Side::between(0.0, 1.0); points.dims()];
-        let all = 0..points.len() as u32;
-        let inside = all.filter(|&point| inside(points.point(point as usize), &sides)).collect();
-        let open = vec![Open { volume: 1.0, sides, inside }];
-        Self { points, bar: Bar::new(witness.volume().max(above)), witness, open, upper: 1.0, attempts: 0 }
+        let bar = Bar::new(witness.volume().max(above));
+        Self { points, bar, witness, open: vec![Open::cube(points)], upper: 1.0, attempts: 0 }
     }
 
     /// Searches to the end, or until the deadline; `watch` sees the bracket close.

@@ -16,10 +16,15 @@
 //! larger children are explored first, which finds good candidates early. The search of the cube (`hunt.rs`) shares
 //! boxes out to all cores; under a time limit it gives up being exact in time to close in on the answer from both
 //! sides.
+//!
+//! The pivots of a search that found nothing above a volume prove that there is nothing (`trail.rs`).
 
 mod hunt;
 mod search;
 mod side;
+mod trail;
+
+pub(crate) use trail::trail;
 
 use crate::{Bracket, Deadline, PointSet};
 use hunt::Hunt;

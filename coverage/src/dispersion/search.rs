@@ -37,6 +37,16 @@ pub(super) struct Open {
     pub inside: Vec<u32>,
 }
 
+impl Open {
+    /// The unit cube.
+    pub fn cube(points: &PointSet) -> Self {
+        let sides = vec![Side::between(0.0, 1.0); points.dims()];
+        let all = 0..points.len() as u32;
+        let inside = all.filter(|&point| inside(points.point(point as usize), &sides)).collect();
+        Self { volume: 1.0, sides, inside }
+    }
+}
+
 /// A way to get rid of a point: an end of the box moves to it.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
@@ -75,12 +85,25 @@ pub(super) struct Search<'a> {
     cuts: Vec<Cut>,
     /// One over the length of each side.
     scales: Vec<f64>,
+    /// The pivots in the order in which they were taken, where they are to be a proof.
+    trail: Option<Vec<u32>>,
 }
 
 impl<'a> Search<'a> {
     pub fn new(points: &'a PointSet, reference: f64) -> Self {
         let (nodes, sides, lists, cuts, scales) = Default::default();
-        Self { points, reference, nodes, sides, lists, cuts, scales }
+        Self { points, reference, nodes, sides, lists, cuts, scales, trail: None }
+    }
+
+    /// A search that can be followed without its arithmetic: it tries cuts in the order of the axes and remembers its
+    /// pivots.
+    pub fn with_trail(points: &'a PointSet, reference: f64) -> Self {
+        Self { trail: Some(Vec::new()), ..Self::new(points, reference) }
+    }
+
+    /// The pivots in the order in which they were taken.
+    pub fn into_trail(self) -> Vec<u32> {
+        self.trail.unwrap_or_default()
     }
 
     /// Explores a box as long as `go_on`, which is told how many points each step looks at.
@@ -111,12 +134,16 @@ impl<'a> Search<'a> {
                 found.open = self.left(best.max(shared.get()));
                 break;
             }
-            if self.branch(&node, &mut sides, best, shared.get()) {
+            if !self.branch(&node, &mut sides, best, shared.get()) {
                 let lower = sides.iter().map(|side| side.lower).collect();
                 let upper = sides.iter().map(|side| side.upper).collect();
                 found.witness = Some(LargestEmptyBox { lower, upper });
                 best = node.volume;
                 shared.raise(best);
+                if self.trail.is_some() {
+                    // It does not lead to a proof.
+                    break;
+                }
             }
         }
         found
@@ -140,10 +167,13 @@ impl<'a> Search<'a> {
         open
     }
 
-    /// Puts the children of a box on the stack; whether it has none because there is no point inside.
+    /// Puts the children of a box on the stack, if there is a point inside.
     fn branch(&mut self, node: &Node, sides: &mut [Side], best: f64, shared: f64) -> bool {
         let list = self.list(node, sides);
-        let Some(pivot) = self.pivot(list.clone(), sides) else { return true };
+        let Some(pivot) = self.pivot(list.clone(), sides) else { return false };
+        if let Some(trail) = &mut self.trail {
+            trail.push(pivot as u32);
+        }
         let pivot = self.points.point(pivot);
         self.cuts.clear();
         for (axis, &x) in pivot.iter().enumerate() {
@@ -156,8 +186,10 @@ impl<'a> Search<'a> {
             }
             sides[axis] = side;
         }
-        // The largest comes last: most constrained, and on top of the stack.
-        self.cuts.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+        if self.trail.is_none() {
+            // The largest comes last: most constrained, and on top of the stack.
+            self.cuts.sort_by(|a, b| a.volume.total_cmp(&b.volume));
+        }
         for cut in &self.cuts {
             let axis = cut.axis as usize;
             let (side, x) = (sides[axis], pivot[axis]);
@@ -168,7 +200,7 @@ impl<'a> Search<'a> {
             }
             sides[axis] = side.kept(x, cut.end);
         }
-        false
+        true
     }
 
     /// Lists the points inside a box on top of those of the box that it was cut from.

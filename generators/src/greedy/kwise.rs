@@ -90,10 +90,8 @@ impl KwiseGreedy {
         existing: &[Point],
     ) -> Result<Self, GeneratorError> {
         let parameters = dims + levels.len();
-        if !(1..=parameters).contains(&k) {
-            return Err(GeneratorError::AllStrength { k, parameters });
-        }
-        let chosen: Vec<Projection> = projections(dims, levels, k).take(MOST_VIEWS + 1).collect();
+        let projections = projections(dims, levels, k).map_err(|_| GeneratorError::AllStrength { k, parameters })?;
+        let chosen: Vec<Projection> = projections.take(MOST_VIEWS + 1).collect();
         if chosen.len() > MOST_VIEWS {
             return Err(GeneratorError::Views { k, most: MOST_VIEWS });
         }

@@ -1,6 +1,6 @@
 //! `paracosm-cover estimate`: how well tests cover their space.
 
-use super::{check_size, read_space, time_limit};
+use super::{certificate, check_size, read_space, time_limit};
 use crate::cli::output::{Format, Table, json, short_bracket};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::{Bracket, Parameter, Space};
@@ -17,6 +17,7 @@ Examples:
   paracosm-cover estimate points.csv                 columns in [0,1], one row a test
   paracosm-cover estimate tests.csv --space SPACE.toml --k 2
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
+  paracosm-cover estimate tests.csv --certificate proof.json
 
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
@@ -40,6 +41,10 @@ pub(super) struct Options {
     /// Time that the measuring may take, all together; what does not finish comes back as a bracket
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
+    /// Write a certificate of dispersion and k-wise dispersion, witnesses and proofs as JSON, to a file that does not
+    /// exist yet
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// Measure a point set of this strategy instead of tests in a file
     #[arg(long, value_name = "S", requires_all = ["dims", "budget"])]
     strategy: Option<String>,
@@ -63,6 +68,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let limit = time_limit(self.time_limit)?;
+        self.certificate.as_deref().map_or(Ok(()), certificate::is_new)?;
         let (tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read()?,
@@ -78,7 +84,10 @@ impl Options {
             let between = closing.map(|bracket| format!("  {}", short_bracket(&bracket)));
             bar.set_message(format!("{}{}", measure.name(), between.unwrap_or_default()));
         };
-        let coverage = tests.measure_watched(&measures, self.k, Some(limit), &mut watch);
+        let coverage = match &self.certificate {
+            None => tests.measure_watched(&measures, self.k, Some(limit), &mut watch),
+            Some(file) => certificate::write(file, &tests, &measures, self.k, limit, &mut watch, verbosity),
+        };
         bar.finish_and_clear();
         let coverage = coverage?;
         print(&match Format::or_fitting(self.format) {

@@ -1,5 +1,6 @@
 //! The program `paracosm-cover`: how well tests cover a space, and tests that cover it well.
 
+mod certificate;
 mod estimate;
 mod generate;
 mod plan;

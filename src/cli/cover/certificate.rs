@@ -1,0 +1,42 @@
+//! The option `--certificate` of `paracosm-cover estimate`.
+
+use crate::certificate::Certificate;
+use crate::cli::Verbosity;
+use crate::cli::output::digits;
+use crate::{Coverage, Error, Measure, Tests, Watch};
+use std::path::Path;
+use std::time::Duration;
+
+/// Checks, before anything takes time, that there is no such file yet.
+pub(super) fn is_new(file: &Path) -> Result<(), Error> {
+    Certificate::is_new(file)
+}
+
+/// Measures tests and writes a certificate; says what it proves, and where that is less than what was measured.
+pub(super) fn write(
+    file: &Path,
+    tests: &Tests,
+    measures: &[Measure],
+    k: Option<usize>,
+    limit: Duration,
+    watch: &mut Watch,
+    verbosity: Verbosity,
+) -> Result<Coverage, Error> {
+    let (coverage, certificate) = tests.certify(measures, k, Some(limit), watch)?;
+    certificate.write(file)?;
+    for claim in &certificate.claims {
+        let k = claim.k.map_or(String::new(), |k| format!(", k = {k}"));
+        let pivots: usize = claim.proofs.iter().map(|proof| proof.pivots.len()).sum();
+        verbosity.note(format_args!(
+            "{}: {}{k} at most {} ({} projections, {pivots} boxes)",
+            file.display(),
+            claim.measure,
+            digits(claim.upper),
+            claim.proofs.len(),
+        ));
+        if let Some(note) = &claim.note {
+            verbosity.note(format_args!("warning: {}: {note}", claim.measure));
+        }
+    }
+    Ok(coverage)
+}
