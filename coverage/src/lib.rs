@@ -14,6 +14,7 @@ mod bracket;
 pub mod dispersion;
 pub mod empty_boxes;
 pub mod extreme;
+pub mod fill;
 pub mod kwise;
 pub mod kwise_dispersion;
 pub mod l2;
