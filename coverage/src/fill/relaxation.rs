@@ -1,19 +1,32 @@
-//! How far from all points a place in a box can be, at most.
+//! How far from its nearest point a place in a box can be, at most.
 //!
-//! For weights of some points that sum to 1, no place is further from its nearest point than the root of the weighted
-//! mean of its squared distances. That mean is a sum over the axes of convex functions of one coordinate, so that its
-//! largest value in a box is the sum of the larger of the two values at the ends, axis by axis. Everything in it is a
-//! sum of squares: rounding costs a relative few ulps, and the bound is certain whatever the weights.
+//! For weights of some points that sum to 1, the squared distance of a place from its nearest point is no more than the
+//! weighted mean of its squared distances from all. That mean is a sum over the axes of convex functions of one
+//! coordinate, so that its largest value in a box is the sum of the larger of its two values at the ends, axis by axis.
+//! All of it is sums of squares: rounding takes away a few ulps relatively, and the bound is certain whatever the weights.
 //!
-//! The best weights are the solution of a linear program. Between the ends of the box each squared distance is replaced
-//! by its linear interpolation, `h_i(z)` with `z` in `[0,1]^d`; all of them lie above the squared distances by the
-//! same `sum (width_k)^2 z_k (1 - z_k)`. The best bound is the maximum of `min h_i`, and its multipliers are the weights.
-//! The dual simplex method finds it: whichever point is nearest to the place at hand has the most violated row, so that
-//! rows come from the tree and are never listed. Because the interpolations are off by the same, a solution that no end
-//! of the box holds is a vertex of the Voronoi diagram, and so is one that is held by faces of the cube alone, on the face.
+//! The best weights are the solution of a linear program. Between the ends of the box the squares are replaced by their
+//! secants (Falk, Soland, An algorithm for separable nonconvex programming problems, Management Science 15, 1969). In
+//! `z` of `[0,1]^d` that measures the box, the squared distance from point i then is a linear function `h_i(z)`. The
+//! largest `min h_i(z)` over the box is the best bound, and the multipliers of the `h_i` are the weights. The secants of
+//! all points lie above the squares by the same `sum (width_k)^2 z_k (1 - z_k)`. Two things follow:
+//!
+//! * The dual simplex method (Lemke, The dual method of solving the linear programming problem, Naval Research Logistics
+//!   Quarterly 1, 1954) wants the most violated row, which is that of the point nearest to the place at hand. The tree
+//!   finds it, and the rows need not be listed.
+//! * A solution that is held by points and faces of the cube alone is a vertex of the Voronoi diagram in the cube, to the
+//!   last digits.
 
 use super::tree::{Nearest, Tree};
 use crate::bracket::Watch;
+
+/// Where the method stops, as it does on its own unless rounding makes it go in circles.
+const MOST_PIVOTS_PER_ROW: usize = 16;
+/// How far beyond an end of the box, as a share of its width, the solution may be.
+const BEYOND_END: f64 = 1e-12;
+/// By how much a row has to be violated, and how large a pivot has to be; rows have entries of about 1.
+const VIOLATION: f64 = 1e-15;
+const PIVOT: f64 = 1e-11;
 
 /// An interval along one axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,6 +72,7 @@ pub(super) struct Relaxation<'a> {
     tops: Vec<f64>,
     /// The place of the solution, in the box.
     pub place: Vec<f64>,
+    /// Room for the tree.
     beyond: Vec<f64>,
 }
 
@@ -81,11 +95,15 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// What the squared distance of places in the box from their nearest points does not exceed. Ends as soon as that is
-    /// no more than `bar`, or when the time is over.
+    /// What the squared distance of no place in the box from its nearest point exceeds. Ends as soon as that is no more
+    /// than `bar`, or when the time is over.
     pub fn solve(&mut self, sides: &[Side], bar: f64, watch: &mut Watch) -> f64 {
         self.start(sides);
-        for _ in 0..20 + 10 * sides.len() {
+        let first = self.bound(sides);
+        if first <= bar {
+            return first;
+        }
+        for _ in 0..MOST_PIVOTS_PER_ROW * self.rows.len() {
             if self.height() <= bar {
                 let bound = self.bound(sides);
                 if bound <= bar {
@@ -97,31 +115,30 @@ impl<'a> Relaxation<'a> {
                 None => {
                     self.go_to_solution(sides);
                     let Nearest { point, looked_at, .. } = self.tree.nearest(&self.place, &mut self.beyond);
-                    if watch.passed_after(looked_at) || self.rows.contains(&Row::Point(point)) {
+                    if self.rows.contains(&Row::Point(point)) {
                         break;
                     }
+                    watch.passed_after(looked_at);
                     Row::Point(point)
                 }
             };
-            if !self.enter(entering, sides) {
+            // To pivot is to go through a square matrix.
+            if !self.enter(entering, sides) || watch.passed_after(self.rows.len()) {
                 break;
             }
         }
         self.go_to_solution(sides);
-        self.bound(sides)
+        // The first is certain not to be far off in a tiny box, whatever rounding makes of the others.
+        self.bound(sides).min(first)
     }
 
-    /// The squared distance of the solution's place, once in the box, from the point nearest to it.
+    /// The squared distance of the solution's place from the point nearest to it.
     pub fn squared_distance(&mut self) -> f64 {
         self.tree.nearest(&self.place, &mut self.beyond).squared
     }
 
-    /// The squared distance of any place from the point nearest to it.
-    pub fn squared_distance_of(&mut self, place: &[f64]) -> f64 {
-        self.tree.nearest(place, &mut self.beyond).squared
-    }
-
-    /// The part of an axis where nothing of the box is further than the root of `bar`, as the weights have it.
+    /// Where along an axis nothing of the box that was solved last has a larger squared distance than `bar`, for all
+    /// that the weights say. `side` is that of the box, or less.
     pub fn hole(&self, axis: usize, side: Side, bar: f64) -> Option<Side> {
         let others: f64 = (0..self.tops.len()).filter(|other| *other != axis).map(|other| self.tops[other]).sum();
         let at = |x: f64| self.mean_square(axis, x);
@@ -187,7 +204,7 @@ impl<'a> Relaxation<'a> {
 
     /// The end of the box that the solution is furthest beyond.
     fn violated_end(&self) -> Option<Row> {
-        let (mut most, mut violated) = (1e-12, None);
+        let (mut most, mut violated) = (BEYOND_END, None);
         for (axis, &z) in self.solution[..self.tops.len()].iter().enumerate() {
             let by = f64::max(-z, z - 1.0);
             if by > most {
@@ -203,8 +220,8 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// Makes a row hold with equality in place of the one that keeps the multipliers from being negative; whether the
-    /// row was violated.
+    /// Makes a violated row hold with equality, in place of the first whose multiplier that would make negative; whether
+    /// there was anything to do.
     fn enter(&mut self, row: Row, sides: &[Side]) -> bool {
         let size = self.solution.len();
         let right = match row {
@@ -216,14 +233,14 @@ impl<'a> Relaxation<'a> {
             }
         };
         let violation = dot(&self.entering, &self.solution) - right;
-        if violation <= 1e-15 {
+        if violation <= VIOLATION {
             return false;
         }
         let (mut least, mut leaving) = (f64::INFINITY, None);
         for (j, column) in self.inverse.chunks_exact(size).enumerate() {
             let product = dot(&self.entering, column);
             self.products[j] = product;
-            if product > 1e-11 {
+            if product > PIVOT {
                 let ratio = column[size - 1].max(0.0) / product;
                 let is_larger = |other: usize| product > self.products[other];
                 if ratio < least || (ratio == least && leaving.is_some_and(is_larger)) {

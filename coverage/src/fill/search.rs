@@ -5,15 +5,15 @@ use super::tree::Tree;
 use crate::Deadline;
 use crate::bracket::Watch;
 
-/// How much larger a square may be than another one and count as equal: far more than rounding, and far less than
-/// anybody asks.
-const SAME: f64 = 1.0 + 1e-12;
+/// How much longer a distance may be than another one, as a share of it, and count as no longer.
+const SAME: f64 = 1e-12;
 /// A box is relaxed again where that takes away more than this share of it, but no more often than that.
 const WORTHWHILE: f64 = 0.2;
 const MOST_RELAXATIONS: usize = 4;
 /// A cut through the solution leaves no less than this share of the side to both.
 const LEAST_SHARE: f64 = 0.1;
-/// A climb ends when its steps are shorter than this share of the distance.
+/// What is left of the step of a climb that got no further, and the share of the distance where that ends.
+const SHORTER: f64 = 0.3;
 const SHORTEST_STEP: f64 = 0.02;
 
 /// A place in the cube and the square of its distance from the nearest point.
@@ -21,6 +21,13 @@ const SHORTEST_STEP: f64 = 0.02;
 pub(super) struct Found {
     pub squared: f64,
     pub place: Vec<f64>,
+}
+
+impl Found {
+    pub fn at(place: Vec<f64>, tree: &Tree) -> Self {
+        let squared = tree.nearest(&place, &mut vec![0.0; place.len()]).squared;
+        Self { squared, place }
+    }
 }
 
 /// A box that may hold a place further from all points than any that was found.
@@ -60,14 +67,22 @@ pub(super) struct Outcome {
     pub open: Vec<Open>,
 }
 
-/// The squared distance that is as good as a squared distance.
-pub(super) fn same_as(squared: f64) -> f64 {
-    squared * SAME
+/// The largest squared distance that counts as no larger than another one. The distances may differ by a little of the
+/// other, and by what two places differ by that round to neighbouring floating-point numbers along every axis.
+pub(super) fn same_as(squared: f64, dims: usize) -> f64 {
+    let rounding = 2.0 * f64::EPSILON * (dims as f64).sqrt();
+    let distance = squared.sqrt() * (1.0 + SAME) + rounding;
+    distance * distance
 }
 
+/// A search on one thread.
 #[derive(Debug)]
 pub(super) struct Search<'a> {
+    dims: usize,
+    /// The relaxation of the box at hand.
     relaxation: Relaxation<'a>,
+    /// That of the box around the place from which a climb goes on.
+    climbing: Relaxation<'a>,
     watch: Watch,
     /// The square of the largest distance that is known.
     best: f64,
@@ -76,7 +91,8 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     pub fn new(tree: &'a Tree, deadline: Deadline) -> Self {
-        Self { relaxation: Relaxation::new(tree), watch: Watch::new(deadline), best: 0.0, found: None }
+        let [relaxation, climbing] = [Relaxation::new(tree), Relaxation::new(tree)];
+        Self { dims: tree.dims(), relaxation, climbing, watch: Watch::new(deadline), best: 0.0, found: None }
     }
 
     /// Explores boxes depth first, no more than `most` of them, as far as they may hold something larger than `goal` and
@@ -86,22 +102,16 @@ impl<'a> Search<'a> {
         let mut open = vec![root];
         for _ in 0..most {
             let Some(cell) = open.pop() else { break };
-            let bar = same_as(self.best).max(goal);
-            if cell.bound > bar {
-                self.branch(cell, bar, &mut open);
+            if cell.bound > self.bar(goal) {
+                self.branch(cell, goal, &mut open);
             }
             if self.watch.passed_after(0) {
                 break;
             }
         }
-        let bar = same_as(self.best).max(goal);
+        let bar = self.bar(goal);
         open.retain(|cell| cell.bound > bar);
         Outcome { found: self.found.take(), open }
-    }
-
-    /// A place.
-    pub fn look_at(&mut self, place: Vec<f64>) -> Found {
-        Found { squared: self.relaxation.squared_distance_of(&place), place }
     }
 
     /// What the squared distance of no place in a box exceeds, as far as there is time to say.
@@ -109,60 +119,54 @@ impl<'a> Search<'a> {
         self.relaxation.solve(sides, 0.0, &mut self.watch)
     }
 
-    /// Climbs from a place.
-    pub fn climb(&mut self, place: Vec<f64>) -> Found {
-        let mut at = self.look_at(place);
-        let mut step = at.squared.sqrt();
-        while step > SHORTEST_STEP * at.squared.sqrt() && !self.watch.passed_after(0) {
+    /// Climbs from a place to better ones, as long as there is time: the relaxation of a box around it says where to go.
+    pub fn climb(&mut self, mut from: Found) -> Found {
+        let mut step = from.squared.sqrt();
+        while step > SHORTEST_STEP * from.squared.sqrt() && !self.watch.passed_after(0) {
             let around = |&x: &f64| Side { lower: (x - step).max(0.0), upper: (x + step).min(1.0) };
-            let sides: Vec<Side> = at.place.iter().map(around).collect();
-            self.relaxation.solve(&sides, at.squared, &mut self.watch);
-            let squared = self.relaxation.squared_distance();
-            if squared > at.squared {
-                at.squared = squared;
-                at.place.copy_from_slice(&self.relaxation.place);
+            let sides: Vec<Side> = from.place.iter().map(around).collect();
+            self.climbing.solve(&sides, from.squared, &mut self.watch);
+            let squared = self.climbing.squared_distance();
+            if squared > from.squared {
+                from.squared = squared;
+                from.place.copy_from_slice(&self.climbing.place);
             } else {
-                step *= 0.3;
+                step *= SHORTER;
             }
         }
-        at
+        from
     }
 
-    /// Bounds a box, and puts what is left of it on the stack in two parts, the more promising one on top.
-    fn branch(&mut self, mut cell: Open, bar: f64, open: &mut Vec<Open>) {
-        let mut bar = bar;
+    /// What is no larger need not be looked for.
+    fn bar(&self, goal: f64) -> f64 {
+        same_as(self.best, self.dims).max(goal)
+    }
+
+    /// Bounds a box, and puts what is left of it on the stack in two parts.
+    fn branch(&mut self, mut cell: Open, goal: f64, open: &mut Vec<Open>) {
+        let mut bar = self.bar(goal);
         for _ in 0..MOST_RELAXATIONS {
             cell.bound = cell.bound.min(self.relaxation.solve(&cell.sides, bar, &mut self.watch));
             if cell.bound <= bar {
                 return;
             }
-            bar = bar.max(self.look_at_solution(&cell.sides));
-            if cell.bound <= bar || !self.shrink(&mut cell, bar) {
+            let squared = self.relaxation.squared_distance();
+            if squared > self.best {
+                let found = self.climb(Found { squared, place: self.relaxation.place.clone() });
+                self.best = found.squared;
+                self.found = Some(found);
+                bar = self.bar(goal);
+            }
+            if !self.shrink(&mut cell, bar) {
                 break;
             }
         }
-        if cell.bound > bar {
-            let [lower, upper] = self.cut(cell, bar);
-            open.extend([lower, upper]);
-        }
+        open.extend(self.cut(cell, bar));
     }
 
-    /// Whether the place of the solution is better than all that are known: then climbs from there. The squared distance
-    /// that need not be looked for any more.
-    fn look_at_solution(&mut self, sides: &[Side]) -> f64 {
-        if self.relaxation.squared_distance() > self.best {
-            let place = self.relaxation.place.clone();
-            let found = self.climb(place);
-            self.best = found.squared;
-            self.found = Some(found);
-            // The climb has used the relaxation.
-            self.relaxation.solve(sides, same_as(self.best), &mut self.watch);
-        }
-        same_as(self.best)
-    }
-
-    /// Takes away ends of the box that are too near to points; whether that was worthwhile.
-    fn shrink(&mut self, cell: &mut Open, bar: f64) -> bool {
+    /// Takes away ends of the box where nothing is above the bar (range reduction: Ryoo, Sahinidis, A branch-and-reduce
+    /// approach to global optimization, J. Global Optimization 8, 1996); whether that was worthwhile.
+    fn shrink(&self, cell: &mut Open, bar: f64) -> bool {
         let mut left = 1.0;
         for (axis, side) in cell.sides.iter_mut().enumerate() {
             let Some(hole) = self.relaxation.hole(axis, *side, bar) else { continue };
@@ -177,9 +181,12 @@ impl<'a> Search<'a> {
         left < 1.0 - WORTHWHILE
     }
 
-    /// Cuts the box along the axis where the relaxation is most off, through the solution, more or less. What of that
-    /// axis is too near to points is left out.
-    fn cut(&mut self, cell: Open, bar: f64) -> [Open; 2] {
+    /// Cuts the box in two through the solution, more or less, along the axis where the relaxation is most off there.
+    /// Where nothing along that axis is above the bar is left out.
+    ///
+    /// There is always something to cut: a box whose sides are neighbouring numbers is not above the bar, because `same_as`
+    /// allows for them.
+    fn cut(&self, cell: Open, bar: f64) -> [Open; 2] {
         let place = &self.relaxation.place;
         let off = |axis: usize| {
             let side = cell.sides[axis];
@@ -187,11 +194,14 @@ impl<'a> Search<'a> {
             (x - side.lower) * (side.upper - x)
         };
         let width = |axis: usize| cell.sides[axis].width();
-        let worse = |&a: &usize, &b: &usize| off(a).total_cmp(&off(b)).then(width(a).total_cmp(&width(b)));
-        let axis = (0..cell.sides.len()).max_by(worse).expect("there is an axis");
+        let less = |&a: &usize, &b: &usize| off(a).total_cmp(&off(b)).then(width(a).total_cmp(&width(b)));
+        let axis = (0..cell.sides.len()).max_by(less).expect("there is an axis");
         let side = cell.sides[axis];
         let least = LEAST_SHARE * side.width();
-        let through = place[axis].clamp(side.lower + least, side.upper - least);
+        let mut through = place[axis].clamp(side.lower + least, side.upper - least);
+        if through == side.lower || through == side.upper {
+            through = 0.5 * (side.lower + side.upper);
+        }
         let hole = self.relaxation.hole(axis, side, bar).unwrap_or(Side { lower: through, upper: through });
         let [mut lower, mut upper] = [cell.clone(), cell];
         (lower.sides[axis].upper, upper.sides[axis].lower) = (hole.lower, hole.upper);

@@ -6,6 +6,8 @@ use crate::PointSet;
 
 /// Parts of the tree with no more points are not divided.
 const LEAF: usize = 8;
+/// How many points of a part tell along which axis it is widest, at least: all of them would take longer than the rest.
+const SAMPLE: usize = 64;
 
 /// Points in the order of the tree: the middle one of a part divides it along its widest axis.
 #[derive(Debug)]
@@ -60,7 +62,8 @@ fn divide(points: &PointSet, order: &mut [u32], axes: &mut [u32]) {
         return;
     }
     let extent = |axis: usize| {
-        let coordinates = order.iter().map(|&point| points.point(point as usize)[axis]);
+        let sample = order.iter().step_by((order.len() / SAMPLE).max(1));
+        let coordinates = sample.map(|&point| points.point(point as usize)[axis]);
         let (least, most) = coordinates.fold((1.0f64, 0.0f64), |(least, most), x| (least.min(x), most.max(x)));
         most - least
     };
@@ -95,11 +98,8 @@ impl Query<'_> {
         let middle = first + (end - first) / 2;
         let axis = self.tree.axes[middle] as usize;
         let offset = self.place[axis] - self.tree.coordinates[middle * self.tree.dims + axis];
-        let [near, far] = if offset < 0.0 {
-            [(first, middle), (middle + 1, end)]
-        } else {
-            [(middle + 1, end), (first, middle)]
-        };
+        let [near, far] =
+            if offset < 0.0 { [(first, middle), (middle + 1, end)] } else { [(middle + 1, end), (first, middle)] };
         self.visit(near.0, near.1, squared);
         let before = self.beyond[axis];
         let squared = squared - before * before + offset * offset;
