@@ -241,6 +241,13 @@ fn a_hundred_thousand_points_a_hair_apart_on_a_line_are_no_trouble() {
 }
 
 #[test]
+fn a_gap_that_is_hardly_the_widest_is_found() {
+    let mut line: Points = (0..3000).map(|i| vec![(f64::from(i) + 0.5) / 3000.0]).collect();
+    line[1234][0] += 1e-9;
+    assert!((radius(&line) - (0.5 / 3000.0 + 0.5e-9)).abs() <= 1e-15);
+}
+
+#[test]
 fn an_exact_result_does_not_depend_on_the_number_of_threads() {
     for (dims, n) in [(2, 3000), (3, 1000), (5, 300), (8, 200)] {
         let points = spread(dims, n);

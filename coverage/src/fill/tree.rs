@@ -125,3 +125,39 @@ impl Query<'_> {
 pub(super) fn squared_distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Points anywhere, or all nearly as far from the middle, so that the nearest may be in any part of the tree.
+    fn points() -> impl Strategy<Value = Vec<[f64; 2]>> {
+        let anywhere = prop::collection::vec(prop::array::uniform2(0.0..=1.0f64), 1..400);
+        let onto_circle = |points: Vec<[f64; 2]>| {
+            let moved = |point: [f64; 2]| {
+                let distance = squared_distance(&point, &[0.5; 2]).sqrt().max(1e-3);
+                point.map(|x| (0.5 + (x - 0.5) * (0.45 + 0.02 * point[0]) / distance).clamp(0.0, 1.0))
+            };
+            points.into_iter().map(moved).collect::<Vec<_>>()
+        };
+        (anywhere, any::<bool>()).prop_map(move |(points, circle)| if circle { onto_circle(points) } else { points })
+    }
+
+    proptest! {
+        #[test]
+        fn the_nearest_point_of_the_tree_is_that_of_the_list(
+            points in points(),
+            mut places in prop::collection::vec(prop::array::uniform2(-0.5..=1.5f64), 50)
+        ) {
+            let tree = Tree::new(&PointSet::new(2, &points).unwrap());
+            places.push([0.5; 2]);
+            for place in places {
+                let nearest = tree.nearest(&place, &mut [0.0; 2]);
+                let of_list = points.iter().map(|point| squared_distance(&place, point)).fold(f64::INFINITY, f64::min);
+                prop_assert!((nearest.squared - of_list).abs() <= 1e-15);
+                prop_assert_eq!(squared_distance(&place, tree.point(nearest.point)), nearest.squared);
+            }
+        }
+    }
+}
