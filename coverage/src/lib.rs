@@ -2,8 +2,8 @@
 //!
 //! A [`Space`] is the ordered list of the parameters a study leaves open. Tests are points of it, and this
 //! crate says how much of the space such points have looked at: the discrete half by [`kwise`] coverage, the
-//! continuous half by [`dispersion`] (the largest box no test has entered: the paper's measure) and by
-//! discrepancy ([`star`], [`extreme`], [`l2`]), and both halves together by
+//! continuous half by [`dispersion`] (the largest box no test has entered: the paper's measure), by [`fill`] (the
+//! largest ball) and by discrepancy ([`star`], [`extreme`], [`l2`]), and both halves together by
 //! [`kwise_dispersion`]. [`empty_boxes`] knows the
 //! holes as tests arrive one by one. [`theory`] holds the bounds that are known without looking at any point.
 //!
@@ -14,6 +14,7 @@ mod bracket;
 pub mod dispersion;
 pub mod empty_boxes;
 pub mod extreme;
+pub mod fill;
 pub mod kwise;
 pub mod kwise_dispersion;
 pub mod l2;

@@ -1,0 +1,302 @@
+//! How far from its nearest point a place in a box can be, at most.
+//!
+//! For weights of some points that sum to 1, the squared distance of a place from its nearest point is no more than the
+//! weighted mean of its squared distances from all. That mean is a sum over the axes of convex functions of one
+//! coordinate, so that its largest value in a box is the sum of the larger of its two values at the ends, axis by axis.
+//! All of it is sums of squares: rounding takes away a few ulps relatively, and the bound is certain whatever the weights.
+//!
+//! The best weights are the solution of a linear program. Between the ends of the box the squares are replaced by their
+//! secants (Falk, Soland, An algorithm for separable nonconvex programming problems, Management Science 15, 1969). In
+//! `z` of `[0,1]^d` that measures the box, the squared distance from point i then is a linear function `h_i(z)`. The
+//! largest `min h_i(z)` over the box is the best bound, and the multipliers of the `h_i` are the weights. The secants of
+//! all points lie above the squares by the same `sum (width_k)^2 z_k (1 - z_k)`. Two things follow:
+//!
+//! * The dual simplex method (Lemke, The dual method of solving the linear programming problem, Naval Research Logistics
+//!   Quarterly 1, 1954) wants the most violated row, which is that of the point nearest to the place at hand. The tree
+//!   finds it, and the rows need not be listed.
+//! * A solution that is held by points and faces of the cube alone is a vertex of the Voronoi diagram in the cube, to the
+//!   last digits.
+
+use super::tree::{Nearest, Tree};
+use crate::bracket::Watch;
+
+/// Where the method stops, as it does on its own unless rounding makes it go in circles.
+const MOST_PIVOTS_PER_ROW: usize = 16;
+/// How far beyond an end of the box, as a share of its width, the solution may be.
+const BEYOND_END: f64 = 1e-12;
+/// By how much a row has to be violated, and how large a pivot has to be; rows have entries of about 1.
+const VIOLATION: f64 = 1e-15;
+const PIVOT: f64 = 1e-11;
+
+/// An interval along one axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Side {
+    pub lower: f64,
+    pub upper: f64,
+}
+
+impl Side {
+    pub fn width(&self) -> f64 {
+        self.upper - self.lower
+    }
+}
+
+/// A row of the linear program that holds with equality.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Row {
+    /// A point.
+    Point(u32),
+    /// An end of the box.
+    End { axis: usize, upper: bool },
+}
+
+/// The relaxation of one box after the other, with room for it.
+#[derive(Debug)]
+pub(super) struct Relaxation<'a> {
+    tree: &'a Tree,
+    /// The rows that hold with equality, one per axis and one more.
+    rows: Vec<Row>,
+    /// The inverse of their matrix, column by column. The last variable is the height, the others are `z`.
+    inverse: Vec<f64>,
+    /// The place where they meet.
+    solution: Vec<f64>,
+    /// The row that enters, and its products with the columns.
+    entering: Vec<f64>,
+    products: Vec<f64>,
+    /// Heights are relative to this and in units of `unit`.
+    zero: f64,
+    unit: f64,
+    /// The points with a weight.
+    weights: Vec<(u32, f64)>,
+    /// Per axis, the larger of the two ends' weighted means.
+    tops: Vec<f64>,
+    /// The place of the solution, in the box.
+    pub place: Vec<f64>,
+    /// Room for the tree.
+    beyond: Vec<f64>,
+}
+
+impl<'a> Relaxation<'a> {
+    pub fn new(tree: &'a Tree) -> Self {
+        let size = tree.dims() + 1;
+        Self {
+            tree,
+            rows: Vec::with_capacity(size),
+            inverse: vec![0.0; size * size],
+            solution: vec![0.0; size],
+            entering: vec![0.0; size],
+            products: vec![0.0; size],
+            zero: 0.0,
+            unit: 1.0,
+            weights: Vec::with_capacity(size),
+            tops: vec![0.0; size - 1],
+            place: vec![0.0; size - 1],
+            beyond: vec![0.0; size - 1],
+        }
+    }
+
+    /// What the squared distance of no place in the box from its nearest point exceeds. Ends as soon as that is no more
+    /// than `bar`, or when the time is over.
+    pub fn solve(&mut self, sides: &[Side], bar: f64, watch: &mut Watch) -> f64 {
+        self.start(sides);
+        let first = self.bound(sides);
+        if first <= bar {
+            return first;
+        }
+        for _ in 0..MOST_PIVOTS_PER_ROW * self.rows.len() {
+            if self.height() <= bar {
+                let bound = self.bound(sides);
+                if bound <= bar {
+                    return bound;
+                }
+            }
+            let entering = match self.violated_end() {
+                Some(end) => end,
+                None => {
+                    self.go_to_solution(sides);
+                    let Nearest { point, looked_at, .. } = self.tree.nearest(&self.place, &mut self.beyond);
+                    if self.rows.contains(&Row::Point(point)) {
+                        break;
+                    }
+                    watch.passed_after(looked_at);
+                    Row::Point(point)
+                }
+            };
+            // To pivot is to go through a square matrix.
+            if !self.enter(entering, sides) || watch.passed_after(self.rows.len()) {
+                break;
+            }
+        }
+        self.go_to_solution(sides);
+        // The first is certain not to be far off in a tiny box, whatever rounding makes of the others.
+        self.bound(sides).min(first)
+    }
+
+    /// The squared distance of the solution's place from the point nearest to it.
+    pub fn squared_distance(&mut self) -> f64 {
+        self.tree.nearest(&self.place, &mut self.beyond).squared
+    }
+
+    /// Where along an axis nothing of the box that was solved last has a larger squared distance than `bar`, for all
+    /// that the weights say. `side` is that of the box, or less.
+    pub fn hole(&self, axis: usize, side: Side, bar: f64) -> Option<Side> {
+        let others: f64 = (0..self.tops.len()).filter(|other| *other != axis).map(|other| self.tops[other]).sum();
+        let at = |x: f64| self.mean_square(axis, x);
+        let centre: f64 = self.weights.iter().map(|&(point, weight)| weight * self.tree.point(point)[axis]).sum();
+        let room = bar * (1.0 - 2.0 * self.margin()) - others - at(centre);
+        if room <= 0.0 {
+            return None;
+        }
+        let reach = room.sqrt();
+        let hole = Side { lower: (centre - reach).max(side.lower), upper: (centre + reach).min(side.upper) };
+        // The mean is convex: what holds at both ends holds between them.
+        let is_below = |x: f64| (others + at(x)) * (1.0 + self.margin()) <= bar;
+        (hole.lower < hole.upper && is_below(hole.lower) && is_below(hole.upper)).then_some(hole)
+    }
+
+    /// Starts with the point nearest to the middle, and the ends of the box that are furthest from it.
+    fn start(&mut self, sides: &[Side]) {
+        let dims = sides.len();
+        for (x, side) in self.place.iter_mut().zip(sides) {
+            *x = 0.5 * (side.lower + side.upper);
+        }
+        let first = self.tree.nearest(&self.place, &mut self.beyond);
+        let widest = sides.iter().map(Side::width).fold(0.0, f64::max);
+        // A box may be a single place.
+        self.unit = (widest * (first.squared.sqrt() + widest)).max(f64::MIN_POSITIVE);
+        self.zero = first.squared;
+        self.rows.clear();
+        self.inverse.fill(0.0);
+        let size = dims + 1;
+        let above = self.row_of_point(first.point, sides);
+        self.solution[dims] = above;
+        for axis in 0..dims {
+            let slope = -self.entering[axis];
+            let upper = slope > 0.0;
+            self.rows.push(Row::End { axis, upper });
+            let sign = if upper { 1.0 } else { -1.0 };
+            let column = &mut self.inverse[axis * size..][..size];
+            (column[axis], column[dims]) = (sign, sign * slope);
+            self.solution[axis] = if upper { 1.0 } else { 0.0 };
+            self.solution[dims] += if upper { slope } else { 0.0 };
+        }
+        self.rows.push(Row::Point(first.point));
+        self.inverse[dims * size + dims] = 1.0;
+    }
+
+    /// Puts the row of a point in `entering`; its right side.
+    fn row_of_point(&mut self, point: u32, sides: &[Side]) -> f64 {
+        let point = self.tree.point(point);
+        let mut at_lower = 0.0;
+        for ((entry, side), x) in self.entering.iter_mut().zip(sides).zip(point) {
+            let (to_lower, to_upper) = (side.lower - x, side.upper - x);
+            at_lower += to_lower * to_lower;
+            *entry = -side.width() * (to_lower + to_upper) / self.unit;
+        }
+        self.entering[sides.len()] = 1.0;
+        (at_lower - self.zero) / self.unit
+    }
+
+    /// The height of the solution, as a squared distance.
+    fn height(&self) -> f64 {
+        self.zero + self.unit * self.solution[self.solution.len() - 1]
+    }
+
+    /// The end of the box that the solution is furthest beyond.
+    fn violated_end(&self) -> Option<Row> {
+        let (mut most, mut violated) = (BEYOND_END, None);
+        for (axis, &z) in self.solution[..self.tops.len()].iter().enumerate() {
+            let by = f64::max(-z, z - 1.0);
+            if by > most {
+                (most, violated) = (by, Some(Row::End { axis, upper: z > 1.0 }));
+            }
+        }
+        violated
+    }
+
+    fn go_to_solution(&mut self, sides: &[Side]) {
+        for ((x, side), &z) in self.place.iter_mut().zip(sides).zip(&self.solution) {
+            *x = if z >= 1.0 { side.upper } else { (side.lower + z.max(0.0) * side.width()).min(side.upper) };
+        }
+    }
+
+    /// Makes a violated row hold with equality, in place of the first whose multiplier that would make negative; whether
+    /// there was anything to do.
+    fn enter(&mut self, row: Row, sides: &[Side]) -> bool {
+        let size = self.solution.len();
+        let right = match row {
+            Row::Point(point) => self.row_of_point(point, sides),
+            Row::End { axis, upper } => {
+                self.entering.fill(0.0);
+                self.entering[axis] = if upper { 1.0 } else { -1.0 };
+                if upper { 1.0 } else { 0.0 }
+            }
+        };
+        let violation = dot(&self.entering, &self.solution) - right;
+        if violation <= VIOLATION {
+            return false;
+        }
+        let (mut least, mut leaving) = (f64::INFINITY, None);
+        for (j, column) in self.inverse.chunks_exact(size).enumerate() {
+            let product = dot(&self.entering, column);
+            self.products[j] = product;
+            if product > PIVOT {
+                let ratio = column[size - 1].max(0.0) / product;
+                let is_larger = |other: usize| product > self.products[other];
+                if ratio < least || (ratio == least && leaving.is_some_and(is_larger)) {
+                    (least, leaving) = (ratio, Some(j));
+                }
+            }
+        }
+        let Some(leaving) = leaving else { return false };
+        let by = 1.0 / self.products[leaving];
+        for i in 0..size {
+            let pivot = self.inverse[leaving * size + i] * by;
+            self.solution[i] -= pivot * violation;
+            for (j, product) in self.products.iter().enumerate() {
+                self.inverse[j * size + i] -= product * pivot;
+            }
+            self.inverse[leaving * size + i] = pivot;
+        }
+        self.rows[leaving] = row;
+        true
+    }
+
+    /// The bound that follows from the multipliers.
+    fn bound(&mut self, sides: &[Side]) -> f64 {
+        let size = self.solution.len();
+        self.weights.clear();
+        for (row, column) in self.rows.iter().zip(self.inverse.chunks_exact(size)) {
+            if let Row::Point(point) = *row
+                && column[size - 1] > 0.0
+            {
+                self.weights.push((point, column[size - 1]));
+            }
+        }
+        let sum: f64 = self.weights.iter().map(|(_, weight)| weight).sum();
+        self.weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
+        for (axis, side) in sides.iter().enumerate() {
+            self.tops[axis] = self.mean_square(axis, side.lower).max(self.mean_square(axis, side.upper));
+        }
+        self.tops.iter().sum::<f64>() * (1.0 + self.margin())
+    }
+
+    /// The weighted mean of the squared distances along an axis.
+    fn mean_square(&self, axis: usize, x: f64) -> f64 {
+        let square = |&(point, weight): &(u32, f64)| {
+            let distance = x - self.tree.point(point)[axis];
+            weight * (distance * distance)
+        };
+        self.weights.iter().map(square).sum()
+    }
+
+    /// More than rounding takes away from a bound, relatively: a few ulps for each square, and one for each term of the
+    /// two sums and of that of the weights.
+    fn margin(&self) -> f64 {
+        (3 * self.solution.len() + 16) as f64 * f64::EPSILON
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

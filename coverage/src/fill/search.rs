@@ -1,0 +1,210 @@
+//! The search of one box, and the climb from one place.
+
+use super::relaxation::{Relaxation, Side};
+use super::tree::Tree;
+use crate::Deadline;
+use crate::bracket::Watch;
+
+/// How much longer a distance may be than another one, as a share of it, and count as no longer.
+const SAME: f64 = 1e-12;
+/// A box is relaxed again where that takes away more than this share of it, but no more often than that.
+const WORTHWHILE: f64 = 0.2;
+const MOST_RELAXATIONS: usize = 4;
+/// A cut through the solution leaves no less than this share of the side to both.
+const LEAST_SHARE: f64 = 0.1;
+/// What is left of the step of a climb that got no further, and the share of the distance where that ends.
+const SHORTER: f64 = 0.3;
+const SHORTEST_STEP: f64 = 0.02;
+
+/// A place in the cube and the square of its distance from the nearest point.
+#[derive(Debug, Clone)]
+pub(super) struct Found {
+    pub squared: f64,
+    pub place: Vec<f64>,
+}
+
+impl Found {
+    pub fn at(place: Vec<f64>, tree: &Tree) -> Self {
+        let squared = tree.nearest(&place, &mut vec![0.0; place.len()]).squared;
+        Self { squared, place }
+    }
+}
+
+/// A box that may hold a place further from all points than any that was found.
+#[derive(Debug, Clone)]
+pub(super) struct Open {
+    /// The squared distance that none of its places exceeds.
+    pub bound: f64,
+    pub sides: Box<[Side]>,
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Open {}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.bound.total_cmp(&other.bound)
+    }
+}
+
+/// What a search came to.
+#[derive(Debug)]
+pub(super) struct Outcome {
+    /// The best place, if it is better than the one that was known.
+    pub found: Option<Found>,
+    /// What is left to explore.
+    pub open: Vec<Open>,
+}
+
+/// The largest squared distance that counts as no larger than another one. The distances may differ by a little of the
+/// other, and by what two places differ by that round to neighbouring floating-point numbers along every axis.
+pub(super) fn same_as(squared: f64, dims: usize) -> f64 {
+    let rounding = 2.0 * f64::EPSILON * (dims as f64).sqrt();
+    let distance = squared.sqrt() * (1.0 + SAME) + rounding;
+    distance * distance
+}
+
+/// A search on one thread.
+#[derive(Debug)]
+pub(super) struct Search<'a> {
+    dims: usize,
+    /// The relaxation of the box at hand.
+    relaxation: Relaxation<'a>,
+    /// That of the box around the place from which a climb goes on.
+    climbing: Relaxation<'a>,
+    watch: Watch,
+    /// The square of the largest distance that is known.
+    best: f64,
+    found: Option<Found>,
+}
+
+impl<'a> Search<'a> {
+    pub fn new(tree: &'a Tree, deadline: Deadline) -> Self {
+        let [relaxation, climbing] = [Relaxation::new(tree), Relaxation::new(tree)];
+        Self { dims: tree.dims(), relaxation, climbing, watch: Watch::new(deadline), best: 0.0, found: None }
+    }
+
+    /// Explores boxes depth first, no more than `most` of them, as far as they may hold something larger than `goal` and
+    /// than `best`, both squared.
+    pub fn explore(&mut self, root: Open, best: f64, goal: f64, most: usize) -> Outcome {
+        self.best = best;
+        let mut open = vec![root];
+        for _ in 0..most {
+            let Some(cell) = open.pop() else { break };
+            if cell.bound > self.bar(goal) {
+                self.branch(cell, goal, &mut open);
+            }
+            if self.watch.passed_after(0) {
+                break;
+            }
+        }
+        let bar = self.bar(goal);
+        open.retain(|cell| cell.bound > bar);
+        Outcome { found: self.found.take(), open }
+    }
+
+    /// What the squared distance of no place in a box exceeds, as far as there is time to say.
+    pub fn bound(&mut self, sides: &[Side]) -> f64 {
+        self.relaxation.solve(sides, 0.0, &mut self.watch)
+    }
+
+    /// Climbs from a place to better ones, as long as there is time: the relaxation of a box around it says where to go.
+    pub fn climb(&mut self, mut from: Found) -> Found {
+        let mut step = from.squared.sqrt();
+        while step > SHORTEST_STEP * from.squared.sqrt() && !self.watch.passed_after(0) {
+            let around = |&x: &f64| Side { lower: (x - step).max(0.0), upper: (x + step).min(1.0) };
+            let sides: Vec<Side> = from.place.iter().map(around).collect();
+            self.climbing.solve(&sides, from.squared, &mut self.watch);
+            let squared = self.climbing.squared_distance();
+            if squared > from.squared {
+                from.squared = squared;
+                from.place.copy_from_slice(&self.climbing.place);
+            } else {
+                step *= SHORTER;
+            }
+        }
+        from
+    }
+
+    /// What is no larger need not be looked for.
+    fn bar(&self, goal: f64) -> f64 {
+        same_as(self.best, self.dims).max(goal)
+    }
+
+    /// Bounds a box, and puts what is left of it on the stack in two parts.
+    fn branch(&mut self, mut cell: Open, goal: f64, open: &mut Vec<Open>) {
+        let mut bar = self.bar(goal);
+        for _ in 0..MOST_RELAXATIONS {
+            cell.bound = cell.bound.min(self.relaxation.solve(&cell.sides, bar, &mut self.watch));
+            if cell.bound <= bar {
+                return;
+            }
+            let squared = self.relaxation.squared_distance();
+            if squared > self.best {
+                let found = self.climb(Found { squared, place: self.relaxation.place.clone() });
+                self.best = found.squared;
+                self.found = Some(found);
+                bar = self.bar(goal);
+            }
+            if !self.shrink(&mut cell, bar) {
+                break;
+            }
+        }
+        open.extend(self.cut(cell, bar));
+    }
+
+    /// Takes away ends of the box where nothing is above the bar (range reduction: Ryoo, Sahinidis, A branch-and-reduce
+    /// approach to global optimization, J. Global Optimization 8, 1996); whether that was worthwhile.
+    fn shrink(&self, cell: &mut Open, bar: f64) -> bool {
+        let mut left = 1.0;
+        for (axis, side) in cell.sides.iter_mut().enumerate() {
+            let Some(hole) = self.relaxation.hole(axis, *side, bar) else { continue };
+            let before = side.width();
+            if hole.lower == side.lower {
+                side.lower = hole.upper;
+            } else if hole.upper == side.upper {
+                side.upper = hole.lower;
+            }
+            left *= side.width() / before;
+        }
+        left < 1.0 - WORTHWHILE
+    }
+
+    /// Cuts the box in two through the solution, more or less, along the axis where the relaxation is most off there.
+    /// Where nothing along that axis is above the bar is left out.
+    ///
+    /// There is always something to cut: a box whose sides are neighbouring numbers is not above the bar, because `same_as`
+    /// allows for them.
+    fn cut(&self, cell: Open, bar: f64) -> [Open; 2] {
+        let place = &self.relaxation.place;
+        let off = |axis: usize| {
+            let side = cell.sides[axis];
+            let x = place[axis].clamp(side.lower, side.upper);
+            (x - side.lower) * (side.upper - x)
+        };
+        let width = |axis: usize| cell.sides[axis].width();
+        let less = |&a: &usize, &b: &usize| off(a).total_cmp(&off(b)).then(width(a).total_cmp(&width(b)));
+        let axis = (0..cell.sides.len()).max_by(less).expect("there is an axis");
+        let side = cell.sides[axis];
+        let least = LEAST_SHARE * side.width();
+        let mut through = place[axis].clamp(side.lower + least, side.upper - least);
+        if through == side.lower || through == side.upper {
+            through = 0.5 * (side.lower + side.upper);
+        }
+        let hole = self.relaxation.hole(axis, side, bar).unwrap_or(Side { lower: through, upper: through });
+        let [mut lower, mut upper] = [cell.clone(), cell];
+        (lower.sides[axis].upper, upper.sides[axis].lower) = (hole.lower, hole.upper);
+        [lower, upper]
+    }
+}
