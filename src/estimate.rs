@@ -3,6 +3,7 @@
 use crate::Error;
 use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox, dispersion_watched};
 use paracosm_coverage::extreme::extreme_discrepancy;
+use paracosm_coverage::fill::fill;
 use paracosm_coverage::kwise::kwise_coverage;
 use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion};
 use paracosm_coverage::star::star_discrepancy;
@@ -32,6 +33,8 @@ pub enum Measure {
     Star,
     /// The extreme discrepancy.
     Extreme,
+    /// The radius of the largest empty ball with its centre in the cube.
+    Fill,
     /// The L2-star discrepancy.
     L2Star,
     /// The centered discrepancy, squared.
@@ -48,10 +51,11 @@ pub enum Measure {
 
 impl Measure {
     /// Every measure.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Dispersion,
         Self::Star,
         Self::Extreme,
+        Self::Fill,
         Self::L2Star,
         Self::Centered,
         Self::Wraparound,
@@ -61,8 +65,16 @@ impl Measure {
     ];
 
     /// Those of the continuous parameters alone, in the order in which they are measured.
-    const CONTINUOUS: [Self; 7] =
-        [Self::L2Star, Self::Centered, Self::Wraparound, Self::Mixture, Self::Dispersion, Self::Star, Self::Extreme];
+    const CONTINUOUS: [Self; 8] = [
+        Self::L2Star,
+        Self::Centered,
+        Self::Wraparound,
+        Self::Mixture,
+        Self::Dispersion,
+        Self::Fill,
+        Self::Star,
+        Self::Extreme,
+    ];
 
     /// The name by which it is asked for.
     pub fn name(self) -> &'static str {
@@ -70,6 +82,7 @@ impl Measure {
             Self::Dispersion => "dispersion",
             Self::Star => "star",
             Self::Extreme => "extreme",
+            Self::Fill => "fill",
             Self::L2Star => "l2_star",
             Self::Centered => "centered",
             Self::Wraparound => "wraparound",
@@ -123,6 +136,9 @@ pub struct Continuous {
     /// The extreme discrepancy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub extreme_discrepancy: Option<Bracket>,
+    /// The radius of the largest empty ball with its centre in the cube; null without tests.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fill: Option<Option<Ball>>,
     /// The L2-star discrepancy; null without tests or time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub l2_star: Option<Option<f64>>,
@@ -145,6 +161,7 @@ impl Continuous {
             dispersion: None,
             star_discrepancy: None,
             extreme_discrepancy: None,
+            fill: None,
             l2_star: None,
             centered: None,
             wraparound: None,
@@ -161,6 +178,16 @@ pub struct Hole {
     pub volume: Bracket,
     /// A box of the lower volume: from and to of each parameter, as values.
     pub largest_empty_box: Record<[f64; 2]>,
+}
+
+/// The largest ball that holds no test.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Ball {
+    /// Its radius, each parameter scaled to `[0,1]`.
+    #[serde(flatten)]
+    pub radius: Bracket,
+    /// The centre of a ball of the lower radius, as values.
+    pub centre: Record<f64>,
 }
 
 /// How well tests cover the discrete parameters.
@@ -315,6 +342,13 @@ impl Tests {
                 }
                 Measure::Star => coverage.star_discrepancy = Some(star_discrepancy(&points, deadline)),
                 Measure::Extreme => coverage.extreme_discrepancy = Some(extreme_discrepancy(&points, deadline)),
+                Measure::Fill => {
+                    coverage.fill = Some(fill(&points, deadline).map(|found| {
+                        let places = parameters.iter().zip(&found.centre);
+                        let centre = places.map(|(p, &u)| (p.name.clone(), p.value_at(u))).collect();
+                        Ball { radius: found.radius, centre }
+                    }));
+                }
                 Measure::KWise | Measure::KWiseDispersion => unreachable!("measures of both halves"),
             }
         }

@@ -3,10 +3,28 @@
 use crate::estimate::Tests;
 use crate::{Error, Folder, Study, Trial};
 use paracosm_coverage::{Space, Value, Values, nearest};
-use std::fs;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
+/// More numbers than this, some gigabytes of tests, are refused rather than kept in memory.
+const MOST_NUMBERS: usize = 50_000_000;
+
 impl Tests {
+    /// Checks that so many tests of so many parameters can be kept in memory.
+    ///
+    /// # Errors
+    /// They are more than 50 million numbers.
+    pub fn check_size(tests: usize, parameters: usize) -> Result<(), Error> {
+        if parameters.saturating_mul(tests) <= MOST_NUMBERS {
+            return Ok(());
+        }
+        let message = format!(
+            "{tests} tests of {parameters} parameters are more than fit in memory: at most {MOST_NUMBERS} numbers"
+        );
+        Err(Error::Usage(message))
+    }
+
     /// Reads the tests in a file or in the folder of a campaign.
     ///
     /// Without a space the columns of a file are coordinates in `[0,1]`, all continuous; with one, columns that are
@@ -26,15 +44,15 @@ impl Tests {
             let (study, trials) = Folder::read(path)?;
             return Self::of_trials(&study, &trials);
         }
-        let text = fs::read(path).map_err(Error::file("read", path))?;
-        if text.is_empty() {
+        let mut file = BufReader::new(File::open(path).map_err(Error::file("read", path))?);
+        if file.fill_buf().map_err(Error::file("read", path))?.is_empty() {
             return Err(Error::content(
                 path,
                 None,
                 "the file is empty, expected a header with the names of the columns",
             ));
         }
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_slice());
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
         let header = reader.headers().map_err(|error| broken(path, &error))?.clone();
         if header.iter().all(|name| name.parse::<f64>().is_ok()) {
             let message = "found numbers, expected a header with the names of the columns";
@@ -57,6 +75,8 @@ impl Tests {
         for record in reader.records() {
             let record = record.map_err(|error| broken(path, &error))?;
             let line = record.position().map(|position| position.line() as usize);
+            Self::check_size(points.len(), space.parameters().len())
+                .map_err(|error| Error::content(path, line, error.to_string()))?;
             let mut test = Values::default();
             for (parameter, column) in space.parameters().iter().zip(&columns) {
                 let text = &record[*column];

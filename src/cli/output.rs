@@ -83,6 +83,14 @@ impl Table {
         if let Some(extreme) = &measured.extreme_discrepancy {
             self.row("extreme discrepancy", &bracket(extreme));
         }
+        if let Some(ball) = &measured.fill {
+            self.row("fill", &ball.as_ref().map_or("unknown: no tests".into(), |ball| bracket(&ball.radius)));
+            let place = |(name, value): (&str, &f64)| format!("{name} {}", digits(*value));
+            let centre = ball.iter().flat_map(|ball| ball.centre.iter()).map(place).collect::<Vec<_>>();
+            if !centre.is_empty() {
+                self.row("  centre of the ball", &centre.join(", "));
+            }
+        }
         let others = [
             ("L2-star", measured.l2_star),
             ("centered, squared", measured.centered),

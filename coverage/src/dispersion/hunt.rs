@@ -58,7 +58,7 @@ impl<'a> Hunt<'a> {
     pub fn run(mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
         self.begin(deadline);
         if self.points.dims() >= EARLY_IMPROVEMENT {
-            while !self.open.is_empty() && !deadline.passed() && self.attempt() {
+            while !self.open.is_empty() && !deadline.passed() && self.attempt(deadline) {
                 watch(self.bracket());
             }
         }
@@ -112,14 +112,15 @@ impl<'a> Hunt<'a> {
             nodes += 1;
             nodes <= ALONE && !watch.passed_after(work)
         });
-        self.split(0.0);
+        self.split(0.0, deadline);
     }
 
     /// Branches the largest open boxes until there are enough above a volume to share out, the largest first.
-    fn split(&mut self, above: f64) {
+    fn split(&mut self, above: f64, deadline: Deadline) {
         self.open.sort_by(|a, b| a.volume.total_cmp(&b.volume));
         while let Some(largest) = self.open.last()
             && largest.volume > above
+            && !deadline.passed()
             && self.open.iter().rev().take(PARTS).filter(|open| open.volume > above).count() < PARTS
         {
             let mut first = true;
@@ -183,15 +184,18 @@ impl<'a> Hunt<'a> {
     /// come in are cut away anew in the best way (a large neighbourhood search).
     fn improve(&mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) {
         while !self.open.is_empty() && !deadline.passed() {
-            self.attempt();
+            self.attempt(deadline);
             watch(self.bracket());
         }
     }
 
     /// A round of such attempts; whether it found a larger box. Each has a bar of its own, so that what it finds does not depend on the others.
-    fn attempt(&mut self) -> bool {
+    fn attempt(&mut self, deadline: Deadline) -> bool {
         let best = self.bar.get();
         let attempt = |search: &mut Search, seed: u64| {
+            if deadline.passed() {
+                return None;
+            }
             let mut nodes = 0;
             let few = |_| {
                 nodes += 1;
@@ -262,7 +266,7 @@ impl<'a> Hunt<'a> {
             let left = deadline.left().map_or(f64::INFINITY, |left| left.as_secs_f64());
             let next = next_goal(best, upper, &passes, left);
             let begun = Instant::now();
-            self.split(next);
+            self.split(next, deadline);
             if self.explore(next, deadline) {
                 passes.push((libm::log(next), libm::log(begun.elapsed().as_secs_f64().max(1e-6))));
             }

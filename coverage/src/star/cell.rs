@@ -52,6 +52,9 @@ struct Profiled {
     again: usize,
 }
 
+/// More steps than this, some hundredths of a second, are not spent on one relaxation: cutting the cell gets further.
+const MOST_STEPS: usize = 1 << 26;
+
 /// How many times points may be counted again, as a multiple of the number of points that matters.
 const AGAIN_PER_BUDGET: usize = 3;
 
@@ -182,6 +185,9 @@ impl Cell {
         }
         let room = (self.simple_bound(sides, kind) - threshold) * sides.points() as f64;
         let budget = (room as usize).saturating_add(2).min(self.undecided.len());
+        if budget.saturating_mul(budget).saturating_mul(sides.count()) > MOST_STEPS {
+            return Relaxed::Bounded;
+        }
         let Profiled { several, again } = self.profile(sides, kind, budget, threshold, scratch);
         let (largest, least) = (|a, b| if a > b { a } else { b }, |a, b| if a < b { a } else { b });
         match kind {
@@ -349,9 +355,11 @@ impl Cell {
         [below, self]
     }
 
-    /// Where to cut: the side along which most points are undecided that are so along several, at their median.
+    /// Where to cut: the side along which most points are undecided that are so along several, at their median. Where
+    /// there are none such, but too many for a relaxation, all undecided ones count.
     fn cut(&self, sides: &Sides, scratch: &mut Scratch) -> (usize, f64) {
-        let several = || self.undecided.iter().filter(|undecided| undecided.sides > 1);
+        let least = if self.undecided.iter().any(|undecided| undecided.sides > 1) { 2 } else { 1 };
+        let several = || self.undecided.iter().filter(|undecided| undecided.sides >= least);
         let coordinate = |undecided: &Undecided, side| sides.coordinate(undecided.point as usize, side);
         let count =
             |&side: &usize| several().filter(|undecided| coordinate(undecided, side) > self.lower[side]).count();

@@ -1,6 +1,6 @@
 //! `paracosm-cover estimate`: how well tests cover their space.
 
-use super::{certificate, check_size, read_space, time_limit};
+use super::{certificate, read_space, time_limit};
 use crate::cli::output::{Format, Table, json, short_bracket};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::{Bracket, Parameter, Space};
@@ -34,7 +34,7 @@ pub(super) struct Options {
     /// How many parameters are looked at together [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
-    /// What to measure, of dispersion, star, extreme, l2_star, centered, wraparound, mixture, k-wise,
+    /// What to measure, of dispersion, star, extreme, fill, l2_star, centered, wraparound, mixture, k-wise,
     /// k-wise-dispersion [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     measures: Vec<Measure>,
@@ -112,7 +112,7 @@ impl Options {
         let (Some(dims), Some(budget)) = (self.dims, self.budget) else {
             return Err(Error::Usage("--strategy needs --dims and --budget".into()));
         };
-        check_size(budget, dims)?;
+        Tests::check_size(budget, dims)?;
         let space = Space::unit_cube(dims);
         let request = Request { seed: self.seed, skip: self.skip, ..Request::new(&space, budget) };
         let points = name.parse::<Strategy>()?.build(&request)?.ask(budget);

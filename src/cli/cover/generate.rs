@@ -1,6 +1,6 @@
 //! `paracosm-cover generate`: tests by a strategy, as CSV.
 
-use super::{check_size, read_space};
+use super::read_space;
 use crate::cli::{Failure, Verbosity};
 use crate::coverage::{Parameter, Point, Space};
 use crate::generators::{Aim, Generator, Request, Strategy};
@@ -62,7 +62,7 @@ impl Options {
         let space = match (&self.space, self.dims) {
             (Some(path), _) => Some(read_space(path)?),
             (None, Some(dims)) => {
-                check_size(1, dims)?;
+                Tests::check_size(1, dims)?;
                 Some(Space::unit_cube(dims))
             }
             (None, None) => None,

@@ -53,23 +53,10 @@ impl Command {
     }
 }
 
-/// The largest point set that is kept in memory: 1.6 GB of coordinates.
-const MOST_COORDINATES: usize = 200_000_000;
-
 /// A time limit as it is given.
 fn time_limit(seconds: f64) -> Result<Duration, Error> {
     Duration::try_from_secs_f64(seconds)
         .map_err(|_| Error::Usage(format!("--time-limit {seconds}: expected a number of seconds from 0 on")))
-}
-
-/// Refuses what does not fit in memory.
-fn check_size(tests: usize, dims: usize) -> Result<(), Error> {
-    if dims.saturating_mul(tests) <= MOST_COORDINATES {
-        return Ok(());
-    }
-    let message =
-        format!("{tests} points in {dims} dimensions are more than fit: at most {MOST_COORDINATES} coordinates");
-    Err(Error::Usage(message))
 }
 
 fn read_space(path: &Path) -> Result<Space, Error> {

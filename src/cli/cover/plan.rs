@@ -1,10 +1,10 @@
 //! `paracosm-cover plan`: how many tests each guarantee asks for.
 
-use super::{check_size, read_space, time_limit};
+use super::{read_space, time_limit};
 use crate::cli::output::{Format, Table, json};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::Space;
-use crate::{Need, Plan};
+use crate::{Need, Plan, Tests};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 
@@ -48,7 +48,7 @@ impl Options {
         let space = match (&self.space, self.dims.unwrap_or(0)) {
             (Some(path), _) => read_space(path)?,
             (None, dims) => {
-                check_size(1, dims)?;
+                Tests::check_size(1, dims)?;
                 Space::unit_cube(dims)
             }
         };
