@@ -19,6 +19,7 @@ pub mod kwise_dispersion;
 pub mod l2;
 mod names;
 mod points;
+pub mod rules;
 mod space;
 pub mod star;
 pub mod theory;
