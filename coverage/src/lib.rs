@@ -8,7 +8,7 @@
 //! holes as tests arrive one by one. [`theory`] holds the bounds that are known without looking at any point.
 //!
 //! Which tests make sense is said by constraints: [`constraint`] is their language, [`rules`] what follows from
-//! them .
+//! them, and [`pict`] reads spaces and constraints from the model files of PICT.
 //!
 //! The crate computes: it opens no file and runs no simulation. Numbers called exact are exact; what a time
 //! limit cut short comes back as a certified [`Bracket`].
@@ -23,6 +23,7 @@ pub mod kwise_dispersion;
 pub mod l2;
 mod names;
 
+pub mod pict;
 mod points;
 pub mod rules;
 mod space;

@@ -15,6 +15,7 @@ fn drive() -> Space {
         choice("lanes", vec![2.into(), 4.into(), 6.into()]),
         choice("open", vec![1.into(), 2.into(), 3.into()]),
         choice("gear", vec![1.into(), 2.into(), "auto".into()]),
+        choice("many", (0..9).map(Value::from).collect()),
         choice("road surface", vec!["dry".into(), "it's wet".into()]),
     ])
     .unwrap()
@@ -290,6 +291,7 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
     );
     check("weather in ['rain', 'snow']", 21, "`weather` is never 'snow', expected one of 'clear', 'rain', 'fog'");
     check("lanes != 3", 10, "`lanes` is never 3, expected one of 2, 4, 6");
+    check("many == 10", 9, "`many` is never 10, expected one of 0, 1, 2, 3, 4, 5, 6, 7, .. (9 in all)");
     check("lanes == '2'", 10, "`lanes` is never '2', expected one of 2, 4, 6 (did you mean `2`?)");
     check("weather == fog", 12, "no parameter is called `fog`; the level of `weather` is written 'fog'");
     check("weather < 'fog'", 1, "`<` compares numbers, but `weather` takes the word 'clear'");

@@ -220,15 +220,17 @@ impl Side<'_> {
         if self.levels.contains(value) {
             return Ok(());
         }
-        let listed: Vec<_> = self.levels.iter().take(LISTED).map(|level| Written(level).to_string()).collect();
-        let more =
-            if self.levels.len() > LISTED { format!(", .. ({} in all)", self.levels.len()) } else { String::new() };
         let written: Vec<_> = self.levels.iter().map(|level| Written(level).to_string()).collect();
-        let meant = nearest(&value.to_string(), self.levels.iter().filter_map(Value::word))
-            .and_then(|word| self.levels.iter().position(|level| level.word() == Some(word)))
-            .or_else(|| self.levels.iter().position(|level| level.to_string() == value.to_string()));
-        let expected = listed.join(", ") + &more;
-        let meant = did_you_mean(&meant.map(|i| written[i].clone()));
+        let mut expected = written[..written.len().min(LISTED)].join(", ");
+        if written.len() > LISTED {
+            expected += &format!(", .. ({} in all)", written.len());
+        }
+        // A number in quotes, or a word that is nearly one.
+        let found = value.to_string();
+        let word = nearest(&found, self.levels.iter().filter_map(Value::word));
+        let same = self.levels.iter().position(|level| level.to_string() == found);
+        let meant = same.or_else(|| self.levels.iter().position(|level| word.is_some() && level.word() == word));
+        let meant = did_you_mean(&meant.map(|level| &written[level]));
         Err(format!("{self} is never {}, expected one of {expected}{meant}", Written(value)))
     }
 

@@ -27,6 +27,7 @@ mod parse;
 mod token;
 
 pub use expression::{Expression, Operand, Relation};
+pub(crate) use token::enclosed;
 
 use crate::Parameter;
 use crate::rules::Clause;
