@@ -1,4 +1,4 @@
-//! Model files: what they hold, against an evaluation of their constraints by hand, and what their errors say.
+//! Model files: what they hold, against an evaluation of their constraints by hand.
 
 use paracosm_coverage::constraint::Constraint;
 use paracosm_coverage::pict::Model;
@@ -89,6 +89,18 @@ fn values_are_numbers_words_and_what_they_look_like() {
         &["x".into(), "y".into()],
         &["of aliases only the first is used: `x|~z`", "weights are passed over: `x|~z (3)`, `y(2)`"],
     );
+    check(
+        "A: 1, , (3)",
+        &[1.into(), "".into()],
+        &[
+            "parameter `A` lists the empty word as a value",
+            "parameter `A` lists `` twice, which is read as one value",
+            "weights are passed over: `(3)`",
+        ],
+    );
+    check("A/@B@x: x@2", &["x@2".into()], &[]);
+    let note = "without `:` the name of a parameter ends at the first comma: `A b`";
+    check("A b, 1, 2", &[1.into(), 2.into()], &[note]);
     check(
         "\u{feff}A: <none>, b",
         &["<none>".into(), "b".into()],
@@ -270,122 +282,6 @@ proptest! {
             prop_assert!(!error.message.is_empty());
         }
     }
-}
-
-#[test]
-fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
-    let check = |text: &str, at: (usize, usize), expected: &str| match Model::from_pict(text) {
-        Err(error) => assert_eq!(((error.line, error.column), error.message.as_str()), (at, expected), "{text}"),
-        Ok(model) => panic!("{text}: {model:?}"),
-    };
-    check("", (1, 1), "found no parameters, expected a line like `Weather: clear, rain, fog`");
-    check("# A: 1\n[A] = 1;", (2, 1), "found no parameters, expected a line like `Weather: clear, rain, fog`");
-    check("A: 1\n Size 1, 2", (2, 11), "found no `:`, expected one between the name of a parameter and its values");
-    check(
-        "A: 1\nIFF [A] = 1 THEN [A] = 2;",
-        (2, 26),
-        "found no `:`, expected one between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
-    );
-    check(" : 1, 2", (1, 2), "found no name before `:`");
-    check("A: 1, , 2", (1, 7), "found an empty value, expected a value of `A`");
-    check("A:", (1, 3), "found an empty value, expected a value of `A`");
-    check("A: 1, 2,\nB: 1", (1, 9), "found an empty value, expected a value of `A`");
-    check("A: (3)", (1, 4), "found an empty value, expected a value of `A`");
-    check("A: 1\n$R: x", (2, 1), "`$R` is a result parameter, which is not supported");
-    check("A @ 2: 1", (1, 3), "an order of a parameter is not supported; give the order of a sub-model: `{A, B} @ 3`");
-    check("OS: 1\n os: 2", (2, 2), "parameter `OS` is declared twice; case makes no difference");
-    check("V: 1.1, 1.2, 1.10", (1, 14), "`1.10` is the same number as `1.1`; a level of a parameter stands once");
-    check("V: 1, ~1", (1, 7), "`1` is listed with and without `~`");
-
-    let check = |rest: &str, at: (usize, usize), expected: &str| {
-        check(&format!("Weather: clear, fog\nLanes: 2, 4\nFront lanes: 2, 6\n{rest}"), (at.0 + 3, at.1), expected);
-    };
-    check("{Weather, Lane} @ 2", (1, 11), "no parameter is called `Lane` (did you mean `Lanes`?)");
-    check("{Weather, Lanes} @ 3", (1, 20), "found `3`, expected an order from 1 to 2, the number of parameters");
-    check("{Weather, Lanes} @", (1, 19), "found nothing, expected an order from 1 to 2, the number of parameters");
-    check("{Weather, Lanes} 2", (1, 18), "found `2`, expected `@` and the order of the sub-model");
-    check("{Weather, weather}", (1, 11), "the sub-model names `weather` twice");
-    check("{Weather,}", (1, 10), "found no name, expected a parameter of the sub-model");
-    check("{Weather, Lanes", (1, 16), "found no `}`, expected one after the names of a sub-model");
-    check(
-        "{Weather, Lanes}\nB: 1",
-        (2, 1),
-        "found a parameter after a sub-model; parameters come first, then sub-models, then constraints",
-    );
-    check(
-        "[Lanes] = 2;\nB: 1",
-        (2, 1),
-        "found a parameter after a constraint; parameters come first, then sub-models, then constraints",
-    );
-    check(
-        "[Lanes] = 2;\n{Lanes}",
-        (2, 1),
-        "found a sub-model after a constraint; parameters come first, then sub-models, then constraints",
-    );
-
-    check(
-        "IF [Wether] = \"fog\" THEN [Lanes] = 2;",
-        (1, 4),
-        "no parameter is called `Wether` (did you mean `Weather`?)",
-    );
-    check("IF [Weather] = \"fog\"\n  [Lanes] = 2;", (2, 3), "found `[Lanes]`, expected `AND`, `OR` or `THEN`");
-    check(
-        "IF [Weather] = \"fog\" THAN [Lanes] = 2;",
-        (1, 22),
-        "found `THAN`, expected `AND`, `OR` or `THEN` (did you mean `THEN`?)",
-    );
-    check(
-        "IF [Weather] = \"fog\" THEN [Lanes] = 2",
-        (1, 38),
-        "found the end of the model, expected `AND`, `OR`, `ELSE` or `;`",
-    );
-    check("[Lanes] = 2\n[Lanes] = 4;", (2, 1), "found `[Lanes]`, expected `AND`, `OR` or `;`");
-    check(
-        "[Lanes] = 2;\nFI [Lanes] = 2;",
-        (2, 1),
-        "found `FI`, expected `IF`, `NOT`, `(` or a parameter in brackets (did you mean `IF`?)",
-    );
-    check("IF Lanes = 2 THEN [Lanes] = 2;", (1, 4), "found `Lanes`, expected a parameter in brackets, as [Lanes]");
-    check("IF (2 = 2) THEN [Lanes] = 2;", (1, 5), "found `2`, expected a parameter in brackets, `NOT` or `(`");
-    check("[Weather] = fog;", (1, 13), "found `fog`, expected a value; words stand in quotes: \"fog\"");
-    check("[Weather] = 'fog';", (1, 13), "found `'`, expected `\"`");
-    check("[Weather] = 3;", (1, 13), "`Weather` takes words, which stand in quotes: found `3`");
-    check("[Lanes] = \"2\";", (1, 11), "`Lanes` takes numbers only, which stand without quotes: found `\"2\"`");
-    check("[Lanes] = ;", (1, 11), "found `;`, expected a number or a parameter in brackets");
-    check("[Weather] = );", (1, 13), "found `)`, expected a word in quotes or a parameter in brackets");
-    check("[Lanes] == 2;", (1, 9), "found `==`, expected `=`");
-    check("[Lanes] != 2;", (1, 9), "found `!=`, expected `<>`");
-    check("[Lanes] = 2 && [Lanes] = 4;", (1, 13), "found `&&`, expected `AND`");
-    check("[Lanes] 2;", (1, 9), "found `2`, expected `=`, `<>`, `<`, `<=`, `>`, `>=`, `IN` or `LIKE`");
-    check("[Lanes] = 2x;", (1, 11), "found `2x`, expected a number");
-    check("[Lanes] LIKE \"2*\";", (1, 9), "`LIKE` compares words, but `Lanes` takes numbers only");
-    check("[Weather] LIKE fog;", (1, 16), "found `fog`, expected a pattern in quotes");
-    check("[Weather] NOT \"fog\";", (1, 15), "found `\"fog\"`, expected `IN` or `LIKE`");
-    check("[Lanes] IN 2;", (1, 12), "found `2`, expected `{` and the values");
-    check("[Lanes] IN {2; 4};", (1, 14), "found `;`, expected `,` or `}`");
-    check("[Lanes] = [Weather];", (1, 9), "`Lanes` takes numbers and `Weather` words, which are not compared");
-    check("[Lanes] = [Front lane];", (1, 11), "no parameter is called `Front lane` (did you mean `Front lanes`?)");
-    check("([Lanes] = 2;", (1, 13), "found `;`, expected `AND`, `OR` or `)`");
-    check("([Lanes] = 2", (1, 1), "the `(` here is never closed");
-    check("IsNegative(Lane);", (1, 12), "no parameter is called `Lane` (did you mean `Lanes`?)");
-    check("IsNegative Lanes;", (1, 12), "found `Lanes`, expected `(`");
-    check(
-        "[Lanes] = 2;\nB: a/b",
-        (2, 1),
-        "found a parameter after a constraint; parameters come first, then sub-models, then constraints",
-    );
-    check("[Lanes] 2;\n^", (1, 9), "found `2`, expected `=`, `<>`, `<`, `<=`, `>`, `>=`, `IN` or `LIKE`");
-    check("[Lanes] IN {2, ^};", (1, 16), "found `^`, which is no sign of a constraint");
-    check("IsNegative(^);", (1, 12), "found `^`, which is no sign of a constraint");
-    check("IsNegative(Lanes;", (1, 17), "found `;`, expected `)`");
-    check("[Weather] = \"fog;", (1, 13), "the word that begins here has no closing `\"`");
-    check("[Weather = \"fog\";", (1, 1), "the name that begins here has no closing `]`");
-    check("[Lanes] = 2; # two", (1, 14), "found `#`, which begins a comment only at the start of a line");
-    check("[Lanes] = 2 ^ 3;", (1, 13), "found `^`, which is no sign of a constraint");
-    let deep = format!("{}[Lanes] = 2{};", "(".repeat(1000), ")".repeat(1000));
-    check(&deep, (1, 49), "the constraint is nested more than 48 deep");
-    let deep = format!("{}[Lanes] = 2;", "NOT ".repeat(1000));
-    check(&deep, (1, 193), "the constraint is nested more than 48 deep");
 }
 
 #[test]

@@ -28,11 +28,12 @@
 //!   combinations of values without the sign by tests that have none with it; this is not done.
 //! - `{A, B, C} @ 3` asks for all combinations of three of these parameters beside what is asked of all. PICT also
 //!   keeps the number of different rows of a sub-model small; this is not done.
-//! - `<P>` stands for the values of a parameter above, if there is one of that name.
+//! - `<P>` stands for the values of a parameter above, if there is one of that name. Where a line has no colon, the name
+//!   ends at the first comma, as in old models.
 //!
 //! Aliases other than the first and weights, which say nothing of what has to be covered, are passed over; a note says
-//! so. Refused are result parameters (`$`), a parameter's own order (`P @ 2: ..`), empty values, two values that are the
-//! same number, and what is unknown. The separators of values and of aliases and the negative sign are those that PICT
+//! so. Refused are result parameters (`$`), a parameter's own order (`P @ 2: ..`), two values that are the same number, a
+//! parameter of negative values only, and what is unknown. The separators of values and of aliases and the negative sign are those that PICT
 //! takes unless told otherwise.
 
 mod parameters;

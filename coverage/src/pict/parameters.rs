@@ -63,6 +63,7 @@ pub(super) fn find(declared: &[Declared], name: &str) -> Result<usize, String> {
 pub(super) struct Parameters {
     pub declared: Vec<Declared>,
     pub notes: Vec<String>,
+    without_colon: Vec<String>,
     weighted: Vec<String>,
     aliased: Vec<String>,
 }
@@ -70,7 +71,8 @@ pub(super) struct Parameters {
 impl Parameters {
     /// Reads the line of a parameter that begins at this offset, without its end.
     pub fn read(&mut self, line: &str, offset: usize) -> Result<(), Fault> {
-        let Some((head, list)) = line.split_once(':') else {
+        let comma = line.split_once(',').filter(|(name, _)| !name.contains(['[', '{']));
+        let Some((head, list)) = line.split_once(':').or(comma) else {
             let constraint = if line.contains('[') { ", or a constraint that begins with IF, NOT, [ or (" } else { "" };
             let message =
                 format!("found no `:`, expected one between the name of a parameter and its values{constraint}");
@@ -84,33 +86,46 @@ impl Parameters {
         if name.starts_with('$') {
             return fail(at, format!("`{name}` is a result parameter, which is not supported"));
         }
-        if let Some(sign) = name.find('@') {
+        let order = name.split_once('@').filter(|(_, order)| order.trim().parse::<f64>().is_ok());
+        if let Some((name, _)) = order {
             let message = "an order of a parameter is not supported; give the order of a sub-model: `{A, B} @ 3`";
-            return fail(at + sign, message);
+            return fail(at + name.len(), message);
+        }
+        if !line.contains(':') {
+            self.without_colon.push(format!("`{name}`"));
         }
         if let Ok(known) = find(&self.declared, name) {
             let known = &self.declared[known].name;
             return fail(at, format!("parameter `{known}` is declared twice; case makes no difference"));
         }
+        if list.trim().is_empty() {
+            return fail(
+                offset + line.len(),
+                format!("found no values, expected those of `{name}`, with commas between them"),
+            );
+        }
         let mut declared = Declared { name: name.to_owned(), values: Vec::new() };
         let mut at = offset + head.len() + 1;
         for piece in list.split(',') {
-            for listed in self.piece(piece, at, &declared.name)? {
+            for listed in self.piece(piece, &declared.name) {
                 self.add(&mut declared, listed, at + indent(piece))?;
             }
             at += piece.len() + 1;
+        }
+        if declared.values.iter().all(|listed| listed.negative) {
+            let message = format!("every value of `{name}` is negative (`~`), expected one that is not");
+            return fail(offset + head.len() + 1 + indent(list), message);
         }
         self.declared.push(declared);
         Ok(())
     }
 
     /// The value between two commas, or the values of the parameter to which it refers.
-    fn piece(&mut self, piece: &str, offset: usize, name: &str) -> Result<Vec<Listed>, Fault> {
-        let at = offset + indent(piece);
+    fn piece(&mut self, piece: &str, name: &str) -> Vec<Listed> {
         let mut text = piece.trim();
         if let Some(other) = text.strip_prefix('<').and_then(|text| text.strip_suffix('>')) {
             match find(&self.declared, other.trim()) {
-                Ok(known) => return Ok(self.declared[known].values.clone()),
+                Ok(known) => return self.declared[known].values.clone(),
                 Err(message) => {
                     self.notes.push(format!("parameter `{name}`: {message}, so `{text}` is read as a value"));
                 }
@@ -128,14 +143,14 @@ impl Parameters {
         if negative {
             text = text[1..].trim();
         }
-        if text.is_empty() {
-            return fail(at, format!("found an empty value, expected a value of `{name}`"));
-        }
-        Ok(vec![Listed { text: text.to_owned(), value: Value::parse(text), negative }])
+        vec![Listed { text: text.to_owned(), value: Value::parse(text), negative }]
     }
 
     fn add(&mut self, declared: &mut Declared, listed: Listed, at: usize) -> Result<(), Fault> {
         let Some(known) = declared.values.iter().find(|known| known.value == listed.value) else {
+            if listed.text.is_empty() {
+                self.notes.push(format!("parameter `{}` lists the empty word as a value", declared.name));
+            }
             declared.values.push(listed);
             return Ok(());
         };
@@ -154,11 +169,14 @@ impl Parameters {
 
     /// The parameters, and what is to be said of them all.
     pub fn finish(mut self) -> (Vec<Declared>, Vec<String>) {
-        if !self.aliased.is_empty() {
-            self.notes.push(format!("of aliases only the first is used: {}", self.aliased.join(", ")));
-        }
-        if !self.weighted.is_empty() {
-            self.notes.push(format!("weights are passed over: {}", self.weighted.join(", ")));
+        for (what, found) in [
+            ("without `:` the name of a parameter ends at the first comma", &self.without_colon),
+            ("of aliases only the first is used", &self.aliased),
+            ("weights are passed over", &self.weighted),
+        ] {
+            if !found.is_empty() {
+                self.notes.push(format!("{what}: {}", found.join(", ")));
+            }
         }
         if self.declared.iter().any(Declared::has_negatives) {
             self.notes.push(
