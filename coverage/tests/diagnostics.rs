@@ -43,6 +43,9 @@ fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
     check("weather == fog", 12, "no parameter is called `fog`; the level of `weather` is written 'fog'");
     check("weather < 'fog'", 1, "`<` compares numbers, but `weather` takes the word 'clear'");
     check("gear >= 1", 1, "`>=` compares numbers, but `gear` takes the word 'auto'");
+    check("not gear >= 1", 5, "`>=` compares numbers, but `gear` takes the word 'auto'");
+    check("lanes > 2 implies open == 1 or lanes < gear", 38, "`<` compares numbers, but `gear` takes the word 'auto'");
+    check("lanes < gear implies open == 1", 7, "`<` compares numbers, but `gear` takes the word 'auto'");
     check("lanes < 'fog'", 9, "`<` compares numbers, found 'fog'");
     check("lanes <= gear", 7, "`<=` compares numbers, but `gear` takes the word 'auto'");
     check("weather != lanes", 9, "`weather` and `lanes` have no value in common, so they are never equal");

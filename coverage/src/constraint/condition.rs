@@ -130,10 +130,7 @@ impl<'a> Resolver<'a> {
     /// Where the expression holds, or where it does not.
     fn condition(&mut self, expression: &Expression, holds: bool) -> Result<Condition, ConstraintError> {
         match expression {
-            Expression::Compare { parameter, relation, with } => {
-                let relation = if holds { *relation } else { relation.negated() };
-                self.comparison(parameter, relation, with)
-            }
+            Expression::Compare { parameter, relation, with } => self.comparison(parameter, *relation, with, holds),
             Expression::In { parameter, values } => {
                 let places = self.next_places();
                 let side = self.side(parameter).map_err(at(places.left))?;
@@ -161,30 +158,37 @@ impl<'a> Resolver<'a> {
         self.places.next().expect("the parser noted a place for every comparison")
     }
 
-    fn comparison(&mut self, name: &str, relation: Relation, with: &Operand) -> Result<Condition, ConstraintError> {
+    fn comparison(
+        &mut self,
+        name: &str,
+        relation: Relation,
+        with: &Operand,
+        holds: bool,
+    ) -> Result<Condition, ConstraintError> {
         let places = self.next_places();
         let left = self.side(name).map_err(at(places.left))?;
         match with {
-            Operand::Value(value) => {
-                let fits = if relation.orders() { left.numbers(relation) } else { left.level(value) };
-                fits.map_err(at(if relation.orders() { places.left } else { places.right[0] }))?;
-                if relation.orders() && value.number().is_none() {
+            Operand::Value(value) if relation.orders() => {
+                left.numbers(relation).map_err(at(places.left))?;
+                let Some(number) = value.number() else {
                     let message = format!("`{relation}` compares numbers, found {}", Written(value));
                     return Err(ConstraintError { offset: places.right[0], message });
-                }
-                let marked = left.levels.iter().map(|level| match (level, value) {
-                    (Value::Number(level), Value::Number(value)) => relation.holds(level, value),
-                    _ => relation.holds(&(level == value), &true),
-                });
-                Ok(Condition::among(left.position, marked))
+                };
+                let related = |level: &Value| level.number().is_some_and(|level| relation.holds(&level, &number));
+                Ok(Condition::among(left.position, left.levels.iter().map(|level| related(level) == holds)))
+            }
+            Operand::Value(value) => {
+                left.level(value).map_err(at(places.right[0]))?;
+                let equal = (relation == Relation::Equal) == holds;
+                Ok(Condition::among(left.position, left.levels.iter().map(|level| (level == value) == equal)))
             }
             Operand::Parameter(other) => {
                 let right = self.side(other).map_err(|message| {
                     let meant = left.levels.iter().find(|level| level.word() == Some(other));
-                    let meant = meant.map(|word| format!("; the level of {} is written {}", left, Written(word)));
+                    let meant = meant.map(|word| format!("; the level of {left} is written {}", Written(word)));
                     ConstraintError { offset: places.right[0], message: message + &meant.unwrap_or_default() }
                 })?;
-                left.pair(relation, right).map_err(at(places.relation))
+                left.pair(relation, right, holds).map_err(at(places.relation))
             }
         }
     }
@@ -242,7 +246,8 @@ impl Side<'_> {
         })
     }
 
-    fn pair(self, relation: Relation, other: Side) -> Result<Condition, String> {
+    /// The relation to another parameter, or what holds where it does not.
+    fn pair(self, relation: Relation, other: Side, holds: bool) -> Result<Condition, String> {
         if relation.orders() {
             self.numbers(relation)?;
             other.numbers(relation)?;
@@ -255,6 +260,7 @@ impl Side<'_> {
         if !relation.orders() && values.len() == self.levels.len() + other.levels.len() {
             return Err(format!("{self} and {other} have no value in common, so they are never equal"));
         }
+        let relation = if holds { relation } else { relation.negated() };
         let (left, right) = (self.position, other.position);
         if left == right {
             return Ok(Condition::among(left, ranks[0].iter().map(|rank| relation.holds(rank, rank))));

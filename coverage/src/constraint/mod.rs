@@ -4,9 +4,13 @@
 //! `or`, `implies` and parentheses; `not` binds most tightly and `implies` least, `a implies b implies c` is
 //! `a implies (b implies c)`, and `a not in [..]` is `not a in [..]`:
 //!
-//! ```text
-//! lanes == 2 implies weather not in ['fog', 'snow']
-//! [road surface] == 'ice' implies (tyres == 'winter' or speed_limit <= 30)
+//! ```
+//! # for text in [
+//! "lanes == 2 implies weather not in ['fog', 'snow']",
+//! "[road surface] == 'ice' implies (tyres == 'winter' or speed_limit <= 30)",
+//! "not (front_gap < rear_gap and lanes != 2)",
+//! # ] { text.parse::<paracosm_coverage::constraint::Expression>()?; }
+//! # Ok::<(), paracosm_coverage::constraint::ConstraintError>(())
 //! ```
 //!
 //! Numbers stand as they are, words in quotes, single or double. The name of a parameter stands as it is where it

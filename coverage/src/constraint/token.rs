@@ -57,7 +57,7 @@ const FOREIGN: [(&str, &str); 14] = [
 ];
 
 /// What this language writes; the longer ones first.
-const SIGNS: [(&str, Token); 9] = [
+const SIGNS: [(&str, Token); 11] = [
     ("==", Token::Relation(Relation::Equal)),
     ("!=", Token::Relation(Relation::NotEqual)),
     ("<=", Token::Relation(Relation::LessOrEqual)),
@@ -66,6 +66,8 @@ const SIGNS: [(&str, Token); 9] = [
     (">", Token::Relation(Relation::Greater)),
     ("(", Token::Open),
     (")", Token::Close),
+    ("[", Token::ListOpen),
+    ("]", Token::ListClose),
     (",", Token::Comma),
 ];
 
@@ -76,56 +78,50 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, usize)>, ConstraintError>
     loop {
         let rest = text[offset..].trim_start();
         offset = text.len() - rest.len();
-        let Some(sign) = rest.chars().next() else {
+        if rest.is_empty() {
             found.push((Token::End, text.trim_end().len()));
             return Ok(found);
-        };
-        let fail = |message: String| Err(ConstraintError { offset, message });
-        let after_in = matches!(found.last(), Some((Token::Keyword("in"), _)));
-        let (token, length) = if begins_name(sign) {
-            let name = run(rest, continues_name);
-            let keyword = KEYWORDS.into_iter().find(|keyword| *keyword == name);
-            (keyword.map_or_else(|| Token::Name(name.to_owned()), Token::Keyword), name.len())
-        } else if begins_number(rest) {
-            let (written, number) = number(rest);
-            match number {
-                Some(number) => (Token::Value(Value::Number(number)), written.len()),
-                None => {
-                    return fail(format!("found `{written}`, expected a number; a name like it stands in brackets"));
-                }
-            }
-        } else if sign == '\'' || sign == '"' {
-            match enclosed(rest, sign) {
-                Some((word, length)) => (Token::Value(Value::Word(word)), length),
-                None => return fail(format!("the word that begins here has no closing {sign}")),
-            }
-        } else if sign == '[' && after_in {
-            (Token::ListOpen, 1)
-        } else if sign == '[' {
-            match enclosed(rest, ']') {
-                Some((name, length)) => (Token::Name(name), length),
-                None => return fail("the name that begins here has no closing `]`".into()),
-            }
-        } else if sign == ']' {
-            (Token::ListClose, 1)
-        } else {
-            let native = SIGNS.into_iter().find(|(native, _)| rest.starts_with(native));
-            let foreign = FOREIGN.into_iter().find(|(foreign, _)| rest.starts_with(foreign));
-            match (native, foreign) {
-                (native, Some((foreign, meant))) if native.as_ref().is_none_or(|(n, _)| n.len() < foreign.len()) => {
-                    return fail(format!("found `{foreign}`, expected {meant}"));
-                }
-                (Some((sign, token)), _) => (token, sign.len()),
-                _ => {
-                    return fail(format!(
-                        "found `{sign}`, which is no sign of the language; \
-                         names with other signs than letters, digits, `_` and `.` stand in brackets: [road surface]"
-                    ));
-                }
-            }
-        };
+        }
+        let listed = matches!(found.last(), Some((Token::Keyword("in"), _)));
+        let (token, length) = token(rest, listed).map_err(|message| ConstraintError { offset, message })?;
         found.push((token, offset));
         offset += length;
+    }
+}
+
+/// The token at the start of the text, which is not empty, and its length. Where a list may begin a bracket begins one,
+/// elsewhere it begins a name.
+fn token(rest: &str, listed: bool) -> Result<(Token, usize), String> {
+    if rest.starts_with(begins_name) {
+        let name = run(rest, continues_name);
+        let keyword = KEYWORDS.into_iter().find(|keyword| *keyword == name);
+        return Ok((keyword.map_or_else(|| Token::Name(name.to_owned()), Token::Keyword), name.len()));
+    }
+    if begins_number(rest) {
+        return match number(rest) {
+            (written, Some(number)) => Ok((Token::Value(Value::Number(number)), written.len())),
+            (written, None) => Err(format!("found `{written}`, expected a number; a name like it stands in brackets")),
+        };
+    }
+    if let Some(quote) = ['\'', '"'].into_iter().find(|quote| rest.starts_with(*quote)) {
+        let word = enclosed(rest, quote).map(|(word, length)| (Token::Value(Value::Word(word)), length));
+        return word.ok_or_else(|| format!("the word that begins here has no closing {quote}"));
+    }
+    if rest.starts_with('[') && !listed {
+        let name = enclosed(rest, ']').map(|(name, length)| (Token::Name(name), length));
+        return name.ok_or_else(|| "the name that begins here has no closing `]`".to_owned());
+    }
+    let native = SIGNS.into_iter().find(|(native, _)| rest.starts_with(native));
+    let foreign = FOREIGN.into_iter().find(|(foreign, _)| rest.starts_with(foreign));
+    let known = native.as_ref().map_or(0, |(native, _)| native.len());
+    match (native, foreign) {
+        (_, Some((foreign, meant))) if foreign.len() > known => Err(format!("found `{foreign}`, expected {meant}")),
+        (Some((sign, token)), _) => Ok((token, sign.len())),
+        _ => Err(format!(
+            "found `{}`, which is no sign of the language; names with other signs than letters, digits, `_` and `.` \
+             stand in brackets: [road surface]",
+            rest.chars().take(1).collect::<String>()
+        )),
     }
 }
 

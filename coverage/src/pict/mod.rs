@@ -2,17 +2,25 @@
 //!
 //! A model has parameters, then sub-models, then constraints:
 //!
-//! ```text
-//! # Lines that begin with # are comments.
-//! Surface: dry, wet, ice
-//! Tyres:   summer, winter
-//! Speed:   ~-1, 30, 50, 120
-//! Limit:   <Speed>, 200
+//! ```
+//! let model = paracosm_coverage::pict::Model::from_pict(r#"
+//!     ## Lines that begin with # are comments.
+//!     Surface: dry, wet, ice
+//!     Tyres:   summer, winter
+//!     Speed:   ~-1, 30, 50, 120
+//!     Limit:   <Speed>, 200
 //!
-//! { Surface, Tyres, Speed } @ 3
+//!     { Surface, Tyres, Speed } @ 3
 //!
-//! IF [Surface] = "ice" AND [Tyres] <> "winter" THEN [Speed] <= 30 ELSE [Speed] LIKE "*";
-//! [Speed] <= [Limit];
+//!     IF [Surface] = "Ice" AND [Tyres] <> "winter" THEN [Speed] <= 30 ELSE [Surface] LIKE "*";
+//!     [Speed] <= [Limit];
+//! "#)?;
+//! assert_eq!(model.space.levels(), [3, 2, 4, 5]);
+//! assert_eq!(model.strengths, [(vec![0, 1, 2], 3)]);
+//! // The third one is about the negative values.
+//! assert_eq!(model.space.constraints().len(), 3);
+//! assert_eq!(model.space.constraints()[2].text(), "Speed == -1 implies Limit != -1");
+//! # Ok::<(), paracosm_coverage::pict::PictError>(())
 //! ```
 //!
 //! What is read, and as what:
