@@ -7,10 +7,14 @@
 //! [`kwise_dispersion`]. [`empty_boxes`] knows the
 //! holes as tests arrive one by one. [`theory`] holds the bounds that are known without looking at any point.
 //!
+//! Which tests make sense is said by constraints: [`constraint`] is their language, [`rules`] what follows from
+//! them, and [`pict`] reads spaces and constraints from the model files of PICT.
+//!
 //! The crate computes: it opens no file and runs no simulation. Numbers called exact are exact; what a time
 //! limit cut short comes back as a certified [`Bracket`].
 
 mod bracket;
+pub mod constraint;
 pub mod dispersion;
 pub mod empty_boxes;
 pub mod extreme;
@@ -19,8 +23,10 @@ pub mod kwise;
 pub mod kwise_dispersion;
 pub mod l2;
 mod names;
+pub mod pict;
 mod points;
 pub mod proof;
+pub mod rules;
 mod space;
 pub mod star;
 pub mod theory;

@@ -11,9 +11,12 @@ mod value;
 
 pub use parameter::{Domain, Parameter};
 pub use record::Record;
+pub(crate) use text::position;
 pub use value::{Value, Values};
 
+use crate::constraint::{Constraint, ConstraintError};
 use crate::names::{did_you_mean, nearest};
+use crate::rules::Clause;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -26,17 +29,20 @@ pub struct Point {
     pub discrete: Vec<usize>,
 }
 
-/// An ordered list of parameters with distinct names.
+/// An ordered list of parameters with distinct names, and the constraints between them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Declaration", into = "Declaration")]
 pub struct Space {
     parameters: Vec<Parameter>,
+    constraints: Vec<Constraint>,
 }
 
 /// A space as it is written in a file, before it is checked.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Declaration {
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    constraints: Vec<String>,
     #[serde(rename = "parameter")]
     parameters: Vec<Parameter>,
 }
@@ -94,6 +100,16 @@ pub enum SpaceError {
     /// A test that says nothing of a parameter.
     #[error("the test gives no value for parameter `{0}`")]
     Missing(String),
+    /// A constraint that means nothing here.
+    #[error("constraint `{text}`, column {}: {error}", column(text, error.offset))]
+    Constraint {
+        /// Its position in the list of constraints, from 0.
+        index: usize,
+        /// The constraint as it was written.
+        text: String,
+        /// What is wrong with it, and where.
+        error: ConstraintError,
+    },
     /// A text that is no space.
     #[error("{message}")]
     Syntax {
@@ -119,13 +135,41 @@ impl Space {
             }
             parameter.validate()?;
         }
-        Ok(Self { parameters })
+        Ok(Self { parameters, constraints: Vec::new() })
+    }
+
+    /// The same space with these constraints besides those it has, in the language of
+    /// [`constraint`](crate::constraint).
+    ///
+    /// ```
+    /// use paracosm_coverage::{Domain, Parameter, Point, Space};
+    /// let lanes = Parameter::new("lanes", Domain::Choice(vec![2.into(), 4.into()]));
+    /// let weather = Parameter::new("weather", Domain::Choice(vec!["clear".into(), "fog".into()]));
+    /// let space = Space::new(vec![lanes, weather])?.with_constraints(["lanes == 2 implies weather != 'fog'"])?;
+    /// assert!(!space.allows(&Point { continuous: vec![], discrete: vec![0, 1] }));
+    /// assert!(space.allows(&Point { continuous: vec![], discrete: vec![1, 1] }));
+    /// # Ok::<(), paracosm_coverage::SpaceError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// One of them is no constraint between the discrete parameters: [`SpaceError::Constraint`] says which, where and
+    /// why.
+    pub fn with_constraints(mut self, texts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<Self, SpaceError> {
+        for text in texts {
+            let text = text.as_ref();
+            let constraint = Constraint::new(text, &self.parameters).map_err(|error| {
+                let (index, text) = (self.constraints.len(), text.to_owned());
+                SpaceError::Constraint { index, text, error }
+            })?;
+            self.constraints.push(constraint);
+        }
+        Ok(self)
     }
 
     /// The unit cube with coordinates `x1` to `x{dims}`: the space of a point set that came without one.
     pub fn unit_cube(dims: usize) -> Self {
         let axis = |i| Parameter::new(format!("x{i}"), Domain::Interval { lo: 0.0, hi: 1.0 });
-        Self { parameters: (1..=dims).map(axis).collect() }
+        Self { parameters: (1..=dims).map(axis).collect(), constraints: Vec::new() }
     }
 
     /// The parameters in order.
@@ -162,6 +206,24 @@ impl Space {
     /// The number of levels of each discrete coordinate.
     pub fn levels(&self) -> Vec<usize> {
         self.parameters.iter().filter_map(Parameter::levels).map(<[Value]>::len).collect()
+    }
+
+    /// The constraints in order.
+    pub fn constraints(&self) -> &[Constraint] {
+        &self.constraints
+    }
+
+    /// Whether the test keeps every constraint.
+    ///
+    /// # Panics
+    /// The point has fewer discrete coordinates than the space, or a level index beyond a choice's last.
+    pub fn allows(&self, point: &Point) -> bool {
+        self.constraints.iter().all(|constraint| constraint.holds(&point.discrete))
+    }
+
+    /// The clauses of each constraint, over the positions of parameters among the discrete ones.
+    pub fn clauses(&self) -> Vec<Vec<Clause>> {
+        self.constraints.iter().map(|constraint| constraint.clauses().to_vec()).collect()
     }
 
     /// The values at these coordinates.
@@ -222,14 +284,20 @@ impl TryFrom<Declaration> for Space {
     type Error = SpaceError;
 
     fn try_from(declaration: Declaration) -> Result<Self, SpaceError> {
-        Self::new(declaration.parameters)
+        Self::new(declaration.parameters)?.with_constraints(declaration.constraints)
     }
 }
 
 impl From<Space> for Declaration {
     fn from(space: Space) -> Self {
-        Self { parameters: space.parameters }
+        let constraints = space.constraints.iter().map(|constraint| constraint.text().to_owned()).collect();
+        Self { constraints, parameters: space.parameters }
     }
+}
+
+/// The column, from 1, of a byte offset in the last line before it.
+fn column(text: &str, offset: usize) -> usize {
+    position(text, offset).1
 }
 
 /// The number at coordinate `u` of `[lo, hi]`: both ends exactly, never outside, and never less where `u` is more,

@@ -1,15 +1,20 @@
 //! A space as text: the SPACE.toml that people write and scripts pass around.
 
-use super::{Space, SpaceError};
+use super::{Declaration, Space, SpaceError};
+use serde::Deserialize;
+use std::ops::Range;
+use toml::Spanned;
 
 /// What SPACE.toml may hold, but this version does not read yet.
-const RESERVED: [&str; 4] = ["constraints", "distribution", "scale", "signal"];
+const RESERVED: [&str; 3] = ["distribution", "scale", "signal"];
 
 impl Space {
     /// Reads a SPACE.toml.
     ///
     /// ```
     /// let space = paracosm_coverage::Space::from_toml(r#"
+    ///     constraints = ["lanes == 2 implies weather != 'fog'"]
+    ///
     ///     [[parameter]]
     ///     name = "speed"
     ///     interval = [0.5, 10.0]
@@ -19,21 +24,33 @@ impl Space {
     ///     [[parameter]]
     ///     name = "lanes"
     ///     choice = [2, 4, 6]
+    ///
+    ///     [[parameter]]
+    ///     name = "weather"
+    ///     choice = ["clear", "rain", "fog"]
     /// "#)?;
-    /// assert_eq!((space.dims(), space.levels()), (1, vec![3]));
+    /// assert_eq!((space.dims(), space.levels(), space.constraints().len()), (1, vec![3, 3], 1));
     /// # Ok::<(), paracosm_coverage::SpaceError>(())
     /// ```
     ///
     /// # Errors
-    /// The text is no TOML, no space, or a space that cannot be: [`SpaceError`] says where and why.
+    /// The text is no TOML, no space, or a space that cannot be: [`SpaceError`] says where and why. The place of what
+    /// is wrong within a constraint is given in the lines of the file.
     pub fn from_toml(text: &str) -> Result<Self, SpaceError> {
-        toml::from_str(text).map_err(|error| {
+        let declaration: Declaration = toml::from_str(text).map_err(|error| {
             let at = error.span().map(|span| position(text, span.start));
             let mut message = error.message().to_owned();
             if let Some(word) = RESERVED.iter().find(|word| message.contains(&format!("`{word}`"))) {
                 message = format!("`{word}` is not supported by this version");
             }
             SpaceError::Syntax { message, at }
+        })?;
+        Self::try_from(declaration).map_err(|error| match error {
+            SpaceError::Constraint { index, error, .. } => {
+                let at = constraint_span(text, index).map(|span| position(text, within(text, span, error.offset)));
+                SpaceError::Syntax { message: error.message, at }
+            }
+            error => error,
         })
     }
 
@@ -43,8 +60,49 @@ impl Space {
     }
 }
 
+/// Where the constraint of that index stands in the file, with its quotes.
+fn constraint_span(text: &str, index: usize) -> Option<Range<usize>> {
+    #[derive(Deserialize)]
+    struct Constraints {
+        constraints: Vec<Spanned<String>>,
+    }
+    toml::from_str::<Constraints>(text).ok()?.constraints.get(index).map(Spanned::span)
+}
+
+/// The offset in the file of the byte that is at `offset` in the string that spans there; the start of the string where
+/// lines that are continued or trimmed make it hard to say.
+fn within(text: &str, span: Range<usize>, offset: usize) -> usize {
+    let quoted = &text[span.clone()];
+    if quoted.contains('\n') {
+        return span.start;
+    }
+    let quotes = if quoted.starts_with("\"\"\"") || quoted.starts_with("'''") { 3 } else { 1 };
+    let escapes = quoted.starts_with('"');
+    let (mut at, mut read) = (quotes, 0);
+    while read < offset {
+        let rest = &quoted[at..];
+        let Some(sign) = rest.chars().next() else { break };
+        let hexadecimals = match rest.get(1..2) {
+            _ if !escapes || sign != '\\' => None,
+            Some("x") => Some(2),
+            Some("u") => Some(4),
+            Some("U") => Some(8),
+            _ => Some(0),
+        };
+        let Some(digits) = hexadecimals else {
+            at += sign.len_utf8();
+            read += sign.len_utf8();
+            continue;
+        };
+        let code = rest.get(2..2 + digits).and_then(|code| u32::from_str_radix(code, 16).ok()).and_then(char::from_u32);
+        at += 2 + digits;
+        read += code.map_or(1, char::len_utf8);
+    }
+    span.start + at
+}
+
 /// Line and column, from 1, of a byte offset.
-fn position(text: &str, offset: usize) -> (usize, usize) {
+pub(crate) fn position(text: &str, offset: usize) -> (usize, usize) {
     let before = &text[..offset.min(text.len())];
     let line = before.matches('\n').count() + 1;
     let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;

@@ -31,10 +31,11 @@ impl Value {
         }
     }
 
-    /// Reads a number where the text is one, a word otherwise.
+    /// Reads a finite number where the text is one, a word otherwise.
     pub fn parse(text: &str) -> Self {
         let text = text.trim();
-        text.parse().map_or_else(|_| Value::Word(text.to_owned()), Value::Number)
+        let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+        number.map_or_else(|| Value::Word(text.to_owned()), Value::Number)
     }
 
     /// The number as an integer, where nothing is lost by that.

@@ -1,0 +1,281 @@
+//! What a constraint means in a space: sets of levels and relations between levels, joined without negations.
+
+use super::ConstraintError;
+use super::expression::{Expression, Name, Operand, Relation, Written};
+use super::parse::Places;
+use crate::names::{did_you_mean, nearest};
+use crate::{Parameter, Value};
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+/// How many levels a message lists.
+const LISTED: usize = 8;
+
+/// A statement about the levels of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Condition {
+    /// The level of a parameter is one of those marked.
+    Among { parameter: usize, levels: Arc<[bool]> },
+    /// The levels of two parameters are related as their ranks are.
+    Pair { left: usize, right: usize, ranks: [Arc<[usize]>; 2], relation: Relation },
+    /// All or any of the parts hold.
+    Many { all: bool, parts: Vec<Condition> },
+}
+
+impl Condition {
+    pub(super) const ALWAYS: Self = Condition::Many { all: true, parts: Vec::new() };
+    pub(super) const NEVER: Self = Condition::Many { all: false, parts: Vec::new() };
+
+    /// The level of the parameter is one of those marked.
+    pub(super) fn among(parameter: usize, levels: impl IntoIterator<Item = bool>) -> Self {
+        let levels: Arc<[bool]> = levels.into_iter().collect();
+        if levels.iter().all(|marked| *marked) {
+            Condition::ALWAYS
+        } else if levels.iter().any(|marked| *marked) {
+            Condition::Among { parameter, levels }
+        } else {
+            Condition::NEVER
+        }
+    }
+
+    /// All or any of the parts, simplified: flat, each parameter with one set of levels, no part twice.
+    pub(super) fn many(all: bool, parts: impl IntoIterator<Item = Condition>) -> Self {
+        let mut kept: Vec<Condition> = Vec::new();
+        let mut queue: Vec<Condition> = parts.into_iter().collect();
+        queue.reverse();
+        while let Some(part) = queue.pop() {
+            match part {
+                Condition::Many { all: inner, parts } if inner == all => queue.extend(parts.into_iter().rev()),
+                // What always holds decides a disjunction, what never holds a conjunction.
+                Condition::Many { parts, .. } if parts.is_empty() => return Condition::Many { all: !all, parts },
+                Condition::Among { parameter, levels } => {
+                    let same = kept
+                        .iter_mut()
+                        .find(|other| matches!(other, Condition::Among { parameter: p, .. } if *p == parameter));
+                    let Some(other) = same else {
+                        kept.push(Condition::Among { parameter, levels });
+                        continue;
+                    };
+                    let Condition::Among { levels: known, .. } = &*other else {
+                        unreachable!("found as a set of levels")
+                    };
+                    let joint = known.iter().zip(levels.iter()).map(|(a, b)| if all { *a && *b } else { *a || *b });
+                    match Condition::among(parameter, joint) {
+                        joint @ Condition::Among { .. } => *other = joint,
+                        // All levels of a disjunction, or none of a conjunction.
+                        decided => return decided,
+                    }
+                }
+                part if kept.contains(&part) => {}
+                part => kept.push(part),
+            }
+        }
+        if kept.len() == 1 { kept.remove(0) } else { Condition::Many { all, parts: kept } }
+    }
+
+    pub(super) fn holds(&self, row: &[usize]) -> bool {
+        match self {
+            Condition::Among { parameter, levels } => levels[row[*parameter]],
+            Condition::Pair { left, right, ranks: [a, b], relation } => relation.holds(&a[row[*left]], &b[row[*right]]),
+            Condition::Many { all, parts } => parts.iter().any(|part| part.holds(row) != *all) != *all,
+        }
+    }
+
+    /// What is left to hold where the parameter is at this level.
+    pub(super) fn at(&self, parameter: usize, level: usize) -> Self {
+        match self {
+            Condition::Among { parameter: p, levels } if *p == parameter => {
+                if levels[level] {
+                    Condition::ALWAYS
+                } else {
+                    Condition::NEVER
+                }
+            }
+            Condition::Pair { left, right, ranks: [a, b], relation } if *left == parameter => {
+                Condition::among(*right, b.iter().map(|rank| relation.holds(&a[level], rank)))
+            }
+            Condition::Pair { left, right, ranks: [a, b], relation } if *right == parameter => {
+                Condition::among(*left, a.iter().map(|rank| relation.holds(rank, &b[level])))
+            }
+            Condition::Many { all, parts } => Condition::many(*all, parts.iter().map(|part| part.at(parameter, level))),
+            other => other.clone(),
+        }
+    }
+}
+
+/// Turns expressions into conditions, and finds what in them means nothing.
+pub(super) struct Resolver<'a> {
+    parameters: &'a [Parameter],
+    /// Where the comparisons stand that are still to come.
+    places: std::slice::Iter<'a, Places>,
+}
+
+/// A discrete parameter as a constraint sees it.
+#[derive(Clone, Copy)]
+struct Side<'a> {
+    name: &'a str,
+    position: usize,
+    levels: &'a [Value],
+}
+
+impl<'a> Resolver<'a> {
+    pub(super) fn new(parameters: &'a [Parameter], places: &'a [Places]) -> Self {
+        Self { parameters, places: places.iter() }
+    }
+
+    pub(super) fn resolve(&mut self, expression: &Expression) -> Result<Condition, ConstraintError> {
+        self.condition(expression, true)
+    }
+
+    /// Where the expression holds, or where it does not.
+    fn condition(&mut self, expression: &Expression, holds: bool) -> Result<Condition, ConstraintError> {
+        match expression {
+            Expression::Compare { parameter, relation, with } => self.comparison(parameter, *relation, with, holds),
+            Expression::In { parameter, values } => {
+                let places = self.next_places();
+                let side = self.side(parameter).map_err(at(places.left))?;
+                for (value, place) in values.iter().zip(&places.right) {
+                    side.level(value).map_err(at(*place))?;
+                }
+                Ok(Condition::among(side.position, side.levels.iter().map(|level| values.contains(level) == holds)))
+            }
+            Expression::Not(part) => self.condition(part, !holds),
+            Expression::And(parts) => self.parts(holds, parts, holds),
+            Expression::Or(parts) => self.parts(!holds, parts, holds),
+            Expression::Implies(condition, consequence) => {
+                let parts = [self.condition(condition, !holds)?, self.condition(consequence, holds)?];
+                Ok(Condition::many(!holds, parts))
+            }
+        }
+    }
+
+    fn parts(&mut self, all: bool, parts: &[Expression], holds: bool) -> Result<Condition, ConstraintError> {
+        let parts: Result<Vec<_>, _> = parts.iter().map(|part| self.condition(part, holds)).collect();
+        Ok(Condition::many(all, parts?))
+    }
+
+    fn next_places(&mut self) -> &'a Places {
+        self.places.next().expect("the parser noted a place for every comparison")
+    }
+
+    fn comparison(
+        &mut self,
+        name: &str,
+        relation: Relation,
+        with: &Operand,
+        holds: bool,
+    ) -> Result<Condition, ConstraintError> {
+        let places = self.next_places();
+        let left = self.side(name).map_err(at(places.left))?;
+        match with {
+            Operand::Value(value) if relation.orders() => {
+                left.numbers(relation).map_err(at(places.left))?;
+                let Some(number) = value.number() else {
+                    let message = format!("`{relation}` compares numbers, found {}", Written(value));
+                    return Err(ConstraintError { offset: places.right[0], message });
+                };
+                let related = |level: &Value| level.number().is_some_and(|level| relation.holds(&level, &number));
+                Ok(Condition::among(left.position, left.levels.iter().map(|level| related(level) == holds)))
+            }
+            Operand::Value(value) => {
+                left.level(value).map_err(at(places.right[0]))?;
+                let equal = (relation == Relation::Equal) == holds;
+                Ok(Condition::among(left.position, left.levels.iter().map(|level| (level == value) == equal)))
+            }
+            Operand::Parameter(other) => {
+                let right = self.side(other).map_err(|message| {
+                    let meant = left.levels.iter().find(|level| level.word() == Some(other));
+                    let meant = meant.map(|word| format!("; the level of {left} is written {}", Written(word)));
+                    ConstraintError { offset: places.right[0], message: message + &meant.unwrap_or_default() }
+                })?;
+                left.pair(relation, right, holds).map_err(at(places.relation))
+            }
+        }
+    }
+
+    /// The discrete parameter of that name.
+    fn side(&self, name: &str) -> Result<Side<'a>, String> {
+        let Some(parameter) = self.parameters.iter().find(|parameter| parameter.name == name) else {
+            let meant = nearest(name, self.parameters.iter().map(|parameter| parameter.name.as_str()));
+            return Err(format!("no parameter is called `{name}`{}", did_you_mean(&meant)));
+        };
+        let mut discrete = self.parameters.iter().filter(|parameter| parameter.levels().is_some());
+        match (parameter.levels(), discrete.position(|other| other.name == name)) {
+            (Some(levels), Some(position)) => Ok(Side { name: &parameter.name, position, levels }),
+            _ => Err(format!("`{name}` is continuous, expected a discrete parameter")),
+        }
+    }
+}
+
+/// Puts a message to its place.
+fn at(offset: usize) -> impl Fn(String) -> ConstraintError {
+    move |message| ConstraintError { offset, message }
+}
+
+impl std::fmt::Display for Side<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "`{}`", Name(self.name))
+    }
+}
+
+impl Side<'_> {
+    /// Checks that the parameter takes this value at times.
+    fn level(&self, value: &Value) -> Result<(), String> {
+        if self.levels.contains(value) {
+            return Ok(());
+        }
+        let written: Vec<_> = self.levels.iter().map(|level| Written(level).to_string()).collect();
+        let mut expected = written[..written.len().min(LISTED)].join(", ");
+        if written.len() > LISTED {
+            expected += &format!(", .. ({} in all)", written.len());
+        }
+        // A number in quotes, or a word that is nearly one.
+        let found = value.to_string();
+        let word = nearest(&found, self.levels.iter().filter_map(Value::word));
+        let same = self.levels.iter().position(|level| level.to_string() == found);
+        let meant = same.or_else(|| self.levels.iter().position(|level| word.is_some() && level.word() == word));
+        let meant = did_you_mean(&meant.map(|level| &written[level]));
+        Err(format!("{self} is never {}, expected one of {expected}{meant}", Written(value)))
+    }
+
+    /// Checks that the parameter takes numbers only.
+    fn numbers(&self, relation: Relation) -> Result<(), String> {
+        let word = self.levels.iter().find(|level| level.number().is_none());
+        word.map_or(Ok(()), |word| {
+            Err(format!("`{relation}` compares numbers, but {self} takes the word {}", Written(word)))
+        })
+    }
+
+    /// The relation to another parameter, or what holds where it does not.
+    fn pair(self, relation: Relation, other: Side, holds: bool) -> Result<Condition, String> {
+        if relation.orders() {
+            self.numbers(relation)?;
+            other.numbers(relation)?;
+        }
+        let mut values: Vec<&Value> = self.levels.iter().chain(other.levels).collect();
+        values.sort_by(|a, b| order(a, b));
+        values.dedup_by(|a, b| order(a, b).is_eq());
+        let rank = |value: &Value| values.partition_point(|known| order(known, value).is_lt());
+        let ranks = [self, other].map(|side| side.levels.iter().map(rank).collect::<Arc<[usize]>>());
+        if !relation.orders() && values.len() == self.levels.len() + other.levels.len() {
+            return Err(format!("{self} and {other} have no value in common, so they are never equal"));
+        }
+        let relation = if holds { relation } else { relation.negated() };
+        let (left, right) = (self.position, other.position);
+        if left == right {
+            return Ok(Condition::among(left, ranks[0].iter().map(|rank| relation.holds(rank, rank))));
+        }
+        Ok(Condition::Pair { left, right, ranks, relation })
+    }
+}
+
+/// Numbers by size before words by their letters.
+fn order(a: &Value, b: &Value) -> Ordering {
+    match (a, b) {
+        // The two zeros are one value.
+        (Value::Number(a), Value::Number(b)) => (a + 0.0).total_cmp(&(b + 0.0)),
+        (Value::Word(a), Value::Word(b)) => a.cmp(b),
+        (Value::Number(_), Value::Word(_)) => Ordering::Less,
+        (Value::Word(_), Value::Number(_)) => Ordering::Greater,
+    }
+}

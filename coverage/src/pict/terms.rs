@@ -1,0 +1,124 @@
+//! The comparisons of a model as expressions of the constraint language.
+//!
+//! PICT compares words without regard to case and orders them, the constraint language does neither. A comparison with
+//! a value therefore says which levels it holds at; one between parameters says so level by level, where the constraint
+//! language would see it otherwise.
+
+use super::parameters::Declared;
+use crate::Value;
+use crate::constraint::{Expression, Operand, Relation};
+
+/// That the parameter takes a negative value, or one that is not.
+pub(super) fn of_sign(parameter: &Declared, negative: bool) -> Expression {
+    membership(parameter, parameter.values.iter().map(|listed| listed.negative == negative).collect())
+}
+
+/// That the word of the parameter is like the pattern, in which `*` stands for any signs and `?` for one.
+pub(super) fn like(parameter: &Declared, pattern: &str) -> Expression {
+    let pattern = lower(pattern);
+    let matching = parameter.values.iter().map(|listed| matches(&pattern, &lower(&listed.text)));
+    membership(parameter, matching.collect())
+}
+
+/// That the parameter is so related to a value of its kind.
+pub(super) fn with_value(parameter: &Declared, relation: Relation, value: Value) -> Expression {
+    if relation.orders() && value.number().is_some() {
+        return Expression::Compare { parameter: parameter.name.clone(), relation, with: Operand::Value(value) };
+    }
+    membership(parameter, parameter.values.iter().map(|listed| listed.related(relation, &value)).collect())
+}
+
+/// That the parameter takes one of the values.
+pub(super) fn among(parameter: &Declared, values: &[Value]) -> Expression {
+    let listed = parameter.values.iter().map(|listed| values.iter().any(|value| listed.is(value)));
+    membership(parameter, listed.collect())
+}
+
+/// That two parameters of the same kind, numbers or words, are so related.
+pub(super) fn with_parameter(left: &Declared, relation: Relation, right: &Declared) -> Expression {
+    let as_written =
+        || Expression::Compare { parameter: left.name.clone(), relation, with: Operand::Parameter(right.name.clone()) };
+    let common = left.values.iter().any(|a| right.values.iter().any(|b| a.value == b.value));
+    if left.numeric() && (relation.orders() || common) {
+        return as_written();
+    }
+    let key =
+        |parameter: &Declared| parameter.values.iter().map(|listed| listed.text.to_lowercase()).collect::<Vec<_>>();
+    let (keys, partners) = (key(left), key(right));
+    let related = |i: usize, j: usize| relation.holds(&keys[i], &partners[j]);
+    let literal = |i: usize, j: usize| relation.holds(&(left.values[i].value == right.values[j].value), &true);
+    let pairs = || (0..keys.len()).flat_map(|i| (0..partners.len()).map(move |j| (i, j)));
+    if common && !relation.orders() && pairs().all(|(i, j)| related(i, j) == literal(i, j)) {
+        return as_written();
+    }
+    // Levels of the left parameter that go with the same levels of the right one.
+    let mut groups: Vec<(Vec<bool>, Vec<bool>)> = Vec::new();
+    for i in 0..keys.len() {
+        let partners: Vec<bool> = (0..partners.len()).map(|j| related(i, j)).collect();
+        if !partners.contains(&true) {
+            continue;
+        }
+        match groups.iter_mut().find(|(_, known)| *known == partners) {
+            Some((group, _)) => group[i] = true,
+            None => groups.push(((0..keys.len()).map(|other| other == i).collect(), partners)),
+        }
+    }
+    let both = |(group, partners)| Expression::And(vec![membership(left, group), membership(right, partners)]);
+    let mut cases: Vec<Expression> = groups.into_iter().map(both).collect();
+    match cases.len() {
+        0 => membership(left, vec![false; keys.len()]),
+        1 => cases.remove(0),
+        _ => Expression::Or(cases),
+    }
+}
+
+/// That the parameter is at one of the marked levels, in as few words as that takes.
+fn membership(parameter: &Declared, marked: Vec<bool>) -> Expression {
+    let those = |mark: bool| {
+        let levels = parameter.values.iter().zip(&marked).filter(|(_, marked)| **marked == mark);
+        levels.map(|(listed, _)| listed.value.clone()).collect::<Vec<_>>()
+    };
+    let (inside, outside) = (those(true), those(false));
+    let compare = |relation, value: &Value| Expression::Compare {
+        parameter: parameter.name.clone(),
+        relation,
+        with: Operand::Value(value.clone()),
+    };
+    let among = |values| Expression::In { parameter: parameter.name.clone(), values };
+    match (inside.as_slice(), outside.as_slice()) {
+        ([one], [_, ..]) => compare(Relation::Equal, one),
+        ([_, ..], [one]) => compare(Relation::NotEqual, one),
+        (some, others) if some.len() <= others.len() => among(inside),
+        _ => Expression::Not(Box::new(among(outside))),
+    }
+}
+
+fn lower(text: &str) -> Vec<char> {
+    text.to_lowercase().chars().collect()
+}
+
+/// Whether all of the text matches the pattern. A star takes as little as it can; where the rest fails, the last one
+/// takes one sign more.
+fn matches(pattern: &[char], text: &[char]) -> bool {
+    let (mut p, mut t) = (0, 0);
+    let mut star = None;
+    while t < text.len() {
+        match pattern.get(p) {
+            Some('*') => {
+                star = Some((p, t));
+                p += 1;
+            }
+            Some(sign) if *sign == '?' || *sign == text[t] => {
+                p += 1;
+                t += 1;
+            }
+            _ => {
+                let Some((at, taken)) = star else { return false };
+                star = Some((at, taken + 1));
+                p = at + 1;
+                t = taken + 1;
+            }
+        }
+    }
+    pattern[p..].iter().all(|sign| *sign == '*')
+}

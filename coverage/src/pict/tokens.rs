@@ -1,0 +1,119 @@
+//! The signs of which the constraints of a model are made.
+
+use crate::constraint::enclosed;
+use std::fmt;
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Token {
+    /// Letters, as of `IF`.
+    Word(String),
+    /// A name in brackets.
+    Name(String),
+    /// A word in quotes.
+    Text(String),
+    Number(f64),
+    Sign(&'static str),
+    /// What is no sign of the language, and why: found where the reader gets there, after what is wrong before it.
+    Broken(String),
+    End,
+}
+
+impl Token {
+    /// Whether it is this word of the language, in whatever case.
+    pub fn is(&self, word: &str) -> bool {
+        matches!(self, Token::Word(found) if found.eq_ignore_ascii_case(word))
+    }
+}
+
+impl fmt::Display for Token {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Token::Word(word) => write!(f, "`{word}`"),
+            Token::Name(name) => write!(f, "`[{name}]`"),
+            Token::Text(text) => write!(f, "`\"{text}\"`"),
+            Token::Number(number) => write!(f, "`{number}`"),
+            Token::Sign(sign) => write!(f, "`{sign}`"),
+            Token::Broken(message) => f.write_str(message),
+            Token::End => f.write_str("the end of the model"),
+        }
+    }
+}
+
+/// The longer ones first.
+const SIGNS: [&str; 12] = ["<>", "<=", ">=", "=", "<", ">", "(", ")", "{", "}", ",", ";"];
+
+/// What other languages write, and what this one writes for it.
+const FOREIGN: [(&str, &str); 6] =
+    [("==", "`=`"), ("!=", "`<>`"), ("&&", "`AND`"), ("||", "`OR`"), ("'", "`\"`"), ("!", "`NOT`")];
+
+/// The tokens of the text from `start` on with their offsets, up to the first that is broken; the last one is
+/// [`Token::End`]. Lines that begin with `#` are passed over.
+pub(super) fn tokens(text: &str, start: usize) -> Vec<(Token, usize)> {
+    let mut found = Vec::new();
+    let mut offset = start;
+    loop {
+        let rest = text[offset..].trim_start();
+        offset = text.len() - rest.len();
+        let line = text[..offset].rfind('\n').map_or(0, |end| end + 1);
+        if rest.starts_with('#') && text[line..offset].trim().is_empty() {
+            offset += rest.find('\n').unwrap_or(rest.len());
+            continue;
+        }
+        let (token, length) = token(rest);
+        let last = matches!(token, Token::Broken(_) | Token::End);
+        if last {
+            let end = text.trim_end().len().max(start);
+            found.extend([(token, offset.min(end)), (Token::End, end)]);
+            return found;
+        }
+        found.push((token, offset));
+        offset += length;
+    }
+}
+
+/// The token at the start of the text, and its length.
+fn token(rest: &str) -> (Token, usize) {
+    let Some(sign) = rest.chars().next() else { return (Token::End, 0) };
+    let broken = |message: String| (Token::Broken(message), 0);
+    if sign.is_alphabetic() || sign == '_' {
+        let word = &rest[..rest.find(|sign: char| !sign.is_alphanumeric() && sign != '_').unwrap_or(rest.len())];
+        return (Token::Word(word.to_owned()), word.len());
+    }
+    if sign == '[' || sign == '"' {
+        let (close, what) = if sign == '[' { (']', "name") } else { ('"', "word") };
+        return match enclosed(rest, close) {
+            Some((name, length)) if sign == '[' => (Token::Name(name), length),
+            Some((word, length)) => (Token::Text(word), length),
+            None => broken(format!("the {what} that begins here has no closing `{close}`")),
+        };
+    }
+    if sign.is_ascii_digit() || matches!(sign, '-' | '+' | '.') {
+        return match number(rest) {
+            (written, Some(number)) => (Token::Number(number), written.len()),
+            (written, None) => broken(format!("found `{written}`, expected a number")),
+        };
+    }
+    if sign == '#' {
+        return broken("found `#`, which begins a comment only at the start of a line".into());
+    }
+    if let Some((foreign, meant)) = FOREIGN.into_iter().find(|(foreign, _)| rest.starts_with(foreign)) {
+        return broken(format!("found `{foreign}`, expected {meant}"));
+    }
+    match SIGNS.into_iter().find(|sign| rest.starts_with(sign)) {
+        Some(sign) => (Token::Sign(sign), sign.len()),
+        None => broken(format!("found `{sign}`, which is no sign of a constraint")),
+    }
+}
+
+/// The number at the start of the text, as it is written and, if it is one, finite, as a number.
+fn number(text: &str) -> (&str, Option<f64>) {
+    let mut last = ' ';
+    let ends = |sign: char| {
+        let exponent = matches!(last, 'e' | 'E') && matches!(sign, '-' | '+');
+        let belongs = last == ' ' || sign.is_alphanumeric() || sign == '.' || exponent;
+        last = sign;
+        !belongs
+    };
+    let written = &text[..text.find(ends).unwrap_or(text.len())];
+    (written, written.parse().ok().filter(|number: &f64| number.is_finite()))
+}
