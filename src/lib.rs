@@ -20,12 +20,14 @@
 //! ```
 
 mod campaign;
+mod compare;
 mod error;
 mod estimate;
 mod executor;
 mod folder;
 mod json;
 mod plot;
+pub mod statistics;
 mod study;
 mod summary;
 mod tests_file;
@@ -36,6 +38,7 @@ mod trial;
 pub mod cli;
 
 pub use campaign::{Campaign, simulate_trial};
+pub use compare::{Cell, Compared, Comparison, MeasuredSet, Plan, Slope, Versus};
 pub use error::Error;
 pub use estimate::{Continuous, Coverage, Discrete, Hole, KwiseHole, KwiseWorst, Measure, Tests};
 pub use folder::Folder;

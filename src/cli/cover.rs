@@ -1,7 +1,7 @@
 //! The program `paracosm-cover`: how well tests cover a space.
 
 use super::output::{Format, Table, json};
-use super::{Failure, Verbosity, print};
+use super::{Failure, Verbosity, compare, print};
 use crate::coverage::{Parameter, Space};
 use crate::generators::{Request, Strategy};
 use crate::{Error, Measure, Tests};
@@ -20,7 +20,7 @@ Examples:
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
 /// The largest point set that is made in memory: 1.6 GB of coordinates.
-const MOST_COORDINATES: usize = 200_000_000;
+pub(super) const MOST_COORDINATES: usize = 200_000_000;
 
 /// Says how well a set of tests covers its space.
 #[derive(Debug, Parser)]
@@ -37,6 +37,9 @@ enum Verb {
     /// Measure how well tests cover their space
     #[command(after_help = EXAMPLES)]
     Estimate(Estimate),
+    /// Compare strategies over dimensions, budgets and seeds
+    #[command(after_help = compare::EXAMPLES)]
+    Compare(compare::Options),
 }
 
 /// What `estimate` takes.
@@ -82,6 +85,7 @@ impl Command {
     pub fn execute(self) -> Result<(), Failure> {
         match self.verb {
             Verb::Estimate(estimate) => estimate.execute(self.verbosity),
+            Verb::Compare(compare) => compare.execute(self.verbosity),
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Results go to standard output, everything else to standard error. The exit status is 0 when done, 1 when a
 //! violation was found and that was asked about, 2 when the command, its input or the run was wrong.
 
+mod compare;
 mod cover;
 mod fuzz;
 mod list;

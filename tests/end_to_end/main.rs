@@ -4,4 +4,5 @@ mod bad_input;
 mod campaign;
 mod commands;
 mod common;
+mod comparison;
 mod pedestrian_study;
