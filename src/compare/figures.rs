@@ -19,48 +19,30 @@ pub(super) fn all(compared: &Compared) -> Vec<(String, Picture)> {
     figures
 }
 
-/// A figure; none where nothing was measured, or some value is 0 and has no logarithm.
+/// A figure; none where nothing was measured, or something is 0 and has no logarithm.
 fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
-    let Some(&most) = compared.budgets(measure, dims).last() else { return None };
     let budgets = compared.budgets(measure, dims);
-    let at = |strategy, budget| compared.cell(measure, dims, budget, strategy);
-    let cells = |strategy| budgets.iter().filter_map(move |&budget| at(strategy, budget));
-    let strategies = compared.shown(measure, dims);
-    let drawable = |cell: &Cell| cell.quartiles[0] > 0.0 && cell.plain.is_none_or(|plain| plain > 0.0);
-    if !strategies.iter().all(|&strategy| cells(strategy).all(drawable)) {
+    let most = *budgets.last()?;
+    let mut strategies = compared.shown(measure, dims);
+    let at = |strategy: Strategy, budget: usize| compared.cell(measure, dims, budget, strategy);
+    let lines: Vec<(Look, Vec<&Cell>)> = strategies
+        .iter()
+        .map(|&strategy| (look(strategy), budgets.iter().filter_map(|&budget| at(strategy, budget)).collect()))
+        .collect();
+    if !lines.iter().flat_map(|(_, cells)| cells).all(|cell| has_logarithms(cell)) {
         return None;
     }
-    let curves = |mark: fn(&Cell) -> Option<(f64, [f64; 2])>, cross: fn(&Cell) -> Option<f64>| {
-        let curve = |&strategy: &Strategy| Curve {
-            look: look(strategy),
-            marks: cells(strategy)
-                .filter_map(|c| mark(c).map(|(value, ends)| (c.budget as f64, value, ends)))
-                .collect(),
-            crosses: cells(strategy).filter_map(|c| cross(c).map(|value| (c.budget as f64, value))).collect(),
-        };
-        strategies.iter().map(curve).collect::<Vec<_>>()
-    };
     let baseline = compared.comparison.baseline;
     let label = compared.label(measure);
     let x = "number of points n".to_owned();
-    let values = Plane {
-        x: x.clone(),
-        y: label.clone(),
-        level: None,
-        curves: curves(|cell| Some((cell.median, cell.quartiles)), |cell| cell.plain),
-    };
-    let ratios = Plane {
-        x,
-        y: format!("ratio to {baseline}, pair by pair"),
-        level: Some(1.0),
-        curves: curves(|cell| cell.versus.as_ref().map(|versus| (versus.ratio, versus.interval)), |_| None),
-    };
+    let y = format!("ratio to {baseline}, pair by pair");
+    let values = Plane { x: x.clone(), y: label.clone(), level: None, curves: lines.iter().map(values).collect() };
+    let ratios = Plane { x, y, level: Some(1.0), curves: lines.iter().map(ratios).collect() };
     let compares = ratios.curves.iter().any(|curve| !curve.marks.is_empty());
     let crosses = values.curves.iter().any(|curve| !curve.crosses.is_empty());
-    let mut ranked = strategies.clone();
     // From top to bottom as the lines end.
     let end = |strategy: &Strategy| at(*strategy, most).map_or(0.0, |cell| cell.median);
-    ranked.sort_by(|a, b| end(b).total_cmp(&end(a)));
+    strategies.sort_by(|a, b| end(b).total_cmp(&end(a)));
     let entry = |strategy: Strategy| {
         let slope = compared.slope(measure, dims, strategy).map(|slope| format!("{:.2}", slope.slope));
         let number = slope.unwrap_or_default().replace('-', "\u{2212}");
@@ -73,9 +55,27 @@ fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
         note: format!("left: medians of {seeds} seeds with quartiles{right}; marks of one n stand beside each other"),
         planes: if compares { vec![values, ratios] } else { vec![values] },
         legend: ["strategy".into(), if budgets.len() > 1 { "slope".into() } else { String::new() }],
-        entries: ranked.into_iter().map(entry).collect(),
+        entries: strategies.into_iter().map(entry).collect(),
         cross: crosses.then(|| "plain set, without seed".into()),
     })
+}
+
+fn has_logarithms(cell: &Cell) -> bool {
+    let versus = cell.versus.iter().flat_map(|versus| versus.interval);
+    cell.quartiles.into_iter().chain(cell.plain).chain(versus).all(|value| value > 0.0 && value.is_finite())
+}
+
+/// Medians and quartiles, and the plain sets.
+fn values((look, cells): &(Look, Vec<&Cell>)) -> Curve {
+    let marks = cells.iter().map(|cell| (cell.budget as f64, cell.median, cell.quartiles)).collect();
+    let crosses = cells.iter().filter_map(|cell| Some((cell.budget as f64, cell.plain?))).collect();
+    Curve { look: *look, marks, crosses }
+}
+
+/// Ratios to the baseline with their intervals.
+fn ratios((look, cells): &(Look, Vec<&Cell>)) -> Curve {
+    let versus = |cell: &&Cell| cell.versus.as_ref().map(|versus| (cell.budget as f64, versus.ratio, versus.interval));
+    Curve { look: *look, marks: cells.iter().filter_map(versus).collect(), crosses: Vec::new() }
 }
 
 /// The same strategy looks the same in every figure; those of one family have colours of one kind.

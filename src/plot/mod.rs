@@ -3,6 +3,7 @@
 //! Both come from the same drawing code; the PNG is drawn at twice the size, so that it is sharp on any screen.
 //! The font is in the program: pictures look the same on a machine without any.
 
+mod log_axis;
 mod log_log;
 mod map;
 

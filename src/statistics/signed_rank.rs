@@ -76,9 +76,10 @@ mod tests {
     #[test]
     fn the_depression_scale_of_hollander_and_wolfe_has_its_published_p() {
         // Hollander and Wolfe, Nonparametric Statistical Methods, table 3.1; one-sided 0.0195 in the book.
-        let first = [1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30];
-        let second = [0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29];
-        let differences: Vec<f64> = first.iter().zip(second).map(|(a, b)| a - b).collect();
+        // Thousandths of the scale before and after a tranquilliser.
+        let first = [1830, 500, 1620, 2480, 1680, 1880, 1550, 3060, 1300];
+        let second = [878, 647, 598, 2050, 1060, 1290, 1060, 3140, 1290];
+        let differences: Vec<f64> = first.iter().zip(second).map(|(a, b)| f64::from(a - b)).collect();
         close(signed_rank_p(&differences) / 2.0, 10.0 / 512.0, 1e-15);
     }
 
