@@ -36,7 +36,7 @@ const STUDIES: [Study; 2] = [
     Study {
         name: "samplers",
         about: "which strategy covers a space most evenly: ten of them by eight measures in 2, 3 and 5 dimensions",
-        time: "3 min",
+        time: "4 min",
         run: samplers::run,
     },
 ];

@@ -52,7 +52,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "S")]
     baseline: Option<String>,
     /// Time that one measure of one set may take; what does not finish comes back as a bracket
-    #[arg(long, value_name = "SECONDS", default_value_t = 10.0)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
     /// How many sets are measured at a time; results do not depend on it [default: one per core]
     #[arg(long, value_name = "N")]

@@ -71,7 +71,7 @@ impl Comparison {
             measures: None,
             k: 2,
             baseline,
-            limit: Duration::from_secs(10),
+            limit: Duration::from_secs(60),
         })
     }
 

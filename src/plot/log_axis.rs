@@ -58,7 +58,7 @@ impl Log {
 fn round_numbers(lo: f64, hi: f64) -> Vec<f64> {
     const ENOUGH: RangeInclusive<usize> = 4..=9;
     let powers = libm::floor(libm::log10(lo)) as i32..=libm::ceil(libm::log10(hi)) as i32;
-    for digits in [[1.0].as_slice(), &[1.0, 2.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0]] {
+    for digits in [[1.0].as_slice(), &[1.0, 2.0, 5.0], &[1.0, 2.0, 3.0, 5.0], &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0]] {
         let all =
             powers.clone().flat_map(|power| digits.iter().map(move |digit| digit * libm::exp10(f64::from(power))));
         let inside: Vec<f64> = all.filter(|number| (lo..=hi).contains(number)).collect();
@@ -107,7 +107,7 @@ mod tests {
     fn numbers_on_a_logarithmic_axis_are_round_and_few() {
         let text = |lo, hi| round_numbers(lo, hi).iter().map(Log::format).collect::<Vec<_>>().join(" ");
         assert_eq!(text(0.009, 0.11), "0.01 0.02 0.05 0.1");
-        assert_eq!(text(0.3, 4.0), "0.3 0.4 0.5 0.7 1 1.5 2 3 4");
+        assert_eq!(text(0.3, 4.0), "0.3 0.5 1 2 3");
         assert_eq!(text(0.00002, 30.0), "0.0001 0.001 0.01 0.1 1 10");
         assert_eq!(text(0.95, 1.25), "0.95 1 1.05 1.1 1.15 1.2 1.25");
     }
