@@ -21,6 +21,7 @@
 
 mod campaign;
 pub mod certificate;
+pub mod compare;
 mod error;
 mod estimate;
 mod executor;
@@ -29,6 +30,7 @@ mod json;
 mod live;
 mod plan;
 mod plot;
+pub mod statistics;
 mod study;
 mod summary;
 mod tests_file;

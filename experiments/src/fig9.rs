@@ -9,6 +9,7 @@ use crate::recovery::{Mark, Recovery, failing, nearest_neighbour, recovery, stra
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
 use paracosm::coverage::{Point, Values};
+use paracosm::statistics::quantile;
 use paracosm::{Campaign, Error, FailureMap, Measure, Picture, Study, Tests, Trial};
 use std::path::Path;
 
@@ -246,14 +247,6 @@ fn shape(map: &[Mark], halton: &[Mark]) -> Vec<Vec<String>> {
         }),
     );
     rows
-}
-
-/// The quantile of sorted values, between two of them in proportion (type 7 of Hyndman and Fan 1996).
-fn quantile(sorted: &[f64], q: f64) -> f64 {
-    let at = q * (sorted.len() - 1) as f64;
-    let below = at.floor() as usize;
-    let above = (below + 1).min(sorted.len() - 1);
-    sorted[below] + (at - below as f64) * (sorted[above] - sorted[below])
 }
 
 /// Every mark of the figure.

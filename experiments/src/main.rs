@@ -4,6 +4,7 @@
 
 mod fig9;
 mod recovery;
+mod samplers;
 
 use clap::Parser;
 use indicatif::ProgressBar;
@@ -25,12 +26,20 @@ struct Study {
     run: fn(&Path, &ProgressBar) -> Done,
 }
 
-const STUDIES: [Study; 1] = [Study {
-    name: "fig9",
-    about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, at 25, 100 and 500 tests",
-    time: "15 s",
-    run: fig9::run,
-}];
+const STUDIES: [Study; 2] = [
+    Study {
+        name: "fig9",
+        about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, at 25, 100 and 500 tests",
+        time: "15 s",
+        run: fig9::run,
+    },
+    Study {
+        name: "samplers",
+        about: "which strategy covers a space most evenly: ten of them by eight measures in 2, 3 and 5 dimensions",
+        time: "4 min",
+        run: samplers::run,
+    },
+];
 
 /// Runs a study of the paper or of ours.
 #[derive(Debug, Parser)]

@@ -155,6 +155,11 @@ impl Strategy {
         }
     }
 
+    /// Whether it has a plain set, which takes no chance: what a [`Request`] without a seed gives.
+    pub fn has_plain_set(self) -> bool {
+        matches!(self, Self::Halton | Self::Sobol | Self::Kronecker | Self::Hammersley | Self::Fibonacci)
+    }
+
     /// A generator of this strategy.
     ///
     /// In a space with discrete parameters it is exhausted after the budget, or without continuous ones after

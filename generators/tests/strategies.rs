@@ -83,6 +83,16 @@ fn a_seed_shifts_all_points_by_the_same_vector() {
 }
 
 #[test]
+fn strategies_with_a_plain_set_give_another_one_with_a_seed_and_the_others_seed_0() {
+    let space = Space::unit_cube(2);
+    for strategy in Strategy::ALL {
+        let plain = tests(strategy, &Request::new(&space, 50));
+        let seeded = tests(strategy, &Request { seed: Some(0), ..Request::new(&space, 50) });
+        assert_eq!(plain != seeded, strategy.has_plain_set(), "{strategy}");
+    }
+}
+
+#[test]
 fn halton_shifted_is_halton_with_a_seed_and_without_one_seed_0() {
     let space = Space::unit_cube(4);
     let request = Request::new(&space, 100);

@@ -222,7 +222,7 @@ impl ValueFormatter<f64> for Ends {
 }
 
 /// The least of 1, 2, 5, 10, 20, 50, ... and their tenths and hundredths that is at least `width`.
-fn round_step(width: f64) -> f64 {
+pub(super) fn round_step(width: f64) -> f64 {
     let mut power = 1e-6;
     loop {
         for factor in [1.0, 2.0, 5.0] {

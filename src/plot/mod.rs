@@ -3,8 +3,11 @@
 //! Both come from the same drawing code; the PNG is drawn at twice the size, so that it is sharp on any screen.
 //! The font is in the program: pictures look the same on a machine without any.
 
+mod log_axis;
+mod log_log;
 mod map;
 
+pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
 pub use map::{Axis, FailureMap};
 
 use plotters::coord::Shift;
@@ -23,13 +26,20 @@ const PNG_SCALE: u32 = 2;
 const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
 
-/// Failure maps side by side in rows.
+/// Failure maps side by side in rows, or a chart.
 #[derive(Debug, Clone)]
 pub struct Picture {
-    maps: Vec<FailureMap>,
+    panels: Vec<Panel>,
     columns: usize,
-    /// Width and height of each map, in pixels of the SVG.
+    /// Width and height of each panel, in pixels of the SVG.
     size: (u32, u32),
+}
+
+/// What a picture is made of.
+#[derive(Debug, Clone)]
+enum Panel {
+    Map(FailureMap),
+    LogLog(LogLog),
 }
 
 type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
@@ -37,7 +47,13 @@ type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
 impl Picture {
     /// A picture of one map.
     pub fn of(map: FailureMap) -> Self {
-        Self { maps: vec![map], columns: 1, size: (900, 680) }
+        Self { panels: vec![Panel::Map(map)], columns: 1, size: (900, 680) }
+    }
+
+    /// A picture of values over sizes.
+    pub(crate) fn of_log_log(chart: LogLog) -> Self {
+        let size = (log_log::LEGEND + log_log::PLANE * chart.planes.len() as u32, 520);
+        Self { panels: vec![Panel::LogLog(chart)], columns: 1, size }
     }
 
     /// A picture of several maps, `columns` in a row.
@@ -46,11 +62,11 @@ impl Picture {
     /// There is no map or no column.
     pub fn grid(columns: usize, maps: Vec<FailureMap>) -> Self {
         assert!(columns > 0 && !maps.is_empty(), "a picture shows something");
-        Self { maps, columns, size: (480, 440) }
+        Self { panels: maps.into_iter().map(Panel::Map).collect(), columns, size: (480, 440) }
     }
 
     fn extent(&self) -> (u32, u32) {
-        let rows = self.maps.len().div_ceil(self.columns);
+        let rows = self.panels.len().div_ceil(self.columns);
         (self.size.0 * self.columns as u32, self.size.1 * rows as u32)
     }
 
@@ -98,9 +114,12 @@ impl Picture {
         });
         let drawn: Result<(), DrawingAreaErrorKind<B::ErrorType>> = (|| {
             area.fill(&WHITE)?;
-            let rows = self.maps.len().div_ceil(self.columns);
-            for (map, panel) in self.maps.iter().zip(area.split_evenly((rows, self.columns))) {
-                map.draw(&panel, f64::from(scale))?;
+            let rows = self.panels.len().div_ceil(self.columns);
+            for (panel, part) in self.panels.iter().zip(area.split_evenly((rows, self.columns))) {
+                match panel {
+                    Panel::Map(map) => map.draw(&part, f64::from(scale))?,
+                    Panel::LogLog(chart) => chart.draw(&part, f64::from(scale))?,
+                }
             }
             area.present()
         })();

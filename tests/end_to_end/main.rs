@@ -5,6 +5,7 @@ mod campaign;
 mod certificate;
 mod commands;
 mod common;
+mod comparison;
 mod generate;
 mod pedestrian_study;
 mod plan;

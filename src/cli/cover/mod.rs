@@ -1,6 +1,7 @@
 //! The program `paracosm-cover`: how well tests cover a space, and tests that cover it well.
 
 mod certificate;
+mod compare;
 mod estimate;
 mod generate;
 mod plan;
@@ -20,6 +21,7 @@ Examples:
   paracosm-cover generate --dims 3 --strategy sobol --budget 256 > points.csv
   paracosm-cover generate --dims 3 --extend points.csv --budget 20
   paracosm-cover plan --dims 5 --epsilon 0.1
+  paracosm-cover compare --strategies random,halton,greedy --out compared
 
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
@@ -39,6 +41,8 @@ enum Verb {
     Estimate(estimate::Options),
     /// Make tests: CSV on standard output
     Generate(generate::Options),
+    /// Compare strategies over dimensions, budgets and seeds
+    Compare(compare::Options),
     /// Say how many tests each guarantee asks for
     Plan(plan::Options),
 }
@@ -48,6 +52,7 @@ impl Command {
         match self.verb {
             Verb::Estimate(estimate) => estimate.execute(self.verbosity),
             Verb::Generate(generate) => generate.execute(self.verbosity),
+            Verb::Compare(compare) => compare.execute(self.verbosity),
             Verb::Plan(plan) => plan.execute(self.verbosity),
         }
     }

@@ -1,0 +1,121 @@
+//! `paracosm-cover compare`: the study of strategies, with everything that watches it.
+
+use super::time_limit;
+use crate::cli::output::{Format, json};
+use crate::cli::{Failure, Verbosity, print};
+use crate::compare::{Compared, Comparison};
+use crate::generators::Strategy;
+use crate::{Error, Measure, Tests};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::thread::available_parallelism;
+use std::time::Duration;
+
+const EXAMPLES: &str = "\
+Examples:
+  paracosm-cover compare --strategies random,halton,greedy --out compared
+  paracosm-cover compare --strategies halton,sobol-owen,lhs --dims 2,4 --budgets 64,256 --measures dispersion,star
+
+Every strategy makes a set of points for every dimension, budget and seed; those that have one add their plain set, made
+without a seed. All measures are better the lower they are. DIR gets sets.csv (a row for each set), summary.csv (medians,
+quartiles; against the baseline the median ratio with its 95 % bootstrap interval, Vargha and Delaney's A12, Wilcoxon's p
+and Holm's correction of it), slopes.csv, table.tex, and for each measure and dimension a figure as SVG and PNG.";
+
+/// What `compare` takes.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Options {
+    /// The strategies; `paracosm-fuzz list` shows them all
+    #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
+    strategies: Vec<String>,
+    /// The numbers of dimensions
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "2,3,5")]
+    dims: Vec<usize>,
+    /// The numbers of points
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "50,100,500")]
+    budgets: Vec<usize>,
+    /// How many seeds each strategy is given
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    seeds: usize,
+    /// The first seed; the others follow it
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// What to measure, of dispersion, star, extreme, fill, l2_star, centered, wraparound, mixture, k-wise-dispersion
+    /// [default: all, extreme only of small sets]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    measures: Vec<Measure>,
+    /// How many coordinates at a time the k-wise dispersion looks at
+    #[arg(long, value_name = "K", default_value_t = 2)]
+    k: usize,
+    /// The strategy that the others are held against [default: halton if it is compared, else the first]
+    #[arg(long, value_name = "S")]
+    baseline: Option<String>,
+    /// Time that one measure of one set may take; what does not finish comes back as a bracket
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
+    time_limit: f64,
+    /// How many sets are measured at a time; results do not depend on it [default: one per core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Where to write: a folder that is empty or not there
+    #[arg(long, value_name = "DIR", default_value = "paracosm-compare")]
+    out: PathBuf,
+    /// How to print the summary [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
+        let plan = self.comparison()?.plan()?;
+        Compared::folder(&self.out)?;
+        let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(plan.sets() as u64) };
+        let template = "{bar:40.blue/white} {human_pos}/{human_len} sets  {elapsed} gone  {eta} left  {msg}";
+        let bar = bar.with_style(ProgressStyle::with_template(template).expect("the template is one"));
+        let jobs = self.jobs.or(available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN);
+        let compared = plan.run(jobs, |set| {
+            bar.set_message(format!("{}, d = {}, n = {}", set.strategy, set.dims, set.budget));
+            bar.inc(1);
+            Ok(())
+        });
+        bar.finish_and_clear();
+        let compared = compared?;
+        compared.write(&self.out)?;
+        for note in &compared.notes {
+            verbosity.note(note);
+        }
+        verbosity.note(format_args!("written to {}", self.out.display()));
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => compared.table(),
+            Format::Json => json(&json!({"sets": compared.sets.len(), "baseline": compared.comparison.baseline.name(),
+                "summary": compared.cells, "slopes": compared.slopes, "notes": compared.notes, "out": self.out})),
+        })
+    }
+
+    fn comparison(&self) -> Result<Comparison, Error> {
+        let limit = time_limit(self.time_limit)?;
+        let most = |numbers: &[usize]| numbers.iter().copied().max().unwrap_or_default();
+        let (dims, budget) = (most(&self.dims), most(&self.budgets));
+        Tests::check_size(budget, dims)?;
+        let strategies: Vec<Strategy> = self
+            .strategies
+            .iter()
+            .map(|name| name.parse())
+            .collect::<Result<_, paracosm_generators::GeneratorError>>()?;
+        let defaults = Comparison::of(&strategies)?;
+        let baseline = self.baseline.as_ref().map(|name| name.parse::<Strategy>()).transpose()?;
+        Ok(Comparison {
+            dims: self.dims.clone(),
+            budgets: self.budgets.clone(),
+            seeds: self.seeds,
+            first_seed: self.seed,
+            measures: (!self.measures.is_empty()).then(|| self.measures.clone()),
+            k: self.k,
+            baseline: baseline.unwrap_or(defaults.baseline),
+            limit,
+            ..defaults
+        })
+    }
+}

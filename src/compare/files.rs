@@ -1,0 +1,148 @@
+//! The folder of a comparison: every set as a row, what is said of them, and the figures.
+
+use super::{Compared, figures, latex};
+use crate::folder::write_whole;
+use crate::{Error, Measure};
+use std::fs;
+use std::path::Path;
+
+impl Compared {
+    /// Makes a folder for a comparison, if need be.
+    ///
+    /// # Errors
+    /// It cannot be made, or has something in it.
+    pub fn folder(path: &Path) -> Result<(), Error> {
+        if path.exists() && !path.is_dir() {
+            return Err(Error::Usage(format!("{} is a file, expected a folder to write to", path.display())));
+        }
+        fs::create_dir_all(path).map_err(Error::file("create", path))?;
+        let mut there = fs::read_dir(path).map_err(Error::file("read", path))?;
+        match there.next() {
+            None => Ok(()),
+            Some(_) => Err(Error::Usage(format!("{} is not empty: write elsewhere", path.display()))),
+        }
+    }
+
+    /// Writes `sets.csv`, `summary.csv`, `slopes.csv`, `table.tex`, and for each measure in each dimension a figure as
+    /// SVG and PNG, such as `dispersion-d2.svg`, to a folder that is there.
+    ///
+    /// # Errors
+    /// A file cannot be written.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        write_whole(&folder.join("sets.csv"), &csv(&self.set_rows()))?;
+        write_whole(&folder.join("summary.csv"), &csv(&self.summary_rows()))?;
+        write_whole(&folder.join("slopes.csv"), &csv(&self.slope_rows()))?;
+        write_whole(&folder.join("table.tex"), latex::tables(self).as_bytes())?;
+        for (name, picture) in figures::all(self) {
+            let (svg, png) = (folder.join(format!("{name}.svg")), folder.join(format!("{name}.png")));
+            let failed = |path: &Path| {
+                let path = path.to_owned();
+                move |error: Box<dyn std::error::Error + Send + Sync>| Error::Picture {
+                    path,
+                    message: error.to_string(),
+                }
+            };
+            write_whole(&svg, picture.svg().map_err(failed(&svg))?.as_bytes())?;
+            write_whole(&png, &picture.png().map_err(failed(&png))?)?;
+        }
+        Ok(())
+    }
+
+    /// A row for every set. Plain sets have no seed; a measure that was not taken leaves its columns empty.
+    fn set_rows(&self) -> Vec<Vec<String>> {
+        let measures: Vec<Measure> =
+            self.comparison.all_measures().iter().copied().filter(|m| *m != Measure::KWise).collect();
+        let columns = measures.iter().flat_map(|m| ["lower", "upper"].map(|end| format!("{}_{end}", m.name())));
+        let header = ["strategy", "d", "n", "seed"].map(str::to_owned).into_iter().chain(columns);
+        let mut rows = vec![header.chain(["exact".into()]).collect()];
+        for set in &self.sets {
+            let mut row = vec![set.strategy.to_string(), set.dims.to_string(), set.budget.to_string(), maybe(set.seed)];
+            for &measure in &measures {
+                let value = set.value(measure);
+                row.extend([maybe(value.map(|bracket| bracket.lower)), maybe(value.map(|bracket| bracket.upper))]);
+            }
+            row.push((!set.is_cut_short()).to_string());
+            rows.push(row);
+        }
+        rows
+    }
+
+    fn summary_rows(&self) -> Vec<Vec<String>> {
+        let header = [
+            "measure",
+            "d",
+            "n",
+            "strategy",
+            "seeds",
+            "exact",
+            "plain",
+            "median",
+            "lower_quartile",
+            "upper_quartile",
+            "baseline",
+            "ratio",
+            "ratio_low",
+            "ratio_high",
+            "a12_better",
+            "wilcoxon_p",
+            "holm_p",
+        ];
+        let mut rows = vec![header.map(str::to_owned).to_vec()];
+        for cell in &self.cells {
+            let [lower, upper] = cell.quartiles;
+            let versus = cell.versus.as_ref();
+            let of = |number: fn(&super::Versus) -> f64| maybe(versus.map(number));
+            rows.push(vec![
+                cell.measure.name().into(),
+                cell.dims.to_string(),
+                cell.budget.to_string(),
+                cell.strategy.to_string(),
+                cell.seeds.to_string(),
+                cell.exact.to_string(),
+                maybe(cell.plain),
+                cell.median.to_string(),
+                lower.to_string(),
+                upper.to_string(),
+                self.comparison.baseline.to_string(),
+                of(|versus| versus.ratio),
+                of(|versus| versus.interval[0]),
+                of(|versus| versus.interval[1]),
+                of(|versus| versus.better),
+                of(|versus| versus.p),
+                of(|versus| versus.p_holm),
+            ]);
+        }
+        rows
+    }
+
+    fn slope_rows(&self) -> Vec<Vec<String>> {
+        let header = ["measure", "d", "strategy", "budgets", "slope", "slope_low", "slope_high", "plain_slope"];
+        let mut rows = vec![header.map(str::to_owned).to_vec()];
+        for slope in &self.slopes {
+            let [low, high] = slope.interval;
+            let budgets: Vec<String> = slope.budgets.iter().map(usize::to_string).collect();
+            rows.push(vec![
+                slope.measure.name().into(),
+                slope.dims.to_string(),
+                slope.strategy.to_string(),
+                budgets.join(" "),
+                slope.slope.to_string(),
+                low.to_string(),
+                high.to_string(),
+                maybe(slope.plain),
+            ]);
+        }
+        rows
+    }
+}
+
+/// A value, or an empty field.
+fn maybe(value: Option<impl ToString>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
+}
+
+fn csv(rows: &[Vec<String>]) -> Vec<u8> {
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    rows.iter().for_each(|row| csv.write_record(row).expect("rows of one length fit into memory"));
+    csv.into_inner().expect("memory does not fail to flush")
+}

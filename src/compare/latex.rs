@@ -1,0 +1,113 @@
+//! The comparison as LaTeX tables in the manner of the package booktabs, one for each measure.
+
+use super::{Cell, Compared, Versus, three_digits};
+use crate::Measure;
+use std::fmt::Write;
+
+/// Up to which corrected p-value a difference is marked.
+const LEVEL: f64 = 0.05;
+
+/// The tables of all measures, ready to be `\input`.
+pub(super) fn tables(compared: &Compared) -> String {
+    let mut text = String::from("% Needs \\usepackage{booktabs}. Every number is in summary.csv and slopes.csv.\n");
+    for measure in compared.measures() {
+        table(&mut text, compared, measure);
+    }
+    text
+}
+
+fn table(text: &mut String, compared: &Compared, measure: Measure) {
+    let comparison = &compared.comparison;
+    let dims: Vec<usize> =
+        comparison.dims.iter().copied().filter(|&dims| !compared.budgets(measure, dims).is_empty()).collect();
+    let budgets: Vec<usize> = comparison
+        .budgets
+        .iter()
+        .copied()
+        .filter(|n| dims.iter().any(|&dims| compared.budgets(measure, dims).contains(n)))
+        .collect();
+    let baseline = escaped(comparison.baseline.name());
+    let _ = write!(
+        text,
+        "\n\\begin{{table}}\n\\centering\n\\caption{{{}: median over {} seeds at $n$ points in $d$ dimensions, lowest in \
+         bold; the fitted slope of $\\log$ median over $\\log n$; and at the largest $n$ the median ratio to {baseline} \
+         with its 95\\,\\% bootstrap interval, the probability $A_{{12}}$ of being lower, and Wilcoxon's signed-rank $p$ \
+         after Holm's correction. $\\dagger$: differs from {baseline} at that $n$ ($p \\le {LEVEL}$).}}\n\
+         \\label{{tab:{}}}\n",
+        escaped(&capitalised(&compared.label(measure))),
+        comparison.seeds,
+        measure.name().replace('_', "-"),
+    );
+    let _ = writeln!(text, "\\begin{{tabular}}{{rl{}rlrr}}\n\\toprule", "r".repeat(budgets.len()));
+    let heads: String = budgets.iter().map(|n| format!(" & $n={n}$")).collect();
+    let _ = writeln!(text, "$d$ & strategy{heads} & slope & ratio & $A_{{12}}$ & $p$ \\\\");
+    for d in dims {
+        let _ = writeln!(text, "\\midrule");
+        for (i, strategy) in compared.shown(measure, d).into_iter().enumerate() {
+            let first = if i == 0 { d.to_string() } else { String::new() };
+            let _ = write!(text, "{first} & {}", escaped(strategy.name()));
+            for &n in &budgets {
+                let shown = compared.shown(measure, d);
+                let medians = shown.iter().filter_map(|&s| compared.cell(measure, d, n, s)).map(|cell| cell.median);
+                let least = medians.fold(f64::INFINITY, f64::min);
+                let cell = compared.cell(measure, d, n, strategy);
+                let _ = write!(text, " & {}", cell.map_or(String::new(), |cell| median(cell, least)));
+            }
+            let slope = compared.slope(measure, d, strategy);
+            let slope = slope.map_or(String::new(), |slope| format!("${:.2}$", slope.slope));
+            let most = compared.budgets(measure, d).last().copied().unwrap_or_default();
+            let versus = compared.cell(measure, d, most, strategy).and_then(|cell| cell.versus.as_ref());
+            let _ = writeln!(text, " & {slope} & {} \\\\", versus.map_or("& &".into(), ratio));
+        }
+    }
+    text.push_str("\\bottomrule\n\\end{tabular}\n\\end{table}\n");
+}
+
+fn median(cell: &Cell, least: f64) -> String {
+    let number = in_math(&three_digits(cell.median));
+    let number = if cell.median == least { format!("\\mathbf{{{number}}}") } else { number };
+    let differs = cell.versus.as_ref().is_some_and(|versus| versus.p_holm <= LEVEL);
+    let bound = if cell.exact { "" } else { "\\ge " };
+    format!("${bound}{number}{}$", if differs { "^{\\dagger}" } else { "" })
+}
+
+fn ratio(versus: &Versus) -> String {
+    let [low, high] = versus.interval;
+    let p = if versus.p_holm < 1e-4 { "$<10^{-4}$".into() } else { format!("${:.4}$", versus.p_holm) };
+    format!("${:.2}$ $[{low:.2}, {high:.2}]$ & ${:.2}$ & {p}", versus.ratio, versus.better)
+}
+
+/// A number in a formula: `1.23e-5` with its power of ten.
+fn in_math(number: &str) -> String {
+    number.split_once('e').map_or_else(|| number.to_owned(), |(m, e)| format!("{m} \\cdot 10^{{{e}}}"))
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Text in which nothing means anything to LaTeX.
+fn escaped(text: &str) -> String {
+    let escape = |c: char| match c {
+        '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),
+        '~' => "\\textasciitilde{}".into(),
+        '^' => "\\textasciicircum{}".into(),
+        '\\' => "\\textbackslash{}".into(),
+        c => c.to_string(),
+    };
+    text.chars().map(escape).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_latex_would_read_as_a_command_is_escaped() {
+        assert_eq!(escaped("l2_star 50 % & {x}"), "l2\\_star 50 \\% \\& \\{x\\}");
+        assert_eq!(escaped("a\\b^c~d"), "a\\textbackslash{}b\\textasciicircum{}c\\textasciitilde{}d");
+        assert_eq!(in_math("1.23e-5"), "1.23 \\cdot 10^{-5}");
+        assert_eq!(in_math("0.0405"), "0.0405");
+    }
+}

@@ -1,0 +1,350 @@
+//! Strategies held against each other: how evenly each covers the unit cube, over dimensions, budgets and seeds.
+//!
+//! Every strategy makes a set of points for every dimension, budget and seed; those that have one add their plain set,
+//! which takes no chance. A set is measured by everything that does not take too long, and kept as one row. Sets of the
+//! same seed are pairs: what is said of a strategy over the baseline is said of pairs (see [`crate::statistics`]).
+//!
+//! Sets are made and measured one to a core, each on a single thread, so that results depend neither on their number nor
+//! on what else a core does, but for values that a time limit cut short, which say so.
+
+mod figures;
+mod files;
+mod latex;
+mod set;
+mod summary;
+mod table;
+
+pub use set::MeasuredSet;
+pub use summary::{Cell, Slope, Versus};
+
+use crate::executor::{in_order, pool};
+use crate::{Error, Measure};
+use paracosm_generators::Strategy;
+use set::Case;
+use std::num::NonZeroUsize;
+use std::time::Duration;
+
+/// With how many pairs the tests and intervals have enough power; fewer are remarked upon.
+const ENOUGH_SEEDS: usize = 30;
+/// Up to which budget to the power of the dimension the extreme discrepancy is measured unasked: about a second.
+const QUICK_EXTREME: f64 = 4e6;
+
+/// What is compared, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// The strategies, in the order in which they are shown.
+    pub strategies: Vec<Strategy>,
+    /// The dimensions of the unit cubes.
+    pub dims: Vec<usize>,
+    /// The numbers of points of the sets.
+    pub budgets: Vec<usize>,
+    /// How many seeds each strategy is given, at least 2.
+    pub seeds: usize,
+    /// The first seed; the others follow it.
+    pub first_seed: u64,
+    /// What is measured. `None` is all that a continuous space has, the extreme discrepancy only of sets where it takes
+    /// no more than about a second.
+    pub measures: Option<Vec<Measure>>,
+    /// How many coordinates at a time the k-wise dispersion looks at.
+    pub k: usize,
+    /// The strategy that the others are held against.
+    pub baseline: Strategy,
+    /// How long one measure of one set may take.
+    pub limit: Duration,
+}
+
+impl Comparison {
+    /// A comparison of these strategies in 2, 3 and 5 dimensions with 50, 100 and 500 points and 30 seeds, against
+    /// `halton` if it is among them and the first if not.
+    ///
+    /// # Errors
+    /// There is no strategy.
+    pub fn of(strategies: &[Strategy]) -> Result<Self, Error> {
+        let among = strategies.iter().find(|strategy| **strategy == Strategy::Halton);
+        let baseline = *among.or(strategies.first()).ok_or_else(|| Error::Usage("there is no strategy".into()))?;
+        Ok(Self {
+            strategies: strategies.to_vec(),
+            dims: vec![2, 3, 5],
+            budgets: vec![50, 100, 500],
+            seeds: ENOUGH_SEEDS,
+            first_seed: 1,
+            measures: None,
+            k: 2,
+            baseline,
+            limit: Duration::from_secs(60),
+        })
+    }
+
+    /// Lays out what is to be done, dimensions and budgets in ascending order.
+    ///
+    /// # Errors
+    /// A list is empty or names something twice, a number is out of range, the baseline is not among the strategies or
+    /// cannot cover a dimension, or a measure is none of continuous spaces.
+    pub fn plan(&self) -> Result<Plan, Error> {
+        let mut comparison = self.clone();
+        comparison.dims.sort_unstable();
+        comparison.budgets.sort_unstable();
+        comparison.check()?;
+        let cases = comparison.cases();
+        let notes = comparison.notes();
+        Ok(Plan { comparison, cases, notes })
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let usage = |message: String| Err(Error::Usage(message));
+        let measures = self.measures.as_deref().unwrap_or(&Measure::ALL);
+        each_once("strategies", self.strategies.iter().map(|strategy| strategy.name().to_owned()))?;
+        each_once("dimensions", self.dims.iter().map(usize::to_string))?;
+        each_once("budgets", self.budgets.iter().map(usize::to_string))?;
+        each_once("measures", measures.iter().map(|measure| measure.name().to_owned()))?;
+        if self.dims[0] == 0 || self.budgets[0] == 0 {
+            return usage("found 0 among the dimensions or the budgets, expected numbers from 1 on".into());
+        }
+        if self.seeds < 2 {
+            return usage(format!("the number of seeds is {}, expected at least 2, or better 30", self.seeds));
+        }
+        if self.first_seed.checked_add(self.seeds as u64 - 1).is_none() {
+            return usage(format!("{} seeds from {} on go beyond {}", self.seeds, self.first_seed, u64::MAX));
+        }
+        if self.k == 0 {
+            return usage("k is 0, expected a number from 1 on".into());
+        }
+        if !self.strategies.contains(&self.baseline) {
+            return usage(format!("the baseline {} is not among the strategies", self.baseline));
+        }
+        if let Some(dims) = self.dims.iter().find(|dims| !self.baseline.dims().contains(dims)) {
+            let able = span(self.baseline);
+            return usage(format!("the baseline {} is made for {able}, not for {dims} dimensions", self.baseline));
+        }
+        if self.measures.is_some() && measures.contains(&Measure::KWise) {
+            return usage("k-wise is a measure of discrete parameters, and the unit cube has none".into());
+        }
+        if self.cases().is_empty() {
+            let k = self.k;
+            return usage(format!("there is nothing to measure: {k}-wise dispersion needs more than {k} dimensions"));
+        }
+        Ok(())
+    }
+
+    /// What is measured of sets of this size.
+    fn measures(&self, dims: usize, budget: usize) -> Vec<Measure> {
+        let quick = libm::pow(budget as f64, dims as f64) <= QUICK_EXTREME;
+        let wanted = |measure: &Measure| match measure {
+            Measure::KWise => false,
+            Measure::KWiseDispersion => self.k < dims,
+            Measure::Extreme => quick || self.measures.is_some(),
+            _ => true,
+        };
+        self.all_measures().iter().copied().filter(wanted).collect()
+    }
+
+    /// What is measured at all, in the order in which it is shown.
+    fn all_measures(&self) -> &[Measure] {
+        self.measures.as_deref().unwrap_or(&Measure::ALL)
+    }
+
+    /// The strategies that can cover so many dimensions.
+    fn able(&self, dims: usize) -> impl Iterator<Item = Strategy> {
+        self.strategies.iter().copied().filter(move |strategy| strategy.dims().contains(&dims))
+    }
+
+    fn cases(&self) -> Vec<Case> {
+        let mut cases = Vec::new();
+        for &dims in &self.dims {
+            for &budget in self.budgets.iter().filter(|budget| !self.measures(dims, **budget).is_empty()) {
+                for strategy in self.able(dims) {
+                    let plain = strategy.has_plain_set().then_some(None);
+                    let seeds = (0..self.seeds as u64).map(|i| Some(self.first_seed + i));
+                    cases.extend(plain.into_iter().chain(seeds).map(|seed| Case { strategy, dims, budget, seed }));
+                }
+            }
+        }
+        cases
+    }
+
+    /// What a reader should know of what is left out, or of how little can be said.
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        for strategy in &self.strategies {
+            let unable: Vec<usize> = self.dims.iter().copied().filter(|d| !strategy.dims().contains(d)).collect();
+            if !unable.is_empty() {
+                notes.push(format!("{strategy} is made for {}: left out at d = {}", span(*strategy), list(&unable)));
+            }
+        }
+        let low: Vec<usize> = self.dims.iter().copied().filter(|dims| *dims <= self.k).collect();
+        if !low.is_empty() && self.all_measures().contains(&Measure::KWiseDispersion) {
+            let k = self.k;
+            notes.push(format!("{k}-wise dispersion left out at d = {}: it says more only beyond {k}", list(&low)));
+        }
+        for &dims in &self.dims {
+            let slow = |budget: &usize| !self.measures(dims, *budget).contains(&Measure::Extreme);
+            let slow: Vec<usize> = self.budgets.iter().copied().filter(slow).collect();
+            if !slow.is_empty() && self.measures.is_none() {
+                let at = format!("d = {dims}, n = {}", list(&slow));
+                notes.push(format!("extreme discrepancy left out at {at}: it takes long; name it to have it"));
+            }
+        }
+        if [Strategy::Halton, Strategy::HaltonShifted].iter().all(|strategy| self.strategies.contains(strategy)) {
+            notes.push("with a seed, halton and halton-shifted are the same sets".into());
+        }
+        if self.seeds < ENOUGH_SEEDS {
+            notes.push(format!("{} seeds are few; from {ENOUGH_SEEDS} on the tests have enough power", self.seeds));
+        }
+        notes
+    }
+}
+
+/// Checks a list that a user gave.
+fn each_once(of: &str, names: impl Iterator<Item = String>) -> Result<(), Error> {
+    let names: Vec<String> = names.collect();
+    if names.is_empty() {
+        return Err(Error::Usage(format!("the list of {of} is empty")));
+    }
+    let twice = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name));
+    twice.map_or(Ok(()), |(_, name)| Err(Error::Usage(format!("{name} is twice among the {of}"))))
+}
+
+/// The dimensions that a strategy can cover, in words.
+fn span(strategy: Strategy) -> String {
+    let (least, most) = strategy.dims().into_inner();
+    if least == most { format!("exactly {most} dimensions") } else { format!("at most {most} dimensions") }
+}
+
+/// Numbers with commas between them.
+fn list(numbers: &[usize]) -> String {
+    numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// A comparison that can be done.
+#[derive(Debug)]
+pub struct Plan {
+    comparison: Comparison,
+    cases: Vec<Case>,
+    notes: Vec<String>,
+}
+
+impl Plan {
+    /// How many sets will be made.
+    pub fn sets(&self) -> usize {
+        self.cases.len()
+    }
+
+    /// What is left out and what else a reader should know, a sentence each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Makes and measures all sets, `jobs` at a time; `watch` sees each in order, and its first error ends the work.
+    ///
+    /// # Errors
+    /// That of `watch`, or a strategy cannot make a set that large.
+    pub fn run(
+        self,
+        jobs: NonZeroUsize,
+        mut watch: impl FnMut(&MeasuredSet) -> Result<(), Error>,
+    ) -> Result<Compared, Error> {
+        let Self { comparison, cases, mut notes } = self;
+        let workers = pool(jobs.get().min(cases.len()))?;
+        // A pool that holds one thread keeps a set's measures on one core.
+        let alone = || pool(1);
+        let measure = |alone: &mut Result<_, Error>, i: usize| {
+            let case: &Case = &cases[i];
+            let measures = comparison.measures(case.dims, case.budget);
+            let alone: &rayon::ThreadPool = alone.as_ref().map_err(|error| Error::Usage(error.to_string()))?;
+            let measured = || alone.install(|| case.measure(&measures, comparison.k, comparison.limit));
+            // A worker that waited for another pool itself would take up the work of its neighbour meanwhile.
+            std::thread::scope(|scope| scope.spawn(measured).join()).expect("measuring does not panic")
+        };
+        let mut sets = Vec::with_capacity(cases.len());
+        let sink = |set: Result<MeasuredSet, Error>| {
+            let set = set?;
+            watch(&set)?;
+            sets.push(set);
+            Ok::<(), Error>(())
+        };
+        in_order(&workers, 0..cases.len(), alone, measure, sink)?;
+        let (cells, slopes) = workers.install(|| summary::summarise(&comparison, &sets));
+        let cut_short = sets.iter().filter(|set| set.is_cut_short()).count();
+        if cut_short > 0 {
+            notes.push(format!(
+                "{cut_short} sets were cut short by the time limit: the lower ends of brackets stand in"
+            ));
+        }
+        Ok(Compared { comparison, sets, cells, slopes, notes })
+    }
+}
+
+/// A comparison that was done.
+#[derive(Debug, Clone)]
+pub struct Compared {
+    /// What was compared.
+    pub comparison: Comparison,
+    /// Every set: by dimension, budget, strategy, and the plain one before the seeds.
+    pub sets: Vec<MeasuredSet>,
+    /// What is said of each strategy: by measure, dimension, budget and strategy.
+    pub cells: Vec<Cell>,
+    /// How fast each strategy's values fall with the budget: by measure, dimension and strategy.
+    pub slopes: Vec<Slope>,
+    /// What is left out and what else a reader should know, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Compared {
+    /// The cell of a measure, a dimension, a budget and a strategy.
+    fn cell(&self, measure: Measure, dims: usize, budget: usize, strategy: Strategy) -> Option<&Cell> {
+        let at =
+            |cell: &&Cell| (cell.measure, cell.dims, cell.budget, cell.strategy) == (measure, dims, budget, strategy);
+        self.cells.iter().find(at)
+    }
+
+    /// The slope of a measure, a dimension and a strategy.
+    fn slope(&self, measure: Measure, dims: usize, strategy: Strategy) -> Option<&Slope> {
+        self.slopes.iter().find(|slope| (slope.measure, slope.dims, slope.strategy) == (measure, dims, strategy))
+    }
+
+    /// The strategies that have a value of this measure in this dimension.
+    fn shown(&self, measure: Measure, dims: usize) -> Vec<Strategy> {
+        let has = |strategy: &Strategy| {
+            self.cells.iter().any(|c| (c.measure, c.dims, c.strategy) == (measure, dims, *strategy))
+        };
+        self.comparison.strategies.iter().copied().filter(has).collect()
+    }
+
+    /// The budgets at which there is a value of this measure in this dimension.
+    fn budgets(&self, measure: Measure, dims: usize) -> Vec<usize> {
+        let has = |budget: &usize| self.cells.iter().any(|c| (c.measure, c.dims, c.budget) == (measure, dims, *budget));
+        self.comparison.budgets.iter().copied().filter(has).collect()
+    }
+
+    /// The measures of which there is a value.
+    fn measures(&self) -> Vec<Measure> {
+        let has = |measure: &Measure| self.cells.iter().any(|cell| cell.measure == *measure);
+        self.comparison.all_measures().iter().copied().filter(has).collect()
+    }
+
+    /// A measure in words.
+    fn label(&self, measure: Measure) -> String {
+        match measure {
+            Measure::Dispersion => "dispersion".into(),
+            Measure::Star => "star discrepancy".into(),
+            Measure::Extreme => "extreme discrepancy".into(),
+            Measure::Fill => "fill, the radius of the largest empty ball".into(),
+            Measure::L2Star => "L2-star discrepancy".into(),
+            Measure::Centered => "centered discrepancy, squared".into(),
+            Measure::Wraparound => "wraparound discrepancy, squared".into(),
+            Measure::Mixture => "mixture discrepancy, squared".into(),
+            Measure::KWise => "k-wise coverage".into(),
+            Measure::KWiseDispersion => format!("{}-wise dispersion", self.comparison.k),
+        }
+    }
+}
+
+/// A number with three significant digits.
+fn three_digits(number: f64) -> String {
+    let scientific = format!("{number:.2e}");
+    let exponent: i32 = scientific.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+    if !(-4..6).contains(&exponent) {
+        return scientific;
+    }
+    format!("{number:.*}", (2 - exponent).max(0) as usize)
+}

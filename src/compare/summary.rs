@@ -1,0 +1,206 @@
+//! What is said of many sets: medians and quartiles over the seeds, each strategy held against the baseline, and how
+//! fast values fall with the budget.
+
+use super::{Comparison, MeasuredSet};
+use crate::Measure;
+use crate::statistics::{
+    bootstrap_interval, holm, median_and_quartiles, power_law_slope, quantile, signed_rank_p, vargha_delaney,
+};
+use paracosm_coverage::Bracket;
+use paracosm_generators::Strategy;
+use rayon::prelude::*;
+use serde::{Serialize, Serializer};
+
+/// A strategy's values of a measure at one dimension and budget. Values that are brackets count as their lower ends.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cell {
+    /// The measure.
+    #[serde(serialize_with = "measure_name")]
+    pub measure: Measure,
+    /// The dimension.
+    pub dims: usize,
+    /// The number of points.
+    pub budget: usize,
+    /// The strategy.
+    #[serde(serialize_with = "strategy_name")]
+    pub strategy: Strategy,
+    /// Over how many seeds.
+    pub seeds: usize,
+    /// Whether every value was computed to the end.
+    pub exact: bool,
+    /// The value of the plain set, if the strategy has one.
+    pub plain: Option<f64>,
+    /// The median over the seeds.
+    pub median: f64,
+    /// The lower and the upper quartile over the seeds.
+    pub quartiles: [f64; 2],
+    /// How it compares; none for the baseline itself.
+    pub versus: Option<Versus>,
+}
+
+/// A strategy against the baseline, over pairs of sets with the same seed. Lower values are better.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Versus {
+    /// The median of the ratios of the pairs: its value over the baseline's.
+    pub ratio: f64,
+    /// The 95 % bootstrap interval of that median.
+    pub interval: [f64; 2],
+    /// How likely a set of the strategy is better than one of the baseline (Vargha and Delaney's A12).
+    pub better: f64,
+    /// The p-value of Wilcoxon's signed-rank test of the differences of the pairs, two-sided.
+    pub p: f64,
+    /// The same after Holm's correction for all comparisons by this measure.
+    pub p_holm: f64,
+}
+
+/// The exponent with which a strategy's values of a measure fall with the budget: that of the power law fitted by least
+/// squares to their logarithms.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Slope {
+    /// The measure.
+    #[serde(serialize_with = "measure_name")]
+    pub measure: Measure,
+    /// The dimension.
+    pub dims: usize,
+    /// The strategy.
+    #[serde(serialize_with = "strategy_name")]
+    pub strategy: Strategy,
+    /// The budgets it is fitted to.
+    pub budgets: Vec<usize>,
+    /// That of the medians over the seeds.
+    pub slope: f64,
+    /// Its 95 % bootstrap interval over the seeds.
+    pub interval: [f64; 2],
+    /// That of the plain sets, if the strategy has them.
+    pub plain: Option<f64>,
+}
+
+fn measure_name<S: Serializer>(measure: &Measure, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(measure.name())
+}
+
+fn strategy_name<S: Serializer>(strategy: &Strategy, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(strategy.name())
+}
+
+/// All cells and slopes, each where every seed has a value.
+pub(super) fn summarise(comparison: &Comparison, sets: &[MeasuredSet]) -> (Vec<Cell>, Vec<Slope>) {
+    let Comparison { dims, budgets, strategies, baseline, .. } = comparison;
+    let (mut cells, mut slopes) = (Vec::new(), Vec::new());
+    for &measure in comparison.all_measures() {
+        let lines = dims.iter().flat_map(|&d| strategies.iter().map(move |&strategy| (d, strategy)));
+        let lines: Vec<Line> = lines.map(|(d, s)| Line::of(measure, d, s, budgets, sets)).collect();
+        let base = |line: &Line, budget| {
+            let base = lines.iter().find(|other| other.dims == line.dims && other.strategy == *baseline)?;
+            base.places.iter().find(|place| place.budget == budget)
+        };
+        let mut of_measure: Vec<Cell> = lines
+            .par_iter()
+            .flat_map_iter(|line| line.places.iter().map(|place| line.cell(place, base(line, place.budget), *baseline)))
+            .collect();
+        // By budget before strategy; the order within is that of the strategies.
+        of_measure.sort_by_key(|cell| (cell.dims, cell.budget));
+        correct(&mut of_measure);
+        cells.extend(of_measure);
+        slopes.par_extend(lines.par_iter().filter_map(Line::slope));
+    }
+    (cells, slopes)
+}
+
+/// Corrects the p-values of one measure for each other.
+fn correct(cells: &mut [Cell]) {
+    let mut compared: Vec<&mut Versus> = cells.iter_mut().filter_map(|cell| cell.versus.as_mut()).collect();
+    let p: Vec<f64> = compared.iter().map(|versus| versus.p).collect();
+    for (versus, p_holm) in compared.iter_mut().zip(holm(&p)) {
+        versus.p_holm = p_holm;
+    }
+}
+
+/// A strategy's values of a measure in one dimension, over the budgets.
+struct Line {
+    measure: Measure,
+    dims: usize,
+    strategy: Strategy,
+    places: Vec<Place>,
+}
+
+/// The values at one budget: those of the seeds in order.
+struct Place {
+    budget: usize,
+    values: Vec<f64>,
+    plain: Option<f64>,
+    exact: bool,
+}
+
+impl Line {
+    fn of(measure: Measure, dims: usize, strategy: Strategy, budgets: &[usize], sets: &[MeasuredSet]) -> Self {
+        let place = |&budget: &usize| {
+            let here = sets.iter().filter(|set| (set.strategy, set.dims, set.budget) == (strategy, dims, budget));
+            let (plain, seeds): (Vec<_>, Vec<_>) = here.partition(|set| set.seed.is_none());
+            let seeds: Vec<Bracket> = seeds.iter().map(|set| set.value(measure)).collect::<Option<_>>()?;
+            let plain = plain.first().and_then(|set| set.value(measure));
+            (!seeds.is_empty()).then(|| Place {
+                budget,
+                values: seeds.iter().map(|bracket| bracket.lower).collect(),
+                plain: plain.map(|bracket| bracket.lower),
+                exact: seeds.iter().chain(&plain).all(Bracket::is_exact),
+            })
+        };
+        Self { measure, dims, strategy, places: budgets.iter().filter_map(place).collect() }
+    }
+
+    fn cell(&self, place: &Place, base: Option<&Place>, baseline: Strategy) -> Cell {
+        let (median, quartiles) = median_and_quartiles(&place.values);
+        let base = base.filter(|_| self.strategy != baseline);
+        Cell {
+            measure: self.measure,
+            dims: self.dims,
+            budget: place.budget,
+            strategy: self.strategy,
+            seeds: place.values.len(),
+            exact: place.exact,
+            plain: place.plain,
+            median,
+            quartiles,
+            versus: base.map(|base| Versus::of(&place.values, &base.values)),
+        }
+    }
+
+    fn slope(&self) -> Option<Slope> {
+        let at = |value: &dyn Fn(&Place) -> Option<f64>| {
+            let points = self.places.iter().map(|place| Some((place.budget as f64, value(place)?)));
+            power_law_slope(&points.collect::<Option<Vec<_>>>()?)
+        };
+        let slope = at(&|place| Some(median_and_quartiles(&place.values).0))?;
+        let seeds = self.places[0].values.len();
+        let interval = bootstrap_interval(seeds, |drawn| {
+            at(&|place| Some(median_of(drawn, &place.values))).expect("there are budgets enough for a slope")
+        });
+        let budgets = self.places.iter().map(|place| place.budget).collect();
+        let plain = at(&|place| place.plain);
+        Some(Slope { measure: self.measure, dims: self.dims, strategy: self.strategy, budgets, slope, interval, plain })
+    }
+}
+
+impl Versus {
+    /// Values against those of the baseline, pair by pair. The correction is still to come.
+    fn of(values: &[f64], base: &[f64]) -> Self {
+        let pairs = || values.iter().zip(base);
+        let ratios: Vec<f64> = pairs().map(|(value, base)| value / base).collect();
+        let p = signed_rank_p(&pairs().map(|(value, base)| value - base).collect::<Vec<_>>());
+        Self {
+            ratio: median_and_quartiles(&ratios).0,
+            interval: bootstrap_interval(ratios.len(), |drawn| median_of(drawn, &ratios)),
+            better: vargha_delaney(base, values),
+            p,
+            p_holm: p,
+        }
+    }
+}
+
+/// The median of the values at these indices.
+fn median_of(indices: &[usize], values: &[f64]) -> f64 {
+    let mut drawn: Vec<f64> = indices.iter().map(|&i| values[i]).collect();
+    drawn.sort_unstable_by(f64::total_cmp);
+    quantile(&drawn, 0.5)
+}

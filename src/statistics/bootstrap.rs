@@ -1,0 +1,83 @@
+//! Intervals by resampling (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapter 13).
+
+use super::quantile;
+
+/// How often values are drawn anew; a thousand are enough for the ends of a 95 % interval.
+pub const RESAMPLES: usize = 2_000;
+
+/// The 95 % percentile bootstrap interval of a statistic of `n` values.
+///
+/// `statistic` is given [`RESAMPLES`] lists of `n` indices below `n`, drawn with replacement; pairs stay pairs if it
+/// takes both sides at the same index. The interval lies between the 2.5 % and the 97.5 % quantile of what it says. The
+/// indices are drawn from a fixed seed: the same values always have the same interval.
+///
+/// # Panics
+/// There is no value.
+pub fn bootstrap_interval(n: usize, mut statistic: impl FnMut(&[usize]) -> f64) -> [f64; 2] {
+    let mut random = SplitMix64(0);
+    let mut indices = vec![0; n];
+    let mut found: Vec<f64> = (0..RESAMPLES)
+        .map(|_| {
+            indices.fill_with(|| random.below(n));
+            statistic(&indices)
+        })
+        .collect();
+    found.sort_by(f64::total_cmp);
+    [quantile(&found, 0.025), quantile(&found, 0.975)]
+}
+
+/// SplitMix64 (Steele, Lea, Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
+struct SplitMix64(u64);
+
+impl SplitMix64 {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let word = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        word ^ (word >> 31)
+    }
+
+    /// A number below `n`, every one as likely but for a part in 2^64 / n.
+    fn below(&mut self, n: usize) -> usize {
+        ((u128::from(self.next()) * n as u128) >> 64) as usize
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mean_of(values: &[f64]) -> impl Fn(&[usize]) -> f64 {
+        move |indices| indices.iter().map(|&i| values[i]).sum::<f64>() / indices.len() as f64
+    }
+
+    #[test]
+    fn the_interval_of_a_mean_is_the_one_of_the_normal_distribution() {
+        // 1 to 50 have the mean 25.5; a mean of 50 of them has the deviation sqrt((50^2 - 1) / 12 / 50) = 2.041.
+        let values: Vec<f64> = (1..=50).map(f64::from).collect();
+        let [low, high] = bootstrap_interval(50, mean_of(&values));
+        assert!((low - (25.5 - 1.96 * 2.041)).abs() < 0.4, "{low}");
+        assert!((high - (25.5 + 1.96 * 2.041)).abs() < 0.4, "{high}");
+    }
+
+    #[test]
+    fn the_interval_of_a_coin_agrees_with_all_its_resamples() {
+        // Of two values every resample is one of four: half the means are 0.5, a quarter are 0 and a quarter are 1.
+        let mut means = [0; 3];
+        let interval = bootstrap_interval(2, |indices| {
+            let sum = indices.iter().sum::<usize>();
+            means[sum] += 1;
+            sum as f64 / 2.0
+        });
+        assert_eq!(interval, [0.0, 1.0]);
+        let share = means.map(|count| count as f64 / RESAMPLES as f64);
+        assert!((share[0] - 0.25).abs() < 0.04 && (share[1] - 0.5).abs() < 0.04, "{share:?}");
+    }
+
+    #[test]
+    fn intervals_are_the_same_every_time_and_a_point_for_equal_values() {
+        let values = [3.0, 1.0, 4.0, 1.0, 5.0];
+        assert_eq!(bootstrap_interval(5, mean_of(&values)), bootstrap_interval(5, mean_of(&values)));
+        assert_eq!(bootstrap_interval(3, mean_of(&[2.0; 3])), [2.0, 2.0]);
+    }
+}
