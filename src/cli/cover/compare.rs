@@ -12,7 +12,6 @@ use serde_json::json;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
-use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
