@@ -4,6 +4,7 @@ use crate::Error;
 use paracosm_coverage::dispersion::{LargestEmptyBox, dispersion};
 use paracosm_coverage::extreme::extreme_discrepancy;
 use paracosm_coverage::kwise::kwise_coverage;
+use paracosm_coverage::rules::Rules;
 use paracosm_coverage::kwise_dispersion::kwise_dispersion;
 use paracosm_coverage::star::star_discrepancy;
 use paracosm_coverage::{Bracket, Deadline, Parameter, Point, PointSet, Record, Space, Value};
@@ -243,7 +244,8 @@ impl Tests {
 
     fn discrete(&self, k: usize, levels: &[usize]) -> Result<Discrete, Error> {
         let parameters: Vec<&Parameter> = self.space.discrete().collect();
-        let counted = kwise_coverage(levels, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
+        let rules = Rules::free(levels);
+        let counted = kwise_coverage(&rules, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
         let name = |&(parameter, level): &(usize, usize)| named_level(&parameters, parameter, level);
         Ok(Discrete {
             k,
@@ -251,7 +253,7 @@ impl Tests {
             covered: counted.covered,
             ratio: counted.ratio(),
             missing: counted.missing.iter().map(|tuple| tuple.iter().map(name).collect()).collect(),
-            combinations: counted.combinations,
+            combinations: counted.combinations.expect("free parameters can be counted"),
         })
     }
 }

@@ -7,6 +7,7 @@
 //! a [satisfiability solver](search) answers instead; it is slower, and as exact.
 
 mod clause;
+mod companions;
 mod conflict;
 mod count;
 mod diagram;
@@ -15,6 +16,7 @@ mod group;
 mod search;
 
 pub use clause::{Clause, Literal};
+pub use companions::Companions;
 pub use conflict::Conflict;
 pub use count::TupleCount;
 
