@@ -1,0 +1,99 @@
+//! IPOG: an array grows a column at a time, first to the right, then downwards.
+//!
+//! Lei, Kacker, Kuhn, Okun, Lawrence, *IPOG/IPOG-D: efficient test generation for multi-way combinatorial
+//! testing*, Software Testing, Verification and Reliability 18, 2008. Each row gets the level of the newest
+//! column with which it covers most; what is left then is put into entries that are still open, and into new
+//! rows. An entry with which nothing new would be covered stays open.
+
+use super::front::{Bits, Family, Front, Position};
+use super::open_rows::OpenRows;
+use super::rows::{Columns, OPEN, Rows};
+use crate::seeded::mix;
+use paracosm_coverage::rules::Companions;
+
+/// Grows rows, whose first columns may cover already what they have to, until all families are covered.
+pub(super) struct Growth<'a> {
+    pub(super) columns: &'a Columns<'a>,
+    pub(super) families: &'a [Family],
+    pub(super) seed: u64,
+}
+
+impl Growth<'_> {
+    /// Grows the columns from `begin` on.
+    pub(super) fn grow(&self, rows: &mut Rows, companions: &mut Companions, begin: usize) {
+        for column in begin..self.columns.len() {
+            let with_column = self.families.iter().filter(|family| family.members.contains(&column));
+            let mut fronts: Vec<Front> =
+                with_column.filter_map(|family| Front::new(self.columns, companions, family, column)).collect();
+            pulp::Arch::new().dispatch(|| self.grow_right(rows, &mut fronts, column));
+            self.grow_down(rows, &mut fronts, column);
+        }
+    }
+
+    /// Gives each row the level with which it covers most.
+    #[inline(always)]
+    fn grow_right(&self, rows: &mut Rows, fronts: &mut [Front], column: usize) {
+        let levels = self.columns.levels[column];
+        let mut bits: Vec<Bits> = vec![Vec::new(); fronts.len()];
+        let mut gains = vec![0u32; levels];
+        let mut left: u64 = fronts.iter().map(Front::left).sum();
+        for index in 0..rows.len() {
+            if left == 0 {
+                return;
+            }
+            let row = rows.row(index);
+            for (front, bits) in fronts.iter().zip(&mut bits) {
+                front.bits_of(row, bits);
+            }
+            if row[column] == OPEN {
+                gains.fill(0);
+                for (front, bits) in fronts.iter().zip(&bits) {
+                    front.gains(self.columns, row, bits, &mut gains);
+                }
+                if let Some(allowed) = self.columns.allowed(column, row) {
+                    gains.iter_mut().zip(allowed).filter(|(_, allowed)| !allowed).for_each(|(gain, _)| *gain = 0);
+                }
+                let most = gains.iter().copied().max().unwrap_or(0);
+                if most == 0 {
+                    continue;
+                }
+                let rank = |&level: &usize| {
+                    let left: u64 = fronts.iter().map(|front| front.left_of(level)).sum();
+                    (left, mix(self.seed ^ mix((index * levels + level) as u64)))
+                };
+                let best = (0..levels).filter(|&level| gains[level] == most).max_by_key(rank);
+                rows.row_mut(index)[column] = best.expect("some level gains most") as u32;
+            }
+            let row = rows.row(index);
+            for (front, bits) in fronts.iter_mut().zip(&bits) {
+                front.cover(self.columns, row, bits);
+            }
+            left = fronts.iter().map(Front::left).sum();
+        }
+    }
+
+    /// Puts what is left into open entries and new rows.
+    fn grow_down(&self, rows: &mut Rows, fronts: &mut [Front], column: usize) {
+        let mut bits = Vec::new();
+        let mut entries = Vec::new();
+        for level in 0..self.columns.levels[column] {
+            if fronts.iter().all(|front| front.left_of(level) == 0) {
+                continue;
+            }
+            let mut open = OpenRows::new(self.columns, rows, column, level as u32);
+            for leader in 0..fronts.len() {
+                let mut position = Position::default();
+                while let Some(found) = fronts[leader].next_left(self.columns, level, position, &mut entries) {
+                    position = found;
+                    entries.push((column, level as u32));
+                    let index = open.place(self.columns, rows, &entries);
+                    let row = rows.row(index);
+                    for front in fronts.iter_mut() {
+                        front.bits_of(row, &mut bits);
+                        front.cover(self.columns, row, &bits);
+                    }
+                }
+            }
+        }
+    }
+}
