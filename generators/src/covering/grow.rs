@@ -10,6 +10,22 @@ use super::open_rows::OpenRows;
 use super::rows::{Columns, OPEN, Rows};
 use crate::seeded::mix;
 use paracosm_coverage::rules::Companions;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// What a row gets and then covers.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Choice {
+    gain: u32,
+    row: Reverse<usize>,
+    level: u32,
+}
+
+impl Choice {
+    fn index(&self) -> usize {
+        self.row.0
+    }
+}
 
 /// Grows rows, whose first columns may cover already what they have to, until all families are covered.
 pub(super) struct Growth<'a> {
@@ -30,46 +46,61 @@ impl Growth<'_> {
         }
     }
 
-    /// Gives each row the level with which it covers most.
+    /// Gives rows the levels with which they cover most, always the row next that then covers most.
+    ///
+    /// What a row would cover only ever falls while others are chosen. So the rows wait by what they would have
+    /// covered when last looked at, and only the first is looked at anew (Minoux, *Accelerated greedy algorithms*,
+    /// 1978).
     #[inline(always)]
     fn grow_right(&self, rows: &mut Rows, fronts: &mut [Front], column: usize) {
-        let levels = self.columns.levels[column];
         let mut bits: Vec<Bits> = vec![Vec::new(); fronts.len()];
-        let mut gains = vec![0u32; levels];
-        let mut left: u64 = fronts.iter().map(Front::left).sum();
+        let mut gains = vec![0u32; self.columns.levels[column]];
+        let mut waiting = BinaryHeap::new();
         for index in 0..rows.len() {
-            if left == 0 {
-                return;
-            }
             let row = rows.row(index);
-            for (front, bits) in fronts.iter().zip(&mut bits) {
-                front.bits_of(row, bits);
-            }
             if row[column] == OPEN {
-                gains.fill(0);
-                for (front, bits) in fronts.iter().zip(&bits) {
-                    front.gains(self.columns, row, bits, &mut gains);
+                if let Some(choice) = self.choice(row, index, fronts, &mut bits, &mut gains, column) {
+                    waiting.push(choice);
                 }
-                if let Some(allowed) = self.columns.allowed(column, row) {
-                    gains.iter_mut().zip(allowed).filter(|(_, allowed)| !allowed).for_each(|(gain, _)| *gain = 0);
+            } else {
+                for front in fronts.iter_mut() {
+                    front.bits_of(row, &mut bits[0]);
+                    front.cover(self.columns, row, &bits[0]);
                 }
-                let most = gains.iter().copied().max().unwrap_or(0);
-                if most == 0 {
-                    continue;
-                }
-                let rank = |&level: &usize| {
-                    let left: u64 = fronts.iter().map(|front| front.left_of(level)).sum();
-                    (left, mix(self.seed ^ mix((index * levels + level) as u64)))
-                };
-                let best = (0..levels).filter(|&level| gains[level] == most).max_by_key(rank);
-                rows.row_mut(index)[column] = best.expect("some level gains most") as u32;
             }
-            let row = rows.row(index);
-            for (front, bits) in fronts.iter_mut().zip(&bits) {
-                front.cover(self.columns, row, bits);
-            }
-            left = fronts.iter().map(Front::left).sum();
         }
+        while let Some(choice) = waiting.pop() {
+            let index = choice.index();
+            let Some(choice) = self.choice(rows.row(index), index, fronts, &mut bits, &mut gains, column) else { continue };
+            if waiting.peek().is_some_and(|next| next.gain > choice.gain) {
+                waiting.push(choice);
+                continue;
+            }
+            rows.row_mut(index)[column] = choice.level;
+            for (front, bits) in fronts.iter_mut().zip(&bits) {
+                front.cover(self.columns, rows.row(index), bits);
+            }
+        }
+    }
+
+    /// The level with which a row covers most; none if it covers nothing.
+    #[inline(always)]
+    fn choice(&self, row: &[u32], index: usize, fronts: &[Front], bits: &mut [Bits], gains: &mut [u32], column: usize) -> Option<Choice> {
+        gains.fill(0);
+        for (front, bits) in fronts.iter().zip(bits) {
+            front.bits_of(row, bits);
+            front.gains(self.columns, row, bits, gains);
+        }
+        if let Some(allowed) = self.columns.allowed(column, row) {
+            gains.iter_mut().zip(allowed).filter(|(_, allowed)| !allowed).for_each(|(gain, _)| *gain = 0);
+        }
+        let gain = gains.iter().copied().max().filter(|&most| most > 0)?;
+        let rank = |&level: &usize| {
+            let left: u64 = fronts.iter().map(|front| front.left_of(level)).sum();
+            (left, mix(self.seed ^ mix((index * gains.len() + level) as u64)))
+        };
+        let level = (0..gains.len()).filter(|&level| gains[level] == gain).max_by_key(rank)? as u32;
+        Some(Choice { gain, row: Reverse(index), level })
     }
 
     /// Puts what is left into open entries and new rows.
