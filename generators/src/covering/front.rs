@@ -137,11 +137,6 @@ impl Front {
         self.blocks.push(block);
     }
 
-    /// How many combinations are left.
-    pub(super) fn left(&self) -> u64 {
-        self.left.iter().sum()
-    }
-
     /// How many combinations with a level are left.
     pub(super) fn left_of(&self, level: usize) -> u64 {
         self.left[level]

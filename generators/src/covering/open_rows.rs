@@ -8,9 +8,6 @@ use super::rows::{Columns, OPEN, Rows};
 /// How many bits the sets have together at most; rows beyond, the oldest, are full or nearly so.
 const MOST_BITS: usize = 1 << 26;
 
-/// How many of the rows with room are compared.
-const COMPARED: usize = 16;
-
 /// The rows with open entries that have or may get a level in the newest column.
 #[derive(Debug)]
 pub(super) struct OpenRows {
@@ -55,7 +52,7 @@ impl OpenRows {
         }
     }
 
-    /// Puts a combination into the row that shares most with it, or into a new one; returns the row's position.
+    /// Puts a combination into the first row with room, or into a new one; returns the row's position.
     pub(super) fn place(&mut self, columns: &Columns, rows: &mut Rows, combination: &[(usize, u32)]) -> usize {
         if let Some(place) = self.find(columns, rows, combination) {
             let index = self.rows[place];
@@ -79,30 +76,20 @@ impl OpenRows {
         rows.len() - 1
     }
 
+    /// The first row with room.
     fn find(&self, columns: &Columns, rows: &Rows, combination: &[(usize, u32)]) -> Option<usize> {
         let entry = |&(column, level): &(usize, u32)| self.first[column] + level as usize;
-        let mut best = None;
-        let mut compared = 0;
         for word in 0..self.rows.len().div_ceil(64) {
             let mut fits = combination.iter().fold(u64::MAX, |fits, pair| fits & self.fits[entry(pair)][word]);
             while fits != 0 {
                 let place = word * 64 + fits.trailing_zeros() as usize;
+                if keeps(columns, rows.row(self.rows[place]), combination) {
+                    return Some(place);
+                }
                 fits &= fits - 1;
-                let row = rows.row(self.rows[place]);
-                let shared = combination.iter().filter(|&&(column, level)| row[column] == level).count();
-                if best.is_none_or(|(most, _)| shared > most) && keeps(columns, row, combination) {
-                    best = Some((shared, place));
-                }
-                compared += 1;
-                if compared == COMPARED {
-                    if let Some((_, place)) = best {
-                        return Some(place);
-                    }
-                    compared = 0;
-                }
             }
         }
-        best.map(|(_, place)| place)
+        None
     }
 }
 
