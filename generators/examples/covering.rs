@@ -6,10 +6,11 @@
 
 use paracosm_coverage::kwise::kwise_coverage;
 use paracosm_coverage::rules::{Clause, Literal, Rules};
-use paracosm_generators::covering::{CoveringRequest, covering_array};
+use paracosm_generators::covering::{CoveringRequest, covering_array, optimise};
+use paracosm_coverage::Deadline;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// What is run without arguments.
 const ALL: &str = "tcas_free@2 tcas_free@3 tcas_free@4 tcas_free@5 spinv@2 gcc@2 apache@2 spins@3 apache@3 gcc@3 spinv@3 \
@@ -20,6 +21,7 @@ fn main() {
         none if none.is_empty() => ALL.split_whitespace().map(str::to_owned).collect(),
         some => some,
     };
+    let optimised = std::env::var("OPTIMISE").ok().map(|seconds| Duration::from_secs_f64(seconds.parse().expect("seconds")));
     let models = models();
     println!(
         "{:<20} {:>6} {:>8} {:>6} {:>6} {:>9} {:>8}",
@@ -33,9 +35,20 @@ fn main() {
         };
         let rules = rules(model);
         let k: usize = k.parse().expect("a strength");
+        let request = CoveringRequest::new(&rules, k);
         let begun = cpu_seconds();
-        let array = covering_array(&CoveringRequest::new(&rules, k)).expect("the models are sound");
+        let array = covering_array(&request).expect("the models are sound");
         let seconds = cpu_seconds() - begun;
+        let array = match optimised {
+            None => array,
+            Some(limit) => {
+                let begun = Instant::now();
+                let progress = |size| eprint!("{size} ({:.1} s) ", begun.elapsed().as_secs_f64());
+                let array = optimise(&request, array, Deadline::after(limit), &progress);
+                eprintln!();
+                array
+            }
+        };
         let begun = cpu_seconds();
         let coverage = kwise_coverage(&rules, k, array.rows.iter().map(Vec::as_slice)).expect("the models are sound");
         let checked = cpu_seconds() - begun;

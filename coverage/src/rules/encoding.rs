@@ -6,11 +6,17 @@
 //! the size grows linearly where pairwise exclusion grows quadratically.
 
 use super::group::ClassClause;
-use batsat::{BasicSolver, Lit, SolverInterface, lbool};
+use batsat::{Callbacks, Lit, Solver, SolverInterface, lbool};
+
+/// The solver's own callbacks cannot be shared between threads.
+#[derive(Default)]
+struct Uninterrupted;
+
+impl Callbacks for Uninterrupted {}
 
 /// A solver and what its truth values mean. This is the one module that names the solver.
 pub(super) struct Encoding {
-    solver: BasicSolver,
+    solver: Solver<Uninterrupted>,
     /// The truth value of each class of each parameter.
     is: Vec<Vec<Lit>>,
     /// Truth values that switch clauses on.
@@ -20,8 +26,8 @@ pub(super) struct Encoding {
 impl Encoding {
     /// Parameters with so many classes, and so many switches.
     pub(super) fn new(classes: impl Iterator<Item = usize>, switches: usize) -> Self {
-        let mut solver = BasicSolver::default();
-        let fresh = |solver: &mut BasicSolver| Lit::new(solver.new_var_default(), true);
+        let mut solver = Solver::<Uninterrupted>::default();
+        let fresh = |solver: &mut Solver<Uninterrupted>| Lit::new(solver.new_var_default(), true);
         let mut is = Vec::new();
         for classes in classes {
             let at_least: Vec<Lit> = (1..classes).map(|_| fresh(&mut solver)).collect();

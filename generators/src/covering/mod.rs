@@ -19,9 +19,12 @@ mod fill;
 mod front;
 mod grow;
 mod open_rows;
+mod optimise;
 mod rows;
+mod search;
 
 pub use error::CoveringError;
+pub use optimise::optimise;
 
 use front::Family;
 use grow::Growth;
