@@ -29,19 +29,19 @@ pub fn optimise(
         let seed = mix(request.seed ^ mix(chain as u64));
         let start = || Search::new(request.rules, cells.clone(), &best.lock().expect("no search panics"), kept, seed);
         let mut search = start();
-        while search.len() > goal && !deadline.passed() {
+        while !deadline.passed() {
+            search.steps(STEPS_BETWEEN_LOOKS);
+            let mut best = best.lock().expect("no search panics");
             if search.missing() == 0 {
-                if !search.drop_row() {
+                if search.len() < best.len() {
+                    *best = search.rows();
+                    progress(best.len());
+                }
+                drop(best);
+                if search.len() <= goal || !search.drop_row() {
                     return;
                 }
-            } else {
-                search.steps(STEPS_BETWEEN_LOOKS);
-            }
-            let mut best = best.lock().expect("no search panics");
-            if search.missing() == 0 && search.len() < best.len() {
-                *best = search.rows();
-                progress(best.len());
-            } else if best.len() <= search.len() && search.missing() > 0 {
+            } else if best.len() <= search.len() {
                 drop(best);
                 search = start();
             }
@@ -55,19 +55,16 @@ pub(super) fn polish(request: &CoveringRequest, rows: Vec<Vec<usize>>, kept: usi
     let Some(cells) = request.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
     let mut search = Search::new(request.rules, cells, &rows, kept, request.seed);
     let mut best = rows;
-    let mut left = steps;
-    while left > 0 && search.len() > goal {
-        if search.missing() == 0 {
+    for _ in 0..steps {
+        while search.missing() == 0 {
             if search.len() < best.len() {
                 best = search.rows();
             }
-            if !search.drop_row() {
-                break;
+            if search.len() <= goal || !search.drop_row() {
+                return best;
             }
-        } else {
-            search.steps(1);
-            left -= 1;
         }
+        search.steps(1);
     }
     if search.missing() == 0 && search.len() < best.len() { search.rows() } else { best }
 }
