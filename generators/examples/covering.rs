@@ -4,10 +4,10 @@
 //! The constrained models are read from `../shared/reference/covering_models.json` beside the repository, or from
 //! `$PARACOSM_REFERENCE`, and left out where there is none.
 
+use paracosm_coverage::Deadline;
 use paracosm_coverage::kwise::kwise_coverage;
 use paracosm_coverage::rules::{Clause, Literal, Rules};
 use paracosm_generators::covering::{CoveringRequest, covering_array, optimise};
-use paracosm_coverage::Deadline;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -21,7 +21,8 @@ fn main() {
         none if none.is_empty() => ALL.split_whitespace().map(str::to_owned).collect(),
         some => some,
     };
-    let optimised = std::env::var("OPTIMISE").ok().map(|seconds| Duration::from_secs_f64(seconds.parse().expect("seconds")));
+    let optimised =
+        std::env::var("OPTIMISE").ok().map(|seconds| Duration::from_secs_f64(seconds.parse().expect("seconds")));
     let models = models();
     println!(
         "{:<20} {:>6} {:>8} {:>6} {:>6} {:>9} {:>8}",

@@ -20,6 +20,7 @@ mod front;
 mod grow;
 mod open_rows;
 mod optimise;
+mod order;
 mod rows;
 mod search;
 
@@ -88,6 +89,8 @@ pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, Coveri
     growth.grow(&mut rows, &mut companions, 0);
     fill::fill(&columns, &mut rows);
     let rows = (0..rows.len()).map(|index| columns.test(rows.row(index))).collect();
+    let rows = optimise::polish(request, rows, kept, kept.max(lower_bound as usize));
+    let rows = order::order(request.rules, request.k, rows, kept);
     Ok(CoveringArray { rows, kept, invalid, lower_bound: lower_bound as u64 })
 }
 

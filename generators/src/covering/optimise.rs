@@ -1,5 +1,6 @@
 //! Making an array smaller for as long as there is time.
 
+use super::order::order;
 use super::search::{Cells, Search};
 use super::{CoveringArray, CoveringRequest};
 use crate::seeded::mix;
@@ -9,6 +10,12 @@ use std::sync::Mutex;
 
 /// How many steps are taken between looks at the clock.
 const STEPS_BETWEEN_LOOKS: usize = 64;
+
+/// The work of polishing, in visits of cells: some 0.1 s.
+const POLISH_WORK: usize = 6_000_000;
+
+/// The work of a step beside its visits of cells and its look at the rows.
+const STEP_WORK: usize = 300;
 
 /// Shrinks an array that [`covering_array`](super::covering_array) constructed for the same request, until the
 /// deadline or the lower bound. Existing rows stay. `progress` is told each new size.
@@ -47,12 +54,21 @@ pub fn optimise(
             }
         }
     });
-    CoveringArray { rows: best.into_inner().expect("no search panics"), kept, invalid, lower_bound }
+    let rows = order(request.rules, request.k, best.into_inner().expect("no search panics"), kept);
+    CoveringArray { rows, kept, invalid, lower_bound }
 }
 
-/// Shrinks rows by so many steps of one search: the same on every machine.
-pub(super) fn polish(request: &CoveringRequest, rows: Vec<Vec<usize>>, kept: usize, goal: usize, steps: usize) -> Vec<Vec<usize>> {
+/// Shrinks rows with a short search by the rules of [`optimise`], the same on every machine. The work is bounded;
+/// arrays for which it would not suffice stay as they are.
+pub(super) fn polish(request: &CoveringRequest, rows: Vec<Vec<usize>>, kept: usize, goal: usize) -> Vec<Vec<usize>> {
     let Some(cells) = request.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
+    let start: usize = cells.iter().map(|cells| cells.in_row() * rows.len()).sum();
+    let changed: usize = cells.iter().map(|cells| 2 * cells.in_row() * cells.strength() / cells.members()).sum();
+    let step = changed + rows.len() / 2 + STEP_WORK;
+    let steps = POLISH_WORK.saturating_sub(start) / step;
+    if steps == 0 {
+        return rows;
+    }
     let mut search = Search::new(request.rules, cells, &rows, kept, request.seed);
     let mut best = rows;
     for _ in 0..steps {

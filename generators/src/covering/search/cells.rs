@@ -48,7 +48,8 @@ impl Cells {
         for s in 1..=strength {
             for place in 0..members.len() {
                 let below = start[s - 1][place].checked_mul(levels[members[place]])?;
-                start[s][place + 1] = start[s][place].checked_add(below).filter(|&count| count <= MOST_CELLS || s < strength)?;
+                start[s][place + 1] =
+                    start[s][place].checked_add(below).filter(|&count| count <= MOST_CELLS || s < strength)?;
             }
         }
         let step = start.iter().map(|start| start[..members.len()].to_vec());
@@ -77,6 +78,21 @@ impl Cells {
     /// How many cells there are.
     pub(super) fn len(&self) -> usize {
         self.count
+    }
+
+    /// How many members there are.
+    pub(crate) fn members(&self) -> usize {
+        self.members.len()
+    }
+
+    /// How many members a cell is about.
+    pub(crate) fn strength(&self) -> usize {
+        self.strength
+    }
+
+    /// How many cells a row has.
+    pub(crate) fn in_row(&self) -> usize {
+        (0..self.strength).fold(1, |choices, i| choices * (self.members.len() - i) / (i + 1))
     }
 
     /// Whether a cell is a single combination.

@@ -283,7 +283,8 @@ impl<'r> Search<'r> {
                     continue;
                 }
                 let first = row[member];
-                let levels = std::iter::once(first).chain((0..self.rules.levels()[member]).filter(|&level| level != first));
+                let levels =
+                    std::iter::once(first).chain((0..self.rules.levels()[member]).filter(|&level| level != first));
                 for level in levels {
                     wanted.push((member, level));
                     let fixed = |parameter: usize| wanted.iter().find(|pair| pair.0 == parameter).map(|pair| pair.1);

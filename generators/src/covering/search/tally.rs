@@ -35,13 +35,21 @@ pub(super) struct Tally {
 impl Tally {
     /// Nothing is covered yet, and nothing asked for.
     pub(super) fn new(families: &[Cells], rows: usize, parameters: usize) -> Self {
-        let begin: Vec<usize> = families.iter().scan(0, |end, cells| {
-            *end += cells.len();
-            Some(*end - cells.len())
-        })
-        .collect();
+        let begin: Vec<usize> = families
+            .iter()
+            .scan(0, |end, cells| {
+                *end += cells.len();
+                Some(*end - cells.len())
+            })
+            .collect();
         let all = families.iter().map(Cells::len).sum();
-        Self { parameters, begin, cells: vec![Cell::default(); all], missing: Vec::new(), alone: vec![0; rows * parameters] }
+        Self {
+            parameters,
+            begin,
+            cells: vec![Cell::default(); all],
+            missing: Vec::new(),
+            alone: vec![0; rows * parameters],
+        }
     }
 
     /// How many cells would be missing without an entry.
