@@ -15,12 +15,14 @@
 //! ```
 
 mod error;
+mod field;
 mod fill;
 mod front;
 mod grow;
 mod open_rows;
 mod optimise;
 mod order;
+mod orthogonal;
 mod rows;
 mod search;
 
@@ -86,12 +88,37 @@ pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, Coveri
     let (mut rows, invalid) = existing(request, &columns);
     let kept = rows.len();
     let growth = Growth { columns: &columns, families: &families, seed: request.seed };
-    growth.grow(&mut rows, &mut companions, 0);
+    rows = grown(&growth, rows, &mut companions);
     fill::fill(&columns, &mut rows);
     let rows = (0..rows.len()).map(|index| columns.test(rows.row(index))).collect();
     let rows = optimise::polish(request, rows, kept, kept.max(lower_bound as usize));
     let rows = order::order(request.rules, request.k, rows, kept);
     Ok(CoveringArray { rows, kept, invalid, lower_bound: lower_bound as u64 })
+}
+
+/// With so many rows, only one way to begin is tried.
+const MANY_ROWS: usize = 500;
+
+/// Grows all columns, after existing rows or from an orthogonal array of the first columns.
+fn grown(growth: &Growth, existing: Rows, companions: &mut Companions) -> Rows {
+    let mut bases = Vec::new();
+    if existing.len() == 0 && growth.families.len() == 1 {
+        bases = orthogonal::bases(growth.columns, growth.families[0].strength);
+    }
+    // With many rows the widest serves best.
+    if let Some(base) = bases.pop_if(|base| base.rows.len() > MANY_ROWS) {
+        let mut rows = base.rows;
+        growth.grow(&mut rows, companions, base.columns);
+        return rows;
+    }
+    let plain = orthogonal::Base { rows: existing, columns: 0 };
+    let begun = std::iter::once(plain).chain(bases);
+    let grown = begun.map(|base| {
+        let mut rows = base.rows;
+        growth.grow(&mut rows, companions, base.columns);
+        rows
+    });
+    grown.min_by_key(Rows::len).expect("there is one way to begin")
 }
 
 impl CoveringRequest<'_> {

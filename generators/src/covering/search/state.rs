@@ -25,6 +25,10 @@ pub(crate) struct Search<'r> {
     kept: usize,
     /// The rows that are there and may change.
     active: Vec<usize>,
+    /// Those of them with each level, a bit each; where the levels of each parameter begin.
+    having: Vec<Vec<u64>>,
+    present: Vec<u64>,
+    first: Vec<usize>,
     tally: Tally,
     /// The step from which each entry may change again.
     free_at: Vec<Vec<u64>>,
@@ -47,7 +51,12 @@ impl<'r> Search<'r> {
     /// they do not cover is not asked for.
     pub(crate) fn new(rules: &'r Rules, families: Vec<Cells>, rows: &[Vec<usize>], kept: usize, seed: u64) -> Self {
         assert!(rows.len() < 1 << 16, "rows are numbered in 16 bits");
-        let parameters = rules.levels().len();
+        let levels = rules.levels();
+        let parameters = levels.len();
+        let first = levels.iter().scan(0, |end, levels| {
+            *end += levels;
+            Some(*end - levels)
+        });
         let mut families_of = vec![Vec::new(); parameters];
         for (index, family) in families.iter().enumerate() {
             for (place, &member) in family.members.iter().enumerate() {
@@ -62,6 +71,9 @@ impl<'r> Search<'r> {
             rows: rows.to_vec(),
             kept,
             active: (kept..rows.len()).collect(),
+            having: vec![vec![0; rows.len().div_ceil(64)]; levels.iter().sum()],
+            present: vec![0; rows.len().div_ceil(64)],
+            first: first.collect(),
             free_at: vec![vec![0; parameters]; rows.len()],
             step: 0,
             chance: mix(seed),
@@ -70,10 +82,27 @@ impl<'r> Search<'r> {
         let Self { families, rows, tally, .. } = &mut search;
         for (index, row) in rows.iter().enumerate() {
             for (family, cells) in families.iter().enumerate() {
-                cells.each(row, None, &mut |cell, chosen| tally.enter(family, cells, index, cell, chosen));
+                cells.each(row, None, &mut |cell, _| tally.count(family, index, cell));
+            }
+        }
+        for (index, row) in rows.iter().enumerate() {
+            for (family, cells) in families.iter().enumerate() {
+                cells.each(row, None, &mut |cell, chosen| tally.claim(family, cells, index, cell, chosen));
+            }
+        }
+        for index in kept..search.rows.len() {
+            search.present[index / 64] |= 1 << (index % 64);
+            for parameter in 0..parameters {
+                search.flip(index, parameter);
             }
         }
         search
+    }
+
+    /// Notes that a row comes to have an entry, or has it no longer.
+    fn flip(&mut self, index: usize, parameter: usize) {
+        let entry = self.first[parameter] + self.rows[index][parameter];
+        self.having[entry][index / 64] ^= 1 << (index % 64);
     }
 
     /// The rows as they are.
@@ -112,11 +141,13 @@ impl<'r> Search<'r> {
 
     /// Drops the row that alone covers the fewest cells; false if no row may be dropped.
     pub(crate) fn drop_row(&mut self) -> bool {
-        let parameters = self.rules.levels().len();
-        let alone = |&index: &usize| (0..parameters).map(|p| u64::from(self.tally.alone(index, p))).sum::<u64>();
-        let place = (0..self.active.len()).min_by_key(|&place| (alone(&self.active[place]), place));
+        let place = (0..self.active.len()).min_by_key(|&place| self.tally.all_alone(self.active[place]));
         let Some(place) = place else { return false };
         let index = self.active.swap_remove(place);
+        self.present[index / 64] ^= 1 << (index % 64);
+        for parameter in 0..self.first.len() {
+            self.flip(index, parameter);
+        }
         let Self { families, rows, tally, .. } = self;
         for (family, cells) in families.iter().enumerate() {
             let row = &rows[index];
@@ -128,6 +159,9 @@ impl<'r> Search<'r> {
 
     /// Gives entries of a row other levels.
     fn change(&mut self, index: usize, changes: &[(usize, usize)]) {
+        for &(parameter, _) in changes {
+            self.flip(index, parameter);
+        }
         let Self { families, families_of, rows, tally, .. } = self;
         let row = &mut rows[index];
         // A cell with several of the entries is visited for the first of them only.
@@ -161,6 +195,7 @@ impl<'r> Search<'r> {
             }
         }
         for &(parameter, _) in changes {
+            self.flip(index, parameter);
             let tenure = TENURE + self.draw(TENURE + 1);
             self.free_at[index][parameter] = self.step + tenure as u64;
         }
@@ -232,10 +267,19 @@ impl<'r> Search<'r> {
         let mut changes = Vec::new();
         if cells.are_combinations() {
             let wanted: Vec<(usize, usize)> = members.zip(missing.levels.map(|level| level as usize)).collect();
-            for &row in &self.active {
-                let mut other = wanted.iter().filter(|&&(parameter, level)| self.rows[row][parameter] != level);
-                if let (Some(&(parameter, level)), None) = (other.next(), other.next()) {
-                    changes.push(Change { row, parameter, level });
+            // The rows with all entries of the combination but one.
+            for word in 0..self.rows.len().div_ceil(64) {
+                let (mut all, mut all_but_one) = (self.present[word], 0);
+                for &(parameter, level) in &wanted {
+                    let having = self.having[self.first[parameter] + level][word];
+                    all_but_one = (all_but_one & having) | (all & !having);
+                    all &= having;
+                }
+                while all_but_one != 0 {
+                    let row = word * 64 + all_but_one.trailing_zeros() as usize;
+                    all_but_one &= all_but_one - 1;
+                    let other = wanted.iter().find(|&&(parameter, level)| self.rows[row][parameter] != level);
+                    changes.extend(other.map(|&(parameter, level)| Change { row, parameter, level }));
                 }
             }
             return changes;
@@ -258,6 +302,12 @@ impl<'r> Search<'r> {
         let row = &self.rows[change.row];
         let covers = |missing: &&Missing| {
             let cells = &self.families[missing.family as usize];
+            if cells.are_combinations() {
+                let members = missing.chosen[..cells.strength].iter().map(|&place| cells.members[place as usize]);
+                return members.zip(missing.levels).all(|(member, level)| {
+                    level as usize == if member == change.parameter { change.level } else { row[member] }
+                });
+            }
             cells.cell_with(&missing.chosen, row, change.parameter, change.level) == missing.cell as usize
         };
         self.tally.missing.iter().take(LOOKED_AT).filter(covers).count() as i64

@@ -28,7 +28,7 @@ pub(super) struct Tally {
     cells: Vec<Cell>,
     /// The cells without a row.
     pub(super) missing: Vec<Missing>,
-    /// How many cells each row alone covers, with each of its entries.
+    /// How many cells each row alone covers, with each of its entries and then altogether.
     alone: Vec<u32>,
 }
 
@@ -48,21 +48,44 @@ impl Tally {
             begin,
             cells: vec![Cell::default(); all],
             missing: Vec::new(),
-            alone: vec![0; rows * parameters],
+            alone: vec![0; rows * (parameters + 1)],
         }
     }
 
     /// How many cells would be missing without an entry.
     #[inline(always)]
     pub(super) fn alone(&self, row: usize, parameter: usize) -> u32 {
-        self.alone[row * self.parameters + parameter]
+        self.alone[row * (self.parameters + 1) + parameter]
+    }
+
+    /// How many cells would be missing without a row.
+    pub(super) fn all_alone(&self, row: usize) -> u32 {
+        self.alone(row, self.parameters)
     }
 
     #[inline(always)]
     fn count_alone(&mut self, row: usize, cells: &Cells, chosen: &Chosen, change: u32) {
+        let alone = &mut self.alone[row * (self.parameters + 1)..][..=self.parameters];
         for &place in &chosen[..cells.strength] {
-            let alone = &mut self.alone[row * self.parameters + cells.members[place as usize]];
+            let alone = &mut alone[cells.members[place as usize]];
             *alone = alone.wrapping_add(change);
+        }
+        alone[self.parameters] = alone[self.parameters].wrapping_add(change);
+    }
+
+    /// Counts a row of the start at a cell.
+    #[inline(always)]
+    pub(super) fn count(&mut self, family: usize, row: usize, cell: usize) {
+        let cell = &mut self.cells[self.begin[family] + cell];
+        cell.count += 1;
+        cell.rows ^= row as u16;
+    }
+
+    /// Once all rows of the start are counted: whether a row is alone at a cell.
+    #[inline(always)]
+    pub(super) fn claim(&mut self, family: usize, cells: &Cells, row: usize, cell: usize, chosen: &Chosen) {
+        if self.cells[self.begin[family] + cell].count == 1 {
+            self.count_alone(row, cells, chosen, 1);
         }
     }
 
