@@ -92,13 +92,16 @@ impl Front {
     /// Adds the valid combinations of a head.
     fn open(&mut self, columns: &Columns, companions: &mut Companions, head: Vec<usize>) {
         // Those before the head are the bits; strength 1 has a single bit that every row has.
-        let end = head.first().copied().unwrap_or(self.column);
-        let before: Vec<usize> = self.others.iter().copied().filter(|&other| other < end).collect();
-        let mut mask = vec![0u64; if self.strength == 1 { 1 } else { self.first[end].div_ceil(64) }];
-        for bit in before.iter().flat_map(|&other| self.first[other]..self.first[other] + columns.levels[other]) {
-            mask[bit / 64] |= 1 << (bit % 64);
+        let mut mask = vec![1u64];
+        if self.strength > 1 {
+            let end = head.first().copied().unwrap_or(self.column);
+            mask = vec![0; self.first[end].div_ceil(64)];
+            for &other in self.others.iter().take_while(|&&other| other < end) {
+                let bits = self.first[other]..self.first[other] + columns.levels[other];
+                bits.for_each(|bit| mask[bit / 64] |= 1 << (bit % 64));
+            }
         }
-        if self.strength > 1 && before.is_empty() {
+        if mask.iter().all(|&word| word == 0) {
             return;
         }
         let words = mask.len();
@@ -113,16 +116,7 @@ impl Front {
             fixed.iter_mut().zip(&levels).for_each(|(fixed, &level)| fixed.1 = level);
             for level in 0..self.levels {
                 fixed[levels.len()].1 = level;
-                let valid = if self.strength == 1 {
-                    mask[0] = 1;
-                    let alone = companions.first(columns.order[self.column]) + level;
-                    companions
-                        .with(&[])
-                        .filter(|bits| bits[alone / 64] >> (alone % 64) & 1 == 1)
-                        .map(|_| &[u64::MAX][..])
-                } else {
-                    companions.with(&fixed)
-                };
+                let valid = companions.with(&fixed).map(|bits| if self.strength == 1 { &[1] } else { bits });
                 for (i, (mask, valid)) in valid.into_iter().flat_map(|valid| mask.iter().zip(valid)).enumerate() {
                     self.bits[at + i * self.levels + level] = mask & valid;
                     self.left[level] += u64::from((mask & valid).count_ones());

@@ -25,6 +25,7 @@ mod order;
 mod orthogonal;
 mod rows;
 mod search;
+mod symmetric;
 
 pub use error::CoveringError;
 pub use optimise::optimise;

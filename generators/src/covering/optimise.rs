@@ -2,6 +2,7 @@
 
 use super::order::order;
 use super::search::{Cells, Search};
+use super::symmetric::{Symmetric, symmetric_searches};
 use super::{CoveringArray, CoveringRequest};
 use crate::seeded::mix;
 use paracosm_coverage::Deadline;
@@ -17,6 +18,9 @@ const POLISH_WORK: usize = 4_000_000;
 /// The work of a step beside its visits of cells and its look at the rows.
 const STEP_WORK: usize = 300;
 
+/// After how many looks at the clock another kind of symmetry is tried.
+const LOOKS_IN_TURN: usize = 256;
+
 /// Shrinks an array that [`covering_array`](super::covering_array) constructed for the same request, until the
 /// deadline or the lower bound. Existing rows stay. `progress` is told each new size.
 ///
@@ -31,31 +35,92 @@ pub fn optimise(
     let Some(cells) = request.cells().filter(|_| array.rows.len() < 1 << 16) else { return array };
     let goal = (array.lower_bound as usize).max(array.kept);
     let CoveringArray { rows, kept, invalid, lower_bound } = array;
-    let best = Mutex::new(rows);
-    (0..rayon::current_num_threads()).into_par_iter().for_each(|chain| {
+    let best = Best { rows: Mutex::new(rows), kept, goal, deadline, progress };
+    let mut symmetric = if kept == 0 && cells.len() == 1 { symmetric_searches(request) } else { Vec::new() };
+    let rows_search = |chain: usize| {
         let seed = mix(request.seed ^ mix(chain as u64));
-        let start = || Search::new(request.rules, cells.clone(), &best.lock().expect("no search panics"), kept, seed);
+        best.search_rows(|rows| Search::new(request.rules, cells.clone(), rows, kept, seed));
+    };
+    let chains = rayon::current_num_threads();
+    if symmetric.is_empty() {
+        (0..chains).into_par_iter().for_each(rows_search);
+    } else {
+        // At least one core for each way.
+        let rows_searches = || (0..(chains / 2).max(1)).into_par_iter().for_each(rows_search);
+        let share = symmetric.len().div_ceil((chains / 2).max(1));
+        let symmetric = || symmetric.par_chunks_mut(share).for_each(|share| best.search_symmetric(share));
+        rayon::join(symmetric, rows_searches);
+    }
+    let rows = best.rows.into_inner().expect("no search panics");
+    let rows = order(request.rules, request.k, rows, kept);
+    CoveringArray { rows, kept, invalid, lower_bound }
+}
+
+/// The smallest array so far, which all searches share.
+struct Best<'a> {
+    rows: Mutex<Vec<Vec<usize>>>,
+    kept: usize,
+    goal: usize,
+    deadline: Deadline,
+    progress: &'a (dyn Fn(usize) + Sync),
+}
+
+impl Best<'_> {
+    fn len(&self) -> usize {
+        self.rows.lock().expect("no search panics").len()
+    }
+
+    /// Whether a search is to go on.
+    fn wanted(&self) -> bool {
+        !self.deadline.passed() && self.len() > self.goal
+    }
+
+    fn offer(&self, found: Vec<Vec<usize>>) {
+        let mut rows = self.rows.lock().expect("no search panics");
+        if found.len() < rows.len() {
+            *rows = found;
+            (self.progress)(rows.len());
+        }
+    }
+
+    /// Searches from the best array, and again whenever another search has found a smaller one.
+    fn search_rows(&self, start: impl Fn(&[Vec<usize>]) -> Search) {
+        let start = || start(&self.rows.lock().expect("no search panics"));
         let mut search = start();
-        while !deadline.passed() {
+        while self.wanted() {
             search.steps(STEPS_BETWEEN_LOOKS);
-            let mut best = best.lock().expect("no search panics");
             if search.missing() == 0 {
-                if search.len() < best.len() {
-                    *best = search.rows();
-                    progress(best.len());
-                }
-                drop(best);
-                if search.len() <= goal || !search.drop_row() {
+                self.offer(search.rows());
+                if !search.drop_row() {
                     return;
                 }
-            } else if best.len() <= search.len() {
-                drop(best);
+            } else if self.len() <= search.len() {
                 search = start();
             }
         }
-    });
-    let rows = order(request.rules, request.k, best.into_inner().expect("no search panics"), kept);
-    CoveringArray { rows, kept, invalid, lower_bound }
+    }
+
+    /// Searches for symmetric arrays in turns.
+    fn search_symmetric(&self, searches: &mut [Symmetric]) {
+        while self.wanted() {
+            let mut some = false;
+            for search in searches.iter_mut() {
+                some |= search.shrink_below(self.len());
+                for _ in 0..LOOKS_IN_TURN {
+                    if self.deadline.passed() {
+                        return;
+                    }
+                    if let Some(rows) = search.steps(STEPS_BETWEEN_LOOKS) {
+                        self.offer(rows);
+                        break;
+                    }
+                }
+            }
+            if !some {
+                return;
+            }
+        }
+    }
 }
 
 /// Shrinks rows with a short search by the rules of [`optimise`], the same on every machine. The work is bounded;

@@ -16,8 +16,8 @@ const LOOKED_AT: usize = 256;
 
 /// Rows, what they cover, and what is missing.
 #[derive(Debug, Clone)]
-pub(crate) struct Search<'r> {
-    rules: &'r Rules,
+pub(crate) struct Search {
+    rules: Rules,
     families: Vec<Cells>,
     /// The families with each parameter, and its place there.
     families_of: Vec<Vec<(usize, usize)>>,
@@ -46,10 +46,10 @@ struct Change {
     level: usize,
 }
 
-impl<'r> Search<'r> {
+impl Search {
     /// Starts from rows that keep the constraints, fewer than 2^16; the first `kept` of them never change. What
     /// they do not cover is not asked for.
-    pub(crate) fn new(rules: &'r Rules, families: Vec<Cells>, rows: &[Vec<usize>], kept: usize, seed: u64) -> Self {
+    pub(crate) fn new(rules: &Rules, families: Vec<Cells>, rows: &[Vec<usize>], kept: usize, seed: u64) -> Self {
         assert!(rows.len() < 1 << 16, "rows are numbered in 16 bits");
         let levels = rules.levels();
         let parameters = levels.len();
@@ -64,7 +64,7 @@ impl<'r> Search<'r> {
             }
         }
         let mut search = Self {
-            rules,
+            rules: rules.clone(),
             tally: Tally::new(&families, rows.len(), parameters),
             families,
             families_of,
