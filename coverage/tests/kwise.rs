@@ -11,8 +11,11 @@ use std::collections::BTreeSet;
 
 type Tuple = Vec<(usize, usize)>;
 
+/// The levels of a space, constraints, a k for it, and tests.
+type Study = (Vec<usize>, Vec<Vec<Clause>>, usize, Vec<Vec<usize>>);
+
 /// A space of few levels with constraints, a k for it, and tests.
-fn study() -> impl Strategy<Value = (Vec<usize>, Vec<Vec<Clause>>, usize, Vec<Vec<usize>>)> {
+fn study() -> impl Strategy<Value = Study> {
     models().prop_flat_map(|(levels, constraints)| {
         let test: Vec<_> = levels.iter().map(|&v| 0..v).collect();
         let k = 1..=levels.len();

@@ -108,7 +108,7 @@ impl Model {
 #[derive(Debug)]
 enum Engine {
     Diagram(Diagram),
-    Search(Search),
+    Search(Box<Search>),
 }
 
 /// A set of parameters that clauses join.
@@ -144,7 +144,7 @@ impl Group {
         let engine = match Diagram::new(&members, &sizes, &clauses) {
             Some(diagram) if diagram.is_empty() => return None,
             Some(diagram) => Engine::Diagram(diagram),
-            None => Engine::Search(Search::new(&members, &sizes, &clauses)?),
+            None => Engine::Search(Box::new(Search::new(&members, &sizes, &clauses)?)),
         };
         let class_of = members.iter().map(|&member| model.class_of[member].clone()).collect();
         Some(Self { members, class_of, sizes, clauses, clauses_of, engine })

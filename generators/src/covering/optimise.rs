@@ -35,7 +35,7 @@ pub fn optimise(
     let Some(cells) = request.cells().filter(|_| array.rows.len() < 1 << 16) else { return array };
     let goal = (array.lower_bound as usize).max(array.kept);
     let CoveringArray { rows, kept, invalid, lower_bound } = array;
-    let best = Best { rows: Mutex::new(rows), kept, goal, deadline, progress };
+    let best = Best { rows: Mutex::new(rows), goal, deadline, progress };
     let mut symmetric = if kept == 0 && cells.len() == 1 { symmetric_searches(request) } else { Vec::new() };
     let rows_search = |chain: usize| {
         let seed = mix(request.seed ^ mix(chain as u64));
@@ -59,7 +59,6 @@ pub fn optimise(
 /// The smallest array so far, which all searches share.
 struct Best<'a> {
     rows: Mutex<Vec<Vec<usize>>>,
-    kept: usize,
     goal: usize,
     deadline: Deadline,
     progress: &'a (dyn Fn(usize) + Sync),

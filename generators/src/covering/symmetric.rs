@@ -56,7 +56,9 @@ fn groups(v: usize) -> Vec<Group> {
     };
     let mut groups = Vec::new();
     for moved in (v.saturating_sub(2).max(2)..=v).rev() {
-        groups.push((0..moved).map(|shift| with_fixed((0..moved).map(|level| (level + shift) % moved).collect())).collect());
+        groups.push(
+            (0..moved).map(|shift| with_fixed((0..moved).map(|level| (level + shift) % moved).collect())).collect(),
+        );
     }
     for field in (v - 1..=v).filter_map(Field::new).filter(|field| field.order() > 2) {
         let q = field.order();
