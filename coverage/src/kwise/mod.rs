@@ -3,7 +3,7 @@
 //! A set of tests covers k-wise if every choice of k parameters shows every valid combination of their levels in
 //! some test; tests that violate a constraint show nothing. The tests are parted by the levels of one parameter
 //! after the other; those that agree in k - 1 parameters show together so many combinations with one more as
-//! different levels of it, and these are counted a machine word at a time ([`count`]). The valid combinations are
+//! different levels of it, and these are counted a machine word at a time (`count`). The valid combinations are
 //! counted without being listed ([`Rules::count`]).
 
 mod count;

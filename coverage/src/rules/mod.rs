@@ -3,8 +3,8 @@
 //! A combination of levels is *valid* when some complete test that keeps every constraint contains it. Deriving
 //! all combinations that the constraints exclude together, as resolution does, explodes; so nothing is derived
 //! up front. The parameters fall apart into groups that no constraint joins, and each group is compiled into a
-//! [decision diagram](diagram) on which every question takes one pass. Where a diagram would grow beyond bounds,
-//! a [satisfiability solver](search) answers instead; it is slower, and as exact.
+//! decision diagram on which every question takes one pass. Where a diagram would grow beyond bounds,
+//! a satisfiability solver answers instead; it is slower, and as exact.
 
 mod clause;
 mod companions;

@@ -1,6 +1,6 @@
 //! Covering arrays: few tests that contain every valid combination of levels of any k parameters.
 //!
-//! The array [grows](grow) by IPOG, column by column, and keeps entries open as long as nothing needs them. Which
+//! The array grows by IPOG, column by column, and keeps entries open as long as nothing needs them. Which
 //! combinations are valid and what can still be completed, [`Rules`] decide exactly. The same request gives the
 //! same array on every machine.
 //!
@@ -86,10 +86,10 @@ pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, Coveri
     let columns = Columns::new(request.rules);
     let families = request.families(&columns);
     let mut companions = Companions::new(request.rules, &columns.order);
-    let (mut rows, invalid) = existing(request, &columns);
+    let (rows, invalid) = existing(request, &columns);
     let kept = rows.len();
     let growth = Growth { columns: &columns, families: &families, seed: request.seed };
-    rows = grown(&growth, rows, &mut companions);
+    let mut rows = grown(&growth, rows, &mut companions);
     fill::fill(&columns, &mut rows);
     let rows = (0..rows.len()).map(|index| columns.test(rows.row(index))).collect();
     let rows = optimise::polish(request, rows, kept, kept.max(lower_bound as usize));

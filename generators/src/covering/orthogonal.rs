@@ -20,10 +20,11 @@ pub(super) struct Base {
     pub(super) columns: usize,
 }
 
-/// The orthogonal arrays that fit the first columns, each with more of them than the one before; entries beyond
+/// The orthogonal arrays that fit the first columns, those of equally many levels, each with more of them than the one before; entries beyond
 /// a column's levels are left open.
 pub(super) fn bases(columns: &Columns, t: usize) -> Vec<Base> {
-    let free = (0..columns.len()).take_while(|&column| columns.group(column).is_none()).count();
+    let alike = |&column: &usize| columns.group(column).is_none() && columns.levels[column] == columns.levels[0];
+    let free = (0..columns.len()).take_while(alike).count();
     if t < 2 || free <= t {
         return Vec::new();
     }

@@ -114,7 +114,7 @@ impl Symmetric {
         } else if starters > 0 && goal < 1 << 16 {
             let (parameters, v) = (self.rules.levels().len(), self.rules.levels()[0]);
             let cells = Cells::of_orbits(parameters, v, self.strength, orbits(&self.group, v, self.strength));
-            let entry = |i: usize| (u128::from(mix(self.seed ^ mix(i as u64))) * v as u128 >> 64) as usize;
+            let entry = |i: usize| ((u128::from(mix(self.seed ^ mix(i as u64))) * v as u128) >> 64) as usize;
             let row = |row: usize| (0..parameters).map(|i| entry(row * parameters + i)).collect();
             let rows: Vec<Vec<usize>> = self.constant.iter().cloned().chain((0..starters).map(row)).collect();
             let mut search = Search::new(&self.rules, vec![cells], &rows, self.constant.len(), self.seed);
