@@ -6,6 +6,7 @@ use paracosm_coverage::extreme::extreme_discrepancy;
 use paracosm_coverage::fill::fill;
 use paracosm_coverage::kwise::kwise_coverage;
 use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion};
+use paracosm_coverage::rules::Rules;
 use paracosm_coverage::star::star_discrepancy;
 use paracosm_coverage::{Bracket, Deadline, Parameter, Point, PointSet, Record, Space, Value};
 use paracosm_coverage::{did_you_mean, l2, nearest};
@@ -357,7 +358,8 @@ impl Tests {
 
     fn discrete(&self, k: usize, levels: &[usize]) -> Result<Discrete, Error> {
         let parameters: Vec<&Parameter> = self.space.discrete().collect();
-        let counted = kwise_coverage(levels, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
+        let rules = Rules::free(levels);
+        let counted = kwise_coverage(&rules, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
         let name = |&(parameter, level): &(usize, usize)| named_level(&parameters, parameter, level);
         Ok(Discrete {
             k,
@@ -365,7 +367,7 @@ impl Tests {
             covered: counted.covered,
             ratio: counted.ratio(),
             missing: counted.missing.iter().map(|tuple| tuple.iter().map(name).collect()).collect(),
-            combinations: counted.combinations,
+            combinations: counted.combinations.expect("free parameters can be counted"),
         })
     }
 }

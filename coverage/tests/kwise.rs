@@ -1,18 +1,25 @@
 //! k-wise coverage against counting in sets, and the sizes of random families against exact probabilities.
 
-use paracosm_coverage::kwise::{KwiseError, MISSING_LISTED, kwise_coverage};
+mod models;
+
+use models::{all_tests, keeps, models};
+use paracosm_coverage::kwise::{KwiseCounter, KwiseError, MISSING_LISTED, kwise_coverage};
+use paracosm_coverage::rules::{Clause, Rules};
 use paracosm_coverage::theory::rows::{proposition_3_2, random_family_size, union_bound};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 type Tuple = Vec<(usize, usize)>;
 
-/// A space of few levels, a k for it, and tests.
-fn study() -> impl Strategy<Value = (Vec<usize>, usize, Vec<Vec<usize>>)> {
-    prop::collection::vec(1..=4usize, 1..=5).prop_flat_map(|levels| {
+/// The levels of a space, constraints, a k for it, and tests.
+type Study = (Vec<usize>, Vec<Vec<Clause>>, usize, Vec<Vec<usize>>);
+
+/// A space of few levels with constraints, a k for it, and tests.
+fn study() -> impl Strategy<Value = Study> {
+    models().prop_flat_map(|(levels, constraints)| {
         let test: Vec<_> = levels.iter().map(|&v| 0..v).collect();
         let k = 1..=levels.len();
-        (Just(levels), k, prop::collection::vec(test, 0..12))
+        (Just(levels), Just(constraints), k, prop::collection::vec(test, 0..12))
     })
 }
 
@@ -33,18 +40,15 @@ fn tuples_of<'a>(tests: impl IntoIterator<Item = &'a Vec<usize>>, k: usize) -> B
     tests.into_iter().flat_map(|test| subsets(&entries(test), k)).collect()
 }
 
-fn all_tests(levels: &[usize]) -> Vec<Vec<usize>> {
-    levels.iter().fold(vec![vec![]], |heads: Vec<Vec<usize>>, &v| {
-        heads.iter().flat_map(|head| (0..v).map(|level| [head.as_slice(), &[level]].concat())).collect()
-    })
-}
-
 proptest! {
     #[test]
-    fn coverage_is_what_sets_of_tuples_count((levels, k, tests) in study()) {
-        let coverage = kwise_coverage(&levels, k, tests.iter().map(Vec::as_slice)).unwrap();
+    fn coverage_is_what_sets_of_tuples_count((levels, constraints, k, tests) in study()) {
+        let Ok(rules) = Rules::new(&levels, &constraints) else { return Ok(()) };
+        let coverage = kwise_coverage(&rules, k, tests.iter().map(Vec::as_slice)).unwrap();
+        let kept = |test: &&Vec<usize>| constraints.iter().all(|constraint| keeps(constraint, test));
         let every = all_tests(&levels);
-        let (valid, covered) = (tuples_of(&every, k), tuples_of(&tests, k));
+        let every: Vec<&Vec<usize>> = every.iter().filter(kept).collect();
+        let (valid, covered) = (tuples_of(every.iter().copied(), k), tuples_of(tests.iter().filter(kept), k));
         prop_assert_eq!(coverage.valid, valid.len() as u64);
         prop_assert_eq!(coverage.covered, covered.len() as u64);
         prop_assert_eq!(coverage.ratio(), covered.len() as f64 / valid.len() as f64);
@@ -53,15 +57,49 @@ proptest! {
         missing.sort_by_key(|tuple| (parameters(tuple), tuple.clone()));
         missing.truncate(MISSING_LISTED);
         prop_assert_eq!(coverage.missing, missing);
-        let distinct: BTreeSet<_> = tests.iter().collect();
-        prop_assert_eq!(coverage.combinations, distinct.len() as f64 / every.len() as f64);
+        let distinct: BTreeSet<_> = tests.iter().filter(kept).collect();
+        prop_assert_eq!(coverage.combinations, Some(distinct.len() as f64 / every.len() as f64));
+        let invalid: Vec<usize> = (0..tests.len()).filter(|&i| !kept(&&tests[i])).collect();
+        prop_assert_eq!(coverage.invalid, invalid);
+    }
+
+    #[test]
+    fn a_counter_knows_the_coverage_after_every_test((levels, constraints, k, tests) in study()) {
+        let Ok(rules) = Rules::new(&levels, &constraints) else { return Ok(()) };
+        let mut counter = KwiseCounter::new(&rules, k).unwrap();
+        for (i, test) in tests.iter().enumerate() {
+            let before = counter.covered();
+            let gain = counter.gain(test).unwrap();
+            prop_assert_eq!(counter.add(test).unwrap(), gain);
+            prop_assert_eq!(counter.covered(), before + gain);
+            let coverage = kwise_coverage(&rules, k, tests[..=i].iter().map(Vec::as_slice)).unwrap();
+            prop_assert_eq!((counter.valid(), counter.covered()), (coverage.valid, coverage.covered));
+        }
     }
 }
 
 #[test]
+fn many_levels_and_long_sets_of_tests_are_counted_across_words() {
+    let levels = [70, 1, 130, 3];
+    let rules = Rules::free(&levels);
+    let tests: Vec<Vec<usize>> = (0..500).map(|i| vec![i * 7 % 70, 0, i * 11 % 130, i % 3]).collect();
+    let mut counter = KwiseCounter::new(&rules, 3).unwrap();
+    tests.iter().for_each(|test| {
+        counter.add(test).unwrap();
+    });
+    let coverage = kwise_coverage(&rules, 3, tests.iter().map(Vec::as_slice)).unwrap();
+    let covered = tuples_of(&tests, 3).len() as u64;
+    assert_eq!(
+        (coverage.covered, counter.covered(), coverage.valid),
+        (covered, covered, 70 * 133 + 130 * 3 + 70 * 130 * 3)
+    );
+}
+
+#[test]
 fn what_cannot_be_counted_is_refused() {
-    let of =
-        |levels: &[usize], k, test: &'static [usize]| kwise_coverage(levels, k, std::iter::once(test)).unwrap_err();
+    let of = |levels: &[usize], k, test: &'static [usize]| {
+        kwise_coverage(&Rules::free(levels), k, std::iter::once(test)).unwrap_err()
+    };
     assert_eq!(of(&[2, 2], 0, &[0, 0]), KwiseError::Strength { k: 0, parameters: 2 });
     assert_eq!(of(&[2, 2], 3, &[0, 0]), KwiseError::Strength { k: 3, parameters: 2 });
     assert_eq!(of(&[], 1, &[]), KwiseError::Strength { k: 1, parameters: 0 });

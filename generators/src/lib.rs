@@ -19,6 +19,7 @@
 //! # Ok::<(), paracosm_generators::GeneratorError>(())
 //! ```
 
+pub mod covering;
 mod deal;
 mod error;
 mod family;

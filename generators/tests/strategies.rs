@@ -2,7 +2,7 @@
 
 use paracosm_coverage::{
     Deadline, Domain, Parameter, Point, PointSet, Space, Value, dispersion::dispersion, kwise::kwise_coverage,
-    kwise_dispersion::kwise_dispersion, theory,
+    kwise_dispersion::kwise_dispersion, rules::Rules, theory,
 };
 use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Request, Strategy};
 use std::collections::BTreeSet;
@@ -382,7 +382,10 @@ fn greedy_tests_of_a_mixed_space_first_cover_its_values_and_then_leave_no_hole_b
     };
     let greedy = tests(Strategy::Greedy, &Request::new(&space, 150));
     let discrete = greedy.iter().map(|test| &test.discrete[..]);
-    assert_eq!(kwise_coverage(&space.levels(), 2, discrete.clone().take(16)).expect("two of three").ratio(), 1.0);
+    assert_eq!(
+        kwise_coverage(&Rules::free(&space.levels()), 2, discrete.clone().take(16)).expect("two of three").ratio(),
+        1.0
+    );
     let halton = tests(
         Strategy::Halton,
         &Request { discrete: DiscreteFamily::Cross, seed: Some(1), ..Request::new(&space, 150) },

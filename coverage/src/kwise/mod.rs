@@ -1,31 +1,41 @@
-//! How many of the combinations of discrete values the tests contain.
+//! How many of the valid combinations of discrete values the tests contain.
 //!
-//! A set of tests covers k-wise if every choice of k parameters shows every combination of their levels in
-//! some test. The sets of k parameters are looked at one after the other, each with a bitmap over the mixed-
-//! radix numbers of its combinations: memory stays at one bit per combination of the largest set, and the
-//! missing ones come out in order.
+//! A set of tests covers k-wise if every choice of k parameters shows every valid combination of their levels in
+//! some test; tests that violate a constraint show nothing. The tests are parted by the levels of one parameter
+//! after the other; those that agree in k - 1 parameters show together so many combinations with one more as
+//! different levels of it, and these are counted a machine word at a time (`count`). The valid combinations are
+//! counted without being listed ([`Rules::count`]).
 
+mod count;
+mod counter;
+mod missing;
+
+pub use counter::KwiseCounter;
+
+use crate::rules::Rules;
 use thiserror::Error;
 
 /// How many missing combinations are listed at most.
 pub const MISSING_LISTED: usize = 20;
 
-/// The largest number of k-wise combinations that is counted: 2^33, a gibibyte of bits were they all of one
-/// set of parameters.
+/// The largest number of k-wise combinations that is counted: 2^33, a gibibyte of bits.
 const MOST_TUPLES: u128 = 1 << 33;
 
 /// What a set of tests covers k-wise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KwiseCoverage {
-    /// All combinations of levels of k parameters.
+    /// All valid combinations of levels of k parameters.
     pub valid: u64,
     /// Those of them that some test contains.
     pub covered: u64,
-    /// The first [`MISSING_LISTED`] that no test contains, as (parameter, level) indices: sets of parameters in
-    /// lexicographic order, then levels in lexicographic order.
+    /// The first [`MISSING_LISTED`] valid ones that no test contains, as (parameter, level) indices: sets of
+    /// parameters in lexicographic order, then levels in lexicographic order.
     pub missing: Vec<Vec<(usize, usize)>>,
-    /// The share of all combinations of *all* parameters that are tested.
-    pub combinations: f64,
+    /// The share of the valid combinations of *all* parameters that are tested; none where constraints entangle
+    /// too many parameters for them to be counted.
+    pub combinations: Option<f64>,
+    /// The positions of the tests that violate a constraint and so cover nothing.
+    pub invalid: Vec<usize>,
 }
 
 impl KwiseCoverage {
@@ -49,8 +59,8 @@ pub enum KwiseError {
     /// A parameter that no test can have.
     #[error("parameter {0} has no level")]
     NoLevel(usize),
-    /// More combinations than can be counted.
-    #[error("there are {found} combinations of {k} parameters, more than the {MOST_TUPLES} that can be counted")]
+    /// More valid combinations than can be counted.
+    #[error("there are {found} valid combinations of {k} parameters, more than the {MOST_TUPLES} that can be counted")]
     TooMany {
         /// The k asked for.
         k: usize,
@@ -81,27 +91,52 @@ pub enum KwiseError {
     },
 }
 
-/// Counts the combinations of levels of `k` parameters that the tests contain.
+/// Counts the valid combinations of levels of `k` parameters that the tests contain.
 ///
-/// `levels` holds the number of levels of each parameter; a test is a level index for each.
+/// A test is a level index for each parameter.
 ///
 /// ```
 /// use paracosm_coverage::kwise::kwise_coverage;
+/// use paracosm_coverage::rules::Rules;
 /// let tests: [&[usize]; 3] = [&[0, 0, 0], &[0, 1, 1], &[1, 0, 1]];
-/// let coverage = kwise_coverage(&[2, 2, 2], 2, tests.into_iter())?;
+/// let coverage = kwise_coverage(&Rules::free(&[2, 2, 2]), 2, tests.into_iter())?;
 /// assert_eq!((coverage.covered, coverage.valid), (9, 12));
 /// assert_eq!(coverage.missing[0], [(0, 1), (1, 1)]);
 /// # Ok::<(), paracosm_coverage::kwise::KwiseError>(())
 /// ```
 ///
 /// # Errors
-/// `k` is 0 or more than there are parameters, a parameter has no level, there are more than 2^33 combinations,
-/// or a test is none of this space.
+/// `k` is 0 or more than there are parameters, a parameter has no level, there are more than 2^33 valid
+/// combinations, or a test is none of this space.
 pub fn kwise_coverage<'a>(
-    levels: &[usize],
+    rules: &Rules,
     k: usize,
     tests: impl Iterator<Item = &'a [usize]>,
 ) -> Result<KwiseCoverage, KwiseError> {
+    let levels = rules.levels();
+    let valid = valid(rules, k)?;
+    let mut kept = Vec::new();
+    let mut invalid = Vec::new();
+    for (index, test) in tests.enumerate() {
+        check(levels, index, test)?;
+        if rules.allows(test) {
+            kept.push(test);
+        } else {
+            invalid.push(index);
+        }
+    }
+    kept.sort_unstable();
+    kept.dedup();
+
+    let covered = count::covered(levels, k, &kept);
+    let missing = if covered < valid { missing::first_missing(rules, k, &kept) } else { Vec::new() };
+    let combinations = rules.tests().map(|all| kept.len() as f64 / all);
+    Ok(KwiseCoverage { valid, covered, missing, combinations, invalid })
+}
+
+/// The number of valid combinations of k parameters, where it can be worked with.
+fn valid(rules: &Rules, k: usize) -> Result<u64, KwiseError> {
+    let levels = rules.levels();
     let parameters = levels.len();
     if k == 0 || k > parameters {
         return Err(KwiseError::Strength { k, parameters });
@@ -109,60 +144,25 @@ pub fn kwise_coverage<'a>(
     if let Some(parameter) = levels.iter().position(|&v| v == 0) {
         return Err(KwiseError::NoLevel(parameter));
     }
-    let found = tuples(levels, k);
+    let all: Vec<usize> = (0..parameters).collect();
+    let found = rules.count(&all, k).valid;
     if found > MOST_TUPLES {
         return Err(KwiseError::TooMany { k, found });
     }
-    let mut tests = tests.enumerate().map(|(i, test)| check(levels, i, test)).collect::<Result<Vec<_>, _>>()?;
-    tests.sort_unstable();
-    tests.dedup();
-
-    let all: f64 = levels.iter().map(|&v| v as f64).product();
-    let combinations = if tests.is_empty() { 0.0 } else { tests.len() as f64 / all };
-    let mut coverage = KwiseCoverage { valid: found as u64, covered: 0, missing: Vec::new(), combinations };
-    let mut set: Vec<usize> = (0..k).collect();
-    let mut seen = Vec::new();
-    loop {
-        let size = set.iter().map(|&p| levels[p]).product();
-        seen.clear();
-        seen.resize(usize::div_ceil(size, 64), 0u64);
-        for test in &tests {
-            let index = set.iter().fold(0, |index, &p| index * levels[p] + test[p]);
-            seen[index / 64] |= 1 << (index % 64);
-        }
-        coverage.covered += seen.iter().map(|word| u64::from(word.count_ones())).sum::<u64>();
-        let missing = (0..size).filter(|index| seen[index / 64] >> (index % 64) & 1 == 0);
-        let room = MISSING_LISTED - coverage.missing.len();
-        coverage.missing.extend(missing.take(room).map(|index| tuple(levels, &set, index)));
-        if !advance(&mut set, parameters) {
-            return Ok(coverage);
-        }
-    }
+    Ok(found as u64)
 }
 
-fn check<'a>(levels: &[usize], index: usize, test: &'a [usize]) -> Result<&'a [usize], KwiseError> {
+/// Whether a test is one of the space.
+fn check(levels: &[usize], index: usize, test: &[usize]) -> Result<(), KwiseError> {
     if test.len() != levels.len() {
         return Err(KwiseError::Ragged { index, found: test.len(), expected: levels.len() });
     }
     match test.iter().zip(levels).position(|(level, levels)| level >= levels) {
-        None => Ok(test),
+        None => Ok(()),
         Some(parameter) => {
             Err(KwiseError::Level { index, parameter, found: test[parameter], levels: levels[parameter] })
         }
     }
-}
-
-/// The number of combinations of levels of k parameters: the k-th elementary symmetric polynomial of the
-/// numbers of levels, saturating.
-fn tuples(levels: &[usize], k: usize) -> u128 {
-    let mut chosen = vec![0u128; k + 1];
-    chosen[0] = 1;
-    for &v in levels {
-        for size in (1..=k).rev() {
-            chosen[size] = chosen[size].saturating_add(chosen[size - 1].saturating_mul(v as u128));
-        }
-    }
-    chosen[k]
 }
 
 /// The combination with that mixed-radix number; the last parameter's level is its lowest digit.

@@ -1,0 +1,126 @@
+//! k-wise coverage kept up to date while tests arrive.
+
+use super::{KwiseError, MOST_TUPLES, advance, check, valid};
+use crate::rules::Rules;
+
+/// Which valid combinations of k levels the tests so far contain.
+///
+/// The combinations of k - 1 parameters are numbered; each has a bit for every level of every later parameter.
+#[derive(Debug, Clone)]
+pub struct KwiseCounter {
+    rules: Rules,
+    k: usize,
+    valid: u64,
+    covered: u64,
+    tests: usize,
+    /// The first bit of each parameter's levels, and the end of the last.
+    first: Vec<usize>,
+    seen: Vec<u64>,
+}
+
+impl KwiseCounter {
+    /// A counter that no test has reached yet.
+    ///
+    /// # Errors
+    /// `k` is 0 or more than there are parameters, a parameter has no level, or there are too many combinations:
+    /// more than 2^33 bits would be needed.
+    pub fn new(rules: &Rules, k: usize) -> Result<Self, KwiseError> {
+        let valid = valid(rules, k)?;
+        let levels = rules.levels();
+        let mut first = vec![0];
+        first.extend(levels.iter().scan(0, |bits, levels| {
+            *bits += levels;
+            Some(*bits)
+        }));
+        let mut counter = Self { rules: rules.clone(), k, valid, covered: 0, tests: 0, first, seen: Vec::new() };
+        let mut words = 0u128;
+        counter.each_head(|set, (begin, end)| {
+            let heads = set.iter().fold(1u128, |heads, &parameter| heads.saturating_mul(levels[parameter] as u128));
+            words = words.saturating_add(heads.saturating_mul((end - begin) as u128));
+        });
+        if words > MOST_TUPLES / 64 {
+            return Err(KwiseError::TooMany { k, found: words.saturating_mul(64) });
+        }
+        counter.seen = vec![0; words as usize];
+        Ok(counter)
+    }
+
+    /// Calls for each choice of k - 1 parameters with a later one, and the words of the later ones' bits.
+    fn each_head(&self, mut call: impl FnMut(&[usize], (usize, usize))) {
+        let parameters = self.first.len() - 1;
+        let mut set: Vec<usize> = (0..self.k - 1).collect();
+        loop {
+            let next = set.last().map_or(0, |last| last + 1);
+            if next < parameters {
+                call(&set, (self.first[next] / 64, self.first[parameters].div_ceil(64)));
+            }
+            if !advance(&mut set, parameters) {
+                return;
+            }
+        }
+    }
+
+    /// Calls with the word of `seen` and the bits there for all combinations of a test.
+    fn each_word(&self, test: &[usize], mut call: impl FnMut(usize, u64)) {
+        let mut bits = vec![0u64; self.first[test.len()].div_ceil(64)];
+        for (first, level) in self.first.iter().zip(test) {
+            bits[(first + level) / 64] |= 1 << ((first + level) % 64);
+        }
+        let levels = self.rules.levels();
+        let mut start = 0;
+        self.each_head(|set, (begin, end)| {
+            let words = end - begin;
+            let (head, heads) =
+                set.iter().fold((0, 1), |(head, heads), &p| (head * levels[p] + test[p], heads * levels[p]));
+            let next = set.last().map_or(0, |last| last + 1);
+            let at = start + head * words;
+            call(at, bits[begin] & u64::MAX << (self.first[next] % 64));
+            (1..words).for_each(|i| call(at + i, bits[begin + i]));
+            start += heads * words;
+        });
+    }
+
+    /// How many valid combinations a test would add; none for a test that violates a constraint.
+    ///
+    /// # Errors
+    /// The test is none of this space.
+    pub fn gain(&self, test: &[usize]) -> Result<u64, KwiseError> {
+        check(self.rules.levels(), self.tests, test)?;
+        let mut gain = 0;
+        if self.rules.allows(test) {
+            self.each_word(test, |word, bits| gain += u64::from((bits & !self.seen[word]).count_ones()));
+        }
+        Ok(gain)
+    }
+
+    /// Adds a test, and says how many valid combinations are new; a test that violates a constraint covers none.
+    ///
+    /// # Errors
+    /// The test is none of this space.
+    pub fn add(&mut self, test: &[usize]) -> Result<u64, KwiseError> {
+        check(self.rules.levels(), self.tests, test)?;
+        self.tests += 1;
+        let before = self.covered;
+        if self.rules.allows(test) {
+            let mut seen = std::mem::take(&mut self.seen);
+            let mut new = 0;
+            self.each_word(test, |word, bits| {
+                new += u64::from((bits & !seen[word]).count_ones());
+                seen[word] |= bits;
+            });
+            self.seen = seen;
+            self.covered += new;
+        }
+        Ok(self.covered - before)
+    }
+
+    /// The number of valid combinations.
+    pub fn valid(&self) -> u64 {
+        self.valid
+    }
+
+    /// The number of valid combinations that the tests so far contain.
+    pub fn covered(&self) -> u64 {
+        self.covered
+    }
+}

@@ -1,0 +1,78 @@
+//! The first valid combinations that no test contains.
+
+use super::{MISSING_LISTED, advance};
+use crate::rules::{Companions, Rules};
+
+/// The missing combinations of k - 1 parameters with one later parameter each.
+struct Head {
+    levels: Vec<(usize, usize)>,
+    /// The missing levels of later parameters, a bit each.
+    missing: Vec<u64>,
+}
+
+/// The first [`MISSING_LISTED`] valid combinations of `k` parameters that none of the valid tests contains.
+pub(super) fn first_missing(rules: &Rules, k: usize, tests: &[&[usize]]) -> Vec<Vec<(usize, usize)>> {
+    let parameters = rules.levels().len();
+    let order: Vec<usize> = (0..parameters).collect();
+    let mut companions = Companions::new(rules, &order);
+    let mut listed = Vec::new();
+    let mut set: Vec<usize> = (0..k - 1).collect();
+    loop {
+        let next = set.last().map_or(0, |last| last + 1);
+        let heads = if next < parameters { heads(&mut companions, rules, &set, tests) } else { Vec::new() };
+        if !heads.is_empty() {
+            for last in next..parameters {
+                for head in &heads {
+                    for level in 0..rules.levels()[last] {
+                        let bit = companions.first(last) + level;
+                        if head.missing[bit / 64] >> (bit % 64) & 1 == 1 {
+                            listed.push([head.levels.as_slice(), &[(last, level)]].concat());
+                            if listed.len() == MISSING_LISTED {
+                                return listed;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        if !advance(&mut set, parameters) {
+            return listed;
+        }
+    }
+}
+
+/// The combinations of levels of some parameters that are missing with a level of a later parameter.
+fn heads(companions: &mut Companions, rules: &Rules, set: &[usize], tests: &[&[usize]]) -> Vec<Head> {
+    let key = |test: &[usize]| set.iter().map(|&parameter| test[parameter]).collect::<Vec<_>>();
+    let mut shown: Vec<(Vec<usize>, &[usize])> = tests.iter().map(|test| (key(test), *test)).collect();
+    shown.sort_unstable();
+    let begin = set.last().map_or(0, |&last| companions.first(last) + rules.levels()[last]);
+
+    let mut heads = Vec::new();
+    let mut levels = vec![0; set.len()];
+    loop {
+        let fixed: Vec<(usize, usize)> = set.iter().copied().zip(levels.iter().copied()).collect();
+        if let Some(valid) = companions.with(&fixed) {
+            let mut missing = valid.to_vec();
+            missing[..begin / 64].fill(0);
+            if let Some(word) = missing.get_mut(begin / 64) {
+                *word &= u64::MAX << (begin % 64);
+            }
+            let from = shown.partition_point(|(key, _)| *key < levels);
+            for (_, test) in shown[from..].iter().take_while(|(key, _)| *key == levels) {
+                for (parameter, level) in test.iter().enumerate() {
+                    let bit = companions.first(parameter) + level;
+                    missing[bit / 64] &= !(1 << (bit % 64));
+                }
+            }
+            if missing.iter().any(|&word| word != 0) {
+                heads.push(Head { levels: fixed, missing });
+            }
+        }
+        let Some(place) = (0..set.len()).rev().find(|&place| levels[place] + 1 < rules.levels()[set[place]]) else {
+            return heads;
+        };
+        levels[place] += 1;
+        levels[place + 1..].fill(0);
+    }
+}

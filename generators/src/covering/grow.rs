@@ -1,0 +1,145 @@
+//! IPOG: an array grows a column at a time, first to the right, then downwards.
+//!
+//! Lei, Kacker, Kuhn, Okun, Lawrence, *IPOG/IPOG-D: efficient test generation for multi-way combinatorial
+//! testing*, Software Testing, Verification and Reliability 18, 2008. Each row gets the level of the newest
+//! column with which it covers most; what is left then is put into entries that are still open, and into new
+//! rows. An entry with which nothing new would be covered stays open.
+
+use super::front::{Bits, Family, Front, Position};
+use super::open_rows::OpenRows;
+use super::rows::{Columns, OPEN, Rows};
+use crate::seeded::mix;
+use paracosm_coverage::rules::Companions;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// With more rows than these, a row may be next that covers half as much as another seems to: rows are looked at
+/// anew some five times less often, for 4 % more of them.
+const HURRY: usize = 4000;
+
+/// What a row gets and then covers.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Choice {
+    gain: u32,
+    row: Reverse<usize>,
+    level: u32,
+}
+
+impl Choice {
+    fn index(&self) -> usize {
+        self.row.0
+    }
+}
+
+/// Grows rows, whose first columns may cover already what they have to, until all families are covered.
+pub(super) struct Growth<'a> {
+    pub(super) columns: &'a Columns<'a>,
+    pub(super) families: &'a [Family],
+    pub(super) seed: u64,
+}
+
+impl Growth<'_> {
+    /// Grows the columns from `begin` on.
+    pub(super) fn grow(&self, rows: &mut Rows, companions: &mut Companions, begin: usize) {
+        for column in begin..self.columns.len() {
+            let with_column = self.families.iter().filter(|family| family.members.contains(&column));
+            let mut fronts: Vec<Front> =
+                with_column.filter_map(|family| Front::new(self.columns, companions, family, column)).collect();
+            pulp::Arch::new().dispatch(|| self.grow_right(rows, &mut fronts, column));
+            self.grow_down(rows, &mut fronts, column);
+        }
+    }
+
+    /// Gives rows the levels with which they cover most, always the row next that then covers most.
+    ///
+    /// What a row would cover only ever falls while others are chosen. So the rows wait by what they would have
+    /// covered when last looked at, and only the first is looked at anew (Minoux, *Accelerated greedy algorithms*,
+    /// 1978).
+    #[inline(always)]
+    fn grow_right(&self, rows: &mut Rows, fronts: &mut [Front], column: usize) {
+        let mut bits: Vec<Bits> = vec![Vec::new(); fronts.len()];
+        let mut gains = vec![0u32; self.columns.levels[column]];
+        let mut waiting = BinaryHeap::new();
+        for index in 0..rows.len() {
+            let row = rows.row(index);
+            if row[column] == OPEN {
+                if let Some(choice) = self.choice(row, index, fronts, &mut bits, &mut gains, column) {
+                    waiting.push(choice);
+                }
+            } else {
+                for front in fronts.iter_mut() {
+                    front.bits_of(row, &mut bits[0]);
+                    front.cover(self.columns, row, &bits[0]);
+                }
+            }
+        }
+        let patience = if rows.len() > HURRY { 2 } else { 1 };
+        while let Some(choice) = waiting.pop() {
+            let index = choice.index();
+            let Some(choice) = self.choice(rows.row(index), index, fronts, &mut bits, &mut gains, column) else {
+                continue;
+            };
+            if waiting.peek().is_some_and(|next| next.gain > patience * choice.gain) {
+                waiting.push(choice);
+                continue;
+            }
+            rows.row_mut(index)[column] = choice.level;
+            for (front, bits) in fronts.iter_mut().zip(&bits) {
+                front.cover(self.columns, rows.row(index), bits);
+            }
+        }
+    }
+
+    /// The level with which a row covers most; none if it covers nothing.
+    #[inline(always)]
+    fn choice(
+        &self,
+        row: &[u32],
+        index: usize,
+        fronts: &[Front],
+        bits: &mut [Bits],
+        gains: &mut [u32],
+        column: usize,
+    ) -> Option<Choice> {
+        gains.fill(0);
+        for (front, bits) in fronts.iter().zip(bits) {
+            front.bits_of(row, bits);
+            front.gains(self.columns, row, bits, gains);
+        }
+        if let Some(allowed) = self.columns.allowed(column, row) {
+            gains.iter_mut().zip(allowed).filter(|(_, allowed)| !allowed).for_each(|(gain, _)| *gain = 0);
+        }
+        let gain = gains.iter().copied().max().filter(|&most| most > 0)?;
+        let rank = |&level: &usize| {
+            let left: u64 = fronts.iter().map(|front| front.left_of(level)).sum();
+            (left, mix(self.seed ^ mix((index * gains.len() + level) as u64)))
+        };
+        let level = (0..gains.len()).filter(|&level| gains[level] == gain).max_by_key(rank)? as u32;
+        Some(Choice { gain, row: Reverse(index), level })
+    }
+
+    /// Puts what is left into open entries and new rows.
+    fn grow_down(&self, rows: &mut Rows, fronts: &mut [Front], column: usize) {
+        let mut bits = Vec::new();
+        let mut entries = Vec::new();
+        for level in 0..self.columns.levels[column] {
+            if fronts.iter().all(|front| front.left_of(level) == 0) {
+                continue;
+            }
+            let mut open = OpenRows::new(self.columns, rows, column, level as u32);
+            for leader in 0..fronts.len() {
+                let mut position = Position::default();
+                while let Some(found) = fronts[leader].next_left(self.columns, level, position, &mut entries) {
+                    position = found;
+                    entries.push((column, level as u32));
+                    let index = open.place(self.columns, rows, &entries);
+                    let row = rows.row(index);
+                    for front in fronts.iter_mut() {
+                        front.bits_of(row, &mut bits);
+                        front.cover(self.columns, row, &bits);
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Finding a row that has room for a combination.
+//!
+//! For each entry there is a set of the rows that have it or could get it, a bit each: the rows with room for a
+//! combination are those in the sets of all its entries.
+
+use super::rows::{Columns, OPEN, Rows};
+
+/// How many bits the sets have together at most; rows beyond, the oldest, are full or nearly so.
+const MOST_BITS: usize = 1 << 26;
+
+/// The rows with open entries that have or may get a level in the newest column.
+#[derive(Debug)]
+pub(super) struct OpenRows {
+    columns: usize,
+    first: Vec<usize>,
+    /// Positions of rows.
+    rows: Vec<usize>,
+    /// For each entry, the rows in which it fits.
+    fits: Vec<Vec<u64>>,
+}
+
+impl OpenRows {
+    pub(super) fn new(columns: &Columns, rows: &Rows, column: usize, level: u32) -> Self {
+        let first: Vec<usize> = std::iter::once(0)
+            .chain(columns.levels[..=column].iter().scan(0, |bits, levels| {
+                *bits += levels;
+                Some(*bits)
+            }))
+            .collect();
+        let entries = first[column + 1];
+        let mut open = Self { columns: column + 1, first, rows: Vec::new(), fits: vec![Vec::new(); entries] };
+        let with_room = |row: &[u32]| row[..=column].contains(&OPEN) && (row[column] == OPEN || row[column] == level);
+        let found: Vec<usize> = (0..rows.len()).filter(|&index| with_room(rows.row(index))).collect();
+        for &index in &found[found.len().saturating_sub(MOST_BITS / entries)..] {
+            open.push(index, rows.row(index));
+        }
+        open
+    }
+
+    fn push(&mut self, index: usize, row: &[u32]) {
+        let (word, bit) = (self.rows.len() / 64, 1 << (self.rows.len() % 64));
+        if bit == 1 {
+            self.fits.iter_mut().for_each(|fits| fits.push(0));
+        }
+        self.rows.push(index);
+        for (column, &level) in row[..self.columns].iter().enumerate() {
+            let entries = match level {
+                OPEN => self.first[column]..self.first[column + 1],
+                level => self.first[column] + level as usize..self.first[column] + level as usize + 1,
+            };
+            self.fits[entries].iter_mut().for_each(|fits| fits[word] |= bit);
+        }
+    }
+
+    /// Puts a combination into the first row with room, or into a new one; returns the row's position.
+    pub(super) fn place(&mut self, columns: &Columns, rows: &mut Rows, combination: &[(usize, u32)]) -> usize {
+        if let Some(place) = self.find(columns, rows, combination) {
+            let index = self.rows[place];
+            for &(column, level) in combination {
+                if rows.row(index)[column] == OPEN {
+                    rows.row_mut(index)[column] = level;
+                    let entries = self.first[column]..self.first[column + 1];
+                    for entry in entries.filter(|entry| entry - self.first[column] != level as usize) {
+                        self.fits[entry][place / 64] &= !(1 << (place % 64));
+                    }
+                }
+            }
+            return index;
+        }
+        let mut row = vec![OPEN; columns.len()];
+        combination.iter().for_each(|&(column, level)| row[column] = level);
+        rows.push(&row);
+        if row[..self.columns].contains(&OPEN) {
+            self.push(rows.len() - 1, &row);
+        }
+        rows.len() - 1
+    }
+
+    /// The first row with room.
+    fn find(&self, columns: &Columns, rows: &Rows, combination: &[(usize, u32)]) -> Option<usize> {
+        let entry = |&(column, level): &(usize, u32)| self.first[column] + level as usize;
+        for word in 0..self.rows.len().div_ceil(64) {
+            let mut fits = combination.iter().fold(u64::MAX, |fits, pair| fits & self.fits[entry(pair)][word]);
+            while fits != 0 {
+                let place = word * 64 + fits.trailing_zeros() as usize;
+                if keeps(columns, rows.row(self.rows[place]), combination) {
+                    return Some(place);
+                }
+                fits &= fits - 1;
+            }
+        }
+        None
+    }
+}
+
+/// Whether a row with a combination put into it can be completed.
+fn keeps(columns: &Columns, row: &[u32], combination: &[(usize, u32)]) -> bool {
+    let mut groups: Vec<usize> =
+        combination.iter().filter(|pair| row[pair.0] == OPEN).filter_map(|pair| columns.group(pair.0)).collect();
+    if groups.is_empty() {
+        return true;
+    }
+    groups.sort_unstable();
+    groups.dedup();
+    let mut row = row.to_vec();
+    combination.iter().for_each(|&(column, level)| row[column] = level);
+    groups.into_iter().all(|group| columns.holds(group, &row))
+}

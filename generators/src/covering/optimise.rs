@@ -1,0 +1,166 @@
+//! Making an array smaller for as long as there is time.
+
+use super::order::order;
+use super::search::{Cells, Search};
+use super::symmetric::{Symmetric, symmetric_searches};
+use super::{CoveringArray, CoveringRequest};
+use crate::seeded::mix;
+use paracosm_coverage::Deadline;
+use rayon::prelude::*;
+use std::sync::Mutex;
+
+/// How many steps are taken between looks at the clock.
+const STEPS_BETWEEN_LOOKS: usize = 64;
+
+/// The work of polishing, in visits of cells: well below 0.1 s.
+const POLISH_WORK: usize = 4_000_000;
+
+/// The work of a step beside its visits of cells and its look at the rows.
+const STEP_WORK: usize = 300;
+
+/// After how many looks at the clock another kind of symmetry is tried.
+const LOOKS_IN_TURN: usize = 256;
+
+/// Shrinks an array that [`covering_array`](super::covering_array) constructed for the same request, until the
+/// deadline or the lower bound. Existing rows stay. `progress` is told each new size.
+///
+/// All cores search, each from the best array found so far. What is found depends on the time there is; what is
+/// returned covers as much as the array given, and is never larger.
+pub fn optimise(
+    request: &CoveringRequest,
+    array: CoveringArray,
+    deadline: Deadline,
+    progress: &(dyn Fn(usize) + Sync),
+) -> CoveringArray {
+    let Some(cells) = request.cells().filter(|_| array.rows.len() < 1 << 16) else { return array };
+    let goal = (array.lower_bound as usize).max(array.kept);
+    let CoveringArray { rows, kept, invalid, lower_bound } = array;
+    let best = Best { rows: Mutex::new(rows), goal, deadline, progress };
+    let mut symmetric = if kept == 0 && cells.len() == 1 { symmetric_searches(request) } else { Vec::new() };
+    let rows_search = |chain: usize| {
+        let seed = mix(request.seed ^ mix(chain as u64));
+        best.search_rows(|rows| Search::new(request.rules, cells.clone(), rows, kept, seed));
+    };
+    let chains = rayon::current_num_threads();
+    if symmetric.is_empty() {
+        (0..chains).into_par_iter().for_each(rows_search);
+    } else {
+        // At least one core for each way.
+        let rows_searches = || (0..(chains / 2).max(1)).into_par_iter().for_each(rows_search);
+        let share = symmetric.len().div_ceil((chains / 2).max(1));
+        let symmetric = || symmetric.par_chunks_mut(share).for_each(|share| best.search_symmetric(share));
+        rayon::join(symmetric, rows_searches);
+    }
+    let rows = best.rows.into_inner().expect("no search panics");
+    let rows = order(request.rules, request.k, rows, kept);
+    CoveringArray { rows, kept, invalid, lower_bound }
+}
+
+/// The smallest array so far, which all searches share.
+struct Best<'a> {
+    rows: Mutex<Vec<Vec<usize>>>,
+    goal: usize,
+    deadline: Deadline,
+    progress: &'a (dyn Fn(usize) + Sync),
+}
+
+impl Best<'_> {
+    fn len(&self) -> usize {
+        self.rows.lock().expect("no search panics").len()
+    }
+
+    /// Whether a search is to go on.
+    fn wanted(&self) -> bool {
+        !self.deadline.passed() && self.len() > self.goal
+    }
+
+    fn offer(&self, found: Vec<Vec<usize>>) {
+        let mut rows = self.rows.lock().expect("no search panics");
+        if found.len() < rows.len() {
+            *rows = found;
+            (self.progress)(rows.len());
+        }
+    }
+
+    /// Searches from the best array, and again whenever another search has found a smaller one.
+    fn search_rows(&self, start: impl Fn(&[Vec<usize>]) -> Search) {
+        let start = || start(&self.rows.lock().expect("no search panics"));
+        let mut search = start();
+        while self.wanted() {
+            search.steps(STEPS_BETWEEN_LOOKS);
+            if search.missing() == 0 {
+                self.offer(search.rows());
+                if !search.drop_row() {
+                    return;
+                }
+            } else if self.len() <= search.len() {
+                search = start();
+            }
+        }
+    }
+
+    /// Searches for symmetric arrays in turns.
+    fn search_symmetric(&self, searches: &mut [Symmetric]) {
+        while self.wanted() {
+            let mut some = false;
+            for search in searches.iter_mut() {
+                some |= search.shrink_below(self.len());
+                for _ in 0..LOOKS_IN_TURN {
+                    if self.deadline.passed() {
+                        return;
+                    }
+                    if let Some(rows) = search.steps(STEPS_BETWEEN_LOOKS) {
+                        self.offer(rows);
+                        break;
+                    }
+                }
+            }
+            if !some {
+                return;
+            }
+        }
+    }
+}
+
+/// Shrinks rows with a short search by the rules of [`optimise`], the same on every machine. The work is bounded;
+/// arrays for which it would not suffice stay as they are.
+pub(super) fn polish(request: &CoveringRequest, rows: Vec<Vec<usize>>, kept: usize, goal: usize) -> Vec<Vec<usize>> {
+    let Some(cells) = request.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
+    let start: usize = cells.iter().map(|cells| cells.in_row() * rows.len()).sum();
+    let changed: usize = cells.iter().map(|cells| 2 * cells.in_row() * cells.strength() / cells.members()).sum();
+    let step = changed + rows.len() / 2 + STEP_WORK;
+    let steps = POLISH_WORK.saturating_sub(start) / step;
+    if steps == 0 {
+        return rows;
+    }
+    let mut search = Search::new(request.rules, cells, &rows, kept, request.seed);
+    let mut best = rows;
+    for _ in 0..steps {
+        while search.missing() == 0 {
+            if search.len() < best.len() {
+                best = search.rows();
+            }
+            if search.len() <= goal || !search.drop_row() {
+                return best;
+            }
+        }
+        search.steps(1);
+    }
+    if search.missing() == 0 && search.len() < best.len() { search.rows() } else { best }
+}
+
+impl CoveringRequest<'_> {
+    /// What is to be covered, numbered; none where there is too much of it.
+    fn cells(&self) -> Option<Vec<Cells>> {
+        let levels = self.rules.levels();
+        let all: Vec<usize> = (0..levels.len()).collect();
+        let groups = self.groups.iter().filter(|(_, strength)| *strength > self.k);
+        let families = std::iter::once((&all, self.k)).chain(groups.map(|(members, strength)| (members, *strength)));
+        let numbered = families.map(|(members, strength)| {
+            let mut members = members.clone();
+            members.sort_unstable();
+            Cells::new(levels, &members, strength)
+        });
+        numbered.collect()
+    }
+}

@@ -1,0 +1,95 @@
+//! Rows whose entries may still be open.
+
+use paracosm_coverage::rules::Rules;
+
+/// An entry that no combination needs yet.
+pub(super) const OPEN: u32 = u32::MAX;
+
+/// The columns of an array: the parameters, those with most levels first.
+///
+/// Later columns find the rows that the earlier ones need; with the many levels first, these are almost enough.
+#[derive(Debug)]
+pub(super) struct Columns<'r> {
+    pub(super) rules: &'r Rules,
+    /// The parameter of each column.
+    pub(super) order: Vec<usize>,
+    /// The column of each parameter.
+    column: Vec<usize>,
+    /// The number of levels of each column.
+    pub(super) levels: Vec<usize>,
+}
+
+impl<'r> Columns<'r> {
+    pub(super) fn new(rules: &'r Rules) -> Self {
+        let mut order: Vec<usize> = (0..rules.levels().len()).collect();
+        order.sort_by_key(|&parameter| std::cmp::Reverse(rules.levels()[parameter]));
+        let mut column = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(i, &parameter)| column[parameter] = i);
+        let levels = order.iter().map(|&parameter| rules.levels()[parameter]).collect();
+        Self { rules, order, column, levels }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    pub(super) fn column(&self, parameter: usize) -> usize {
+        self.column[parameter]
+    }
+
+    /// The group of a column's parameter.
+    pub(super) fn group(&self, column: usize) -> Option<usize> {
+        self.rules.group_of(self.order[column])
+    }
+
+    /// A row's entries by parameter.
+    fn fixed<'a>(&'a self, row: &'a [u32]) -> impl Fn(usize) -> Option<usize> + 'a {
+        |parameter| Some(row[self.column[parameter]]).filter(|&level| level != OPEN).map(|level| level as usize)
+    }
+
+    /// Whether the open entries of a row's group can be chosen so that its constraints are kept.
+    pub(super) fn holds(&self, group: usize, row: &[u32]) -> bool {
+        self.rules.holds(group, self.fixed(row))
+    }
+
+    /// Which levels an open entry of a row may get; none where it may get any.
+    pub(super) fn allowed(&self, column: usize, row: &[u32]) -> Option<Vec<bool>> {
+        let group = self.group(column)?;
+        let place = self.rules.members(group).binary_search(&self.order[column]).ok()?;
+        Some(self.rules.supported(group, self.fixed(row)).swap_remove(place))
+    }
+
+    /// A complete row as levels by parameter.
+    pub(super) fn test(&self, row: &[u32]) -> Vec<usize> {
+        self.column.iter().map(|&column| row[column] as usize).collect()
+    }
+}
+
+/// Rows of the same length in one piece.
+#[derive(Debug, Clone)]
+pub(super) struct Rows {
+    columns: usize,
+    entries: Vec<u32>,
+}
+
+impl Rows {
+    pub(super) fn new(columns: usize) -> Self {
+        Self { columns, entries: Vec::new() }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.entries.len() / self.columns
+    }
+
+    pub(super) fn row(&self, index: usize) -> &[u32] {
+        &self.entries[index * self.columns..(index + 1) * self.columns]
+    }
+
+    pub(super) fn row_mut(&mut self, index: usize) -> &mut [u32] {
+        &mut self.entries[index * self.columns..(index + 1) * self.columns]
+    }
+
+    pub(super) fn push(&mut self, row: &[u32]) {
+        self.entries.extend_from_slice(row);
+    }
+}
