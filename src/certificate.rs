@@ -194,7 +194,7 @@ impl Tests {
     fn claim(&self, measured: Measured, deadline: Deadline) -> Result<Claim, Error> {
         let Measured { scope, volume, fixed, axes, witness } = measured;
         let budget = Budget { pivots: MOST_PIVOTS, deadline };
-        let proved = prove(self.space.dims(), &self.space.levels(), &self.points, scope, volume, budget)?;
+        let proved = prove(self.space.dims(), &self.space.rules()?, &self.points, scope, volume, budget)?;
         let weaker = proved.upper > volume.upper * (1.0 + ROUNDING) || (proved.upper >= 1.0 && volume.lower < 1.0);
         let note = weaker.then(|| {
             format!(

@@ -5,7 +5,7 @@ use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox, dispersion_watc
 use paracosm_coverage::extreme::extreme_discrepancy;
 use paracosm_coverage::fill::fill;
 use paracosm_coverage::kwise::kwise_coverage;
-use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion};
+use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion, row_dispersion};
 use paracosm_coverage::rules::Rules;
 use paracosm_coverage::star::star_discrepancy;
 use paracosm_coverage::{Bracket, Deadline, Parameter, Point, PointSet, Record, Space, Value};
@@ -116,8 +116,14 @@ pub struct Coverage {
     pub tests: usize,
     /// The continuous half; `None` where the space has none.
     pub continuous: Option<Continuous>,
+    /// How many of the tests violate a constraint; they cover nothing.
+    #[serde(skip_serializing_if = "is_zero", default)]
+    pub violating: usize,
     /// The discrete half; `None` where the space has none.
     pub discrete: Option<Discrete>,
+    /// Whether the tests are (k, epsilon)-covering; absent where one half is all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub k_epsilon: Option<KEpsilon>,
     /// Both halves together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_wise_dispersion: Option<KwiseHole>,
@@ -204,8 +210,22 @@ pub struct Discrete {
     pub ratio: f64,
     /// Some that no test contains, 20 at most.
     pub missing: Vec<Record<Value>>,
-    /// The share of the combinations of all parameters that are tested.
-    pub combinations: f64,
+    /// The share of the valid combinations of all parameters that are tested; null where these are too many to count.
+    pub combinations: Option<f64>,
+}
+
+/// Whether tests are (k, epsilon)-covering: any k discrete parameters show all valid combinations of their values, and
+/// no row of discrete values has an empty box larger than epsilon (the paper, section 3.1).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct KEpsilon {
+    /// How many discrete parameters are looked at together.
+    pub k: usize,
+    /// Whether all valid combinations of them are covered.
+    pub complete: bool,
+    /// The smallest epsilon; null if they are not.
+    pub epsilon: Option<f64>,
+    /// The largest dispersion of the rows that there are; where the time limit cut it short, an upper bound.
+    pub epsilon_over_covered_rows: f64,
 }
 
 /// The largest hole that any k parameters show.
@@ -235,6 +255,10 @@ pub(crate) struct Holes {
     pub dispersion: Option<Dispersion>,
     /// With how many parameters were looked at together.
     pub k_wise: Option<(usize, KwiseDispersion)>,
+}
+
+fn is_zero(number: &usize) -> bool {
+    *number == 0
 }
 
 impl Tests {
@@ -275,22 +299,40 @@ impl Tests {
         if !(1..=parameters).contains(&k) {
             return Err(Error::Usage(format!("k is {k}, expected 1 to {parameters}, the number of parameters")));
         }
-        let mut clock = Clock::new(limit, measures);
+        let rules = self.space.rules()?;
+        let violating = self.points.iter().filter(|point| !rules.allows(&point.discrete)).count();
+        if violating > 0 {
+            let keeping = self.points.iter().filter(|point| rules.allows(&point.discrete)).cloned().collect();
+            let keeping = Self { points: keeping, ..self.clone() };
+            let (coverage, holes) = keeping.measure_holes(measures, Some(k), limit, watch)?;
+            return Ok((Coverage { tests: self.points.len(), violating, ..coverage }, holes));
+        }
+        let levels = self.space.levels();
+        let is_mixed = !levels.is_empty() && self.space.dims() > 0;
+        // In a mixed space k-wise coverage brings (k, epsilon)-covering with it, which takes time.
+        let takes_time = |measure: &&Measure| **measure != Measure::KWise || is_mixed;
+        let mut clock = Clock::new(limit, measures.iter().filter(takes_time).count());
         let mut holes = Holes::default();
         let continuous = match self.space.dims() {
             0 => None,
             _ => Some(self.continuous(measures, &mut clock, &mut holes, watch)?),
         };
-        let levels = self.space.levels();
         let discrete = if levels.is_empty() || !measures.contains(&Measure::KWise) {
             None
         } else {
             watch(Measure::KWise, None);
-            Some(self.discrete(k.min(levels.len()), &levels)?)
+            Some(self.discrete(k.min(levels.len()), &rules)?)
         };
+        let k_epsilon = discrete.as_ref().filter(|_| continuous.as_ref().is_some_and(|c| c.dispersion.is_some()));
+        let k_epsilon = k_epsilon.map(|discrete| {
+            let complete = discrete.covered == discrete.valid;
+            let epsilon = row_dispersion(self.space.dims(), &self.points, clock.next()).upper;
+            let all = complete.then_some(epsilon);
+            KEpsilon { k: discrete.k, complete, epsilon: all, epsilon_over_covered_rows: epsilon }
+        });
         let k_wise_dispersion = if measures.contains(&Measure::KWiseDispersion) {
             watch(Measure::KWiseDispersion, None);
-            let found = kwise_dispersion(self.space.dims(), &levels, &self.points, k, clock.next())?;
+            let found = kwise_dispersion(self.space.dims(), &rules, &self.points, k, clock.next())?;
             let worst = self.place(&found.fixed, &found.axes, found.witness.as_ref());
             let volume = found.volume;
             holes.k_wise = Some((k, found));
@@ -298,7 +340,10 @@ impl Tests {
         } else {
             None
         };
-        Ok((Coverage { tests: self.points.len(), continuous, discrete, k_wise_dispersion }, holes))
+        Ok((
+            Coverage { tests: self.points.len(), continuous, violating, discrete, k_epsilon, k_wise_dispersion },
+            holes,
+        ))
     }
 
     /// The place of a hole, as values.
@@ -356,10 +401,9 @@ impl Tests {
         Ok(coverage)
     }
 
-    fn discrete(&self, k: usize, levels: &[usize]) -> Result<Discrete, Error> {
+    fn discrete(&self, k: usize, rules: &Rules) -> Result<Discrete, Error> {
         let parameters: Vec<&Parameter> = self.space.discrete().collect();
-        let rules = Rules::free(levels);
-        let counted = kwise_coverage(&rules, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
+        let counted = kwise_coverage(rules, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
         let name = |&(parameter, level): &(usize, usize)| named_level(&parameters, parameter, level);
         Ok(Discrete {
             k,
@@ -367,7 +411,7 @@ impl Tests {
             covered: counted.covered,
             ratio: counted.ratio(),
             missing: counted.missing.iter().map(|tuple| tuple.iter().map(name).collect()).collect(),
-            combinations: counted.combinations.expect("free parameters can be counted"),
+            combinations: counted.combinations,
         })
     }
 }
@@ -392,9 +436,8 @@ struct Clock {
 }
 
 impl Clock {
-    fn new(limit: Option<Duration>, measures: &[Measure]) -> Self {
-        let waiting = measures.iter().filter(|measure| **measure != Measure::KWise).count() as u32;
-        Self { end: limit.and_then(|limit| Instant::now().checked_add(limit)), waiting }
+    fn new(limit: Option<Duration>, waiting: usize) -> Self {
+        Self { end: limit.and_then(|limit| Instant::now().checked_add(limit)), waiting: waiting as u32 }
     }
 
     /// The deadline of the next measure: its share of the time that is left.

@@ -42,7 +42,9 @@ pub mod cli;
 
 pub use campaign::{Campaign, simulate_trial};
 pub use error::Error;
-pub use estimate::{Ball, Continuous, Coverage, Discrete, Hole, KwiseHole, KwiseWorst, Measure, Tests, Watch};
+pub use estimate::{
+    Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Tests, Watch,
+};
 pub use folder::Folder;
 pub use live::LiveCoverage;
 pub use plan::{Guarantee, Need, Plan};

@@ -33,6 +33,8 @@ pub struct Study {
     discrete: String,
     k: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
+    epsilon: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
     measure: Option<String>,
     skip: Option<u64>,
     seed: Option<u64>,
@@ -103,8 +105,9 @@ impl Study {
             requirements: requirements.collect(),
             driver: DriverChoice::new("aeb", &[])?,
             strategy: Strategy::Halton.name().to_owned(),
-            discrete: "random".to_owned(),
+            discrete: "ipog".to_owned(),
             k: None,
+            epsilon: None,
             measure: None,
             skip: None,
             seed: None,
@@ -146,6 +149,13 @@ impl Study {
     /// Covers any `k` parameters together; without it, two.
     pub fn k(mut self, k: Option<usize>) -> Self {
         self.k = k;
+        self
+    }
+
+    /// Runs tests until no row of discrete values has an empty box above this volume, or the budget is spent; the next
+    /// test goes to the row with the largest.
+    pub fn epsilon(mut self, epsilon: Option<f64>) -> Self {
+        self.epsilon = epsilon;
         self
     }
 
@@ -273,6 +283,9 @@ impl Study {
             skip: self.skip,
             discrete: self.discrete.parse()?,
             k: self.k,
+            epsilon: self.epsilon,
+            groups: &[],
+            rows: None,
             aim: self.measure.as_deref().map(str::parse).transpose()?,
             existing: &[],
         };

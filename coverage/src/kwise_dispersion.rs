@@ -12,8 +12,10 @@
 
 use crate::dispersion::{LargestEmptyBox, larger_than};
 use crate::kwise::{KwiseError, advance, tuple};
+use crate::rules::Rules;
 use crate::{Bracket, Deadline, Point, PointSet};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// How many projections make a block.
 const BLOCK: usize = 64;
@@ -64,17 +66,18 @@ impl Projection {
     }
 }
 
-/// All choices of `k` parameters out of `dims` continuous ones and discrete ones with these numbers of levels, each
-/// with all combinations of values: in lexicographic order, the continuous parameters first.
+/// All choices of `k` parameters out of `dims` continuous ones and the discrete ones of `rules`, each with all valid
+/// combinations of values: in lexicographic order, the continuous parameters first.
 ///
 /// # Errors
 /// `k` is 0 or more than there are parameters, or a discrete parameter has no level.
-pub fn projections(dims: usize, levels: &[usize], k: usize) -> Result<impl Iterator<Item = Projection>, KwiseError> {
-    Projections::new(dims, levels, k)
+pub fn projections(dims: usize, rules: &Rules, k: usize) -> Result<impl Iterator<Item = Projection>, KwiseError> {
+    let all = Projections::new(dims, rules.levels(), k)?;
+    Ok(all.filter(|projection| rules.is_valid(&projection.fixed)))
 }
 
-/// The largest dispersion over all choices of `k` parameters out of `dims` continuous ones and discrete ones with these
-/// numbers of levels, and over all their values.
+/// The largest dispersion over all choices of `k` parameters out of `dims` continuous ones and the discrete ones of
+/// `rules`, and over all valid combinations of their values.
 ///
 /// Exact, unless `deadline` cuts it short: then the upper end is 1 if some projection was not even begun.
 ///
@@ -85,12 +88,47 @@ pub fn projections(dims: usize, levels: &[usize], k: usize) -> Result<impl Itera
 /// A test is none of this space.
 pub fn kwise_dispersion(
     dims: usize,
-    levels: &[usize],
+    rules: &Rules,
     tests: &[Point],
     k: usize,
     deadline: Deadline,
 ) -> Result<KwiseDispersion, KwiseError> {
-    let mut projections = Projections::new(dims, levels, k)?;
+    let found = worst_of(projections(dims, rules, k)?, tests, deadline);
+    // None, where the deadline came before anything: the least that can be said.
+    let mut worst = match found.worst {
+        Some(worst) => worst,
+        None => {
+            let first = projections(dims, rules, k)?.next().expect("some test keeps the rules");
+            KwiseDispersion { volume: Bracket::exact(0.0), fixed: first.fixed, axes: Vec::new(), witness: None }
+        }
+    };
+    worst.volume.upper = found.upper.max(worst.volume.lower);
+    Ok(worst)
+}
+
+/// The largest dispersion that the tests with the same discrete values show, over all such values that some test has:
+/// the smallest epsilon for which they are (k, epsilon)-covering, if they cover k-wise. 0 where there is no test.
+///
+/// # Panics
+/// There is no continuous parameter, or a test is none of the space.
+pub fn row_dispersion(dims: usize, tests: &[Point], deadline: Deadline) -> Bracket {
+    let rows: BTreeSet<&[usize]> = tests.iter().map(|test| &test.discrete[..]).collect();
+    let row =
+        |row: &[usize]| Projection { fixed: row.iter().copied().enumerate().collect(), axes: (0..dims).collect() };
+    let found = worst_of(rows.into_iter().map(row), tests, deadline);
+    let lower = found.worst.map_or(0.0, |worst| worst.volume.lower);
+    Bracket { lower, upper: found.upper.max(lower) }
+}
+
+/// The worst of many projections.
+struct Worst {
+    /// One with the largest hole; none where there was no time to look at any.
+    worst: Option<KwiseDispersion>,
+    /// No hole is larger.
+    upper: f64,
+}
+
+fn worst_of(mut projections: impl Iterator<Item = Projection>, tests: &[Point], deadline: Deadline) -> Worst {
     let mut worst: Option<KwiseDispersion> = None;
     let mut upper = 0.0f64;
     loop {
@@ -111,16 +149,7 @@ pub fn kwise_dispersion(
             }
         }
     }
-    let mut worst = match worst {
-        Some(worst) => worst,
-        // The deadline came before anything: the least that can be said.
-        None => {
-            let first = Projections::new(dims, levels, k)?.next().expect("k is at most the number of parameters");
-            KwiseDispersion { volume: Bracket::exact(0.0), fixed: first.fixed, axes: Vec::new(), witness: None }
-        }
-    };
-    worst.volume.upper = upper.max(worst.volume.lower);
-    Ok(worst)
+    Worst { worst, upper }
 }
 
 /// The largest hole of a projection; `None` where it is proved to be no larger than `above`.
@@ -137,7 +166,7 @@ fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline)
 }
 
 /// All choices of parameters in lexicographic order, the continuous ones first, each with all values.
-pub(crate) struct Projections<'a> {
+struct Projections<'a> {
     dims: usize,
     /// The number of values of each parameter; a continuous one is not given any, which is one way.
     ways: Vec<usize>,
@@ -149,11 +178,7 @@ pub(crate) struct Projections<'a> {
 }
 
 impl<'a> Projections<'a> {
-    /// All choices of `k` parameters.
-    ///
-    /// # Errors
-    /// `k` is 0 or more than there are parameters, or a discrete parameter has no level.
-    pub fn new(dims: usize, levels: &'a [usize], k: usize) -> Result<Self, KwiseError> {
+    fn new(dims: usize, levels: &'a [usize], k: usize) -> Result<Self, KwiseError> {
         let parameters = dims + levels.len();
         if k == 0 || k > parameters {
             return Err(KwiseError::Strength { k, parameters });

@@ -19,7 +19,8 @@
 use crate::bracket::Watch;
 use crate::dispersion::trail;
 use crate::kwise::KwiseError;
-use crate::kwise_dispersion::{Projection, Projections};
+use crate::kwise_dispersion::{Projection, projections};
+use crate::rules::Rules;
 use crate::{Bracket, Deadline, Point};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -80,7 +81,7 @@ pub struct Proved {
 /// allow for that, a weaker bound; and where the bracket is not exact, a stronger one if it finds one. The bound of an
 /// exact bracket is above the volume by a few times [`MARGIN`].
 ///
-/// `levels` holds the number of levels of each of the discrete parameters, `dims` is the number of continuous ones. The
+/// `rules` are of the discrete parameters, `dims` is the number of continuous ones. The
 /// result does not depend on the number of threads as long as the deadline does not cut it short.
 ///
 /// # Errors
@@ -90,7 +91,7 @@ pub struct Proved {
 /// A test is none of this space.
 pub fn prove(
     dims: usize,
-    levels: &[usize],
+    rules: &Rules,
     tests: &[Point],
     scope: Scope,
     volume: Bracket,
@@ -100,7 +101,7 @@ pub fn prove(
         Scope::Continuous if dims == 0 => return Err(KwiseError::Strength { k: 0, parameters: 0 }),
         Scope::Continuous => vec![Projection { fixed: Vec::new(), axes: (0..dims).collect() }],
         // Each needs a pivot.
-        Scope::Every(k) => Projections::new(dims, levels, k)?.take(budget.pivots.saturating_add(1)).collect(),
+        Scope::Every(k) => projections(dims, rules, k)?.take(budget.pivots.saturating_add(1)).collect(),
     };
     let mut proved = Proved { upper: 1.0, proofs: Vec::new() };
     if projections.len() > budget.pivots {

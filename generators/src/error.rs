@@ -1,10 +1,11 @@
 //! Why a generator cannot be built; every message says what was found and what would have been right.
 
-use paracosm_coverage::did_you_mean;
+use crate::covering::CoveringError;
+use paracosm_coverage::{SpaceError, did_you_mean};
 use thiserror::Error;
 
 /// Why a generator cannot be built.
-#[derive(Debug, Clone, PartialEq, Error)]
+#[derive(Debug, PartialEq, Error)]
 pub enum GeneratorError {
     /// No strategy has that name.
     #[error("no strategy is called `{name}`{}", did_you_mean(.nearest))]
@@ -15,7 +16,7 @@ pub enum GeneratorError {
         nearest: Option<&'static str>,
     },
     /// No discrete family has that name.
-    #[error("no discrete family is called `{name}`{}; there are random and cross", did_you_mean(.nearest))]
+    #[error("no discrete family is called `{name}`{}; there are ipog, random and cross", did_you_mean(.nearest))]
     UnknownFamily {
         /// The name.
         name: String,
@@ -69,6 +70,17 @@ pub enum GeneratorError {
         /// In how many dimensions.
         dims: usize,
     },
+    /// A dispersion that cannot be reached or need not be.
+    #[error("epsilon is {0}; the volume of an empty box must be above 0 and below 1")]
+    Epsilon(f64),
+    /// A set made for its size, where the size is to be found.
+    #[error(
+        "`{strategy}` makes its set for a number of tests, but epsilon asks for as many as it takes; use halton or greedy"
+    )]
+    Sized {
+        /// The strategy's name.
+        strategy: &'static str,
+    },
     /// A strategy that does not look at what is there.
     #[error("`{strategy}` does not look at existing tests and cannot extend them; use greedy")]
     NoExtension {
@@ -119,6 +131,15 @@ pub enum GeneratorError {
         /// The number of discrete parameters.
         parameters: usize,
     },
+    /// Random rows where values do not go together as they like.
+    #[error("under constraints combinations are not equally probable, and a random family promises nothing; use ipog")]
+    RandomUnderConstraints,
+    /// A covering array that cannot be.
+    #[error(transparent)]
+    Covering(#[from] CoveringError),
+    /// Constraints that no test keeps.
+    #[error(transparent)]
+    Space(#[from] SpaceError),
     /// A probability of failure that is none.
     #[error("delta is {0}; a probability of failure must be above 0 and below 1")]
     Delta(f64),

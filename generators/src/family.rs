@@ -1,43 +1,41 @@
 //! The discrete half of a test set: rows of level indices that cover the combinations of any k parameters.
 //!
-//! Rows are computed when they are asked for, so that a family costs nothing but its size.
+//! Rows of random families and of all combinations are computed when they are asked for, so that they cost nothing;
+//! those of a covering array are a list.
 
-use crate::{
-    GeneratorError,
-    seeded::{Purpose, seeded},
-};
-use paracosm_coverage::{Point, nearest, theory};
+use crate::covering::{CoveringRequest, covering_array};
+use crate::seeded::{Purpose, seeded};
+use crate::{GeneratorError, Request};
+use paracosm_coverage::{Point, nearest, rules::Rules, theory};
 use rand::Rng;
-use std::{
-    collections::{HashMap, HashSet},
-    str::FromStr,
-};
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::str::FromStr;
 
 /// Beyond it a family is a mistake rather than a plan.
 const MOST_ROWS: u64 = 10_000_000;
 
 /// How the discrete parameters are covered.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum DiscreteFamily {
+    /// A covering array by IPOG: all valid combinations of values of any k parameters are among its rows, which are few.
+    #[default]
+    Ipog,
     /// As many uniformly random rows as Proposition 3.2 of the paper asks for: all combinations of values of any
-    /// k parameters are among them with probability at least `1 - delta`.
+    /// k parameters are among them with probability at least `1 - delta`. Only without constraints, under which
+    /// combinations are not equally probable.
     Random {
         /// The probability, between 0 and 1, that one is missing.
         delta: f64,
     },
-    /// Every combination of all parameters, the last one changing fastest.
+    /// Every valid combination of all parameters, the last one changing fastest.
     Cross,
 }
 
 impl DiscreteFamily {
-    const NAMES: [&'static str; 2] = ["random", "cross"];
-}
+    const NAMES: [&'static str; 3] = ["ipog", "random", "cross"];
 
-impl Default for DiscreteFamily {
-    /// Random rows that miss a combination with probability 0.05.
-    fn default() -> Self {
-        Self::Random { delta: 0.05 }
-    }
+    /// The probability with which a random family may miss a combination, where nothing is said.
+    pub const DELTA: f64 = 0.05;
 }
 
 impl FromStr for DiscreteFamily {
@@ -45,7 +43,8 @@ impl FromStr for DiscreteFamily {
 
     fn from_str(name: &str) -> Result<Self, GeneratorError> {
         match name {
-            "random" => Ok(Self::default()),
+            "ipog" => Ok(Self::Ipog),
+            "random" => Ok(Self::Random { delta: Self::DELTA }),
             "cross" => Ok(Self::Cross),
             _ => Err(GeneratorError::UnknownFamily { name: name.to_owned(), nearest: nearest(name, Self::NAMES) }),
         }
@@ -56,50 +55,72 @@ impl FromStr for DiscreteFamily {
 pub(crate) struct Family {
     levels: Vec<usize>,
     len: u64,
-    rows: Rows,
+    rows: Source,
 }
 
 /// Where the rows come from.
-enum Rows {
+enum Source {
     /// Random ones of this seed.
     Random(u64),
     /// All combinations, in order.
     Cross,
-    /// These rows of the family they were chosen from.
-    Chosen(Vec<u64>, Box<Family>),
+    /// These.
+    Listed(Vec<Vec<usize>>),
 }
 
 impl Family {
-    pub(crate) fn new(
-        levels: &[usize],
-        kind: DiscreteFamily,
-        k: Option<usize>,
-        seed: u64,
-    ) -> Result<Self, GeneratorError> {
+    /// The family that a request asks for.
+    pub(crate) fn new(rules: &Rules, request: &Request) -> Result<Self, GeneratorError> {
+        let levels = rules.levels();
         let parameters = levels.len();
-        if let Some(k) = k
+        let seed = request.seed.unwrap_or(0);
+        if let Some(k) = request.k
             && !(1..=parameters).contains(&k)
         {
             return Err(GeneratorError::Strength { k, parameters });
         }
+        if let Some(rows) = request.rows {
+            return Ok(Self::listed(levels, rows.to_vec()));
+        }
+        let k = request.k.unwrap_or(parameters.min(2));
         let too_large = |rows, advice| Err(GeneratorError::FamilyTooLarge { rows, advice });
-        match kind {
+        let is_free = rules.groups() == 0;
+        match request.discrete {
             DiscreteFamily::Random { delta } if !(delta > 0.0 && delta < 1.0) => Err(GeneratorError::Delta(delta)),
+            DiscreteFamily::Random { .. } if !is_free => Err(GeneratorError::RandomUnderConstraints),
             DiscreteFamily::Random { delta } if parameters > 0 => {
-                match theory::rows::random_family_size(levels, k.unwrap_or(parameters.min(2)), delta) {
-                    len if len > MOST_ROWS => too_large(len.to_string(), "use a smaller k"),
-                    len => Ok(Self { levels: levels.to_vec(), len, rows: Rows::Random(seed) }),
+                match theory::rows::random_family_size(levels, k, delta) {
+                    len if len > MOST_ROWS => too_large(len.to_string(), "use a smaller k, or the family ipog"),
+                    len => Ok(Self { levels: levels.to_vec(), len, rows: Source::Random(seed) }),
                 }
+            }
+            DiscreteFamily::Ipog if parameters > 0 => {
+                let existing: BTreeSet<Vec<Option<usize>>> =
+                    request.existing.iter().map(|test| test.discrete.iter().copied().map(Some).collect()).collect();
+                let existing: Vec<Vec<Option<usize>>> = existing.into_iter().collect();
+                let array = covering_array(&CoveringRequest {
+                    groups: request.groups,
+                    existing: &existing,
+                    seed,
+                    ..CoveringRequest::new(rules, k)
+                })?;
+                Ok(Self::listed(levels, array.rows))
             }
             // The product of no levels is the one empty row.
-            DiscreteFamily::Random { .. } | DiscreteFamily::Cross => {
-                match levels.iter().try_fold(1_u64, |rows, &n| rows.checked_mul(n as u64)) {
-                    None => too_large("over 10^19".to_owned(), "use the random family"),
-                    Some(len) if len > MOST_ROWS => too_large(len.to_string(), "use the random family"),
-                    Some(len) => Ok(Self { levels: levels.to_vec(), len, rows: Rows::Cross }),
+            _ => match levels.iter().try_fold(1_u64, |rows, &n| rows.checked_mul(n as u64)) {
+                None => too_large("over 10^19".to_owned(), "use the family ipog"),
+                Some(len) if len > MOST_ROWS => too_large(len.to_string(), "use the family ipog"),
+                Some(len) if is_free => Ok(Self { levels: levels.to_vec(), len, rows: Source::Cross }),
+                Some(len) => {
+                    let all = (0..len).map(|index| digits(index, levels));
+                    Ok(Self::listed(levels, all.filter(|row| rules.allows(row)).collect()))
                 }
-            }
+            },
         }
+    }
+
+    fn listed(levels: &[usize], rows: Vec<Vec<usize>>) -> Self {
+        Self { levels: levels.to_vec(), len: rows.len() as u64, rows: Source::Listed(rows) }
     }
 
     /// The number of rows, at least 1.
@@ -110,23 +131,20 @@ impl Family {
     /// The row at `index`, which is below [`Family::len`].
     pub(crate) fn row(&self, index: u64) -> Vec<usize> {
         match &self.rows {
-            Rows::Random(seed) => {
+            Source::Random(seed) => {
                 let mut rng = seeded(*seed, Purpose::Rows, index);
                 self.levels.iter().map(|&levels| rng.random_range(0..levels)).collect()
             }
-            Rows::Cross => digits(index, &self.levels),
-            Rows::Chosen(chosen, family) => family.row(chosen[index as usize]),
+            Source::Cross => digits(index, &self.levels),
+            Source::Listed(rows) => rows[index as usize].clone(),
         }
     }
 
     /// The family without the rows that repeat an earlier one, or one of the tests that are there already.
     pub(crate) fn without(self, existing: &[Point]) -> Self {
-        if existing.is_empty() && !matches!(self.rows, Rows::Random(_)) {
-            return self;
-        }
         let mut seen: HashSet<Vec<usize>> = existing.iter().map(|test| test.discrete.clone()).collect();
-        let chosen: Vec<u64> = (0..self.len).filter(|&index| seen.insert(self.row(index))).collect();
-        Self { levels: self.levels.clone(), len: chosen.len() as u64, rows: Rows::Chosen(chosen, Box::new(self)) }
+        let rows = (0..self.len).map(|index| self.row(index)).filter(|row| seen.insert(row.clone())).collect();
+        Self::listed(&self.levels, rows)
     }
 
     /// The continuous points that each row has among tests, by the row's number: of rows that are alike, the first.

@@ -27,6 +27,7 @@ mod greedy;
 mod mixed;
 mod seeded;
 mod sequence;
+mod spread;
 mod strategy;
 
 pub use error::GeneratorError;

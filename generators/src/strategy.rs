@@ -11,6 +11,7 @@ use crate::{
         Fibonacci, Halton, HaltonScrambled, Hammersley, Kronecker, Lhs, MOST_HALTON_SCRAMBLED_DIMS, MOST_SOBOL_DIMS,
         PerRow, Place, Sequence, Sobol, Uniform,
     },
+    spread::Spread,
 };
 use paracosm_coverage::{Point, Space, nearest};
 use std::{fmt, ops::RangeInclusive, str::FromStr};
@@ -69,11 +70,19 @@ pub struct Request<'a> {
     /// How many parameters are covered together: the discrete ones by a family of rows, all of them by `greedy` where
     /// it aims at k-wise dispersion. None is 2, or as many as there are.
     pub k: Option<usize>,
+    /// Go on until the points of every row of the discrete family leave no empty box above this volume, and give the
+    /// next test to the row with the largest until then. None is equal shares of the budget.
+    pub epsilon: Option<f64>,
     /// What `greedy` is to make small. None is the dispersion in a continuous space, and the k-wise dispersion where
     /// there are discrete parameters too.
     pub aim: Option<Aim>,
     /// Tests that are there already, which new ones complete.
     pub existing: &'a [Point],
+    /// Groups of discrete parameters of which the family `ipog` covers more than k together: positions among the
+    /// discrete parameters, and how many.
+    pub groups: &'a [(Vec<usize>, usize)],
+    /// Rows to use instead of the family's.
+    pub rows: Option<&'a [Vec<usize>]>,
 }
 
 impl<'a> Request<'a> {
@@ -86,8 +95,11 @@ impl<'a> Request<'a> {
             skip: None,
             discrete: DiscreteFamily::default(),
             k: None,
+            epsilon: None,
             aim: None,
             existing: &[],
+            groups: &[],
+            rows: None,
         }
     }
 }
@@ -169,7 +181,7 @@ impl Strategy {
     /// The space is empty, the budget 0, `k` or `delta` out of range, the family too large, an existing test none of
     /// the space, or the strategy cannot give that many points, in that many dimensions, skip, extend, or aim.
     pub fn build(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
-        let &Request { space, budget, seed, skip, discrete, k, aim, existing } = request;
+        let &Request { space, budget, seed, skip, k, aim, existing, .. } = request;
         if space.parameters().is_empty() {
             return Err(GeneratorError::EmptySpace);
         }
@@ -185,28 +197,33 @@ impl Strategy {
         }
         let seed_or_0 = seed.unwrap_or(0);
         let dims = space.dims();
-        let levels = space.levels();
+        let rules = space.rules()?;
         check_existing(space, existing)?;
         if self == Self::Greedy && dims > 0 {
             let k = k.unwrap_or(2.min(space.parameters().len()));
             // Of all parameters together, the k-wise dispersion is the dispersion.
-            let is_dispersion = levels.is_empty() && k == dims;
-            let aim = aim.unwrap_or(if levels.is_empty() { Aim::Dispersion } else { Aim::KwiseDispersion });
-            if aim == Aim::KwiseDispersion && !is_dispersion {
+            let is_dispersion = rules.levels().is_empty() && k == dims;
+            let aim = aim.unwrap_or(if rules.levels().is_empty() { Aim::Dispersion } else { Aim::KwiseDispersion });
+            if aim == Aim::KwiseDispersion && !is_dispersion && request.epsilon.is_none() {
                 let rng = seeded(seed_or_0, Purpose::Greedy, 0);
-                return Ok(Box::new(KwiseGreedy::new(dims, &levels, k, rng, existing)?));
+                return Ok(Box::new(KwiseGreedy::new(dims, &rules, k, rng, existing)?));
             }
         }
-        let family = Family::new(&levels, discrete, k, seed_or_0)?;
+        let family = Family::new(&rules, request)?;
         if dims == 0 {
             // Once each: repeating a row would be the same test again.
             return Ok(Box::new(Mixed::discrete(family.without(existing))));
         }
-        if self != Self::Greedy && !existing.is_empty() {
-            return Err(GeneratorError::NoExtension { strategy: self.name() });
-        }
         if !self.dims().contains(&dims) {
             return Err(self.cannot_cover(dims));
+        }
+        if let Some(epsilon) = request.epsilon {
+            let family = family.without(&[]);
+            let rows = (0..family.len()).map(|index| family.row(index));
+            return Ok(Box::new(Spread::new(self, request, rows, epsilon)?));
+        }
+        if self != Self::Greedy && !existing.is_empty() {
+            return Err(GeneratorError::NoExtension { strategy: self.name() });
         }
         let deal = Deal::new(family.len(), budget as u64);
         let sequence: Box<dyn Sequence> = match self {
@@ -230,6 +247,11 @@ impl Strategy {
             return Err(GeneratorError::IndexLimit { strategy: self.name(), len, last: end - 1 });
         }
         Ok(Box::new(Mixed::new(family, sequence, deal, first)))
+    }
+
+    /// Whether its points can be asked for one by one, without saying beforehand how many there will be.
+    pub(crate) fn goes_on(self) -> bool {
+        !matches!(self, Self::Hammersley | Self::Fibonacci | Self::Lhs | Self::LhsCentred)
     }
 
     /// Where a sequence starts by default; None for sets of points without an order.

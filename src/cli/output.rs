@@ -1,7 +1,7 @@
 //! How results are printed: as a table for people, as JSON for programs.
 
 use crate::coverage::Bracket;
-use crate::estimate::{Continuous, Coverage, Discrete};
+use crate::estimate::{Continuous, Coverage, Discrete, KEpsilon};
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -64,6 +64,16 @@ impl Table {
         if let Some(discrete) = &coverage.discrete {
             self.discrete(discrete);
         }
+        if coverage.violating > 0 {
+            self.row("violate a constraint", &format!("{} tests, which cover nothing", coverage.violating));
+        }
+        if let Some(KEpsilon { k, epsilon, epsilon_over_covered_rows, .. }) = &coverage.k_epsilon {
+            let value = match epsilon {
+                Some(epsilon) => format!("({k}, {})-covering", digits(*epsilon)),
+                None => format!("no: {k}-wise incomplete; {} over the rows", digits(*epsilon_over_covered_rows)),
+            };
+            self.row("(k, epsilon)", &value);
+        }
         if let Some(hole) = &coverage.k_wise_dispersion {
             self.row(&format!("{}-wise dispersion", hole.k), &bracket(&hole.volume));
             let fixed = hole.worst.fixed.iter().map(|(name, value)| format!("{name} {value}"));
@@ -107,7 +117,7 @@ impl Table {
     fn discrete(&mut self, measured: &Discrete) {
         let Discrete { k, covered, valid, ratio, missing, combinations } = measured;
         self.row(&format!("{k}-wise coverage"), &format!("{covered} of {valid} ({})", percent(*ratio)));
-        self.row("  of all combinations", &percent(*combinations));
+        self.row("  of all combinations", &combinations.map_or("too many to count".into(), percent));
         for (i, tuple) in missing.iter().enumerate() {
             let values: Vec<String> = tuple.iter().map(|(name, value)| format!("{name} {value}")).collect();
             self.row(if i == 0 { "  missing" } else { "" }, &values.join(", "));

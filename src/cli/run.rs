@@ -38,12 +38,16 @@ pub(super) struct Options {
     /// The index of a sequence's first point [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N")]
     skip: Option<u64>,
-    /// How discrete parameters are covered: random (Proposition 3.2) or cross (all combinations) [default: random]
+    /// How discrete parameters are covered: ipog (a covering array), random (Proposition 3.2) or cross (all combinations)
+    /// [default: ipog]
     #[arg(long, value_name = "FAMILY")]
     discrete: Option<String>,
     /// How many parameters are covered together [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
+    /// Go on until no row of discrete values has an empty box above this volume, at most for the budget
+    #[arg(long, value_name = "E")]
+    epsilon: Option<f64>,
     /// What greedy makes small: dispersion or k-wise-dispersion [default: dispersion of continuous spaces and for each
     /// row of --discrete, k-wise-dispersion of others]
     #[arg(long, value_name = "MEASURE")]
@@ -152,6 +156,7 @@ impl Options {
             .driver(&self.driver, &driver_settings)?
             .strategy(&self.strategy)?
             .k(self.k)
+            .epsilon(self.epsilon)
             .budget(self.budget)?
             .seed(self.seed)
             .skip(self.skip);

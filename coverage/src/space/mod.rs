@@ -16,7 +16,7 @@ pub use value::{Value, Values};
 
 use crate::constraint::{Constraint, ConstraintError};
 use crate::names::{did_you_mean, nearest};
-use crate::rules::Clause;
+use crate::rules::{Clause, Rules};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -110,6 +110,9 @@ pub enum SpaceError {
         /// What is wrong with it, and where.
         error: ConstraintError,
     },
+    /// Constraints that no test keeps together.
+    #[error("no test keeps {} together: {}", if .0.len() == 1 { "this constraint" } else { "these constraints" }, quoted(.0))]
+    Conflict(Vec<String>),
     /// A text that is no space.
     #[error("{message}")]
     Syntax {
@@ -226,6 +229,17 @@ impl Space {
         self.constraints.iter().map(|constraint| constraint.clauses().to_vec()).collect()
     }
 
+    /// What the constraints allow of the discrete parameters.
+    ///
+    /// # Errors
+    /// No test keeps all constraints: the error names as few as possible that cannot be kept together.
+    pub fn rules(&self) -> Result<Rules, SpaceError> {
+        Rules::new(&self.levels(), &self.clauses()).map_err(|conflict| {
+            let texts = conflict.constraints.iter().map(|&index| self.constraints[index].text().to_owned());
+            SpaceError::Conflict(texts.collect())
+        })
+    }
+
     /// The values at these coordinates.
     ///
     /// # Panics
@@ -278,6 +292,10 @@ impl Space {
         }
         Ok(point)
     }
+}
+
+fn quoted(texts: &[String]) -> String {
+    texts.iter().map(|text| format!("`{text}`")).collect::<Vec<_>>().join(", ")
 }
 
 impl TryFrom<Declaration> for Space {

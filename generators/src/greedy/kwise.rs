@@ -12,7 +12,7 @@
 use super::{Holes, room};
 use crate::{Generator, GeneratorError};
 use paracosm_coverage::kwise_dispersion::{Projection, projections};
-use paracosm_coverage::{Point, empty_boxes::EmptyBoxes};
+use paracosm_coverage::{Point, empty_boxes::EmptyBoxes, rules::Rules};
 use rand::Rng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
@@ -63,7 +63,7 @@ enum Hole {
 /// The holes of all views that count at the moment.
 struct LargeHoles<'a> {
     dims: usize,
-    levels: &'a [usize],
+    rules: &'a Rules,
     holes: Vec<(&'a Projection, Hole)>,
     /// The positions of those that each coordinate belongs to.
     of_coordinate: Vec<Vec<usize>>,
@@ -72,7 +72,7 @@ struct LargeHoles<'a> {
 /// The tests so far, and the holes that they show in any k parameters.
 pub(crate) struct KwiseGreedy {
     dims: usize,
-    levels: Vec<usize>,
+    rules: Rules,
     views: Vec<View>,
     rng: Pcg64,
 }
@@ -84,13 +84,13 @@ impl KwiseGreedy {
     /// `k` is not in 1 to the number of parameters, or there are too many views.
     pub(crate) fn new(
         dims: usize,
-        levels: &[usize],
+        rules: &Rules,
         k: usize,
         rng: Pcg64,
         existing: &[Point],
     ) -> Result<Self, GeneratorError> {
-        let parameters = dims + levels.len();
-        let projections = projections(dims, levels, k).map_err(|_| GeneratorError::AllStrength { k, parameters })?;
+        let parameters = dims + rules.levels().len();
+        let projections = projections(dims, rules, k).map_err(|_| GeneratorError::AllStrength { k, parameters })?;
         let chosen: Vec<Projection> = projections.take(MOST_VIEWS + 1).collect();
         if chosen.len() > MOST_VIEWS {
             return Err(GeneratorError::Views { k, most: MOST_VIEWS });
@@ -106,7 +106,7 @@ impl KwiseGreedy {
             projection,
         };
         let views = chosen.into_iter().map(view).collect();
-        let mut greedy = Self { dims, levels: levels.to_vec(), views, rng };
+        let mut greedy = Self { dims, rules: rules.clone(), views, rng };
         for test in existing {
             greedy.add(test);
         }
@@ -127,10 +127,10 @@ impl KwiseGreedy {
 
     /// The next test.
     fn next(&mut self) -> Point {
-        let Self { dims, levels, views, rng } = self;
+        let Self { dims, rules, views, rng } = self;
         let largest = views.iter().map(View::largest).fold(0.0, f64::max);
         let worst: Vec<&View> = views.iter().filter(|view| view.largest() == largest).collect();
-        let holes = LargeHoles::of(views, largest, *dims, levels);
+        let holes = LargeHoles::of(views, largest, *dims, rules);
         let beginnings = (0..BEGINNINGS).map(|_| {
             let test = holes.begin(worst[rng.random_range(0..worst.len())], rng);
             (holes.left_by(None, &test), test)
@@ -149,9 +149,9 @@ fn coordinates(projection: &Projection, dims: usize) -> Vec<usize> {
 
 impl<'a> LargeHoles<'a> {
     /// Those beside a largest one of all views.
-    fn of(views: &'a [View], largest: f64, dims: usize, levels: &'a [usize]) -> Self {
-        let of_coordinate = vec![Vec::new(); dims + levels.len()];
-        let mut large = Self { dims, levels, holes: Vec::new(), of_coordinate };
+    fn of(views: &'a [View], largest: f64, dims: usize, rules: &'a Rules) -> Self {
+        let of_coordinate = vec![Vec::new(); dims + rules.levels().len()];
+        let mut large = Self { dims, rules, holes: Vec::new(), of_coordinate };
         for view in views {
             let Some(hole) = view.hole(largest) else { continue };
             for &coordinate in &view.coordinates {
@@ -180,7 +180,7 @@ impl<'a> LargeHoles<'a> {
         let View { projection, holes: kept, .. } = first;
         let mut test = Point {
             continuous: (0..self.dims).map(|_| rng.random()).collect(),
-            discrete: self.levels.iter().map(|&levels| rng.random_range(0..levels)).collect(),
+            discrete: self.random_row(&projection.fixed, rng),
         };
         // Along its axes the test stays in the hole, and it keeps the hole's values.
         let mut rooms = vec![(0.0, 1.0); self.dims];
@@ -190,9 +190,8 @@ impl<'a> LargeHoles<'a> {
                 test.continuous[axis] = lower + width * test.continuous[axis];
             }
         }
-        let mut free: Vec<usize> = (0..self.dims + self.levels.len()).collect();
-        for &(parameter, level) in &projection.fixed {
-            test.discrete[parameter] = level;
+        let mut free: Vec<usize> = (0..self.dims + self.rules.levels().len()).collect();
+        for &(parameter, _) in &projection.fixed {
             free.retain(|coordinate| *coordinate != self.dims + parameter);
         }
         for round in 0..ROUNDS {
@@ -205,6 +204,21 @@ impl<'a> LargeHoles<'a> {
             }
         }
         test
+    }
+
+    /// A row with these values that keeps the constraints, its parameters chosen at random one after the other.
+    fn random_row(&self, fixed: &[(usize, usize)], rng: &mut Pcg64) -> Vec<usize> {
+        let levels = self.rules.levels();
+        let mut chosen = fixed.to_vec();
+        let mut open: Vec<usize> = (0..levels.len()).filter(|open| fixed.iter().all(|pair| pair.0 != *open)).collect();
+        open.shuffle(rng);
+        for parameter in open {
+            let with = |&level: &usize| self.rules.is_valid(&[&chosen[..], &[(parameter, level)]].concat());
+            let valid: Vec<usize> = (0..levels[parameter]).filter(with).collect();
+            chosen.push((parameter, valid[rng.random_range(0..valid.len())]));
+        }
+        chosen.sort_unstable();
+        chosen.into_iter().map(|(_, level)| level).collect()
     }
 
     /// Moves a test along an axis to where it breaks most.
@@ -228,11 +242,14 @@ impl<'a> LargeHoles<'a> {
 
     /// Gives a test the level of a parameter at which it breaks most.
     fn choose_level(&self, parameter: usize, test: &mut Point) {
-        let mut best = (f64::INFINITY, 0);
+        let mut best = (f64::INFINITY, test.discrete[parameter]);
         // From a random level on, so that no level is preferred where there is nothing to choose.
-        let (levels, start) = (self.levels[parameter], test.discrete[parameter]);
+        let (levels, start) = (self.rules.levels()[parameter], test.discrete[parameter]);
         for level in (start..levels).chain(0..start) {
             test.discrete[parameter] = level;
+            if !self.rules.allows_at(parameter, &test.discrete) {
+                continue;
+            }
             let left = self.left_by(Some(self.dims + parameter), test);
             if left < best.0 {
                 best = (left, level);

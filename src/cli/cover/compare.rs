@@ -94,7 +94,7 @@ impl Options {
     }
 
     fn comparison(&self) -> Result<Comparison, Error> {
-        let limit = time_limit(self.time_limit)?;
+        let limit = time_limit("--time-limit", self.time_limit)?;
         let most = |numbers: &[usize]| numbers.iter().copied().max().unwrap_or_default();
         let (dims, budget) = (most(&self.dims), most(&self.budgets));
         Tests::check_size(budget, dims)?;

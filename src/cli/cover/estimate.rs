@@ -1,6 +1,7 @@
 //! `paracosm-cover estimate`: how well tests cover their space.
 
-use super::{certificate, read_space, time_limit};
+use super::space_file::SpaceFile;
+use super::{certificate, time_limit};
 use crate::cli::output::{Format, Table, json, short_bracket};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::{Bracket, Parameter, Space};
@@ -29,7 +30,7 @@ pub(super) struct Options {
     #[arg(value_name = "TESTS.csv|DIR", conflicts_with = "strategy")]
     tests: Option<PathBuf>,
     /// The space of the tests in a CSV; without it its columns are in [0,1]
-    #[arg(long, value_name = "SPACE.toml", conflicts_with = "strategy")]
+    #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "strategy")]
     space: Option<PathBuf>,
     /// How many parameters are looked at together [default: 2]
     #[arg(long, value_name = "K")]
@@ -67,11 +68,11 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
-        let limit = time_limit(self.time_limit)?;
+        let limit = time_limit("--time-limit", self.time_limit)?;
         self.certificate.as_deref().map_or(Ok(()), certificate::is_new)?;
         let (tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
-            None => self.read()?,
+            None => self.read(verbosity)?,
         };
         let measures = if self.measures.is_empty() { Measure::ALL.to_vec() } else { self.measures.clone() };
         if verbosity.verbose {
@@ -102,10 +103,10 @@ impl Options {
         })
     }
 
-    fn read(&self) -> Result<(Tests, String), Error> {
+    fn read(&self, verbosity: Verbosity) -> Result<(Tests, String), Error> {
         let path = self.tests.clone().unwrap_or_else(|| "paracosm-out".into());
-        let space = self.space.as_deref().map(read_space).transpose()?;
-        Ok((Tests::read(&path, space)?, path.display().to_string()))
+        let space = self.space.as_deref().map(|path| SpaceFile::read(path, verbosity)).transpose()?;
+        Ok((Tests::read(&path, space.map(|file| file.space))?, path.display().to_string()))
     }
 
     fn generated(&self, name: &str) -> Result<Tests, Error> {

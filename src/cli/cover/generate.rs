@@ -1,10 +1,12 @@
 //! `paracosm-cover generate`: tests by a strategy, as CSV.
 
-use super::read_space;
+use super::array::ArrayOptions;
+use super::space_file::SpaceFile;
+use crate::cli::output::digits;
 use crate::cli::{Failure, Verbosity};
 use crate::coverage::{Parameter, Point, Space};
-use crate::generators::{Aim, Generator, Request, Strategy};
-use crate::{Error, Tests};
+use crate::generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
+use crate::{Error, KEpsilon, Measure, Tests};
 use clap::{ArgGroup, Args};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io;
@@ -15,6 +17,8 @@ Examples:
   paracosm-cover generate --dims 3 --strategy sobol --budget 256 > points.csv
   paracosm-cover generate --space SPACE.toml --budget 500 > tests.csv
   paracosm-cover generate --space SPACE.toml --extend tests.csv --budget 20      the 20 tests to add
+  paracosm-cover generate --space MODEL.pict --k 3 --strength Type,Size,Format=4 --optimise 10
+  paracosm-cover generate --space SPACE.toml --k 2 --epsilon 0.1                 as many tests as that takes
   paracosm-cover generate --dims 20 --strategy greedy --measure k-wise-dispersion --k 2 --budget 200";
 
 /// Of how many tests are written between two looks at the progress bar.
@@ -25,7 +29,7 @@ const BATCH: usize = 64;
 #[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true).multiple(true))]
 pub(super) struct Options {
     /// The space of the tests
-    #[arg(long, value_name = "SPACE.toml", conflicts_with = "dims", group = "of")]
+    #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "dims", group = "of")]
     space: Option<PathBuf>,
     /// The unit cube of that many dimensions
     #[arg(long, value_name = "D", group = "of")]
@@ -42,12 +46,22 @@ pub(super) struct Options {
     /// The index of a sequence's first point [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N")]
     skip: Option<u64>,
-    /// How discrete parameters are covered: random (Proposition 3.2) or cross (all combinations) [default: random]
+    /// How discrete parameters are covered: ipog (a covering array), random (Proposition 3.2) or cross (all combinations)
+    /// [default: ipog]
     #[arg(long, value_name = "FAMILY")]
     discrete: Option<String>,
     /// How many parameters are covered together [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
+    /// A group of discrete parameters of which K are covered together, more than of all
+    #[arg(long, value_name = "NAME,NAME,..=K")]
+    strength: Vec<String>,
+    /// Go on until no row of discrete values has an empty box above this volume; with --budget, as far as that goes
+    #[arg(long, value_name = "E")]
+    epsilon: Option<f64>,
+    /// Time to make the covering array smaller
+    #[arg(long, value_name = "SECONDS")]
+    optimise: Option<f64>,
     /// What greedy makes small: dispersion or k-wise-dispersion [default: dispersion of continuous spaces and for each
     /// row of --discrete, k-wise-dispersion of others]
     #[arg(long, value_name = "MEASURE")]
@@ -59,13 +73,16 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
-        let space = match (&self.space, self.dims) {
-            (Some(path), _) => Some(read_space(path)?),
+        let (space, groups) = match (&self.space, self.dims) {
+            (Some(path), _) => {
+                let SpaceFile { space, groups } = SpaceFile::read(path, verbosity)?;
+                (Some(space), groups)
+            }
             (None, Some(dims)) => {
                 Tests::check_size(1, dims)?;
-                Some(Space::unit_cube(dims))
+                (Some(Space::unit_cube(dims)), Vec::new())
             }
-            (None, None) => None,
+            (None, None) => (None, Vec::new()),
         };
         let (space, existing) = match (space, &self.extend) {
             (space, Some(path)) => {
@@ -80,19 +97,46 @@ impl Options {
             None if self.extend.is_some() => Strategy::Greedy,
             None => Strategy::Halton,
         };
-        let generator = self.generator(&space, strategy, &existing)?;
-        let most = self.budget.unwrap_or(if space.dims() == 0 { usize::MAX } else { DEFAULT_BUDGET });
-        let written = write(generator, &space, most, verbosity)?;
+        let request = self.request(&space, strategy, &existing)?;
+        // Where greedy looks at all parameters at once, there are no rows.
+        let has_rows =
+            strategy != Strategy::Greedy || space.dims() == 0 || self.epsilon.is_some() || request.aim.is_some();
+        let uses_array = request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && has_rows;
+        let options = ArrayOptions { k: self.k, seed: self.seed, strengths: &self.strength, optimise: self.optimise };
+        let rows = match uses_array && request.aim != Some(Aim::KwiseDispersion) {
+            true => Some(options.rows(&space, groups, &existing, verbosity)?),
+            false if !self.strength.is_empty() || self.optimise.is_some() => {
+                let message = "--strength and --optimise are about the rows of a covering array, and there are none";
+                return Err(Error::Usage(message.into()).into());
+            }
+            false => None,
+        };
+        let generator = strategy.build(&Request { rows: rows.as_deref(), ..request }).map_err(Error::from)?;
+        let most = match self.budget {
+            Some(budget) => budget,
+            None if space.dims() == 0 || self.epsilon.is_some() => usize::MAX,
+            None => DEFAULT_BUDGET,
+        };
+        let mut points = existing.clone();
+        let written = write(generator, &space, most, verbosity, |tests| {
+            if self.epsilon.is_some() {
+                points.extend(tests);
+            }
+        })?;
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
         verbosity.note(format_args!("{written} tests by {strategy}{}", after.unwrap_or_default()));
+        if self.epsilon.is_some() {
+            verbosity.note(reached(Tests { space, points, k: self.k })?);
+        }
         Ok(())
     }
 
-    fn generator(&self, space: &Space, strategy: Strategy, existing: &[Point]) -> Result<Box<dyn Generator>, Error> {
+    fn request<'a>(&self, space: &'a Space, strategy: Strategy, existing: &'a [Point]) -> Result<Request<'a>, Error> {
         let mut request = Request {
             seed: self.seed,
             skip: self.skip,
             k: self.k,
+            epsilon: self.epsilon,
             existing,
             ..Request::new(space, self.budget.unwrap_or(DEFAULT_BUDGET))
         };
@@ -104,18 +148,36 @@ impl Options {
             // Who names a family wants its rows.
             None => self.discrete.as_ref().filter(|_| strategy == Strategy::Greedy).map(|_| Aim::Dispersion),
         };
-        Ok(strategy.build(&request)?)
+        Ok(request)
     }
 }
 
 const DEFAULT_BUDGET: usize = 500;
 
-/// Writes at most that many tests as they are made; how many there were.
+/// What the tests are good for, measured.
+fn reached(tests: Tests) -> Result<String, Error> {
+    let coverage = tests.measure(&[Measure::Dispersion, Measure::KWise], None, None)?;
+    Ok(match (coverage.k_epsilon, coverage.continuous.and_then(|continuous| continuous.dispersion)) {
+        (Some(KEpsilon { k, epsilon: Some(epsilon), .. }), _) => {
+            format!("({k}, {})-covering: measured", digits(epsilon))
+        }
+        (Some(reached), _) => format!(
+            "not {}-wise complete; dispersion {} over the rows there are: measured",
+            reached.k,
+            digits(reached.epsilon_over_covered_rows)
+        ),
+        (None, Some(hole)) => format!("dispersion {}: measured", digits(hole.volume.upper)),
+        (None, None) => "nothing continuous to measure".to_owned(),
+    })
+}
+
+/// Writes at most that many tests as they are made.
 fn write(
     mut generator: Box<dyn Generator>,
     space: &Space,
     most: usize,
     verbosity: Verbosity,
+    mut keep: impl FnMut(Vec<Point>),
 ) -> Result<usize, io::Error> {
     let bar = if verbosity.quiet || most == usize::MAX { ProgressBar::hidden() } else { ProgressBar::new(most as u64) };
     let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {eta} left";
@@ -133,6 +195,7 @@ fn write(
         }
         written += tests.len();
         bar.inc(tests.len() as u64);
+        keep(tests);
     }
     bar.finish_and_clear();
     csv.flush()?;

@@ -1,17 +1,16 @@
 //! The program `paracosm-cover`: how well tests cover a space, and tests that cover it well.
 
+mod array;
 mod certificate;
 mod compare;
 mod estimate;
 mod generate;
 mod plan;
+mod space_file;
 
 use super::{Failure, Verbosity};
 use crate::Error;
-use crate::coverage::{Space, SpaceError};
 use clap::{Parser, Subcommand};
-use std::fs;
-use std::path::Path;
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
@@ -20,6 +19,7 @@ Examples:
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
   paracosm-cover generate --dims 3 --strategy sobol --budget 256 > points.csv
   paracosm-cover generate --dims 3 --extend points.csv --budget 20
+  paracosm-cover generate --space MODEL.pict --k 3 --optimise 10 > tests.csv
   paracosm-cover plan --dims 5 --epsilon 0.1
   paracosm-cover compare --strategies random,halton,greedy --out compared
 
@@ -58,18 +58,8 @@ impl Command {
     }
 }
 
-/// A time limit as it is given.
-fn time_limit(seconds: f64) -> Result<Duration, Error> {
+/// A number of seconds as an option gives it.
+fn time_limit(option: &str, seconds: f64) -> Result<Duration, Error> {
     Duration::try_from_secs_f64(seconds)
-        .map_err(|_| Error::Usage(format!("--time-limit {seconds}: expected a number of seconds from 0 on")))
-}
-
-fn read_space(path: &Path) -> Result<Space, Error> {
-    let text = fs::read_to_string(path).map_err(Error::file("read", path))?;
-    Space::from_toml(&text).map_err(|error| match error {
-        SpaceError::Syntax { message, at: Some((line, column)) } => {
-            Error::content(path, line, format!("column {column}: {message}"))
-        }
-        error => Error::content(path, None, error.to_string()),
-    })
+        .map_err(|_| Error::Usage(format!("{option} {seconds}: expected a number of seconds from 0 on")))
 }

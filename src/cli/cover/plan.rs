@@ -1,6 +1,7 @@
 //! `paracosm-cover plan`: how many tests each guarantee asks for.
 
-use super::{read_space, time_limit};
+use super::space_file::SpaceFile;
+use super::time_limit;
 use crate::cli::output::{Format, Table, json};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::Space;
@@ -21,7 +22,7 @@ continuous points leave no empty box of volume above epsilon.";
 #[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true))]
 pub(super) struct Options {
     /// The space of the tests
-    #[arg(long, value_name = "SPACE.toml", group = "of")]
+    #[arg(long, value_name = "SPACE.toml|MODEL.pict", group = "of")]
     space: Option<PathBuf>,
     /// The unit cube of that many dimensions
     #[arg(long, value_name = "D", group = "of")]
@@ -46,13 +47,13 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let space = match (&self.space, self.dims.unwrap_or(0)) {
-            (Some(path), _) => read_space(path)?,
+            (Some(path), _) => SpaceFile::read(path, verbosity)?.space,
             (None, dims) => {
                 Tests::check_size(1, dims)?;
                 Space::unit_cube(dims)
             }
         };
-        let plan = Plan::of(&space, self.k, self.epsilon, self.delta, time_limit(self.time_limit)?)?;
+        let plan = Plan::of(&space, self.k, self.epsilon, self.delta, time_limit("--time-limit", self.time_limit)?)?;
         if space.dims() > 3 {
             verbosity.note("above three dimensions the a-priori bounds are useless: rely on what was measured");
         }

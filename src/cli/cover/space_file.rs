@@ -1,0 +1,41 @@
+//! Spaces as files: SPACE.toml, or a model file of PICT wherever one is read.
+
+use crate::Error;
+use crate::cli::Verbosity;
+use crate::coverage::pict::Model;
+use crate::coverage::{Space, SpaceError};
+use std::ffi::OsStr;
+use std::fs;
+use std::path::Path;
+
+/// The extensions by which a file is known as a model of PICT; any other is taken for TOML.
+const PICT: [&str; 3] = ["pict", "txt", "model"];
+
+/// What a file says of a space.
+pub(super) struct SpaceFile {
+    pub space: Space,
+    /// Groups of discrete parameters, by position, and how many of them are to be covered together.
+    pub groups: Vec<(Vec<usize>, usize)>,
+}
+
+impl SpaceFile {
+    pub fn read(path: &Path, verbosity: Verbosity) -> Result<Self, Error> {
+        let text = fs::read_to_string(path).map_err(Error::file("read", path))?;
+        if path.extension().and_then(OsStr::to_str).is_some_and(|extension| PICT.contains(&extension)) {
+            let model = Model::from_pict(&text).map_err(|error| {
+                Error::content(path, error.line, format!("column {}: {}", error.column, error.message))
+            })?;
+            for note in &model.notes {
+                verbosity.note(format_args!("{}: {note}", path.display()));
+            }
+            return Ok(Self { space: model.space, groups: model.strengths });
+        }
+        let space = Space::from_toml(&text).map_err(|error| match error {
+            SpaceError::Syntax { message, at: Some((line, column)) } => {
+                Error::content(path, line, format!("column {column}: {message}"))
+            }
+            error => Error::content(path, None, error.to_string()),
+        })?;
+        Ok(Self { space, groups: Vec::new() })
+    }
+}
