@@ -13,7 +13,7 @@ use std::sync::Mutex;
 const STEPS_BETWEEN_LOOKS: usize = 64;
 
 /// The work of polishing, in visits of cells: well below 0.1 s.
-const POLISH_WORK: usize = 4_000_000;
+const POLISH_WORK: usize = 3_800_000;
 
 /// The work of a step beside its visits of cells and its look at the rows.
 const STEP_WORK: usize = 300;
