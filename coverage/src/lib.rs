@@ -1,7 +1,8 @@
 //! Parameter spaces, and how well a set of tests covers them.
 //!
 //! A [`Space`] is the ordered list of the parameters a study leaves open. Tests are points of it, and this
-//! crate says how much of the space such points have looked at: the discrete half by [`kwise`] coverage, the
+//! crate says how much of the space such points have looked at: the discrete half by [`kwise`] coverage of what
+//! constraints allow ([`rules`]), the
 //! continuous half by [`dispersion`] (the largest box no test has entered: the paper's measure) and by
 //! discrepancy ([`star`], [`extreme`], [`l2`]), and both halves together by
 //! [`kwise_dispersion`]. [`empty_boxes`] knows the
