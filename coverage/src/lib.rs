@@ -4,8 +4,8 @@
 //! crate says how much of the space such points have looked at: the discrete half by [`kwise`] coverage, the
 //! continuous half by [`dispersion`] (the largest box no test has entered: the paper's measure), by [`fill`] (the
 //! largest ball) and by discrepancy ([`star`], [`extreme`], [`l2`]), and both halves together by
-//! [`kwise_dispersion`]. [`empty_boxes`] knows the
-//! holes as tests arrive one by one. [`theory`] holds the bounds that are known without looking at any point.
+//! [`kwise_dispersion`]. [`empty_boxes`] knows the holes as tests arrive one by one, and [`proof`] proves that there are
+//! no larger ones. [`theory`] holds the bounds that are known without looking at any point.
 //!
 //! Which tests make sense is said by constraints: [`constraint`] is their language, [`rules`] what follows from
 //! them, and [`pict`] reads spaces and constraints from the model files of PICT.

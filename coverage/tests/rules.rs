@@ -42,6 +42,18 @@ proptest! {
                     for levels in projections(&every, &set) {
                         let tuple: Vec<(usize, usize)> = set.iter().copied().zip(levels.iter().copied()).collect();
                         prop_assert_eq!(rules.is_valid(&tuple), valid.contains(&levels));
+                        let fixed = |parameter| tuple.iter().find(|pair| pair.0 == parameter).map(|pair| pair.1);
+                        for parameter in 0..rules.levels().len() {
+                            let with = |level| {
+                                let fits = |test: &&Vec<usize>| tuple.iter().all(|&(p, level)| test[p] == level);
+                                kept.iter().filter(fits).any(|test| test[parameter] == level)
+                            };
+                            let group = rules.group_of(parameter).map_or(vec![], |g| rules.members(g).to_vec());
+                            if tuple.iter().all(|pair| pair.0 == parameter || group.contains(&pair.0)) {
+                                let wanted: Vec<bool> = (0..rules.levels()[parameter]).map(with).collect();
+                                prop_assert_eq!(rules.supported_at(parameter, fixed), wanted);
+                            }
+                        }
                         let mut partial = vec![None; rules.levels().len()];
                         tuple.iter().for_each(|&(parameter, level)| partial[parameter] = Some(level));
                         let completed = rules.completes(&partial);
@@ -112,6 +124,16 @@ fn a_hundred_entangled_parameters_are_decided() {
         }
     }
     assert!((100..200).contains(&valid), "{valid}");
+}
+
+#[test]
+fn what_goes_with_entangled_levels_is_told_for_one_parameter_as_for_all() {
+    let rules = Rules::new(&[2; 100], &three_of_a_hundred(380)).unwrap();
+    for parameter in (0..100).step_by(9) {
+        let fixed = |other: usize| (other == 50).then_some(parameter % 2);
+        let all = rules.supported(0, fixed);
+        assert_eq!(rules.supported_at(parameter, fixed), all[rules.members(0).binary_search(&parameter).unwrap()]);
+    }
 }
 
 #[test]

@@ -71,8 +71,7 @@ fn models() -> Vec<Value> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let reference =
         std::env::var_os("PARACOSM_REFERENCE").map_or_else(|| root.join("../shared/reference"), PathBuf::from);
-    let files = [root.join("tests/data"), reference, "/work/shared/reference".into()]
-        .map(|folder| folder.join("covering_models.json"));
+    let files = [root.join("tests/data"), reference].map(|folder| folder.join("covering_models.json"));
     let texts = files.iter().filter_map(|file| std::fs::read_to_string(file).ok());
     texts.map(|text| serde_json::from_str::<Value>(&text).expect("JSON")["models"].clone()).collect()
 }

@@ -159,6 +159,12 @@ fn the_array_does_not_depend_on_the_number_of_threads() {
         };
         assert_eq!(with(1), with(4));
     }
+    let rules = Rules::free(&[20, 19, 18, 17, 6]);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| covering_array(&CoveringRequest::new(&rules, 3)).unwrap())
+    };
+    assert_eq!(with(1), with(3));
 }
 
 #[test]
@@ -214,6 +220,7 @@ fn what_cannot_be_covered_is_refused() {
     let existing = [vec![None, Some(3), None]];
     let error = CoveringError::Level { index: 0, parameter: 1, found: 3, levels: 3 };
     assert_eq!(refused(&CoveringRequest { existing: &existing, ..request }), error);
+    assert_eq!(refused(&CoveringRequest::new(&Rules::free(&[2, 0]), 1)), CoveringError::NoLevel(1));
     let rules = Rules::free(&[100_000; 2]);
     assert_eq!(refused(&CoveringRequest::new(&rules, 2)), CoveringError::TooLarge { rows: 10_000_000_000 });
 }

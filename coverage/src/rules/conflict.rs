@@ -8,13 +8,13 @@
 
 use super::clause::Clause;
 use super::encoding::Encoding;
-use super::group::Model;
+use super::group::{ClassClause, Model};
 use thiserror::Error;
 
-/// How many rounds and how many steps in each are taken for the smallest conflict; after them the conflict is
+/// How many rounds and how many steps of choosing are taken for the smallest conflict; after them the conflict is
 /// one of which no constraint can be spared, though there may be another with fewer.
-const ROUNDS: usize = 500;
-const STEPS: usize = 200_000;
+const ROUNDS: usize = 200;
+const STEPS: usize = 100_000;
 
 /// Constraints that no test keeps together.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -29,28 +29,37 @@ impl Conflict {
     pub(super) fn smallest(levels: &[usize], constraints: &[Vec<Clause>]) -> Self {
         let whole = Model::new(levels, constraints.iter().flatten());
         let mut encoding = Encoding::new(whole.sizes.iter().map(Vec::len), constraints.len());
-        let nothing = vec![None; levels.len()];
+        let constraints: Vec<Vec<ClassClause>> =
+            constraints.iter().map(|clauses| whole.over_classes(clauses)).collect();
         for (index, clauses) in constraints.iter().enumerate() {
-            for clause in whole.over_classes(clauses) {
-                encoding.demand(&clause, Some(index), |parameter| parameter);
+            for clause in clauses {
+                encoding.demand(clause, Some(index), |parameter| parameter);
             }
         }
-        let mut can_hold = |set: &[usize]| encoding.solve(&nothing, set).is_some();
+        let nothing = vec![None; levels.len()];
+        let mut solution = |set: &[usize]| encoding.solve(&nothing, set);
 
         let mut to_meet: Vec<Vec<usize>> = Vec::new();
+        let mut steps = STEPS;
         for _ in 0..ROUNDS {
-            let Some(mut set) = smallest_meeting(&to_meet) else { break };
-            if !can_hold(&set) {
+            let Some(mut set) = smallest_meeting(&to_meet, &mut steps) else { break };
+            let Some(mut solved) = solution(&set) else {
                 set.sort_unstable();
                 return Self { constraints: set };
-            }
+            };
             let mut rest = Vec::new();
-            for constraint in 0..constraints.len() {
-                if !set.contains(&constraint) {
-                    set.push(constraint);
-                    if !can_hold(&set) {
-                        set.pop();
-                        rest.push(constraint);
+            for (constraint, clauses) in constraints.iter().enumerate() {
+                let keeps = |solved: &[usize]| {
+                    clauses.iter().all(|clause| clause.literals.iter().any(|l| l.holds[solved[l.parameter]]))
+                };
+                if set.contains(&constraint) {
+                    continue;
+                }
+                set.push(constraint);
+                if !keeps(&solved) {
+                    match solution(&set) {
+                        Some(other) => solved = other,
+                        None => rest.extend(set.pop()),
                     }
                 }
             }
@@ -59,7 +68,7 @@ impl Conflict {
         let mut conflict: Vec<usize> = (0..constraints.len()).collect();
         for constraint in 0..constraints.len() {
             let without: Vec<usize> = conflict.iter().copied().filter(|&c| c != constraint).collect();
-            if !can_hold(&without) {
+            if solution(&without).is_none() {
                 conflict = without;
             }
         }
@@ -68,7 +77,7 @@ impl Conflict {
 }
 
 /// A smallest set that has a member of each of the given sets; none if that takes too long.
-fn smallest_meeting(sets: &[Vec<usize>]) -> Option<Vec<usize>> {
+fn smallest_meeting(sets: &[Vec<usize>], steps: &mut usize) -> Option<Vec<usize>> {
     /// Whether `chosen` can be completed with at most `more` members; none after too many steps.
     fn complete(sets: &[Vec<usize>], chosen: &mut Vec<usize>, more: usize, steps: &mut usize) -> Option<bool> {
         *steps = steps.checked_sub(1)?;
@@ -86,10 +95,9 @@ fn smallest_meeting(sets: &[Vec<usize>]) -> Option<Vec<usize>> {
         }
         Some(false)
     }
-    let mut steps = STEPS;
     for size in 0..=sets.len() {
         let mut chosen = Vec::new();
-        if complete(sets, &mut chosen, size, &mut steps)? {
+        if complete(sets, &mut chosen, size, steps)? {
             return Some(chosen);
         }
     }

@@ -212,6 +212,25 @@ impl Group {
             .collect()
     }
 
+    /// Which levels of one member go with the fixed ones.
+    pub(super) fn supported_at(&self, parameter: usize, fixed: impl Fn(usize) -> Option<usize>) -> Vec<bool> {
+        let place = self.place(parameter).expect("the parameter is a member");
+        if let Engine::Diagram(_) = self.engine {
+            return self.supported(fixed).swap_remove(place);
+        }
+        // Each answer may cost a search, so no more is asked than has to be known.
+        let mut classes = self.classes(&fixed);
+        let level = fixed(parameter);
+        let supported = (0..self.sizes[place].len()).map(|class| {
+            let wanted = level.is_none_or(|level| self.class_of[place][level] == class);
+            classes[place] = Some(class);
+            wanted && self.holds_classes(&classes)
+        });
+        let supported: Vec<bool> = supported.collect();
+        let levels = self.class_of[place].iter().enumerate();
+        levels.map(|(other, &class)| supported[class] && level.is_none_or(|level| level == other)).collect()
+    }
+
     /// How many ways there are to choose the members; none where that cannot be counted.
     pub(super) fn tests(&self) -> Option<f64> {
         match &self.engine {

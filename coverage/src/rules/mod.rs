@@ -123,6 +123,21 @@ impl Rules {
         self.groups[group].supported(fixed)
     }
 
+    /// For each level of a parameter, whether a test that keeps the constraints has it together with what is
+    /// `fixed`.
+    ///
+    /// # Panics
+    /// There is no such parameter, or a level does not exist.
+    pub fn supported_at(&self, parameter: usize, fixed: impl Fn(usize) -> Option<usize>) -> Vec<bool> {
+        match self.group_of[parameter] {
+            Some(group) => self.groups[group].supported_at(parameter, fixed),
+            None => {
+                let chosen = fixed(parameter);
+                (0..self.levels[parameter]).map(|level| chosen.is_none_or(|chosen| chosen == level)).collect()
+            }
+        }
+    }
+
     /// The first test in lexicographic order that keeps all constraints and has what is fixed; none if there is
     /// no such test. The order is the parameters' within each group.
     pub fn completes(&self, partial: &[Option<usize>]) -> Option<Vec<usize>> {

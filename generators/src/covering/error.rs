@@ -13,6 +13,9 @@ pub enum CoveringError {
         /// The number of parameters.
         parameters: usize,
     },
+    /// A parameter that no test can have.
+    #[error("parameter {0} has no level")]
+    NoLevel(usize),
     /// There are no sets of so many parameters in a group.
     #[error("group {group} has strength {strength}, expected 1 to {parameters}, the number of its parameters")]
     GroupStrength {

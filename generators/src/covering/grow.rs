@@ -10,12 +10,16 @@ use super::open_rows::OpenRows;
 use super::rows::{Columns, OPEN, Rows};
 use crate::seeded::mix;
 use paracosm_coverage::rules::Companions;
+use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// With more rows than these, a row may be next that covers half as much as another seems to: rows are looked at
 /// anew some five times less often, for 4 % more of them.
 const HURRY: usize = 4000;
+
+/// With so many rows, all cores look at them first.
+const ROWS_FOR_ALL_CORES: usize = 5000;
 
 /// What a row gets and then covers.
 #[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -59,20 +63,25 @@ impl Growth<'_> {
     fn grow_right(&self, rows: &mut Rows, fronts: &mut [Front], column: usize) {
         let mut bits: Vec<Bits> = vec![Vec::new(); fronts.len()];
         let mut gains = vec![0u32; self.columns.levels[column]];
-        let mut waiting = BinaryHeap::new();
-        for index in 0..rows.len() {
-            let row = rows.row(index);
-            if row[column] == OPEN {
-                if let Some(choice) = self.choice(row, index, fronts, &mut bits, &mut gains, column) {
-                    waiting.push(choice);
-                }
-            } else {
-                for front in fronts.iter_mut() {
-                    front.bits_of(row, &mut bits[0]);
-                    front.cover(self.columns, row, &bits[0]);
-                }
+        for index in (0..rows.len()).filter(|&index| rows.row(index)[column] != OPEN) {
+            for front in fronts.iter_mut() {
+                front.bits_of(rows.row(index), &mut bits[0]);
+                front.cover(self.columns, rows.row(index), &bits[0]);
             }
         }
+        let first_choice = |bits: &mut [Bits], gains: &mut [u32], index: usize| {
+            let row = rows.row(index);
+            (row[column] == OPEN).then(|| self.choice(row, index, fronts, bits, gains, column)).flatten()
+        };
+        let mut waiting: BinaryHeap<Choice> = if rows.len() < ROWS_FOR_ALL_CORES {
+            (0..rows.len()).filter_map(|index| first_choice(&mut bits, &mut gains, index)).collect()
+        } else {
+            let own = || (bits.clone(), gains.clone());
+            let choices = (0..rows.len())
+                .into_par_iter()
+                .map_init(own, |(bits, gains), index| pulp::Arch::new().dispatch(|| first_choice(bits, gains, index)));
+            choices.collect::<Vec<_>>().into_iter().flatten().collect()
+        };
         let patience = if rows.len() > HURRY { 2 } else { 1 };
         while let Some(choice) = waiting.pop() {
             let index = choice.index();

@@ -75,7 +75,7 @@ pub struct CoveringArray {
 /// Constructs a covering array.
 ///
 /// # Errors
-/// A strength is 0 or more than there are parameters to combine, a group names a parameter that does not exist
+/// A strength is 0 or more than there are parameters to combine, a parameter has no level, a group names a parameter that does not exist
 /// or one twice, an existing test is none of this space, or the array would be too large.
 pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, CoveringError> {
     request.check()?;
@@ -128,6 +128,9 @@ impl CoveringRequest<'_> {
         let parameters = levels.len();
         if self.k == 0 || self.k > parameters {
             return Err(CoveringError::Strength { k: self.k, parameters });
+        }
+        if let Some(parameter) = levels.iter().position(|&levels| levels == 0) {
+            return Err(CoveringError::NoLevel(parameter));
         }
         for (group, (members, strength)) in self.groups.iter().enumerate() {
             if *strength == 0 || *strength > members.len() {

@@ -6,14 +6,20 @@ use super::symmetric::{Symmetric, symmetric_searches};
 use super::{CoveringArray, CoveringRequest};
 use crate::seeded::mix;
 use paracosm_coverage::Deadline;
-use rayon::prelude::*;
 use std::sync::Mutex;
+use std::thread;
 
 /// How many steps are taken between looks at the clock.
 const STEPS_BETWEEN_LOOKS: usize = 64;
 
+/// How many cells all searches have together, four bytes each, unless already one has more.
+const CELLS_AT_ONCE: usize = 12_000_000;
+
+/// With more cells there is no search for symmetric arrays.
+const CELLS_OF_SYMMETRIC: usize = 1_000_000;
+
 /// The work of polishing, in visits of cells: well below 0.1 s.
-const POLISH_WORK: usize = 4_000_000;
+const POLISH_WORK: usize = 3_800_000;
 
 /// The work of a step beside its visits of cells and its look at the rows.
 const STEP_WORK: usize = 300;
@@ -36,21 +42,25 @@ pub fn optimise(
     let goal = (array.lower_bound as usize).max(array.kept);
     let CoveringArray { rows, kept, invalid, lower_bound } = array;
     let best = Best { rows: Mutex::new(rows), goal, deadline, progress };
-    let mut symmetric = if kept == 0 && cells.len() == 1 { symmetric_searches(request) } else { Vec::new() };
+    let all_cells: usize = cells.iter().map(Cells::len).sum();
+    let chains = rayon::current_num_threads().min((CELLS_AT_ONCE / all_cells).max(1));
+    let mut symmetric = if kept == 0 && cells.len() == 1 && all_cells <= CELLS_OF_SYMMETRIC {
+        symmetric_searches(request)
+    } else {
+        Vec::new()
+    };
     let rows_search = |chain: usize| {
         let seed = mix(request.seed ^ mix(chain as u64));
         best.search_rows(|rows| Search::new(request.rules, cells.clone(), rows, kept, seed));
     };
-    let chains = rayon::current_num_threads();
-    if symmetric.is_empty() {
-        (0..chains).into_par_iter().for_each(rows_search);
-    } else {
-        // At least one core for each way.
-        let rows_searches = || (0..(chains / 2).max(1)).into_par_iter().for_each(rows_search);
-        let share = symmetric.len().div_ceil((chains / 2).max(1));
-        let symmetric = || symmetric.par_chunks_mut(share).for_each(|share| best.search_symmetric(share));
-        rayon::join(symmetric, rows_searches);
-    }
+    // Threads of their own: on a single core, too, the searches share the time.
+    thread::scope(|scope| {
+        let rows_search = &rows_search;
+        for chain in 0..(chains - usize::from(!symmetric.is_empty())).max(1) {
+            scope.spawn(move || rows_search(chain));
+        }
+        best.search_symmetric(&mut symmetric);
+    });
     let rows = best.rows.into_inner().expect("no search panics");
     let rows = order(request.rules, request.k, rows, kept);
     CoveringArray { rows, kept, invalid, lower_bound }

@@ -54,9 +54,8 @@ impl<'r> Columns<'r> {
 
     /// Which levels an open entry of a row may get; none where it may get any.
     pub(super) fn allowed(&self, column: usize, row: &[u32]) -> Option<Vec<bool>> {
-        let group = self.group(column)?;
-        let place = self.rules.members(group).binary_search(&self.order[column]).ok()?;
-        Some(self.rules.supported(group, self.fixed(row)).swap_remove(place))
+        self.group(column)?;
+        Some(self.rules.supported_at(self.order[column], self.fixed(row)))
     }
 
     /// A complete row as levels by parameter.

@@ -9,7 +9,12 @@ use paracosm_coverage::rules::Rules;
 const WANDER: usize = 500;
 
 /// Steps for which an entry stays as it is after a change: so many, and up to as many more.
-const TENURE: usize = 4;
+const TENURE: usize = 2;
+
+/// After so many steps without progress, entries stay as they are twice as long; after some doublings, as short as
+/// at first. What is near is searched more thoroughly with the one, what is trapped comes free with the other.
+const PATIENCE: u64 = 3000;
+const DOUBLINGS: u64 = 4;
 
 /// How many missing cells are looked at to rate a change.
 const LOOKED_AT: usize = 256;
@@ -34,8 +39,9 @@ pub(crate) struct Search {
     free_at: Vec<Vec<u64>>,
     step: u64,
     chance: u64,
-    /// How few cells have been missing since the last row was dropped.
+    /// How few cells have been missing since the last row was dropped, and since which step.
     fewest: usize,
+    progressed: u64,
 }
 
 /// The change of an entry.
@@ -78,6 +84,7 @@ impl Search {
             step: 0,
             chance: mix(seed),
             fewest: 0,
+            progressed: 0,
         };
         let Self { families, rows, tally, .. } = &mut search;
         for (index, row) in rows.iter().enumerate() {
@@ -154,6 +161,7 @@ impl Search {
             cells.each(row, None, &mut |cell, chosen| tally.leave(family, cells, index, row, cell, chosen));
         }
         self.fewest = self.missing();
+        self.progressed = self.step;
         true
     }
 
@@ -196,10 +204,14 @@ impl Search {
         }
         for &(parameter, _) in changes {
             self.flip(index, parameter);
-            let tenure = TENURE + self.draw(TENURE + 1);
+            let tenure = TENURE << ((self.step - self.progressed) / PATIENCE % DOUBLINGS);
+            let tenure = tenure + self.draw(tenure + 1);
             self.free_at[index][parameter] = self.step + tenure as u64;
         }
-        self.fewest = self.fewest.min(self.missing());
+        if self.missing() < self.fewest {
+            self.fewest = self.missing();
+            self.progressed = self.step;
+        }
     }
 
     /// Takes so many steps, fewer if nothing is missing any more.
