@@ -90,21 +90,16 @@ impl Atom {
     }
 
     /// What the statement is worth of each of these rows, `dt` seconds apart.
-    pub fn column<'a>(&self, rows: impl Iterator<Item = &'a [f64]>, dt: f64) -> Result<Vec<Worth>, EvaluationError> {
-        // The common kind, for which the way through the expressions would take longer than the comparison.
-        if let Statement::Compare(Number::Column(column), comparison, Number::Constant(threshold)) = self.statement
-            && !threshold.is_nan()
-        {
-            let worth = |(tick, row): (usize, &[f64])| {
-                let sample = row[column];
-                if sample.is_nan() {
-                    return Err(self.complaint(row, tick as f64 * dt));
-                }
-                Ok(comparison.worth(sample, threshold).flipped(self.negated))
-            };
-            return rows.enumerate().map(worth).collect();
+    pub fn column<'a>(
+        &self,
+        rows: impl ExactSizeIterator<Item = &'a [f64]>,
+        dt: f64,
+    ) -> Result<Vec<Worth>, EvaluationError> {
+        let mut worths = Vec::with_capacity(rows.len());
+        for (tick, row) in rows.enumerate() {
+            worths.push(self.at(row, || tick as f64 * dt)?);
         }
-        rows.enumerate().map(|(tick, row)| self.at(row, || tick as f64 * dt)).collect()
+        Ok(worths)
     }
 
     #[cold]

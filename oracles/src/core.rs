@@ -51,6 +51,18 @@ pub(crate) struct Node {
     pub dual: bool,
 }
 
+impl Node {
+    pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {
+        let operands = match self.kind {
+            Kind::Atom(_) => [None, None],
+            Kind::Or(left, right) => [Some(left), Some(right)],
+            Kind::Any { operand, .. } => [Some(operand), None],
+            Kind::Until { hold, goal, .. } => [Some(hold), Some(goal)],
+        };
+        operands.into_iter().flatten()
+    }
+}
+
 /// The nodes of a formula, operands first and the formula itself last.
 #[derive(Debug, Clone)]
 pub(crate) struct Core {
@@ -99,21 +111,12 @@ impl Core {
         *needed.last_mut().expect("a formula has a node") = ticks.min(1);
         for (id, node) in self.nodes.iter().enumerate().rev() {
             let own = needed[id];
-            let mut need = |operand: Id, sight: Sight| {
-                let ahead = if sight.past { 0 } else { sight.end };
-                needed[operand] = needed[operand].max(ticks.min(own.saturating_add(ahead)));
+            let ahead = match node.kind {
+                Kind::Any { sight, .. } | Kind::Until { sight, .. } if !sight.past => sight.end,
+                _ => 0,
             };
-            match node.kind {
-                Kind::Atom(_) => {}
-                Kind::Or(left, right) => {
-                    needed[left] = needed[left].max(own);
-                    needed[right] = needed[right].max(own);
-                }
-                Kind::Any { operand, sight, .. } => need(operand, sight),
-                Kind::Until { hold, goal, sight } => {
-                    need(hold, sight);
-                    need(goal, sight);
-                }
+            for operand in node.operands() {
+                needed[operand] = needed[operand].max(ticks.min(own.saturating_add(ahead)));
             }
         }
         needed

@@ -1,7 +1,7 @@
 //! What a formula is worth on a trace, and why.
 
-use crate::core::{Beyond, Core, Id, Kind, Sight};
-use crate::offline::Columns;
+use crate::core::{Core, Id, Kind, Sight};
+use crate::offline::{Column, columns};
 use crate::worth::{Worth, truth};
 use crate::{EvaluationError, Formula, Trace, Truth};
 
@@ -58,12 +58,9 @@ impl Formula {
         if trace.is_empty() {
             return Ok(Evaluation::UNKNOWN);
         }
-        let columns = Columns::new(&core, trace);
-        let recorded = columns.root(Beyond::Nothing)?;
-        if columns.is_exact() {
-            return Ok(Evaluation::new(recorded, recorded, recorded));
-        }
-        Ok(Evaluation::new(recorded, columns.root(Beyond::Worst)?, columns.root(Beyond::Best)?))
+        let columns = columns(&core, trace, false)?;
+        let [recorded, lower, upper] = columns[columns.len() - 1].first();
+        Ok(Evaluation::new(recorded, lower, upper))
     }
 
     /// Which part of the formula, at which time, its robustness on this trace comes down to; if there are several, the
@@ -76,32 +73,32 @@ impl Formula {
         if trace.is_empty() {
             return Ok(None);
         }
-        let columns = Columns::new(&core, trace).all(Beyond::Nothing)?;
+        let columns = columns(&core, trace, true)?;
         let mut at = (columns.len() - 1, 0);
         while let Some(next) = responsible(&core, &columns, at) {
             at = next;
         }
-        let robustness = columns[columns.len() - 1][0].robustness();
+        let robustness = columns[columns.len() - 1].recorded[0].robustness();
         Ok(Some(Cause { time: at.1 as f64 * trace.dt(), part: parts[at.0], robustness }))
     }
 }
 
 /// The operand, and the tick of it, that the worth of a node at a tick is taken from.
-fn responsible(core: &Core, columns: &[Vec<Worth>], (id, tick): (Id, usize)) -> Option<(Id, usize)> {
+fn responsible(core: &Core, columns: &[Column], (id, tick): (Id, usize)) -> Option<(Id, usize)> {
     let dual = core.nodes[id].dual;
-    let worth = columns[id][tick].flipped(dual);
-    let of = |operand: Id, tick: usize| columns[operand][tick].flipped(dual);
+    let worth = columns[id].recorded[tick].flipped(dual);
+    let of = |operand: Id, tick: usize| columns[operand].recorded[tick].flipped(dual);
     match core.nodes[id].kind {
         Kind::Atom(_) => None,
         Kind::Or(left, right) => {
             [left, right].into_iter().find(|operand| of(*operand, tick) == worth).map(|operand| (operand, tick))
         }
         Kind::Any { operand, start, sight } => {
-            let mut seen = seen(tick, start, sight, columns[operand].len());
+            let mut seen = seen(tick, start, sight, columns[operand].recorded.len());
             seen.find(|at| of(operand, *at) == worth).map(|at| (operand, at))
         }
         Kind::Until { hold, goal, sight } => {
-            let length = columns[hold].len().min(columns[goal].len());
+            let length = columns[hold].recorded.len().min(columns[goal].recorded.len());
             let mut weakest = (Worth::BEST, tick);
             for at in seen(tick, 0, sight, length) {
                 let reached = of(goal, at);

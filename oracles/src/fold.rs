@@ -40,7 +40,7 @@ impl Fold for Clamp {
     }
 }
 
-/// A fold that is taken the other way round: for windows that move from the future to the past.
+/// A fold that is taken the other way round: for windows into the past.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reversed<T>(pub T);
 
@@ -49,6 +49,42 @@ impl<T: Fold> Fold for Reversed<T> {
 
     fn join(self, later: Self) -> Self {
         Self(later.0.join(self.0))
+    }
+}
+
+/// Replaces each value by the fold of itself and the `span` values behind it; beyond the last one all are `outside`.
+pub(crate) fn windows<T: Fold>(values: &mut [T], span: usize, outside: T) {
+    if span >= values.len() {
+        return suffixes(values, outside);
+    }
+    let size = span + 1;
+    let mut beginning = vec![outside; span];
+    for start in (0..values.len()).step_by(size) {
+        let end = values.len().min(start + size);
+        let (block, rest) = values[start..].split_at_mut(end - start);
+        let mut fold = T::NEUTRAL;
+        let mut behind = rest.iter();
+        for place in &mut beginning {
+            fold = fold.join(behind.next().copied().unwrap_or(outside));
+            *place = fold;
+        }
+        // The last block may be short; its windows then end in what is outside.
+        let mut fold = if block.len() < size { outside } else { T::NEUTRAL };
+        let (first, others) = block.split_first_mut().expect("no block is empty");
+        for (value, behind) in others.iter_mut().zip(&beginning).rev() {
+            fold = value.join(fold);
+            *value = fold.join(*behind);
+        }
+        *first = first.join(fold);
+    }
+}
+
+/// Replaces each value by the fold of itself and all behind it, and of what is outside.
+pub(crate) fn suffixes<T: Fold>(values: &mut [T], outside: T) {
+    let mut fold = outside;
+    for value in values.iter_mut().rev() {
+        fold = value.join(fold);
+        *value = fold;
     }
 }
 
@@ -108,15 +144,34 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn step((goal, hold): &(i8, i8)) -> Clamp {
+        Clamp { goal: Worth::of(f64::from(*goal)), hold: Worth::of(f64::from(*hold)) }
+    }
+
     proptest! {
+        #[test]
+        fn windows_fold_each_value_with_those_behind_it(
+            values in prop::collection::vec((-9..9i8, -9..9i8), 0..60),
+            span in 0..20usize,
+            outside in prop::sample::select(vec![Worth::WORST, Worth::of(0.0), Worth::BEST]),
+        ) {
+            let mut steps: Vec<_> = values.iter().map(step).collect();
+            let outside = Clamp { goal: outside, hold: outside };
+            let expected: Vec<_> = (0..steps.len())
+                .map(|at| {
+                    let seen = (at..=at + span).map(|at| steps.get(at).copied().unwrap_or(outside));
+                    seen.reduce(Clamp::join).unwrap()
+                })
+                .collect();
+            windows(&mut steps, span, outside);
+            prop_assert_eq!(steps, expected);
+        }
+
         #[test]
         fn a_window_folds_its_last_values_in_their_order(
             values in prop::collection::vec((-9..9i8, -9..9i8), 1..60),
             size in 1..20usize,
         ) {
-            let step = |(goal, hold): &(i8, i8)| {
-                Clamp { goal: Worth::of(f64::from(*goal)), hold: Worth::of(f64::from(*hold)) }
-            };
             let steps: Vec<_> = values.iter().map(step).collect();
             let mut window = Window::new(size, Clamp::NEUTRAL);
             let mut reversed = Window::new(size, Reversed(Clamp::NEUTRAL));
