@@ -1,6 +1,5 @@
 //! Comparisons with their signals found in the rows of a trace.
 
-use crate::error::nearest;
 use crate::expression::Arithmetic;
 use crate::worth::Worth;
 use crate::{Comparison, EvaluationError, Expression, Formula};
@@ -111,8 +110,6 @@ impl Atom {
 }
 
 fn column(name: &str, signals: &[String]) -> Result<usize, EvaluationError> {
-    signals.iter().position(|signal| signal == name).ok_or_else(|| EvaluationError::UnknownSignal {
-        name: name.to_owned(),
-        nearest: nearest(name, signals.iter().map(String::as_str)).map(str::to_owned),
-    })
+    let place = signals.iter().position(|signal| signal == name);
+    place.ok_or_else(|| EvaluationError::unknown(name, signals))
 }

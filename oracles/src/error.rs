@@ -35,9 +35,20 @@ pub enum EvaluationError {
         /// The interval that would be accepted.
         widened: Interval,
     },
+    /// An expression that is not piecewise linear where its signals are, or a truth that has no distance to the other:
+    /// neither can be followed between samples.
+    #[error("`{0}` is no piecewise linear function of its signals, as dense time asks for")]
+    NotLinear(String),
     /// Bounds that are no interval; only formulas built in Rust can have them.
     #[error("the time bounds [{},{}] are no interval, expected 0 <= start <= end in seconds", .0.start, .0.end)]
     Interval(Interval),
+}
+
+impl EvaluationError {
+    pub(crate) fn unknown(name: &str, signals: &[String]) -> Self {
+        let nearest = nearest(name, signals.iter().map(String::as_str)).map(str::to_owned);
+        EvaluationError::UnknownSignal { name: name.to_owned(), nearest }
+    }
 }
 
 /// The candidate most like `name`, by the normalised Damerau-Levenshtein distance without regard to case; none below

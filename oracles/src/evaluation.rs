@@ -3,7 +3,18 @@
 use crate::core::{Core, Id, Kind, Sight};
 use crate::offline::{Column, columns};
 use crate::worth::{Worth, truth};
-use crate::{EvaluationError, Formula, Trace, Truth};
+use crate::{EvaluationError, Formula, Trace, Truth, dense};
+
+/// What a trace says of the time between its samples.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Semantics {
+    /// Nothing: formulas speak of the samples.
+    #[default]
+    Sampled,
+    /// Signals are straight lines from sample to sample, and formulas speak of every instant. A robustness of 0 is left
+    /// undecided. Where a robustness jumps (no operator sees what was before time 0) both sides count at that instant.
+    Dense,
+}
 
 /// What a formula is worth at the beginning of a trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +57,19 @@ pub struct Cause<'f> {
 }
 
 impl Formula {
+    /// What the formula is worth at the beginning of the trace, by its samples or between them.
+    ///
+    /// # Errors
+    /// As for [`evaluate`](Self::evaluate); in dense time also if a comparison is not piecewise linear or a sample is
+    /// infinite, while time bounds may be any.
+    pub fn evaluate_in(&self, semantics: Semantics, trace: &Trace) -> Result<Evaluation, EvaluationError> {
+        match semantics {
+            Semantics::Sampled => self.evaluate(trace),
+            Semantics::Dense if trace.is_empty() => Ok(Evaluation::UNKNOWN),
+            Semantics::Dense => dense::evaluate(self, trace),
+        }
+    }
+
     /// What the formula is worth at the beginning of the trace, in time linear in the trace whatever the time bounds.
     ///
     /// On a trace without a sample nothing is decided, and the robustness is NaN.

@@ -41,6 +41,7 @@
 mod atom;
 mod comparison;
 mod core;
+mod dense;
 mod error;
 mod evaluation;
 mod expression;
@@ -58,7 +59,7 @@ mod worth;
 
 pub use comparison::Comparison;
 pub use error::EvaluationError;
-pub use evaluation::{Cause, Evaluation};
+pub use evaluation::{Cause, Evaluation, Semantics};
 pub use expression::{Arithmetic, Expression, signal};
 pub use formula::{Connective, Formula, Modality, Sequence, flag};
 pub use interval::Interval;

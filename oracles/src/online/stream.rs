@@ -111,11 +111,8 @@ impl Stream {
                         let (left, right) = (rests[*left].get(at).map(value), rests[*right].get(at).map(value));
                         rest.extend(state.meet(left, right));
                     }
-                    match (state, &node.kind) {
-                        (State::Until(_, scan), Kind::Until { sight, .. }) => {
-                            rest.extend(scan.rest(own, clamp(*sight)).iter().map(|clamp| clamp.goal));
-                        }
-                        _ => {}
+                    if let (State::Until(_, scan), Kind::Until { sight, .. }) = (state, &node.kind) {
+                        rest.extend(scan.rest(own, clamp(*sight)).iter().map(|clamp| clamp.goal));
                     }
                     rest
                 }

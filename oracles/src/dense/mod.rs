@@ -1,0 +1,249 @@
+//! Formulas in dense time: between two samples signals are straight lines, and nothing that happens there is missed.
+//!
+//! Every sub-formula becomes a piecewise linear function of time, from the comparisons up. Comparisons must be
+//! piecewise linear for that: sums, differences, `abs`, `min`, `max`, and products with and quotients by constants.
+
+mod wave;
+
+use crate::core::Beyond;
+use crate::expression::Arithmetic;
+use crate::{Comparison, Connective, Evaluation, EvaluationError, Expression, Formula, Interval, Modality, Sequence};
+use crate::{Trace, Truth};
+use wave::Wave;
+
+/// What a formula is worth at the beginning of a trace that has samples.
+pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, EvaluationError> {
+    let dense = Dense { trace, end: (trace.len() - 1) as f64 * trace.dt() };
+    let worth = |beyond| Ok(dense.wave(formula, 0.0, beyond)?.first());
+    let robustness = worth(Beyond::Nothing)?;
+    let (lower, upper) = if dense.is_settled(formula, 0.0) {
+        (robustness, robustness)
+    } else {
+        (worth(Beyond::Worst)?, worth(Beyond::Best)?)
+    };
+    let truth = if lower > 0.0 {
+        Truth::Holds
+    } else if upper < 0.0 {
+        Truth::Violated
+    } else {
+        Truth::Undecided
+    };
+    Ok(Evaluation { truth, robustness, lower, upper })
+}
+
+/// A trace in dense time.
+struct Dense<'a> {
+    trace: &'a Trace,
+    /// The time of the last sample.
+    end: f64,
+}
+
+impl Dense<'_> {
+    /// Whether the formula, from time 0 to `needed`, asks for nothing beyond the end.
+    fn is_settled(&self, formula: &Formula, needed: f64) -> bool {
+        match formula {
+            Formula::Constant(_) | Formula::Flag(_) | Formula::Compare(..) => true,
+            Formula::Not(inner) | Formula::Modal(Modality::Historically | Modality::Once, _, inner) => {
+                self.is_settled(inner, needed)
+            }
+            Formula::Join(_, left, right) | Formula::Sequence(Sequence::Since, _, left, right) => {
+                self.is_settled(left, needed) && self.is_settled(right, needed)
+            }
+            Formula::Modal(_, interval, inner) => self.is_in_sight(interval, needed, &[inner]),
+            Formula::Sequence(_, interval, left, right) => self.is_in_sight(interval, needed, &[left, right]),
+        }
+    }
+
+    fn is_in_sight(&self, interval: &Interval, needed: f64, operands: &[&Formula]) -> bool {
+        let seen = needed + interval.end;
+        let within = seen <= self.end || (interval.end.is_infinite() && self.trace.is_complete());
+        within && operands.iter().all(|operand| self.is_settled(operand, seen.min(self.end)))
+    }
+
+    /// What the formula is worth from time 0 at least to `needed`.
+    fn wave(&self, formula: &Formula, needed: f64, beyond: Beyond) -> Result<Wave, EvaluationError> {
+        match formula {
+            Formula::Constant(truth) => {
+                Ok(Wave::constant(if *truth { f64::INFINITY } else { f64::NEG_INFINITY }, self.end))
+            }
+            Formula::Flag(_) => Err(EvaluationError::NotLinear(formula.to_string())),
+            Formula::Compare(left, comparison, right) => self.comparison(formula, left, *comparison, right),
+            Formula::Not(inner) => Ok(self.wave(inner, needed, beyond.opposite())?.scaled(-1.0)),
+            Formula::Join(connective, left, right) => {
+                let negated = *connective == Connective::Implies;
+                let left = self.wave(left, needed, if negated { beyond.opposite() } else { beyond })?;
+                let right = self.wave(right, needed, beyond)?;
+                Ok(match connective {
+                    Connective::And => left.min(&right),
+                    Connective::Or => left.max(&right),
+                    Connective::Implies => left.scaled(-1.0).max(&right),
+                })
+            }
+            Formula::Modal(modality, interval, inner) => {
+                let past = matches!(modality, Modality::Historically | Modality::Once);
+                let dual = matches!(modality, Modality::Always | Modality::Historically);
+                let scope = self.scope(*interval, past, dual, needed, beyond)?;
+                let inner = scope.turned(self.wave(inner, scope.asked, beyond)?);
+                Ok(scope.turned(scope.any(inner)))
+            }
+            Formula::Sequence(sequence, interval, hold, goal) => {
+                let past = *sequence == Sequence::Since;
+                let scope = self.scope(*interval, past, *sequence == Sequence::Release, needed, beyond)?;
+                let hold = scope.turned(self.wave(hold, scope.asked, beyond)?);
+                let goal = scope.turned(self.wave(goal, scope.asked, beyond)?);
+                Ok(scope.turned(scope.until(hold, goal)))
+            }
+        }
+    }
+
+    fn comparison(
+        &self,
+        formula: &Formula,
+        left: &Expression,
+        comparison: Comparison,
+        right: &Expression,
+    ) -> Result<Wave, EvaluationError> {
+        let linear = |expression| {
+            let wave = self.number(expression)?;
+            wave.ok_or_else(|| EvaluationError::NotLinear(formula.to_string()))
+        };
+        let margin = match constant(right) {
+            Some(threshold) => linear(left)?.raised(-threshold),
+            None => linear(left)?.sum(&linear(right)?.scaled(-1.0)),
+        };
+        if let Some((time, _)) = margin.points().iter().find(|point| !point.1.is_finite()) {
+            return Err(EvaluationError::NoValue { what: formula.to_string(), time: *time });
+        }
+        let distance = |margin: Wave| margin.max(&margin.clone().scaled(-1.0));
+        Ok(match comparison {
+            Comparison::Below | Comparison::AtMost => margin.scaled(-1.0),
+            Comparison::Above | Comparison::AtLeast => margin,
+            Comparison::Equal => distance(margin).scaled(-1.0),
+            Comparison::Different => distance(margin),
+        })
+    }
+
+    /// The expression over time; nothing if it is not piecewise linear.
+    fn number(&self, expression: &Expression) -> Result<Option<Wave>, EvaluationError> {
+        if let Some(number) = constant(expression) {
+            return Ok(Some(Wave::constant(number, self.end)));
+        }
+        Ok(match expression {
+            Expression::Number(number) => Some(Wave::constant(*number, self.end)),
+            Expression::Signal(name) => Some(self.signal(name)?),
+            Expression::Negate(inner) => self.number(inner)?.map(|wave| wave.scaled(-1.0)),
+            Expression::Absolute(inner) => self.number(inner)?.map(|wave| wave.max(&wave.clone().scaled(-1.0))),
+            Expression::Binary(Arithmetic::Multiply, left, right) => match (constant(left), constant(right)) {
+                (Some(factor), _) => self.number(right)?.map(|wave| wave.scaled(factor)),
+                (_, Some(factor)) => self.number(left)?.map(|wave| wave.scaled(factor)),
+                _ => None,
+            },
+            Expression::Binary(Arithmetic::Divide, left, right) => match constant(right) {
+                Some(divisor) => self.number(left)?.map(|wave| wave.scaled(divisor.recip())),
+                None => None,
+            },
+            Expression::Binary(operation, left, right) => {
+                let (Some(left), Some(right)) = (self.number(left)?, self.number(right)?) else { return Ok(None) };
+                Some(match operation {
+                    Arithmetic::Add => left.sum(&right),
+                    Arithmetic::Subtract => left.sum(&right.scaled(-1.0)),
+                    Arithmetic::Least => left.min(&right),
+                    _ => left.max(&right),
+                })
+            }
+        })
+    }
+
+    fn signal(&self, name: &str) -> Result<Wave, EvaluationError> {
+        let samples = self.trace.signal(name).ok_or_else(|| EvaluationError::unknown(name, self.trace.signals()))?;
+        let mut points = Vec::with_capacity(samples.len());
+        for (tick, sample) in samples.enumerate() {
+            let time = tick as f64 * self.trace.dt();
+            if !sample.is_finite() {
+                return Err(EvaluationError::NoValue { what: name.to_owned(), time });
+            }
+            points.push((time, sample));
+        }
+        Ok(Wave::new(points))
+    }
+
+    fn scope(
+        &self,
+        interval: Interval,
+        past: bool,
+        dual: bool,
+        needed: f64,
+        beyond: Beyond,
+    ) -> Result<Scope, EvaluationError> {
+        if !interval.is_valid() {
+            return Err(EvaluationError::Interval(interval));
+        }
+        let known = past || (interval.end.is_infinite() && self.trace.is_complete());
+        let outside = match beyond {
+            Beyond::Worst if !known => Some(f64::NEG_INFINITY),
+            Beyond::Best if !known => Some(f64::INFINITY),
+            _ => None,
+        };
+        let asked = if past { needed } else { self.end.min(needed + interval.end) };
+        let outside = outside.map(|worth| if dual { -worth } else { worth });
+        Ok(Scope { interval, past, dual, needed, asked, outside })
+    }
+}
+
+/// A temporal operator, written by its sibling that looks ahead and takes maxima.
+struct Scope {
+    interval: Interval,
+    past: bool,
+    dual: bool,
+    /// Until when it is asked for, and its operands therefore.
+    needed: f64,
+    asked: f64,
+    /// What its operands are worth beyond the end, if that is not nothing.
+    outside: Option<f64>,
+}
+
+impl Scope {
+    /// Between the operator and its sibling, to and fro.
+    fn turned(&self, wave: Wave) -> Wave {
+        let wave = if self.past { wave.cut(self.needed).reversed() } else { wave };
+        if self.dual { wave.scaled(-1.0) } else { wave }
+    }
+
+    fn any(&self, wave: Wave) -> Wave {
+        let Interval { start, end, .. } = self.interval;
+        let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
+        if end.is_finite() {
+            return wave.greatest(start, end, self.needed, outside);
+        }
+        let now = wave.greatest_from_now(outside);
+        if start == 0.0 { now } else { now.greatest(start, start, self.needed, outside) }
+    }
+
+    fn until(&self, hold: Wave, goal: Wave) -> Wave {
+        let Interval { start, end, .. } = self.interval;
+        let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
+        let mut until = Wave::until(&hold, &goal, outside);
+        if end.is_finite() {
+            // The goal is in sight, and it is reached, in sight or not: then it is reached in sight.
+            let needed = self.asked.min(self.needed + start);
+            until = until.min(&goal.greatest(0.0, end - start, needed, outside));
+        }
+        if start > 0.0 {
+            let fails = self.outside.map_or(f64::NEG_INFINITY, |worth| -worth);
+            let before = hold.scaled(-1.0).greatest(0.0, start, self.needed, fails).scaled(-1.0);
+            until = before.min(&until.greatest(start, start, self.needed, outside));
+        }
+        until
+    }
+}
+
+/// The value of an expression without signals.
+fn constant(expression: &Expression) -> Option<f64> {
+    Some(match expression {
+        Expression::Number(number) => *number,
+        Expression::Signal(_) => return None,
+        Expression::Negate(inner) => -constant(inner)?,
+        Expression::Absolute(inner) => constant(inner)?.abs(),
+        Expression::Binary(operation, left, right) => operation.apply(constant(left)?, constant(right)?),
+    })
+}
