@@ -7,7 +7,7 @@ use paracosm::Study;
 use paracosm::coverage::Space;
 use paracosm::engine::{driver, simulate};
 use paracosm::generators::{Request, Strategy};
-use paracosm::oracles::{Formula, Monitor, Trace};
+use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
 
 fn main() {
     divan::main();
@@ -85,6 +85,14 @@ fn offline(bencher: Bencher, formula: &str) {
     let trace = wandering();
     let formula: Formula = formula.parse().unwrap();
     bencher.counter(ItemsCount::new(trace.len())).bench(|| formula.evaluate(black_box(&trace)).unwrap());
+}
+
+/// Samples of a recorded trace, and the time between them.
+#[divan::bench(args = &FORMULAS[1..])]
+fn dense(bencher: Bencher, formula: &str) {
+    let trace = wandering();
+    let formula: Formula = formula.parse().unwrap();
+    bencher.counter(ItemsCount::new(trace.len())).bench(|| formula.evaluate_in(Semantics::Dense, &trace).unwrap());
 }
 
 /// Samples told one by one.

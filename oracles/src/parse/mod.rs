@@ -20,12 +20,14 @@
 //! characters than letters, digits, `_` and `.`, stands in quotation marks.
 
 mod error;
+mod operator;
 mod token;
 
 pub use error::ParseError;
 
 use crate::error::nearest;
-use crate::{Arithmetic, Comparison, Connective, Expression, Formula, Interval, Modality, Sequence};
+use crate::{Arithmetic, Connective, Expression, Formula, Interval, Modality};
+use operator::{Infix, strength};
 use std::str::FromStr;
 use token::Token;
 
@@ -57,19 +59,6 @@ const A_FORMULA: &str = "a formula";
 const A_NUMBER: &str = "a number or a signal";
 const A_COMPARISON: &str = "a comparison such as `<`";
 const AN_OPERATOR: &str = "an operator or the end";
-
-/// How strongly operators bind, see the [module](self).
-mod strength {
-    pub const IMPLIES: u8 = 1;
-    pub const OR: u8 = 2;
-    pub const AND: u8 = 3;
-    pub const SEQUENCE: u8 = 4;
-    pub const PREFIX: u8 = 5;
-    pub const COMPARISON: u8 = 6;
-    pub const SUM: u8 = 7;
-    pub const PRODUCT: u8 = 8;
-    pub const SIGN: u8 = 9;
-}
 
 /// Whether a signal of this name needs no quotation marks.
 pub(crate) fn is_plain_name(name: &str) -> bool {
@@ -118,50 +107,6 @@ fn parse(text: &str, signals: Option<Vec<&str>>) -> Result<Formula, ParseError> 
 enum Value {
     Formula(Formula, usize),
     Number(Expression, usize),
-}
-
-/// An operator between two values.
-#[derive(Clone, Copy)]
-enum Infix {
-    Join(Connective),
-    Sequence(Sequence),
-    Compare(Comparison),
-    Arithmetic(Arithmetic),
-}
-
-impl Infix {
-    fn of(token: &Token) -> Option<Self> {
-        let symbol = match token {
-            Token::Word(word) => word.as_str(),
-            Token::Symbol(symbol) => symbol,
-            Token::Number(_) | Token::Quoted(_) | Token::End => return None,
-        };
-        Some(match symbol {
-            "and" => Infix::Join(Connective::And),
-            "or" => Infix::Join(Connective::Or),
-            "implies" | "->" => Infix::Join(Connective::Implies),
-            "until" | "U" => Infix::Sequence(Sequence::Until),
-            "release" | "R" => Infix::Sequence(Sequence::Release),
-            "since" | "S" => Infix::Sequence(Sequence::Since),
-            "+" => Infix::Arithmetic(Arithmetic::Add),
-            "-" => Infix::Arithmetic(Arithmetic::Subtract),
-            "*" => Infix::Arithmetic(Arithmetic::Multiply),
-            "/" => Infix::Arithmetic(Arithmetic::Divide),
-            _ => Infix::Compare(Comparison::ALL.into_iter().find(|comparison| comparison.symbol() == symbol)?),
-        })
-    }
-
-    fn strength(self) -> u8 {
-        match self {
-            Infix::Join(Connective::Implies) => strength::IMPLIES,
-            Infix::Join(Connective::Or) => strength::OR,
-            Infix::Join(Connective::And) => strength::AND,
-            Infix::Sequence(_) => strength::SEQUENCE,
-            Infix::Compare(_) => strength::COMPARISON,
-            Infix::Arithmetic(Arithmetic::Add | Arithmetic::Subtract) => strength::SUM,
-            Infix::Arithmetic(_) => strength::PRODUCT,
-        }
-    }
 }
 
 struct Parser<'a> {
@@ -229,7 +174,7 @@ impl Parser<'_> {
                 break;
             }
             if strength == unchained {
-                return Err(self.refuse(AN_OPERATOR, Some(chain(infix).to_owned())));
+                return Err(self.refuse(AN_OPERATOR, Some(infix.unchained().to_owned())));
             }
             left = self.infix(left, infix)?;
             if matches!(infix, Infix::Compare(_) | Infix::Sequence(_)) {
@@ -444,12 +389,4 @@ impl Parser<'_> {
 
 fn quotes(word: &str) -> String {
     format!("`{word}` is a word of the language; a signal of that name stands in quotes")
-}
-
-/// What to do instead of chaining.
-fn chain(infix: Infix) -> &'static str {
-    match infix {
-        Infix::Compare(_) => "comparisons do not chain: write `a < b and b < c`",
-        _ => "`until`, `release` and `since` do not chain: use parentheses",
-    }
 }
