@@ -81,15 +81,6 @@ pub(crate) enum Beyond {
 }
 
 impl Beyond {
-    /// What is the same for the operands of a negation.
-    pub fn opposite(self) -> Self {
-        match self {
-            Beyond::Nothing => Beyond::Nothing,
-            Beyond::Worst => Beyond::Best,
-            Beyond::Best => Beyond::Worst,
-        }
-    }
-
     /// What the node takes for an operand beyond the end, before its own negations are undone; `None` for nothing.
     pub fn operand(self, node: &Node, sight: Sight, complete: bool) -> Option<Worth> {
         match self {

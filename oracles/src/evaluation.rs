@@ -12,7 +12,8 @@ pub enum Semantics {
     #[default]
     Sampled,
     /// Signals are straight lines from sample to sample, and formulas speak of every instant. A robustness of 0 is left
-    /// undecided. Where a robustness jumps (no operator sees what was before time 0) both sides count at that instant.
+    /// undecided. Where a robustness jumps, because an operator comes to see its first instant or loses sight of the
+    /// last one, it is at that instant what it was before.
     Dense,
 }
 

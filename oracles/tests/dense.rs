@@ -87,24 +87,28 @@ fn refined(trace: &Trace, share: usize) -> Trace {
 }
 
 /// Bounds at quarters of a second.
-fn intervals(from: std::ops::Range<u8>) -> impl Strategy<Value = Interval> {
-    let bounded = (from, 0..9u8).prop_map(|(start, length)| {
+fn bounded(from: std::ops::Range<u8>) -> BoxedStrategy<Interval> {
+    let bounds = (from, 0..9u8).prop_map(|(start, length)| {
         let start = 0.25 * f64::from(start);
         Interval::from(start..=start + 0.25 * f64::from(length))
     });
-    prop_oneof![5 => bounded, 1 => Just(Interval::from(..))]
+    bounds.boxed()
 }
 
-/// Formulas whose robustness does not jump where it is looked at from either side: at a jump, fine samples do not show
-/// what dense time has. So operators of the past see the instant at which they stand, and none of the future.
-fn formulas() -> impl Strategy<Value = Formula> {
+fn unbounded(_: std::ops::Range<u8>) -> BoxedStrategy<Interval> {
+    Just(Interval::UNBOUNDED).boxed()
+}
+
+/// Formulas in which operators of the past see the instant at which they stand, so that their robustness does not jump:
+/// at a jump, fine samples do not show what dense time has.
+fn formulas(intervals: fn(std::ops::Range<u8>) -> BoxedStrategy<Interval>) -> impl Strategy<Value = Formula> {
     let x = || prop::sample::select(&SIGNALS[..]).prop_map(signal);
     let leaf = prop_oneof![
         (x(), -3..=3i8).prop_map(|(x, y)| x.below(f64::from(y) / 2.0)),
         (x(), x()).prop_map(|(x, y)| x.above(y * 0.5)),
         (x(), x()).prop_map(|(x, y)| x.abs().max(y).equal_to(1.0)),
     ];
-    let past = leaf.prop_recursive(2, 4, 2, |inner| {
+    let past = leaf.prop_recursive(2, 4, 2, move |inner| {
         let back = (prop::sample::select(vec![Modality::Historically, Modality::Once]), intervals(0..1), inner.clone());
         prop_oneof![
             back.prop_map(|(modality, i, f)| Formula::Modal(modality, i, Box::new(f))),
@@ -112,7 +116,7 @@ fn formulas() -> impl Strategy<Value = Formula> {
             (inner.clone(), inner).prop_map(|(l, r)| l.or(!r)),
         ]
     });
-    past.prop_recursive(3, 8, 2, |inner| {
+    past.prop_recursive(3, 8, 2, move |inner| {
         use {Modality::*, Sequence::*};
         let pair = (inner.clone(), inner.clone());
         let ahead = (prop::sample::select(vec![Always, Eventually]), intervals(0..5), inner.clone());
@@ -127,32 +131,54 @@ fn formulas() -> impl Strategy<Value = Formula> {
     })
 }
 
-fn traces() -> impl Strategy<Value = Trace> {
+fn traces(ticks: std::ops::Range<usize>) -> impl Strategy<Value = Trace> {
     let row = prop::array::uniform3((-3..=3i8).prop_map(f64::from));
-    (prop::collection::vec(row, 1..9), any::<bool>()).prop_map(|(rows, complete)| {
+    prop::collection::vec(row, ticks).prop_map(|rows| {
         let mut trace = Trace::new(1.0, SIGNALS.map(str::to_owned).to_vec());
         rows.iter().for_each(|row| trace.record(row));
-        if complete {
-            trace.finish();
-        }
+        trace.finish();
         trace
     })
 }
 
-/// Equal but for what may happen between the fine samples.
-fn close(left: f64, right: f64) -> bool {
-    left == right || (left - right).abs() < 0.25
+/// Fails unless dense time agrees with fine samples, but for what may happen between those.
+fn check(formula: &Formula, trace: &Trace) -> Result<(), TestCaseError> {
+    let dense = formula.evaluate_in(Semantics::Dense, trace).unwrap();
+    let fine = formula.evaluate(&refined(trace, 128)).unwrap();
+    let close = |left: f64, right: f64| left == right || (left - right).abs() < 0.25;
+    prop_assert!(close(dense.robustness, fine.robustness), "{}: {:?} {:?}", formula, dense, fine);
+    prop_assert_eq!((dense.lower, dense.upper), (dense.robustness, dense.robustness), "{}", formula);
+    Ok(())
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(10_000))]
 
     #[test]
-    fn fine_samples_come_close_to_dense_time(formula in formulas(), trace in traces()) {
-        let dense = formula.evaluate_in(Semantics::Dense, &trace).unwrap();
-        let fine = formula.evaluate(&refined(&trace, 128)).unwrap();
-        prop_assert!(close(dense.robustness, fine.robustness), "{}: {:?} {:?}", formula, dense, fine);
-        prop_assert!(close(dense.lower, fine.lower), "{}: {:?} {:?}", formula, dense, fine);
-        prop_assert!(close(dense.upper, fine.upper), "{}: {:?} {:?}", formula, dense, fine);
+    fn fine_samples_come_close_to_dense_time((formula, trace) in formulas(bounded).prop_flat_map(|formula| {
+        let ticks = formula.horizon().ceil() as usize + 1;
+        (Just(formula), traces(ticks..ticks + 3))
+    })) {
+        check(&formula, &trace)?;
+    }
+
+    #[test]
+    fn fine_samples_come_close_to_dense_time_without_bounds(formula in formulas(unbounded), trace in traces(1..14)) {
+        check(&formula, &trace)?;
+    }
+
+    #[test]
+    fn what_comes_later_stays_within_the_bounds_of_a_trace_cut_short(
+        formula in prop_oneof![formulas(bounded), formulas(unbounded)],
+        trace in traces(1..14),
+        ticks in 1..9usize,
+    ) {
+        let mut cut = Trace::new(trace.dt(), trace.signals().to_vec());
+        trace.rows().take(ticks).for_each(|row| cut.record(row));
+        let early = formula.evaluate_in(Semantics::Dense, &cut).unwrap();
+        let late = formula.evaluate_in(Semantics::Dense, &trace).unwrap();
+        let nothing = 1e-9;
+        prop_assert!(early.lower <= early.robustness + nothing && early.robustness <= early.upper + nothing);
+        prop_assert!(early.lower <= late.lower + nothing && late.upper <= early.upper + nothing, "{}", formula);
     }
 }

@@ -3,24 +3,19 @@
 //! Every sub-formula becomes a piecewise linear function of time, from the comparisons up. Comparisons must be
 //! piecewise linear for that: sums, differences, `abs`, `min`, `max`, and products with and quotients by constants.
 
+mod track;
 mod wave;
 
-use crate::core::Beyond;
 use crate::expression::Arithmetic;
 use crate::{Comparison, Connective, Evaluation, EvaluationError, Expression, Formula, Interval, Modality, Sequence};
 use crate::{Trace, Truth};
+use track::{Track, reaches};
 use wave::Wave;
 
 /// What a formula is worth at the beginning of a trace that has samples.
 pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, EvaluationError> {
     let dense = Dense { trace, end: (trace.len() - 1) as f64 * trace.dt() };
-    let worth = |beyond| Ok(dense.wave(formula, 0.0, beyond)?.first());
-    let robustness = worth(Beyond::Nothing)?;
-    let (lower, upper) = if dense.is_settled(formula, 0.0) {
-        (robustness, robustness)
-    } else {
-        (worth(Beyond::Worst)?, worth(Beyond::Best)?)
-    };
+    let [robustness, lower, upper] = dense.track(formula, 0.0)?.first();
     let truth = if lower > 0.0 {
         Truth::Holds
     } else if upper < 0.0 {
@@ -39,59 +34,38 @@ struct Dense<'a> {
 }
 
 impl Dense<'_> {
-    /// Whether the formula, from time 0 to `needed`, asks for nothing beyond the end.
-    fn is_settled(&self, formula: &Formula, needed: f64) -> bool {
-        match formula {
-            Formula::Constant(_) | Formula::Flag(_) | Formula::Compare(..) => true,
-            Formula::Not(inner) | Formula::Modal(Modality::Historically | Modality::Once, _, inner) => {
-                self.is_settled(inner, needed)
-            }
-            Formula::Join(_, left, right) | Formula::Sequence(Sequence::Since, _, left, right) => {
-                self.is_settled(left, needed) && self.is_settled(right, needed)
-            }
-            Formula::Modal(_, interval, inner) => self.is_in_sight(interval, needed, &[inner]),
-            Formula::Sequence(_, interval, left, right) => self.is_in_sight(interval, needed, &[left, right]),
-        }
-    }
-
-    fn is_in_sight(&self, interval: &Interval, needed: f64, operands: &[&Formula]) -> bool {
-        let seen = needed + interval.end;
-        let within = seen <= self.end || (interval.end.is_infinite() && self.trace.is_complete());
-        within && operands.iter().all(|operand| self.is_settled(operand, seen.min(self.end)))
-    }
-
     /// What the formula is worth from time 0 at least to `needed`.
-    fn wave(&self, formula: &Formula, needed: f64, beyond: Beyond) -> Result<Wave, EvaluationError> {
+    fn track(&self, formula: &Formula, needed: f64) -> Result<Track, EvaluationError> {
         match formula {
             Formula::Constant(truth) => {
-                Ok(Wave::constant(if *truth { f64::INFINITY } else { f64::NEG_INFINITY }, self.end))
+                let worth = if *truth { f64::INFINITY } else { f64::NEG_INFINITY };
+                Ok(Track::settled(Wave::constant(worth, self.end), needed))
             }
             Formula::Flag(_) => Err(EvaluationError::NotLinear(formula.to_string())),
-            Formula::Compare(left, comparison, right) => self.comparison(formula, left, *comparison, right),
-            Formula::Not(inner) => Ok(self.wave(inner, needed, beyond.opposite())?.scaled(-1.0)),
+            Formula::Compare(left, comparison, right) => {
+                Ok(Track::settled(self.comparison(formula, left, *comparison, right)?, needed))
+            }
+            Formula::Not(inner) => Ok(self.track(inner, needed)?.negated()),
             Formula::Join(connective, left, right) => {
-                let negated = *connective == Connective::Implies;
-                let left = self.wave(left, needed, if negated { beyond.opposite() } else { beyond })?;
-                let right = self.wave(right, needed, beyond)?;
+                let (left, right) = (self.track(left, needed)?, self.track(right, needed)?);
                 Ok(match connective {
-                    Connective::And => left.min(&right),
-                    Connective::Or => left.max(&right),
-                    Connective::Implies => left.scaled(-1.0).max(&right),
+                    Connective::And => left.joined(&right, Wave::min),
+                    Connective::Or => left.joined(&right, Wave::max),
+                    Connective::Implies => left.negated().joined(&right, Wave::max),
                 })
             }
             Formula::Modal(modality, interval, inner) => {
                 let past = matches!(modality, Modality::Historically | Modality::Once);
                 let dual = matches!(modality, Modality::Always | Modality::Historically);
-                let scope = self.scope(*interval, past, dual, needed, beyond)?;
-                let inner = scope.turned(self.wave(inner, scope.asked, beyond)?);
-                Ok(scope.turned(scope.any(inner)))
+                let scope = self.scope(*interval, past, dual, needed)?;
+                let inner = self.track(inner, scope.asked)?;
+                Ok(scope.track([inner], |scope, [inner]| scope.any(inner)))
             }
             Formula::Sequence(sequence, interval, hold, goal) => {
                 let past = *sequence == Sequence::Since;
-                let scope = self.scope(*interval, past, *sequence == Sequence::Release, needed, beyond)?;
-                let hold = scope.turned(self.wave(hold, scope.asked, beyond)?);
-                let goal = scope.turned(self.wave(goal, scope.asked, beyond)?);
-                Ok(scope.turned(scope.until(hold, goal)))
+                let scope = self.scope(*interval, past, *sequence == Sequence::Release, needed)?;
+                let operands = [self.track(hold, scope.asked)?, self.track(goal, scope.asked)?];
+                Ok(scope.track(operands, |scope, [hold, goal]| scope.until(hold, goal)))
             }
         }
     }
@@ -167,30 +141,18 @@ impl Dense<'_> {
         Ok(Wave::new(points))
     }
 
-    fn scope(
-        &self,
-        interval: Interval,
-        past: bool,
-        dual: bool,
-        needed: f64,
-        beyond: Beyond,
-    ) -> Result<Scope, EvaluationError> {
+    fn scope(&self, interval: Interval, past: bool, dual: bool, needed: f64) -> Result<Scope, EvaluationError> {
         if !interval.is_valid() {
             return Err(EvaluationError::Interval(interval));
         }
-        let known = past || (interval.end.is_infinite() && self.trace.is_complete());
-        let outside = match beyond {
-            Beyond::Worst if !known => Some(f64::NEG_INFINITY),
-            Beyond::Best if !known => Some(f64::INFINITY),
-            _ => None,
-        };
         let asked = if past { needed } else { self.end.min(needed + interval.end) };
-        let outside = outside.map(|worth| if dual { -worth } else { worth });
-        Ok(Scope { interval, past, dual, needed, asked, outside })
+        let ends = interval.end.is_infinite() && self.trace.is_complete();
+        Ok(Scope { interval, past, dual, needed, asked, ends, outside: None })
     }
 }
 
 /// A temporal operator, written by its sibling that looks ahead and takes maxima.
+#[derive(Clone, Copy)]
 struct Scope {
     interval: Interval,
     past: bool,
@@ -198,11 +160,42 @@ struct Scope {
     /// Until when it is asked for, and its operands therefore.
     needed: f64,
     asked: f64,
+    /// Whether nothing is in sight beyond the end of the trace.
+    ends: bool,
     /// What its operands are worth beyond the end, if that is not nothing.
     outside: Option<f64>,
 }
 
 impl Scope {
+    /// The operator, of which `apply` computes the sibling.
+    fn track<const N: usize>(self, operands: [Track; N], apply: impl Fn(Self, [Wave; N]) -> Wave) -> Track {
+        let operator = |scope: Self, waves: [Wave; N]| scope.turned(apply(scope, waves.map(|wave| scope.turned(wave))));
+        let known = operands.iter().map(|track| track.settled).fold(f64::INFINITY, f64::min);
+        let settled = if self.past {
+            known
+        } else if self.ends && operands.iter().all(|track| track.open.is_none()) {
+            self.needed
+        } else {
+            known - self.interval.end
+        };
+        let is_open = !reaches(settled, self.needed);
+        let settled = settled.min(self.needed);
+        let open = is_open.then(|| {
+            [f64::NEG_INFINITY, f64::INFINITY].map(|worth| {
+                let base = if self.past { 0.0 } else { settled.max(0.0) };
+                let outside = (!self.past && !self.ends).then_some(if self.dual { -worth } else { worth });
+                let scope = Self { needed: self.needed - base, asked: self.asked - base, outside, ..self };
+                let waves = operands.each_ref().map(|track| track.after(usize::from(worth > 0.0), base));
+                operator(scope, waves).after(settled.max(0.0) - base)
+            })
+        });
+        Track {
+            recorded: operator(self, operands.map(|track| track.recorded)),
+            settled: settled.min(self.needed),
+            open,
+        }
+    }
+
     /// Between the operator and its sibling, to and fro.
     fn turned(&self, wave: Wave) -> Wave {
         let wave = if self.past { wave.cut(self.needed).reversed() } else { wave };
@@ -214,6 +207,9 @@ impl Scope {
         let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
         if end.is_finite() {
             return wave.greatest(start, end, self.needed, outside);
+        }
+        if self.needed == 0.0 && start == 0.0 && !self.past {
+            return Wave::constant(wave.greatest_of_all().max(outside), 0.0);
         }
         let now = wave.greatest_from_now(outside);
         if start == 0.0 { now } else { now.greatest(start, start, self.needed, outside) }

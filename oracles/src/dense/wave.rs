@@ -7,7 +7,7 @@
 use std::collections::VecDeque;
 
 /// How far beyond its end a function may be asked because of rounded sums of time bounds, relative to that time.
-const TOLERANCE: f64 = 1e-9;
+pub(super) const TOLERANCE: f64 = 1e-9;
 
 /// A piecewise linear function from time 0 on, as its breakpoints. It jumps where two follow at one instant, and may be
 /// infinite from one breakpoint to the next.
@@ -52,15 +52,41 @@ impl Wave {
         self
     }
 
-    /// The function up to an instant.
+    /// The function up to an instant and before a jump there.
     pub fn cut(mut self, end: f64) -> Self {
-        let within = self.0.partition_point(|point| point.0 <= end);
-        if within < self.0.len() {
-            let value = between(self.0[within - 1], self.0[within], end);
+        let within = self.0.partition_point(|point| point.0 < end);
+        if let Some(next) = self.0.get(within).copied() {
+            let value = within.checked_sub(1).map_or(next.1, |before| between(self.0[before], next, end));
             self.0.truncate(within);
-            push(&mut self.0, (end, value));
+            self.0.push((end, value));
         }
         self
+    }
+
+    /// The function from an instant on, counted from there.
+    pub fn after(&self, time: f64) -> Self {
+        let from = self.0.partition_point(|point| point.0 < time);
+        let later = self.0[from..].iter().map(|point| (point.0 - time, point.1));
+        let mut points = Vec::with_capacity(later.len() + 1);
+        match (from.checked_sub(1).map(|before| self.0[before]), self.0.get(from)) {
+            (Some(before), Some(next)) if next.0 > time => points.push((0.0, between(before, *next, time))),
+            (Some(before), None) => points.push((0.0, before.1)),
+            _ => {}
+        }
+        points.extend(later);
+        Self(points)
+    }
+
+    /// The function and, from its end on, another one.
+    pub fn followed_by(mut self, other: &Self) -> Self {
+        let end = self.end();
+        self.0.extend(other.0.iter().map(|point| (end + point.0, point.1)));
+        self
+    }
+
+    /// The greatest value of all.
+    pub fn greatest_of_all(&self) -> f64 {
+        self.0.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Every value more by a number.
@@ -154,7 +180,8 @@ impl Wave {
         while points.get(left).is_some_and(|point| point.0 - start < 0.0) {
             leave(&mut wedge, &mut left);
         }
-        let mut result = vec![(0.0, highest(&wedge).max(at(left, start)).max(at(entered, end)))];
+        let mut result = Vec::with_capacity(2 * points.len());
+        result.push((0.0, highest(&wedge).max(at(left, start)).max(at(entered, end))));
         let mut from = 0.0;
         loop {
             while points.get(entered).is_some_and(|point| point.0 - end <= from) {
@@ -202,14 +229,16 @@ impl Wave {
         let mut rest = outside;
         for Piece { from, to, lines: [(h0, h1), (g0, g1)] } in pieces.into_iter().rev() {
             // The best goal that is reached within this piece or after it, as far as `hold` is not what limits it.
-            let (hold, best) = if h1 > h0 || from == to {
+            let (hold, best) = if from == to {
+                // At a jump, what comes after it is reached only by way of what `hold` jumps to.
+                ((h1, h0), h1.min(rest))
+            } else if h1 > h0 {
                 ((h1, h0), g1.max(rest))
             } else {
                 // `hold` is least where the goal is reached.
                 let meeting = if g1 > g0 { meeting((h0, h1), (g0, g1)) } else { f64::NEG_INFINITY };
                 ((f64::INFINITY, f64::INFINITY), meeting.max(h1.min(rest)))
             };
-            let best = if from == to { rest } else { best };
             let piece = Piece { from: to, to: from, lines: [(g1, g0), hold, (best, best)] };
             piece.push(&mut result, |[goal, hold, best]| goal.max(hold.min(best)));
             rest = result[result.len() - 1].1;
