@@ -58,7 +58,8 @@ fn what_is_not_piecewise_linear_is_refused() {
     for (text, complaint) in [
         ("always (x * x > 0)", "`(x * x > 0)` is no piecewise linear function of its signals, as dense time asks for"),
         ("eventually x", "`x` is no piecewise linear function of its signals, as dense time asks for"),
-        ("always (x / 0 > 1)", "`(x / 0 > 1)` has no value at 0 s"),
+        ("always (x / 0 > 1)", "`x / 0` has no value at 0 s"),
+        ("always (min(x, 0 / 0) > 1)", "`0 / 0` has no value at 0 s"),
         ("always (xx > 1)", "the trace has no signal `xx` (did you mean `x`?)"),
     ] {
         assert_eq!(dense(text, &trace).unwrap_err().to_string(), complaint);

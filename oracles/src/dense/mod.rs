@@ -99,21 +99,35 @@ impl Dense<'_> {
 
     /// The expression over time; nothing if it is not piecewise linear.
     fn number(&self, expression: &Expression) -> Result<Option<Wave>, EvaluationError> {
+        // Minima and maxima would swallow what is no number.
+        let finite = |number: f64| {
+            let what = || EvaluationError::NoValue { what: expression.to_string(), time: 0.0 };
+            if number.is_finite() { Ok(number) } else { Err(what()) }
+        };
         if let Some(number) = constant(expression) {
-            return Ok(Some(Wave::constant(number, self.end)));
+            return Ok(Some(Wave::constant(finite(number)?, self.end)));
         }
         Ok(match expression {
-            Expression::Number(number) => Some(Wave::constant(*number, self.end)),
+            Expression::Number(_) => unreachable!("a number is constant"),
             Expression::Signal(name) => Some(self.signal(name)?),
             Expression::Negate(inner) => self.number(inner)?.map(|wave| wave.scaled(-1.0)),
             Expression::Absolute(inner) => self.number(inner)?.map(|wave| wave.max(&wave.clone().scaled(-1.0))),
             Expression::Binary(Arithmetic::Multiply, left, right) => match (constant(left), constant(right)) {
-                (Some(factor), _) => self.number(right)?.map(|wave| wave.scaled(factor)),
-                (_, Some(factor)) => self.number(left)?.map(|wave| wave.scaled(factor)),
+                (Some(factor), _) => {
+                    let factor = finite(factor)?;
+                    self.number(right)?.map(|wave| wave.scaled(factor))
+                }
+                (_, Some(factor)) => {
+                    let factor = finite(factor)?;
+                    self.number(left)?.map(|wave| wave.scaled(factor))
+                }
                 _ => None,
             },
             Expression::Binary(Arithmetic::Divide, left, right) => match constant(right) {
-                Some(divisor) => self.number(left)?.map(|wave| wave.scaled(divisor.recip())),
+                Some(divisor) => {
+                    let factor = finite(divisor.recip())?;
+                    self.number(left)?.map(|wave| wave.scaled(factor))
+                }
                 None => None,
             },
             Expression::Binary(operation, left, right) => {
