@@ -1,6 +1,6 @@
 //! A requirement: a formula with what a test report needs to speak of it.
 
-use crate::{Evaluation, Formula, Trace, UnknownSignal};
+use crate::{Evaluation, EvaluationError, Formula, Trace};
 
 /// What is asked of every run of a scenario.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +21,8 @@ impl Requirement {
     /// Judges a trace.
     ///
     /// # Errors
-    /// The formula names a signal that the trace does not have.
-    pub fn judge(&self, trace: &Trace) -> Result<Evaluation, UnknownSignal> {
+    /// The formula does not fit the trace, or a number that it depends on is NaN.
+    pub fn judge(&self, trace: &Trace) -> Result<Evaluation, EvaluationError> {
         self.formula.evaluate(trace)
     }
 }

@@ -1,7 +1,7 @@
 //! Requirements as programs state them: temporal operators over streams.
 
 use crate::stream::{Node, Sample, Stream};
-use paracosm_oracles::{Formula, Requirement};
+use paracosm_oracles::{Comparison, Formula, Requirement, signal};
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -44,15 +44,15 @@ pub struct Draft {
 
 impl Draft {
     pub(super) fn new(stated: Rc<RefCell<Vec<Stated>>>, id: &str, asked: Temporal) -> Self {
-        let (signal, compare) = comparison(&asked.event);
+        let (node, compare) = comparison(&asked.event);
         let formula = match asked.operator {
-            Operator::Never => Formula::Always(Box::new(Formula::Not(Box::new(compare)))),
-            Operator::Eventually => Formula::Eventually(Box::new(compare)),
+            Operator::Never => (!compare).always(..),
+            Operator::Eventually => compare.eventually(..),
         };
         let requirement =
             Requirement { id: id.to_owned(), text: formula.to_string(), formula, unit: String::new(), scale: 1.0 };
         let index = stated.borrow().len();
-        stated.borrow_mut().push(Stated { requirement, signal });
+        stated.borrow_mut().push(Stated { requirement, signal: node });
         Self { stated, index }
     }
 
@@ -83,10 +83,8 @@ fn comparison(event: &Stream<bool>) -> (Rc<Node>, Formula) {
     if let Node::Compare { left, comparison, right } = &*event.node
         && let Node::Constant(Sample::Number(threshold)) = **right
     {
-        let compare = Formula::Compare { signal: left.to_string(), comparison: *comparison, threshold };
-        return (left.clone(), compare);
+        return (left.clone(), signal(left.to_string()).compare(*comparison, threshold));
     }
-    let signal = event.node.to_string();
-    let compare = Formula::Compare { signal, comparison: paracosm_oracles::Comparison::AtLeast, threshold: 1.0 };
-    (event.node.clone(), compare)
+    let truth = signal(event.node.to_string()).compare(Comparison::AtLeast, 1.0);
+    (event.node.clone(), truth)
 }

@@ -1,0 +1,180 @@
+//! Formulas reduced to four kinds of nodes, with times in ticks and signals as columns.
+//!
+//! Negations are pushed to the comparisons, and every operator is written by its sibling that takes maxima:
+//! conjunction, `always` and `release` are disjunction, `eventually` and `until` between two negations, which the mark
+//! `dual` stands for. What is left is monotone, so that what is unknown can be bounded from either side by itself. A
+//! sequence that begins later is taken apart, `a until[s,e] b = always[0,s-1] a and next[s] (a until[0,e-s] b)`; the
+//! parts share their operands, and so the nodes form an acyclic graph, operands first.
+
+use crate::atom::Atom;
+use crate::interval::FOREVER;
+use crate::worth::Worth;
+use crate::{Connective, EvaluationError, Formula, Modality, Sequence};
+
+/// A node's place in the graph.
+pub(crate) type Id = usize;
+
+/// Which way in time an operator looks, and how it ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Sight {
+    pub past: bool,
+    /// The last tick, counted from where the operator stands; [`FOREVER`] if there is none.
+    pub end: usize,
+    /// Whether the operator as written has no end. It then runs to the end of the trace, and what comes after it does
+    /// not exist; otherwise that is unknown.
+    pub endless: bool,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Kind {
+    Atom(Atom),
+    /// The greater of the two.
+    Or(Id, Id),
+    /// The greatest from tick `start` to the end, counted from where it stands.
+    Any {
+        operand: Id,
+        start: usize,
+        sight: Sight,
+    },
+    /// The greatest, over all ticks to the end, of the lesser of `goal` then and the least of `hold` before then.
+    Until {
+        hold: Id,
+        goal: Id,
+        sight: Sight,
+    },
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    pub kind: Kind,
+    /// Operands and result are negated.
+    pub dual: bool,
+}
+
+impl Node {
+    pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {
+        let operands = match self.kind {
+            Kind::Atom(_) => [None, None],
+            Kind::Or(left, right) => [Some(left), Some(right)],
+            Kind::Any { operand, .. } => [Some(operand), None],
+            Kind::Until { hold, goal, .. } => [Some(hold), Some(goal)],
+        };
+        operands.into_iter().flatten()
+    }
+}
+
+/// The nodes of a formula, operands first and the formula itself last.
+#[derive(Debug, Clone)]
+pub(crate) struct Core {
+    pub nodes: Vec<Node>,
+}
+
+/// What stands for the worth of a formula beyond the end of the trace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Beyond {
+    /// Nothing: what was recorded is all that counts.
+    Nothing,
+    /// The worst that could follow.
+    Worst,
+    /// The best.
+    Best,
+}
+
+impl Beyond {
+    /// What the node takes for an operand beyond the end, before its own negations are undone; `None` for nothing.
+    pub fn operand(self, node: &Node, sight: Sight, complete: bool) -> Option<Worth> {
+        match self {
+            _ if sight.past || (sight.endless && complete) => None,
+            Beyond::Nothing => None,
+            Beyond::Worst => Some(Worth::WORST.flipped(node.dual)),
+            Beyond::Best => Some(Worth::BEST.flipped(node.dual)),
+        }
+    }
+}
+
+impl Core {
+    /// Reduces a formula over rows of these signals, `dt` seconds apart. Also tells of which sub-formula each node is
+    /// part.
+    pub fn new<'f>(
+        formula: &'f Formula,
+        signals: &[String],
+        dt: f64,
+    ) -> Result<(Self, Vec<&'f Formula>), EvaluationError> {
+        let mut builder = Builder { signals, dt, nodes: Vec::new(), parts: Vec::new() };
+        builder.add(formula, false)?;
+        Ok((Self { nodes: builder.nodes }, builder.parts))
+    }
+
+    /// How many ticks of each node count for the first tick of the formula, on a trace of so many ticks.
+    pub fn needed(&self, ticks: usize) -> Vec<usize> {
+        let mut needed = vec![0; self.nodes.len()];
+        *needed.last_mut().expect("a formula has a node") = ticks.min(1);
+        for (id, node) in self.nodes.iter().enumerate().rev() {
+            let own = needed[id];
+            let ahead = match node.kind {
+                Kind::Any { sight, .. } | Kind::Until { sight, .. } if !sight.past => sight.end,
+                _ => 0,
+            };
+            for operand in node.operands() {
+                needed[operand] = needed[operand].max(ticks.min(own.saturating_add(ahead)));
+            }
+        }
+        needed
+    }
+}
+
+struct Builder<'s, 'f> {
+    signals: &'s [String],
+    dt: f64,
+    nodes: Vec<Node>,
+    parts: Vec<&'f Formula>,
+}
+
+impl<'f> Builder<'_, 'f> {
+    fn push(&mut self, part: &'f Formula, kind: Kind, dual: bool) -> Id {
+        self.nodes.push(Node { kind, dual });
+        self.parts.push(part);
+        self.nodes.len() - 1
+    }
+
+    fn add(&mut self, formula: &'f Formula, negated: bool) -> Result<Id, EvaluationError> {
+        match formula {
+            Formula::Constant(_) | Formula::Flag(_) | Formula::Compare(..) => {
+                let atom = Atom::resolve(formula, negated, self.signals)?;
+                Ok(self.push(formula, Kind::Atom(atom), false))
+            }
+            Formula::Not(inner) => self.add(inner, !negated),
+            Formula::Join(connective, left, right) => {
+                let left = self.add(left, negated ^ (*connective == Connective::Implies))?;
+                let right = self.add(right, negated)?;
+                let dual = negated ^ (*connective == Connective::And);
+                Ok(self.push(formula, Kind::Or(left, right), dual))
+            }
+            Formula::Modal(modality, interval, inner) => {
+                let (start, end) = interval.ticks(self.dt)?;
+                let operand = self.add(inner, negated)?;
+                let dual = negated ^ matches!(modality, Modality::Always | Modality::Historically);
+                let past = matches!(modality, Modality::Historically | Modality::Once);
+                let sight = Sight { past, end: end.unwrap_or(FOREVER), endless: end.is_none() };
+                Ok(self.push(formula, Kind::Any { operand, start, sight }, dual))
+            }
+            Formula::Sequence(sequence, interval, hold, goal) => {
+                let (start, end) = interval.ticks(self.dt)?;
+                let hold = self.add(hold, negated)?;
+                let goal = self.add(goal, negated)?;
+                let dual = negated ^ (*sequence == Sequence::Release);
+                let past = *sequence == Sequence::Since;
+                let sight = |end| Sight { past, end, endless: interval.end.is_infinite() };
+                let length = end.map_or(FOREVER, |end| end - start);
+                let until = self.push(formula, Kind::Until { hold, goal, sight: sight(length) }, dual);
+                if start == 0 {
+                    return Ok(until);
+                }
+                let before = Kind::Any { operand: hold, start: 0, sight: sight(start - 1) };
+                let before = self.push(formula, before, !dual);
+                let then = self.push(formula, Kind::Any { operand: until, start, sight: sight(start) }, dual);
+                Ok(self.push(formula, Kind::Or(before, then), !dual))
+            }
+        }
+    }
+}

@@ -1,0 +1,259 @@
+//! Formulas in dense time: between two samples signals are straight lines, and nothing that happens there is missed.
+//!
+//! Every sub-formula becomes a piecewise linear function of time, from the comparisons up. Comparisons must be
+//! piecewise linear for that: sums, differences, `abs`, `min`, `max`, and products with and quotients by constants.
+
+mod track;
+mod wave;
+
+use crate::expression::Arithmetic;
+use crate::{Comparison, Connective, Evaluation, EvaluationError, Expression, Formula, Interval, Modality, Sequence};
+use crate::{Trace, Truth};
+use track::{Track, reaches};
+use wave::Wave;
+
+/// What a formula is worth at the beginning of a trace that has samples.
+pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, EvaluationError> {
+    let dense = Dense { trace, end: (trace.len() - 1) as f64 * trace.dt() };
+    let [robustness, lower, upper] = dense.track(formula, 0.0)?.first();
+    let truth = if lower > 0.0 {
+        Truth::Holds
+    } else if upper < 0.0 {
+        Truth::Violated
+    } else {
+        Truth::Undecided
+    };
+    Ok(Evaluation { truth, robustness, lower, upper })
+}
+
+/// A trace in dense time.
+struct Dense<'a> {
+    trace: &'a Trace,
+    /// The time of the last sample.
+    end: f64,
+}
+
+impl Dense<'_> {
+    /// What the formula is worth from time 0 at least to `needed`.
+    fn track(&self, formula: &Formula, needed: f64) -> Result<Track, EvaluationError> {
+        match formula {
+            Formula::Constant(truth) => {
+                let worth = if *truth { f64::INFINITY } else { f64::NEG_INFINITY };
+                Ok(Track::settled(Wave::constant(worth, self.end), needed))
+            }
+            Formula::Flag(_) => Err(EvaluationError::NotLinear(formula.to_string())),
+            Formula::Compare(left, comparison, right) => {
+                Ok(Track::settled(self.comparison(formula, left, *comparison, right)?, needed))
+            }
+            Formula::Not(inner) => Ok(self.track(inner, needed)?.negated()),
+            Formula::Join(connective, left, right) => {
+                let (left, right) = (self.track(left, needed)?, self.track(right, needed)?);
+                Ok(match connective {
+                    Connective::And => left.joined(&right, Wave::min),
+                    Connective::Or => left.joined(&right, Wave::max),
+                    Connective::Implies => left.negated().joined(&right, Wave::max),
+                })
+            }
+            Formula::Modal(modality, interval, inner) => {
+                let past = matches!(modality, Modality::Historically | Modality::Once);
+                let dual = matches!(modality, Modality::Always | Modality::Historically);
+                let scope = self.scope(*interval, past, dual, needed)?;
+                let inner = self.track(inner, scope.asked)?;
+                Ok(scope.track([inner], |scope, [inner]| scope.any(inner)))
+            }
+            Formula::Sequence(sequence, interval, hold, goal) => {
+                let past = *sequence == Sequence::Since;
+                let scope = self.scope(*interval, past, *sequence == Sequence::Release, needed)?;
+                let operands = [self.track(hold, scope.asked)?, self.track(goal, scope.asked)?];
+                Ok(scope.track(operands, |scope, [hold, goal]| scope.until(hold, goal)))
+            }
+        }
+    }
+
+    fn comparison(
+        &self,
+        formula: &Formula,
+        left: &Expression,
+        comparison: Comparison,
+        right: &Expression,
+    ) -> Result<Wave, EvaluationError> {
+        let linear = |expression| {
+            let wave = self.number(expression)?;
+            wave.ok_or_else(|| EvaluationError::NotLinear(formula.to_string()))
+        };
+        let margin = match constant(right) {
+            Some(threshold) => linear(left)?.raised(-threshold),
+            None => linear(left)?.sum(&linear(right)?.scaled(-1.0)),
+        };
+        if let Some((time, _)) = margin.points().iter().find(|point| !point.1.is_finite()) {
+            return Err(EvaluationError::NoValue { what: formula.to_string(), time: *time });
+        }
+        let distance = |margin: Wave| margin.max(&margin.clone().scaled(-1.0));
+        Ok(match comparison {
+            Comparison::Below | Comparison::AtMost => margin.scaled(-1.0),
+            Comparison::Above | Comparison::AtLeast => margin,
+            Comparison::Equal => distance(margin).scaled(-1.0),
+            Comparison::Different => distance(margin),
+        })
+    }
+
+    /// The expression over time; nothing if it is not piecewise linear.
+    fn number(&self, expression: &Expression) -> Result<Option<Wave>, EvaluationError> {
+        // Minima and maxima would swallow what is no number.
+        let finite = |number: f64| {
+            let what = || EvaluationError::NoValue { what: expression.to_string(), time: 0.0 };
+            if number.is_finite() { Ok(number) } else { Err(what()) }
+        };
+        if let Some(number) = constant(expression) {
+            return Ok(Some(Wave::constant(finite(number)?, self.end)));
+        }
+        Ok(match expression {
+            Expression::Number(_) => unreachable!("a number is constant"),
+            Expression::Signal(name) => Some(self.signal(name)?),
+            Expression::Negate(inner) => self.number(inner)?.map(|wave| wave.scaled(-1.0)),
+            Expression::Absolute(inner) => self.number(inner)?.map(|wave| wave.max(&wave.clone().scaled(-1.0))),
+            Expression::Binary(Arithmetic::Multiply, left, right) => match (constant(left), constant(right)) {
+                (Some(factor), _) => {
+                    let factor = finite(factor)?;
+                    self.number(right)?.map(|wave| wave.scaled(factor))
+                }
+                (_, Some(factor)) => {
+                    let factor = finite(factor)?;
+                    self.number(left)?.map(|wave| wave.scaled(factor))
+                }
+                _ => None,
+            },
+            Expression::Binary(Arithmetic::Divide, left, right) => match constant(right) {
+                Some(divisor) => {
+                    let factor = finite(divisor.recip())?;
+                    self.number(left)?.map(|wave| wave.scaled(factor))
+                }
+                None => None,
+            },
+            Expression::Binary(operation, left, right) => {
+                let (Some(left), Some(right)) = (self.number(left)?, self.number(right)?) else { return Ok(None) };
+                Some(match operation {
+                    Arithmetic::Add => left.sum(&right),
+                    Arithmetic::Subtract => left.sum(&right.scaled(-1.0)),
+                    Arithmetic::Least => left.min(&right),
+                    _ => left.max(&right),
+                })
+            }
+        })
+    }
+
+    fn signal(&self, name: &str) -> Result<Wave, EvaluationError> {
+        let samples = self.trace.signal(name).ok_or_else(|| EvaluationError::unknown(name, self.trace.signals()))?;
+        let mut points = Vec::with_capacity(samples.len());
+        for (tick, sample) in samples.enumerate() {
+            let time = tick as f64 * self.trace.dt();
+            if !sample.is_finite() {
+                return Err(EvaluationError::NoValue { what: name.to_owned(), time });
+            }
+            points.push((time, sample));
+        }
+        Ok(Wave::new(points))
+    }
+
+    fn scope(&self, interval: Interval, past: bool, dual: bool, needed: f64) -> Result<Scope, EvaluationError> {
+        if !interval.is_valid() {
+            return Err(EvaluationError::Interval(interval));
+        }
+        let asked = if past { needed } else { self.end.min(needed + interval.end) };
+        let ends = interval.end.is_infinite() && self.trace.is_complete();
+        Ok(Scope { interval, past, dual, needed, asked, ends, outside: None })
+    }
+}
+
+/// A temporal operator, written by its sibling that looks ahead and takes maxima.
+#[derive(Clone, Copy)]
+struct Scope {
+    interval: Interval,
+    past: bool,
+    dual: bool,
+    /// Until when it is asked for, and its operands therefore.
+    needed: f64,
+    asked: f64,
+    /// Whether nothing is in sight beyond the end of the trace.
+    ends: bool,
+    /// What its operands are worth beyond the end, if that is not nothing.
+    outside: Option<f64>,
+}
+
+impl Scope {
+    /// The operator, of which `apply` computes the sibling.
+    fn track<const N: usize>(self, operands: [Track; N], apply: impl Fn(Self, [Wave; N]) -> Wave) -> Track {
+        let operator = |scope: Self, waves: [Wave; N]| scope.turned(apply(scope, waves.map(|wave| scope.turned(wave))));
+        let known = operands.iter().map(|track| track.settled).fold(f64::INFINITY, f64::min);
+        let settled = if self.past {
+            known
+        } else if self.ends && operands.iter().all(|track| track.open.is_none()) {
+            self.needed
+        } else {
+            known - self.interval.end
+        };
+        let is_open = !reaches(settled, self.needed);
+        let settled = settled.min(self.needed);
+        let open = is_open.then(|| {
+            [f64::NEG_INFINITY, f64::INFINITY].map(|worth| {
+                let base = if self.past { 0.0 } else { settled.max(0.0) };
+                let outside = (!self.past && !self.ends).then_some(if self.dual { -worth } else { worth });
+                let scope = Self { needed: self.needed - base, asked: self.asked - base, outside, ..self };
+                let waves = operands.each_ref().map(|track| track.after(usize::from(worth > 0.0), base));
+                operator(scope, waves).after(settled.max(0.0) - base)
+            })
+        });
+        Track {
+            recorded: operator(self, operands.map(|track| track.recorded)),
+            settled: settled.min(self.needed),
+            open,
+        }
+    }
+
+    /// Between the operator and its sibling, to and fro.
+    fn turned(&self, wave: Wave) -> Wave {
+        let wave = if self.past { wave.cut(self.needed).reversed() } else { wave };
+        if self.dual { wave.scaled(-1.0) } else { wave }
+    }
+
+    fn any(&self, wave: Wave) -> Wave {
+        let Interval { start, end, .. } = self.interval;
+        let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
+        if end.is_finite() {
+            return wave.greatest(start, end, self.needed, outside);
+        }
+        if self.needed == 0.0 && start == 0.0 && !self.past {
+            return Wave::constant(wave.greatest_of_all().max(outside), 0.0);
+        }
+        let now = wave.greatest_from_now(outside);
+        if start == 0.0 { now } else { now.greatest(start, start, self.needed, outside) }
+    }
+
+    fn until(&self, hold: Wave, goal: Wave) -> Wave {
+        let Interval { start, end, .. } = self.interval;
+        let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
+        let mut until = Wave::until(&hold, &goal, outside);
+        if end.is_finite() {
+            // The goal is in sight, and it is reached, in sight or not: then it is reached in sight.
+            let needed = self.asked.min(self.needed + start);
+            until = until.min(&goal.greatest(0.0, end - start, needed, outside));
+        }
+        if start > 0.0 {
+            let fails = self.outside.map_or(f64::NEG_INFINITY, |worth| -worth);
+            let before = hold.scaled(-1.0).greatest(0.0, start, self.needed, fails).scaled(-1.0);
+            until = before.min(&until.greatest(start, start, self.needed, outside));
+        }
+        until
+    }
+}
+
+/// The value of an expression without signals.
+fn constant(expression: &Expression) -> Option<f64> {
+    Some(match expression {
+        Expression::Number(number) => *number,
+        Expression::Signal(_) => return None,
+        Expression::Negate(inner) => -constant(inner)?,
+        Expression::Absolute(inner) => constant(inner)?.abs(),
+        Expression::Binary(operation, left, right) => operation.apply(constant(left)?, constant(right)?),
+    })
+}

@@ -1,0 +1,111 @@
+//! One temporal operator, fed with the values of its operand in the order of their ticks.
+
+use crate::core::Sight;
+use crate::fold::{Fold, Window, suffixes};
+use crate::interval::FOREVER;
+use std::collections::VecDeque;
+
+/// How the values in sight are kept.
+#[derive(Debug, Clone)]
+enum Seen<T> {
+    /// Folded to one: the operator sees everything before it, or is asked about the first tick only.
+    All(T),
+    /// A window of them.
+    Last(Window<T>),
+    /// All of them, until the end of the trace is known.
+    Kept(Vec<T>),
+}
+
+/// A fold over the ticks in sight, at each tick.
+#[derive(Debug, Clone)]
+pub(super) struct Scan<T> {
+    past: bool,
+    start: usize,
+    /// How many values are in sight, less one.
+    span: usize,
+    /// How many results are asked for.
+    needed: usize,
+    values: usize,
+    results: usize,
+    /// Values that a look into the past has not come to yet.
+    delayed: VecDeque<T>,
+    seen: Seen<T>,
+}
+
+impl<T: Fold> Scan<T> {
+    pub fn new(start: usize, sight: Sight, needed: usize) -> Self {
+        let span = sight.end - start;
+        let unbounded = sight.end >= FOREVER;
+        let seen = if (sight.past && unbounded) || (!sight.past && needed == 1) {
+            Seen::All(T::NEUTRAL)
+        } else if unbounded {
+            Seen::Kept(Vec::new())
+        } else {
+            Seen::Last(Window::new(span + 1, T::NEUTRAL))
+        };
+        Self { past: sight.past, start, span, needed, values: 0, results: 0, delayed: VecDeque::new(), seen }
+    }
+
+    /// Takes the operand's value at the next tick; the result at the next tick of the operator, if that is complete.
+    pub fn push(&mut self, value: T) -> Option<T> {
+        if self.results == self.needed {
+            return None;
+        }
+        let value = if self.past { self.delay(value) } else { value };
+        self.values += 1;
+        if !self.past && self.values <= self.start {
+            return None;
+        }
+        let result = match &mut self.seen {
+            Seen::All(fold) => {
+                *fold = fold.join(value);
+                *fold
+            }
+            Seen::Last(window) => window.push(value),
+            Seen::Kept(values) => {
+                values.push(value);
+                return None;
+            }
+        };
+        let complete = self.past || self.values - self.start > self.span;
+        self.results += usize::from(complete);
+        complete.then_some(result)
+    }
+
+    fn delay(&mut self, value: T) -> T {
+        if self.start == 0 {
+            return value;
+        }
+        self.delayed.push_back(value);
+        if self.delayed.len() <= self.start { T::NEUTRAL } else { self.delayed.pop_front().expect("just pushed") }
+    }
+
+    /// What the first result comes to by the values so far, if that is all that is asked for.
+    pub fn first(&self) -> Option<T> {
+        match self.seen {
+            Seen::All(fold) if !self.past => Some(fold),
+            _ => None,
+        }
+    }
+
+    /// The results that were not complete, on a trace of so many ticks, beyond which every value is `outside`.
+    pub fn rest(&mut self, ticks: usize, outside: T) -> Vec<T> {
+        let missing = ticks.min(self.needed).saturating_sub(self.results);
+        match &mut self.seen {
+            Seen::All(fold) => vec![fold.join(outside); missing],
+            Seen::Kept(values) => folded(values, missing, outside),
+            Seen::Last(window) => match window.unfilled() {
+                Some(values) => folded(values, missing, outside),
+                None => (0..missing).map(|_| window.push(outside)).collect(),
+            },
+        }
+    }
+}
+
+/// The folds from each of so many values to the last one and what is outside.
+fn folded<T: Fold>(values: &[T], count: usize, outside: T) -> Vec<T> {
+    let mut values = values.to_vec();
+    suffixes(&mut values, outside);
+    values.resize(count, outside);
+    values
+}

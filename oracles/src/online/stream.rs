@@ -1,0 +1,155 @@
+//! The robustness of a formula, computed along with the trace.
+//!
+//! Every node passes on what it is worth at its next tick as soon as that is certain: an operator that looks `b` ticks
+//! ahead is `b` ticks late. What is not certain when the trace ends is settled by what lies beyond the end, once for
+//! what was recorded, once for the worst and once for the best that could have followed.
+
+use super::scan::Scan;
+use crate::core::{Beyond, Core, Id, Kind, Node};
+use crate::fold::{Clamp, Fold, Reversed};
+use crate::worth::Worth;
+use std::collections::VecDeque;
+
+/// Values of two operands, waiting for one another.
+type Queues = [VecDeque<Worth>; 2];
+
+#[derive(Debug, Clone)]
+enum State {
+    Atom,
+    Or(Queues),
+    Any(Scan<Worth>),
+    Until(Queues, Scan<Clamp>),
+    Since(Queues, Scan<Reversed<Clamp>>),
+}
+
+/// Follows a formula tick by tick.
+#[derive(Debug, Clone)]
+pub(super) struct Stream {
+    states: Vec<State>,
+    /// What each node is worth at its next tick, if that became certain at this one.
+    values: Vec<Option<Worth>>,
+    /// What each node is worth at its first tick, if that is certain.
+    firsts: Vec<Option<Worth>>,
+}
+
+impl Stream {
+    /// A stream of a formula whose nodes are needed for so many ticks.
+    pub fn new(core: &Core, needed: &[usize]) -> Self {
+        let state = |(node, needed): (&Node, &usize)| match node.kind {
+            Kind::Atom(_) => State::Atom,
+            Kind::Or(..) => State::Or(Queues::default()),
+            Kind::Any { start, sight, .. } => State::Any(Scan::new(start, sight, *needed)),
+            Kind::Until { sight, .. } if sight.past => State::Since(Queues::default(), Scan::new(0, sight, *needed)),
+            Kind::Until { sight, .. } => State::Until(Queues::default(), Scan::new(0, sight, *needed)),
+        };
+        let nodes = core.nodes.len();
+        Self {
+            states: core.nodes.iter().zip(needed).map(state).collect(),
+            values: vec![None; nodes],
+            firsts: vec![None; nodes],
+        }
+    }
+
+    /// Learns what the atoms are worth at the next tick.
+    pub fn step(&mut self, core: &Core, atoms: &[Option<Worth>]) {
+        for (id, node) in core.nodes.iter().enumerate() {
+            let value = |operand: Id| self.values[operand].map(|worth| worth.flipped(node.dual));
+            let worth = match (&mut self.states[id], &node.kind) {
+                (State::Atom, _) => atoms[id],
+                (State::Any(scan), Kind::Any { operand, .. }) => value(*operand).and_then(|worth| scan.push(worth)),
+                (state, Kind::Or(left, right) | Kind::Until { hold: left, goal: right, .. }) => {
+                    state.meet(value(*left), value(*right))
+                }
+                _ => unreachable!("states are made from kinds"),
+            };
+            let worth = worth.map(|worth| worth.flipped(node.dual));
+            self.values[id] = worth;
+            self.firsts[id] = self.firsts[id].or(worth);
+        }
+    }
+
+    /// Between which bounds the formula's worth lies, by what is certain of its parts.
+    pub fn bounds(&self, core: &Core, id: Id) -> (Worth, Worth) {
+        if let Some(worth) = self.firsts[id] {
+            return (worth, worth);
+        }
+        let dual = core.nodes[id].dual;
+        let flip = |(lower, upper): (Worth, Worth)| {
+            if dual { (upper.flipped(true), lower.flipped(true)) } else { (lower, upper) }
+        };
+        flip(match (&self.states[id], &core.nodes[id].kind) {
+            (State::Or(_), Kind::Or(left, right)) => {
+                let (left, right) = (flip(self.bounds(core, *left)), flip(self.bounds(core, *right)));
+                (left.0.max(right.0), left.1.max(right.1))
+            }
+            (State::Any(scan), _) => (scan.first().unwrap_or(Worth::WORST), Worth::BEST),
+            (State::Until(_, scan), _) => {
+                scan.first().map_or((Worth::WORST, Worth::BEST), |clamp| (clamp.goal, clamp.goal.max(clamp.hold)))
+            }
+            _ => (Worth::WORST, Worth::BEST),
+        })
+    }
+
+    /// What the formula is worth on the trace so far, if it ends after this many ticks.
+    pub fn finish(mut self, core: &Core, needed: &[usize], ticks: usize, complete: bool, beyond: Beyond) -> Worth {
+        let root = core.nodes.len() - 1;
+        let mut rests: Vec<Vec<Worth>> = Vec::with_capacity(core.nodes.len());
+        for (id, node) in core.nodes.iter().enumerate() {
+            let own = needed[id].min(ticks);
+            let outside = |sight| beyond.operand(node, sight, complete);
+            let clamp = |sight| outside(sight).map_or(Clamp::NEUTRAL, |worth| Clamp { goal: worth, hold: worth });
+            let value = |worth: &Worth| worth.flipped(node.dual);
+            let mut rest: Vec<Worth> = match (&mut self.states[id], &node.kind) {
+                (State::Any(scan), Kind::Any { operand, sight, .. }) => {
+                    let mut rest: Vec<_> = rests[*operand].iter().filter_map(|worth| scan.push(value(worth))).collect();
+                    rest.extend(scan.rest(own, outside(*sight).unwrap_or(Worth::NEUTRAL)));
+                    rest
+                }
+                (state, Kind::Or(left, right) | Kind::Until { hold: left, goal: right, .. }) => {
+                    let mut rest = Vec::new();
+                    for at in 0..rests[*left].len().max(rests[*right].len()) {
+                        let (left, right) = (rests[*left].get(at).map(value), rests[*right].get(at).map(value));
+                        rest.extend(state.meet(left, right));
+                    }
+                    if let (State::Until(_, scan), Kind::Until { sight, .. }) = (state, &node.kind) {
+                        rest.extend(scan.rest(own, clamp(*sight)).iter().map(|clamp| clamp.goal));
+                    }
+                    rest
+                }
+                _ => Vec::new(),
+            };
+            rest.iter_mut().for_each(|worth| *worth = worth.flipped(node.dual));
+            rests.push(rest);
+        }
+        self.firsts[root].unwrap_or_else(|| rests[root][0])
+    }
+}
+
+impl State {
+    /// Takes the operands' values at their next ticks, of those that have one; the value of the node, if both have come
+    /// to its next tick.
+    fn meet(&mut self, left: Option<Worth>, right: Option<Worth>) -> Option<Worth> {
+        let (State::Or(queues) | State::Until(queues, _) | State::Since(queues, _)) = self else { return None };
+        let (left, right) = pair(queues, left, right)?;
+        let step = Clamp { hold: left, goal: right };
+        match self {
+            State::Until(_, scan) => scan.push(step).map(|clamp| clamp.goal),
+            State::Since(_, scan) => scan.push(Reversed(step)).map(|clamp| clamp.0.goal),
+            _ => Some(left.max(right)),
+        }
+    }
+}
+
+fn pair(queues: &mut Queues, left: Option<Worth>, right: Option<Worth>) -> Option<(Worth, Worth)> {
+    if let (Some(left), Some(right)) = (left, right)
+        && queues.iter().all(VecDeque::is_empty)
+    {
+        return Some((left, right));
+    }
+    queues[0].extend(left);
+    queues[1].extend(right);
+    if queues.iter().any(VecDeque::is_empty) {
+        return None;
+    }
+    Some((queues[0].pop_front()?, queues[1].pop_front()?))
+}
