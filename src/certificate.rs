@@ -9,9 +9,12 @@ use crate::estimate::{Holes, KwiseWorst};
 use crate::folder::write_whole;
 use crate::{Coverage, Error, Measure, Tests, Watch};
 use paracosm_coverage::dispersion::LargestEmptyBox;
-use paracosm_coverage::proof::{Budget, Proof, Scope, prove};
+use paracosm_coverage::kwise_dispersion::projections;
+use paracosm_coverage::proof::{Budget, Proof, Proved, Scope, prove};
+use paracosm_coverage::rules::Rules;
 use paracosm_coverage::{Bracket, Deadline, Parameter, Value};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -42,6 +45,8 @@ pub struct Certificate {
     pub coordinates: Vec<Vec<f64>>,
     /// Of each test the position of its value for each discrete parameter.
     pub levels: Vec<Vec<usize>>,
+    /// The constraints on the discrete parameters. The tests are those that keep them.
+    pub constraints: Vec<String>,
     /// What is claimed.
     pub claims: Vec<Claim>,
 }
@@ -75,6 +80,9 @@ pub struct Claim {
     pub lower: f64,
     /// The largest hole that was found.
     pub witness: Option<Witness>,
+    /// Combinations of values of discrete parameters that constraints exclude, as positions and levels: nothing is
+    /// claimed of them.
+    pub excluded: Vec<Vec<(usize, usize)>>,
     /// No hole is larger.
     pub upper: f64,
     /// Why the upper bound is larger than the one that was measured, if it is.
@@ -143,6 +151,13 @@ impl Tests {
         limit: Option<Duration>,
         watch: &mut Watch,
     ) -> Result<(Coverage, Certificate), Error> {
+        let rules = self.space.rules()?;
+        let keeping = self.keeping(&rules);
+        if keeping.points.len() < self.points.len() {
+            let (coverage, certificate) = keeping.certify(measures, k, limit, watch)?;
+            let violating = self.points.len() - keeping.points.len();
+            return Ok((Coverage { tests: self.points.len(), violating, ..coverage }, certificate));
+        }
         let end = limit.and_then(|limit| Instant::now().checked_add(limit));
         let (coverage, holes) = self.measure_holes(measures, k, limit.map(|limit| limit.mul_f64(MEASURING)), watch)?;
         let measured = self.measured(holes);
@@ -155,7 +170,7 @@ impl Tests {
         let claims = measured.into_iter().zip((1..=waiting).rev()).map(|(measured, waiting)| {
             let left = end.map(|end| end.saturating_duration_since(Instant::now()));
             let deadline = left.map_or_else(Deadline::never, |left| Deadline::after(left / waiting));
-            self.claim(measured, deadline)
+            self.claim(measured, &rules, deadline)
         });
         let claims = claims.collect::<Result<_, _>>()?;
         let interval = |p: &Parameter| Interval { name: p.name.clone(), interval: [0.0, 1.0].map(|u| p.value_at(u)) };
@@ -167,6 +182,7 @@ impl Tests {
             discrete: self.space.discrete().map(choice).collect(),
             coordinates: self.points.iter().map(|point| point.continuous.clone()).collect(),
             levels: self.points.iter().map(|point| point.discrete.clone()).collect(),
+            constraints: self.space.constraints().iter().map(|constraint| constraint.text().to_owned()).collect(),
             claims,
         };
         Ok((coverage, certificate))
@@ -191,10 +207,10 @@ impl Tests {
         k_wise.into_iter().chain(whole).collect()
     }
 
-    fn claim(&self, measured: Measured, deadline: Deadline) -> Result<Claim, Error> {
+    fn claim(&self, measured: Measured, rules: &Rules, deadline: Deadline) -> Result<Claim, Error> {
         let Measured { scope, volume, fixed, axes, witness } = measured;
         let budget = Budget { pivots: MOST_PIVOTS, deadline };
-        let proved = prove(self.space.dims(), &self.space.rules()?, &self.points, scope, volume, budget)?;
+        let proved = prove(self.space.dims(), rules, &self.points, scope, volume, budget)?;
         let weaker = proved.upper > volume.upper * (1.0 + ROUNDING) || (proved.upper >= 1.0 && volume.lower < 1.0);
         let note = weaker.then(|| {
             format!(
@@ -209,11 +225,23 @@ impl Tests {
             let (lower, upper) = corners.unwrap_or_default();
             Witness { fixed, axes, lower, upper, values }
         });
-        let (measure, k) = match scope {
-            Scope::Continuous => (Measure::Dispersion, None),
-            Scope::Every(k) => (Measure::KWiseDispersion, Some(k)),
+        let (measure, k, excluded) = match scope {
+            Scope::Continuous => (Measure::Dispersion, None, Vec::new()),
+            Scope::Every(k) => (Measure::KWiseDispersion, Some(k), self.excluded(rules, k)?),
         };
-        let measure = measure.name().to_owned();
-        Ok(Claim { measure, k, lower: volume.lower, witness, upper: proved.upper, note, proofs: proved.proofs })
+        let Proved { upper, proofs } = proved;
+        Ok(Claim { measure: measure.name().to_owned(), k, lower: volume.lower, witness, excluded, upper, note, proofs })
+    }
+
+    /// The combinations of discrete values, of at most k parameters, that constraints exclude.
+    fn excluded(&self, rules: &Rules, k: usize) -> Result<Vec<Vec<(usize, usize)>>, Error> {
+        if self.space.constraints().is_empty() {
+            return Ok(Vec::new());
+        }
+        let free = Rules::free(rules.levels());
+        let every = projections(self.space.dims(), &free, k)?;
+        let excluded: BTreeSet<_> =
+            every.map(|projection| projection.fixed).filter(|fixed| !rules.is_valid(fixed)).collect();
+        Ok(excluded.into_iter().collect())
     }
 }

@@ -300,10 +300,9 @@ impl Tests {
             return Err(Error::Usage(format!("k is {k}, expected 1 to {parameters}, the number of parameters")));
         }
         let rules = self.space.rules()?;
-        let violating = self.points.iter().filter(|point| !rules.allows(&point.discrete)).count();
+        let keeping = self.keeping(&rules);
+        let violating = self.points.len() - keeping.points.len();
         if violating > 0 {
-            let keeping = self.points.iter().filter(|point| rules.allows(&point.discrete)).cloned().collect();
-            let keeping = Self { points: keeping, ..self.clone() };
             let (coverage, holes) = keeping.measure_holes(measures, Some(k), limit, watch)?;
             return Ok((Coverage { tests: self.points.len(), violating, ..coverage }, holes));
         }
@@ -344,6 +343,12 @@ impl Tests {
             Coverage { tests: self.points.len(), continuous, violating, discrete, k_epsilon, k_wise_dispersion },
             holes,
         ))
+    }
+
+    /// The tests that keep the constraints.
+    pub(crate) fn keeping(&self, rules: &Rules) -> Self {
+        let points = self.points.iter().filter(|point| rules.allows(&point.discrete)).cloned().collect();
+        Self { space: self.space.clone(), points, k: self.k }
     }
 
     /// The place of a hole, as values.

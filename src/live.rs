@@ -3,8 +3,10 @@
 //! The numbers are those of [`Tests::measure`](crate::Tests::measure), kept up to date with every test rather than
 //! measured anew.
 
+use crate::Error;
 use paracosm_coverage::empty_boxes::EmptyBoxes;
-use paracosm_coverage::{Bracket, Point, PointSetError, Space};
+use paracosm_coverage::kwise::KwiseCounter;
+use paracosm_coverage::{Bracket, Point, Space, SpaceError};
 
 /// Coverage that grows by one test at a time.
 ///
@@ -12,36 +14,55 @@ use paracosm_coverage::{Bracket, Point, PointSetError, Space};
 /// use paracosm::LiveCoverage;
 /// use paracosm::coverage::{Point, Space};
 ///
-/// let mut coverage = LiveCoverage::new(&Space::unit_cube(2));
+/// let mut coverage = LiveCoverage::new(&Space::unit_cube(2), None)?;
 /// assert_eq!(coverage.dispersion().map(|volume| volume.upper), Some(1.0));
 /// coverage.add(&Point { continuous: vec![0.25, 0.5], discrete: vec![] })?;
 /// assert_eq!(coverage.dispersion().map(|volume| volume.upper), Some(0.75));
-/// # Ok::<(), paracosm::coverage::PointSetError>(())
+/// # Ok::<(), paracosm::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct LiveCoverage {
     /// The holes in the continuous parameters; none where the space has none.
     holes: Option<EmptyBoxes>,
+    /// The combinations of discrete values; none where there are none, or too many.
+    combinations: Option<KwiseCounter>,
 }
 
 /// How many holes are looked after in one or two dimensions. That many take less time than a simulation.
 const MOST_HOLES: usize = 20_000;
 
 impl LiveCoverage {
-    /// The coverage of no tests.
-    pub fn new(space: &Space) -> Self {
+    /// The coverage of no tests, with `k` discrete parameters looked at together: two, where nothing is said.
+    ///
+    /// # Errors
+    /// No test keeps the space's constraints.
+    pub fn new(space: &Space, k: Option<usize>) -> Result<Self, SpaceError> {
         let dims = space.dims();
         // A hole has 2d parts with 2d faces each.
         let most = (4 * MOST_HOLES / dims.saturating_mul(dims).max(4)).max(100);
-        Self { holes: EmptyBoxes::at_most(dims, most).ok() }
+        let rules = space.rules()?;
+        let k = k.unwrap_or(2).min(rules.levels().len());
+        Ok(Self { holes: EmptyBoxes::at_most(dims, most).ok(), combinations: KwiseCounter::new(&rules, k).ok() })
     }
 
     /// Takes one more test.
     ///
     /// # Errors
     /// It is none of the space. Nothing has changed then.
-    pub fn add(&mut self, test: &Point) -> Result<(), PointSetError> {
-        self.holes.as_mut().map_or(Ok(()), |holes| holes.add(&test.continuous))
+    pub fn add(&mut self, test: &Point) -> Result<(), Error> {
+        if let Some(holes) = &mut self.holes {
+            holes.add(&test.continuous)?;
+        }
+        if let Some(combinations) = &mut self.combinations {
+            combinations.add(&test.discrete)?;
+        }
+        Ok(())
+    }
+
+    /// How many of the valid combinations of discrete values are covered, and how many there are; `None` where the
+    /// space has no discrete parameters.
+    pub fn combinations(&self) -> Option<(u64, u64)> {
+        self.combinations.as_ref().map(|counter| (counter.covered(), counter.valid()))
     }
 
     /// The dispersion of the continuous parameters; `None` where the space has none. It is a bracket where there are
@@ -62,7 +83,7 @@ mod tests {
         for (dims, n) in [(1, 50), (2, 200), (5, 100), (12, 60)] {
             let space = Space::unit_cube(dims);
             let points = Strategy::Halton.build(&Request::new(&space, n)).unwrap().ask(n);
-            let mut live = LiveCoverage::new(&space);
+            let mut live = LiveCoverage::new(&space, None).unwrap();
             points.iter().for_each(|point| live.add(point).unwrap());
             let said = live.dispersion().unwrap();
             let tests = Tests { space, points, k: None };
@@ -70,6 +91,19 @@ mod tests {
             let exact = measured.continuous.unwrap().dispersion.unwrap().volume.lower;
             assert!(said.lower <= exact && exact <= said.upper, "{dims}: {exact} is not in {said:?}");
             assert!(dims > 2 || said.is_exact());
+        }
+    }
+
+    #[test]
+    fn combinations_are_counted_as_tests_arrive() {
+        let text = "parameter = [{ name = \"a\", choice = [1, 2, 3] }, { name = \"x\", interval = [0, 1] },
+            { name = \"b\", choice = [1, 2] }]";
+        let space = Space::from_toml(text).unwrap().with_constraints(["a == 1 implies b == 2"]).unwrap();
+        let mut live = LiveCoverage::new(&space, Some(2)).unwrap();
+        assert_eq!(live.combinations(), Some((0, 5)));
+        for (row, covered) in [([0, 1], 1), ([0, 1], 1), ([2, 0], 2), ([0, 0], 2)] {
+            live.add(&Point { continuous: vec![0.5], discrete: row.to_vec() }).unwrap();
+            assert_eq!(live.combinations(), Some((covered, 5)), "{row:?}");
         }
     }
 }

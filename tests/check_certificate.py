@@ -68,7 +68,10 @@ def projections(claim, dims, levels):
     for chosen in combinations(parameters, k):
         axes, discrete = [i for i in chosen if i < dims], [i - dims for i in chosen if i >= dims]
         wanted += [(tuple(zip(discrete, v)), tuple(axes)) for v in product(*(range(levels[q]) for q in discrete))]
-    return wanted, f"in any {k} parameters"
+    excluded = {tuple(map(tuple, fixed)) for fixed in claim["excluded"]}
+    if excluded:
+        print(f"{len(excluded)} combinations of values are excluded by constraints: not checked")
+    return [of for of in wanted if of[0] not in excluded], f"in any {k} parameters"
 
 
 def key(of):

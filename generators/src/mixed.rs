@@ -28,10 +28,10 @@ impl Mixed {
         Self { family, sequence: Some(sequence), deal, first, next: 0, end }
     }
 
-    /// The rows alone.
+    /// The rows alone, if there are any.
     pub(crate) fn discrete(family: Family) -> Self {
         let end = family.len();
-        Self { deal: Deal::new(end, end), family, sequence: None, first: 0, next: 0, end }
+        Self { deal: Deal::new(end.max(1), end), family, sequence: None, first: 0, next: 0, end }
     }
 
     fn test(&self, number: u64) -> Point {

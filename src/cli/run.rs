@@ -230,7 +230,7 @@ fn cut_short(error: &Error, out: &Path, safe: usize) -> Failure {
 struct Progress {
     bar: ProgressBar,
     summary: Summary,
-    coverage: LiveCoverage,
+    coverage: Option<LiveCoverage>,
     verbose: bool,
 }
 
@@ -245,7 +245,7 @@ impl Progress {
         let bar = bar.with_style(style).with_position(known as u64);
         // The rate is that of this session, not of what was there before.
         bar.reset_eta();
-        let coverage = LiveCoverage::new(&study.space);
+        let coverage = LiveCoverage::new(&study.space, study.strength()).ok();
         Self { bar, summary: Summary::default(), coverage, verbose: verbosity.verbose }
     }
 
@@ -254,16 +254,23 @@ impl Progress {
         // Where nobody sees the bar, it need not be known.
         if trial.covers()
             && !self.bar.is_hidden()
+            && let Some(coverage) = &mut self.coverage
             && let Ok(point) = study.space.encode(&trial.test)
         {
-            self.coverage.add(&point).expect("a point of the space");
+            coverage.add(&point).expect("a point of the space");
         }
     }
 
     fn show(&mut self, study: &Study, trial: &Trial) {
         self.count(study, trial);
-        let dispersion = self.coverage.dispersion().map(|volume| format!("  dispersion {}", short_bracket(&volume)));
-        self.bar.set_message(format!("{} fail{}", self.summary.count(Verdict::Fail), dispersion.unwrap_or_default()));
+        let coverage = self.coverage.as_ref();
+        let dispersion = coverage.and_then(LiveCoverage::dispersion);
+        let dispersion =
+            dispersion.map(|volume| format!("  dispersion {}", short_bracket(&volume))).unwrap_or_default();
+        let combinations = coverage.and_then(LiveCoverage::combinations);
+        let combinations = combinations.map(|(covered, valid)| format!("  {covered}/{valid} combinations"));
+        let combinations = combinations.unwrap_or_default();
+        self.bar.set_message(format!("{} fail{dispersion}{combinations}", self.summary.count(Verdict::Fail)));
         self.bar.inc(1);
         if self.verbose && trial.verdict != Verdict::Pass {
             let line = format!("test {}: {}, {}", trial.index, trial.verdict, in_words(study, trial));

@@ -6,6 +6,7 @@ mod certificate;
 mod commands;
 mod common;
 mod comparison;
+mod covering;
 mod generate;
 mod pedestrian_study;
 mod plan;

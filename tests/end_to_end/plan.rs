@@ -32,7 +32,7 @@ fn what_cannot_be_planned_is_refused() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
     let cases: [(&[&str], &[&str]); 6] = [
-        (&[], &["--space <SPACE.toml>|--dims <D>"]),
+        (&[], &["--space <SPACE.toml|MODEL.pict>|--dims <D>"]),
         (&["--dims", "0"], &["no parameters"]),
         (&["--dims", "2", "--k", "2"], &["--k is for discrete parameters"]),
         (&["--space", "SPACE.toml", "--k", "4"], &["k is 4", "1 to 3"]),

@@ -103,6 +103,9 @@ impl Options {
             strategy != Strategy::Greedy || space.dims() == 0 || self.epsilon.is_some() || request.aim.is_some();
         let uses_array = request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && has_rows;
         let options = ArrayOptions { k: self.k, seed: self.seed, strengths: &self.strength, optimise: self.optimise };
+        // What is wrong with the rest is said before an array is made, which may take long.
+        let any_row = [vec![0; space.levels().len()]];
+        strategy.build(&Request { rows: Some(&any_row), ..request }).map_err(Error::from)?;
         let rows = match uses_array && request.aim != Some(Aim::KwiseDispersion) {
             true => Some(options.rows(&space, groups, &existing, verbosity)?),
             false if !self.strength.is_empty() || self.optimise.is_some() => {
@@ -124,7 +127,8 @@ impl Options {
             }
         })?;
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
-        verbosity.note(format_args!("{written} tests by {strategy}{}", after.unwrap_or_default()));
+        let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
+        verbosity.note(format_args!("{written} tests{by}{}", after.unwrap_or_default()));
         if self.epsilon.is_some() {
             verbosity.note(reached(Tests { space, points, k: self.k })?);
         }

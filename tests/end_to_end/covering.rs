@@ -1,0 +1,216 @@
+//! Discrete parameters and constraints as users meet them: covering arrays, PICT models, (k, epsilon)-covering sets.
+
+use crate::common::{cover, refused, stderr, stdout, succeeds};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+const SPACE: &str = "\
+constraints = [\"lanes == 2 implies sky != 'fog'\", \"not (car == 'truck' and lanes == 6)\"]\n\
+[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
+[[parameter]]\nname = \"lanes\"\nchoice = [2, 4, 6]\n\
+[[parameter]]\nname = \"sky\"\nchoice = [\"clear\", \"rain\", \"fog\"]\n\
+[[parameter]]\nname = \"car\"\nchoice = [\"small\", \"truck\"]\n\
+[[parameter]]\nname = \"wet\"\nchoice = [\"no\", \"yes\"]\n";
+
+const MODEL: &str = "\
+Type:   Single, Span, Stripe\n\
+Size:   10, 100, 5000\n\
+System: FAT, NTFS\n\
+Zip:    On, Off\n\
+\n\
+IF [System] = \"FAT\" THEN [Size] <= 100;\n";
+
+/// The space without its continuous parameter.
+fn discrete_space() -> String {
+    SPACE.replace("[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n", "")
+}
+
+/// The rows of what `generate` prints, as words, without the header.
+fn rows(csv: &str) -> Vec<Vec<String>> {
+    csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+fn generated(dir: &Path, arguments: &[&str]) -> (String, String) {
+    let output = succeeds(cover(dir, &[&["generate"], arguments].concat()));
+    (stdout(&output), stderr(&output))
+}
+
+fn measured(dir: &Path, arguments: &[&str]) -> Value {
+    serde_json::from_str(&stdout(&succeeds(cover(dir, &[&["estimate"], arguments].concat())))).unwrap()
+}
+
+#[test]
+fn an_array_keeps_the_constraints_covers_all_pairs_and_says_how_small_it_can_be() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), discrete_space()).unwrap();
+    let (csv, notes) = generated(dir.path(), &["--space", "SPACE.toml"]);
+    let rows = rows(&csv);
+    assert!(rows.iter().all(|row| !(row[0] == "2" && row[1] == "fog") && !(row[2] == "truck" && row[0] == "6")));
+    // By hand: 8 of lanes and sky, 5 of lanes and car, 6 of lanes and wet, 6 and 6 with sky, 4 of car and wet.
+    let mut pairs = BTreeSet::new();
+    for row in &rows {
+        for i in 0..4 {
+            pairs.extend((i + 1..4).map(|j| (i, j, row[i].clone(), row[j].clone())));
+        }
+    }
+    assert_eq!(pairs.len(), 8 + 5 + 6 + 6 + 6 + 4);
+    assert!(notes.contains(&format!("a 2-wise covering array of {} rows; ", rows.len())), "{notes}");
+    fs::write(dir.path().join("tests.csv"), csv).unwrap();
+    let coverage = measured(dir.path(), &["tests.csv", "--space", "SPACE.toml"]);
+    assert_eq!(coverage["discrete"]["valid"], 35);
+    assert_eq!(coverage["discrete"]["covered"], 35);
+    assert_eq!(coverage["k_wise_dispersion"]["upper"], 0.0);
+}
+
+#[test]
+fn tests_that_violate_a_constraint_cover_nothing_and_are_counted() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), discrete_space()).unwrap();
+    fs::write(dir.path().join("tests.csv"), "lanes,sky,car,wet\n2,fog,small,no\n2,rain,small,no\n").unwrap();
+    let coverage = measured(dir.path(), &["tests.csv", "--space", "SPACE.toml"]);
+    assert_eq!((&coverage["tests"], &coverage["violating"]), (&Value::from(2), &Value::from(1)));
+    assert_eq!(coverage["discrete"]["covered"], 6);
+}
+
+#[test]
+fn a_model_of_pict_is_read_wherever_a_space_is() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("MODEL.pict"), MODEL).unwrap();
+    let (csv, notes) = generated(dir.path(), &["--space", "MODEL.pict"]);
+    let rows = rows(&csv);
+    assert!(csv.starts_with("Type,Size,System,Zip\n"));
+    assert!(rows.iter().all(|row| row[2] != "FAT" || row[1] != "5000"));
+    // Three types with three sizes each.
+    assert_eq!(rows.len(), 9);
+    assert!(notes.contains("9 rows; proved to be the fewest"), "{notes}");
+    fs::write(dir.path().join("tests.csv"), &csv).unwrap();
+    assert_eq!(measured(dir.path(), &["tests.csv", "--space", "MODEL.pict"])["discrete"]["ratio"], 1.0);
+    let plan = stdout(&succeeds(cover(dir.path(), &["plan", "--space", "MODEL.pict", "--format", "table"])));
+    assert!(plan.contains("any rows") && plan.contains("needed by any set"), "{plan}");
+    fs::write(dir.path().join("WRONG.pict"), MODEL.replace("[Size] <=", "[Sise] <=")).unwrap();
+    refused(&cover(dir.path(), &["generate", "--space", "WRONG.pict"]), &["WRONG.pict, line 6", "column 26", "`Size`"]);
+}
+
+#[test]
+fn existing_tests_are_kept_and_completed() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), discrete_space()).unwrap();
+    let old = "lanes,sky,car,wet\n4,fog,truck,yes\n2,clear,small,no\n6,rain,small,yes\n";
+    fs::write(dir.path().join("old.csv"), old).unwrap();
+    let (added, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--extend", "old.csv"]);
+    assert!(notes.contains("(3 of them existing)"), "{notes}");
+    let all = old.to_owned() + added.split_once('\n').unwrap().1;
+    fs::write(dir.path().join("all.csv"), all).unwrap();
+    assert_eq!(measured(dir.path(), &["all.csv", "--space", "SPACE.toml"])["discrete"]["ratio"], 1.0);
+    assert!(rows(&added).len() < 10);
+}
+
+#[test]
+fn named_groups_are_covered_at_a_higher_strength() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), discrete_space()).unwrap();
+    let (csv, _) = generated(dir.path(), &["--space", "SPACE.toml", "--strength", "lanes,sky,wet=3"]);
+    let triples: BTreeSet<_> =
+        rows(&csv).into_iter().map(|row| (row[0].clone(), row[1].clone(), row[3].clone())).collect();
+    assert_eq!(triples.len(), 16);
+    for (strength, says) in [
+        ("lanes,sky", "expected NAME,NAME,..=K"),
+        ("lanes,ski=2", "`sky`"),
+        ("lanes,sky=3", "expected 1 to 2"),
+        ("lanes,lanes=2", "named twice"),
+    ] {
+        refused(
+            &cover(dir.path(), &["generate", "--space", "SPACE.toml", "--strength", strength]),
+            &["--strength", says],
+        );
+    }
+}
+
+#[test]
+fn a_smaller_array_is_looked_for_on_request() {
+    let dir = tempfile::tempdir().unwrap();
+    let parameter = |i| format!("[[parameter]]\nname = \"p{i}\"\nchoice = [1, 2, 3, 4]\n");
+    fs::write(dir.path().join("SPACE.toml"), (0..8).map(parameter).collect::<String>()).unwrap();
+    let (plain, _) = generated(dir.path(), &["--space", "SPACE.toml", "--k", "3"]);
+    let (smaller, _) = generated(dir.path(), &["--space", "SPACE.toml", "--k", "3", "--optimise", "0.5"]);
+    assert!(rows(&smaller).len() <= rows(&plain).len());
+    fs::write(dir.path().join("tests.csv"), smaller).unwrap();
+    let coverage = measured(dir.path(), &["tests.csv", "--space", "SPACE.toml", "--k", "3"]);
+    assert_eq!(coverage["discrete"]["ratio"], 1.0);
+}
+
+#[test]
+fn constraints_that_no_test_keeps_are_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let space = discrete_space().replace(
+        "constraints = [",
+        "constraints = [\"sky == 'fog' or wet == 'yes'\", \"wet == 'no'\", \"sky in ['clear', 'rain']\", ",
+    );
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let output = cover(dir.path(), &["generate", "--space", "SPACE.toml"]);
+    refused(&output, &["no test keeps these constraints together", "`wet == 'no'`", "`sky in ['clear', 'rain']`"]);
+    assert!(!stderr(&output).contains("lanes"), "only those in conflict are named");
+}
+
+#[test]
+fn a_random_family_is_refused_where_constraints_take_its_promise_away() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
+    let output = cover(dir.path(), &["generate", "--space", "SPACE.toml", "--discrete", "random"]);
+    refused(&output, &["under constraints", "use ipog"]);
+    let (cross, _) = generated(dir.path(), &["--space", "SPACE.toml", "--discrete", "cross", "--budget", "1000"]);
+    let distinct: BTreeSet<Vec<String>> = rows(&cross).into_iter().map(|row| row[1..].to_vec()).collect();
+    // Of 36 combinations, 4 with fog on 2 lanes and 6 with a truck on 6.
+    assert_eq!(distinct.len(), 26);
+}
+
+#[test]
+fn every_row_gets_points_until_none_has_a_larger_hole_than_asked_for() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
+    for strategy in ["halton", "greedy"] {
+        let arguments = ["--space", "SPACE.toml", "--strategy", strategy, "--k", "2", "--epsilon", "0.2"];
+        let (csv, notes) = generated(dir.path(), &arguments);
+        assert!(notes.contains("-covering: measured"), "{notes}");
+        fs::write(dir.path().join("tests.csv"), csv).unwrap();
+        let reached = &measured(dir.path(), &["tests.csv", "--space", "SPACE.toml"])["k_epsilon"];
+        assert_eq!(reached["complete"], true);
+        assert!(reached["epsilon"].as_f64().unwrap() <= 0.2, "{reached}");
+    }
+    refused(
+        &cover(dir.path(), &["generate", "--space", "SPACE.toml", "--strategy", "lhs", "--epsilon", "0.2"]),
+        &["`lhs` makes its set for a number of tests", "halton or greedy"],
+    );
+}
+
+#[test]
+fn a_certificate_claims_nothing_of_what_constraints_exclude() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
+    let (csv, _) = generated(dir.path(), &["--space", "SPACE.toml", "--strategy", "greedy", "--budget", "60"]);
+    fs::write(dir.path().join("tests.csv"), csv).unwrap();
+    let coverage = measured(dir.path(), &["tests.csv", "--space", "SPACE.toml", "--certificate", "c.json"]);
+    assert!(coverage["k_wise_dispersion"]["upper"].as_f64().unwrap() < 0.5, "{coverage}");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/check_certificate.py");
+    match Command::new("python3").arg(script).arg(dir.path().join("c.json")).output() {
+        Err(_) => eprintln!("python3 was not found: the certificate was not checked"),
+        Ok(checked) => {
+            let says = stdout(&succeeds(checked));
+            assert!(says.contains("2 combinations of values are excluded by constraints: not checked"), "{says}");
+            assert!(says.contains("in any 2 parameters has been hit: proved"), "{says}");
+        }
+    }
+}
+
+#[test]
+fn where_nothing_is_missing_nothing_is_added() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), discrete_space()).unwrap();
+    let (all, _) = generated(dir.path(), &["--space", "SPACE.toml"]);
+    fs::write(dir.path().join("all.csv"), all).unwrap();
+    let (added, _) = generated(dir.path(), &["--space", "SPACE.toml", "--extend", "all.csv"]);
+    assert_eq!(added, "lanes,sky,car,wet\n");
+}
