@@ -1,6 +1,8 @@
 //! Whole tests per second on one core, points per second of each generator, and samples per second of formulas. Divan's items per second are the
 //! figures; `baseline` is plain integer arithmetic, by which two machines (or two moods of one) can be compared.
 
+mod baseline;
+
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use paracosm::Study;
@@ -11,18 +13,6 @@ use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
 
 fn main() {
     divan::main();
-}
-
-/// Steps of Marsaglia's xorshift (2003): three shifts each, one after the other.
-#[divan::bench]
-fn baseline(bencher: Bencher) {
-    const STEPS: u64 = 1_000_000;
-    let step = |x: u64, _| {
-        let x = x ^ (x << 13);
-        let x = x ^ (x >> 7);
-        x ^ (x << 17)
-    };
-    bencher.counter(ItemsCount::new(STEPS)).bench(|| (0..black_box(STEPS)).fold(1, step));
 }
 
 /// Tests of `pedestrian-crossing`: 25 simulated seconds at 100 Hz, but for those that a contact ends.

@@ -29,7 +29,7 @@ pub(super) struct Command {
 enum Verb {
     /// Run one campaign; what is done when no command is named
     #[command(after_help = EXAMPLES)]
-    Run(run::Options),
+    Run(Box<run::Options>),
     /// Show scenarios, strategies and drivers with their parameters
     #[command(after_help = "Example:\n  paracosm-fuzz list")]
     List(list::Options),
