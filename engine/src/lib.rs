@@ -32,6 +32,7 @@ pub mod driver;
 mod observation;
 mod outcome;
 mod program;
+pub mod road;
 mod run;
 mod scenario;
 pub mod stream;
