@@ -1,9 +1,12 @@
 //! Road elements before they are connected: what programs write.
 
 use super::composite::Composite;
+use super::curve::Curve;
 use super::error::RoadError;
+use super::layout::Plan;
 use super::network::Network;
 use crate::scenario::Pose;
+use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// Width of a lane in metres: the usual of urban main roads.
@@ -56,15 +59,15 @@ impl Profile {
 pub struct Element<S> {
     pub(super) name: Option<String>,
     pub(crate) profile: Profile,
-    pub(crate) shape: S,
+    pub(super) shape: S,
 }
 
 /// What a straight or curved road is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
-    pub(crate) length: f64,
+    pub(super) length: f64,
     /// 1/m, positive to the left.
-    pub(crate) curvature: f64,
+    pub(super) curvature: f64,
     /// Metres along the road.
     zebras: Vec<f64>,
 }
@@ -138,6 +141,11 @@ pub type CrossIntersection = Element<Cross>;
 pub type Roundabout = Element<Ring>;
 
 impl Segment {
+    /// The centre line, from the origin along x.
+    pub(super) fn centre_line(&self) -> Curve {
+        Curve::new(Pose { position: Vector2::zeros(), heading: 0.0 }, self.curvature, self.length)
+    }
+
     /// Where its zebra crossings are, in order.
     pub(super) fn zebras(&self) -> Vec<f64> {
         let mut zebras = self.zebras.clone();
@@ -209,6 +217,16 @@ impl RoadSegment {
     pub fn arc(radius: f64, angle: f64) -> Self {
         let length = radius * angle.abs();
         Self::of(Segment { length, curvature: angle.signum() / radius, zebras: Vec::new() })
+    }
+
+    /// Its centre line in its own frame, where it starts from the origin along x.
+    pub(crate) fn centre_line(&self) -> Curve {
+        self.shape.centre_line()
+    }
+
+    /// What is wrong with it, if anything is.
+    pub(crate) fn problem(&self) -> Option<String> {
+        Plan { shape: self.shape.clone().into(), profile: self.profile }.problem()
     }
 
     /// Adds a zebra crossing, 4 m wide, with its middle `at` metres along the road.

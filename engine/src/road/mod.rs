@@ -60,3 +60,5 @@ pub use route::{Place, Route};
 pub use strip::{Strip, Surface};
 
 pub(crate) use curve::wrapped;
+pub(crate) use element::Profile;
+pub(crate) use network::{lane_pose, sidewalk_pose};

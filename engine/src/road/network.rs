@@ -6,7 +6,7 @@ use super::curve::{Curve, wrapped};
 use super::element::{Profile, Shape};
 use super::error::RoadError;
 use super::lane::{Conflict, Lane, LaneId, LaneKind};
-use super::layout::{Layout, Mouth, Plan, ZEBRA, centre_line};
+use super::layout::{Layout, Mouth, Plan, ZEBRA};
 use super::overlap;
 use super::strip::Strip;
 use crate::scenario::{Pose, Side};
@@ -288,7 +288,7 @@ impl Placed {
     /// The centre line, if it is a road.
     fn centre_line(&self) -> Option<Curve> {
         match &self.plan.shape {
-            Shape::Segment(road) => Some(centre_line(road).moved(&self.pose)),
+            Shape::Segment(road) => Some(road.centre_line().moved(&self.pose)),
             _ => None,
         }
     }

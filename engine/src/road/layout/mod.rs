@@ -13,7 +13,7 @@ use crate::scenario::Pose;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
-pub(super) use segment::{ZEBRA, centre_line};
+pub(super) use segment::ZEBRA;
 
 /// The most lanes of both directions together.
 const MOST_LANES: i32 = 16;

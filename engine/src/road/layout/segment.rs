@@ -6,7 +6,6 @@ use crate::road::element::{Profile, Segment};
 use crate::road::lane::LaneKind;
 use crate::road::strip::{Strip, Surface};
 use crate::scenario::Pose;
-use nalgebra::Vector2;
 use std::f64::consts::PI;
 
 /// How wide a zebra crossing is, in metres along the road.
@@ -57,19 +56,14 @@ pub(super) fn problem(road: &Segment, profile: &Profile) -> Option<String> {
     None
 }
 
-/// The centre line, from the origin along x.
-pub(in crate::road) fn centre_line(road: &Segment) -> Curve {
-    Curve::new(Pose { position: Vector2::zeros(), heading: 0.0 }, road.curvature, road.length)
-}
-
 pub(super) fn ports(road: &Segment) -> [Port; 2] {
-    let centre = centre_line(road);
+    let centre = road.centre_line();
     let start = Pose { heading: wrapped(centre.start().heading + PI), ..centre.start() };
     [Port { name: "one", pose: start }, Port { name: "two", pose: centre.end() }]
 }
 
 pub(super) fn layout(road: &Segment, profile: &Profile) -> Layout {
-    let centre = centre_line(road);
+    let centre = road.centre_line();
     let mut layout = Layout::default();
     let n = profile.each_way();
     for forward in [true, false] {
