@@ -2,8 +2,8 @@
 
 use nalgebra::Vector2;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, LaneKind, Place, RoadError, RoadPicture, RoadSegment, Roundabout, TIntersection,
-    grid_city,
+    Composite, CrossIntersection, LaneKind, Network, Place, RoadError, RoadPicture, RoadSegment, Roundabout,
+    TIntersection, grid_city,
 };
 use paracosm_engine::{Pose, Side};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -219,6 +219,38 @@ fn an_intersection_of_two_lane_roads_has_twelve_ways_and_the_stem_of_a_t_none_ah
     assert_eq!(kind("two", "three"), Ok(LaneKind::Left));
     assert_eq!(kind("three", "one"), Ok(LaneKind::Straight));
     assert_eq!(kind("one", "one").unwrap_err().to_string(), "`tee` has no lane 1 from `one` to `one`; it has none");
+}
+
+#[test]
+fn the_stem_of_a_t_and_who_enters_a_roundabout_give_way_and_where_roads_cross_right_goes_before_left() {
+    let tee = TIntersection::new().named("it").build().unwrap();
+    let cross = CrossIntersection::new().named("it").build().unwrap();
+    let gives_way = |net: &Network, (from, to): (&str, &str), (other_from, other_to): (&str, &str)| {
+        let lane = net.lane_between("it", from, to, 1).unwrap();
+        let other = net.lane_between("it", other_from, other_to, 1).unwrap();
+        net.lane(lane).conflicts.iter().find(|conflict| conflict.with == other).map(|conflict| conflict.gives_way)
+    };
+    let both = |net: &Network, way, other| (gives_way(net, way, other), gives_way(net, other, way));
+    let (first, second, none) = ((Some(false), Some(true)), (Some(true), Some(false)), (None, None));
+    // East, south, west, north are one, two, three, four.
+    assert_eq!(both(&tee, ("two", "three"), ("three", "one")), second);
+    assert_eq!(both(&tee, ("two", "one"), ("three", "one")), second);
+    assert_eq!(both(&tee, ("one", "two"), ("three", "one")), second);
+    assert_eq!(both(&cross, ("one", "three"), ("two", "four")), first, "from the south, the east is at the right");
+    assert_eq!(both(&cross, ("one", "three"), ("four", "two")), second);
+    assert_eq!(both(&cross, ("one", "two"), ("three", "one")), second);
+    assert_eq!(both(&cross, ("one", "two"), ("three", "four")), none);
+    assert_eq!(both(&cross, ("one", "three"), ("three", "one")), none);
+
+    let ring = Roundabout::new().lanes(4).build().unwrap();
+    for lane in ring.lanes() {
+        for conflict in &lane.conflicts {
+            let other = ring.lane(conflict.with).kind;
+            let enters = lane.kind == LaneKind::Entry;
+            let leaves = lane.kind == LaneKind::Exit && other != LaneKind::Entry;
+            assert_eq!(conflict.gives_way, enters || leaves, "{lane:?} {other:?}");
+        }
+    }
 }
 
 #[test]

@@ -47,6 +47,10 @@ pub struct Conflict {
     pub from: f64,
     /// Up to how many metres along this lane it is.
     pub to: f64,
+    /// Whether who comes along this lane lets those on the other go first: at a T who comes from its stem, at a
+    /// roundabout who enters; else who turns left before those that come towards it, and everybody before those who
+    /// come from the right. Where four roads cross, four cars can each have another at their right.
+    pub gives_way: bool,
 }
 
 /// A lane: the way of a car, in the direction of its traffic.

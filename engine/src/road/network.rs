@@ -6,7 +6,7 @@ use super::curve::{Curve, wrapped};
 use super::element::{Profile, Shape};
 use super::error::RoadError;
 use super::lane::{Conflict, Lane, LaneId, LaneKind};
-use super::layout::{Layout, Mouth, Plan, ZEBRA};
+use super::layout::{ConflictPlan, Layout, Mouth, Plan, ZEBRA};
 use super::overlap;
 use super::strip::Strip;
 use crate::scenario::{Pose, Side};
@@ -65,8 +65,12 @@ impl Network {
             let first = lanes.len();
             lanes.extend(layout.lanes.iter().map(|plan| {
                 let id = |index: &usize| LaneId::new(first + index);
-                let conflict =
-                    |(with, (from, to)): &(usize, (f64, f64))| Conflict { with: id(with), from: *from, to: *to };
+                let conflict = |plan: &ConflictPlan| Conflict {
+                    with: id(&plan.with),
+                    from: plan.span.0,
+                    to: plan.span.1,
+                    gives_way: plan.gives_way,
+                };
                 Lane {
                     element: elements.len(),
                     kind: plan.kind,

@@ -11,9 +11,23 @@ const STEP: f64 = 0.25;
 /// To how many metres the ends of a conflict are found.
 const EXACT: f64 = 1e-3;
 
+/// A conflict of a lane, as an element knows it.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::road) struct ConflictPlan {
+    /// The index of the other lane.
+    pub with: usize,
+    /// From where to where along the lane they are too close.
+    pub span: (f64, f64),
+    pub gives_way: bool,
+}
+
 /// Fills in the conflicts of all lanes: with those that cross them or join them. Lanes that part from one another,
-/// or follow one another, are in no conflict.
-pub(super) fn find_conflicts(lanes: &mut [LanePlan], lane_width: f64) {
+/// or follow one another, are in no conflict. `gives_way` says whether the first of two lanes does.
+pub(super) fn find_conflicts(
+    lanes: &mut [LanePlan],
+    lane_width: f64,
+    gives_way: impl Fn(&LanePlan, &LanePlan) -> bool,
+) {
     let close = CLOSE * lane_width;
     for b in 1..lanes.len() {
         for a in 0..b {
@@ -25,8 +39,9 @@ pub(super) fn find_conflicts(lanes: &mut [LanePlan], lane_width: f64) {
                 continue;
             }
             if let (Some(span), Some(other_span)) = (span(&one, &other, close), span(&other, &one, close)) {
-                lanes[a].conflicts.push((b, span));
-                lanes[b].conflicts.push((a, other_span));
+                let rules = [gives_way(&lanes[a], &lanes[b]), gives_way(&lanes[b], &lanes[a])];
+                lanes[a].conflicts.push(ConflictPlan { with: b, span, gives_way: rules[0] });
+                lanes[b].conflicts.push(ConflictPlan { with: a, span: other_span, gives_way: rules[1] });
             }
         }
     }

@@ -3,6 +3,9 @@
 //! All lanes go straight on. Where that is possible, one turns left from the lane beside the centre line and right
 //! from the one beside the kerb; at the stem of a T, the left half of the lanes turns left and the right half right,
 //! the middle one of an odd number both ways. Every movement keeps its lane number.
+//!
+//! Who comes from the stem of a T gives way to the road that it ends at. Otherwise, who turns left gives way to those
+//! that come towards it, and everybody to those who come from the right.
 
 use super::conflicts::find_conflicts;
 use super::{LanePlan, Layout, Mouth, STOP_LINE, arm, pose};
@@ -25,8 +28,21 @@ pub(super) fn layout(arms: &[f64], corner: f64, profile: &Profile) -> Layout {
         }
         pave(arms, *heading, corner, profile, &mut layout);
     }
-    find_conflicts(&mut layout.lanes, profile.lane_width);
+    find_conflicts(&mut layout.lanes, profile.lane_width, |lane, other| gives_way(arms, lane, other));
     layout
+}
+
+fn gives_way(arms: &[f64], lane: &LanePlan, other: &LanePlan) -> bool {
+    let heading = |lane: &LanePlan| lane.from.map_or(0.0, |mouth| arms[mouth.port]);
+    let stem = |lane: &LanePlan| target(arms, heading(lane), LaneKind::Straight).is_none();
+    let turned = wrapped(heading(other) - heading(lane));
+    if stem(lane) || stem(other) {
+        stem(lane)
+    } else if turned.abs() > 0.75 * PI {
+        lane.kind == LaneKind::Left && other.kind != LaneKind::Left
+    } else {
+        turned > 0.0
+    }
 }
 
 /// The arm that a movement from the arm with this heading leads to.

@@ -13,6 +13,7 @@ use crate::scenario::Pose;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 
+pub(super) use conflicts::ConflictPlan;
 pub(super) use segment::ZEBRA;
 
 /// The most lanes of both directions together.
@@ -51,8 +52,7 @@ pub(super) struct LanePlan {
     pub successors: Vec<usize>,
     pub left: Option<usize>,
     pub right: Option<usize>,
-    /// The lanes that cross it or join it, and from where to where along it they are too close.
-    pub conflicts: Vec<(usize, (f64, f64))>,
+    pub conflicts: Vec<ConflictPlan>,
 }
 
 impl LanePlan {

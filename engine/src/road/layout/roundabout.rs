@@ -3,6 +3,8 @@
 //! Lanes are numbered as on the roads, from the inside, and keep their number: lane 1 leads to the inner ring lane and
 //! back, across the outer ones. The arcs of an entry have one centre, as far from the middle of the ring as the
 //! radius of the arc and that of its ring lane together, so that all of them touch their ring lanes at one angle.
+//!
+//! Who enters gives way to all others, and who leaves from an inner lane to those on the outer ones.
 
 use super::conflicts::find_conflicts;
 use super::{KERB, LINE, LanePlan, Layout, Mouth, STOP_LINE, arm, pose};
@@ -66,7 +68,12 @@ pub(super) fn reach(ring: &Ring, profile: &Profile) -> f64 {
 pub(super) fn layout(ring: &Ring, profile: &Profile) -> Layout {
     let measures = measures(ring, profile);
     let mut layout = Layout { lanes: lanes(ring, profile, &measures), strips: Vec::new() };
-    find_conflicts(&mut layout.lanes, profile.lane_width);
+    let rank = |lane: &LanePlan| match lane.kind {
+        LaneKind::Entry => 2,
+        LaneKind::Exit => 1,
+        _ => 0,
+    };
+    find_conflicts(&mut layout.lanes, profile.lane_width, |lane, other| rank(lane) > rank(other));
     pave(ring, profile, &measures, &mut layout);
     layout
 }
