@@ -1,10 +1,12 @@
-//! Whole tests per second on one core, and points per second of each generator. Divan's items per second are the
+//! Whole tests per second on one core, points per second of each generator, and a city's roads. Divan's items per second are the
 //! figures; `baseline` is plain integer arithmetic, by which two machines (or two moods of one) can be compared.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
+use nalgebra::Vector2;
 use paracosm::Study;
 use paracosm::coverage::Space;
+use paracosm::engine::road::{Network, Place, grid_city};
 use paracosm::engine::{driver, simulate};
 use paracosm::generators::{Request, Strategy};
 
@@ -49,5 +51,46 @@ fn points(bencher: Bencher, strategy: Strategy) {
     bencher.counter(ItemsCount::new(points)).bench(|| {
         let request = Request { seed: Some(1), ..Request::new(&space, points) };
         strategy.build(&request).unwrap().ask(points)
+    });
+}
+
+/// The city of the paper's Figure 3: 20 x 20 junctions, 5,848 lanes.
+fn figure_3() -> std::sync::Arc<Network> {
+    grid_city(20, 20, 80.0, 2).build().unwrap()
+}
+
+/// Connecting the city's elements, checking them and building the lane graph.
+#[divan::bench(sample_count = 20)]
+fn city(bencher: Bencher) {
+    bencher.bench(figure_3);
+}
+
+/// Positions all over the city, most of them far from any street, projected onto the nearest lane.
+#[divan::bench(sample_count = 20)]
+fn projections(bencher: Bencher) {
+    const POSITIONS: usize = 10_000;
+    let city = figure_3();
+    let (low, high) = (city.bounds().min, city.bounds().max);
+    // The plastic number's Kronecker sequence.
+    let share = |i: usize, step: f64| (i as f64 * step).fract();
+    let position =
+        |i| Vector2::new(share(i, 0.754_877_666), share(i, 0.569_840_291)).component_mul(&(high - low)) + low;
+    let positions: Vec<Vector2<f64>> = (0..POSITIONS).map(position).collect();
+    bencher
+        .counter(ItemsCount::new(POSITIONS))
+        .bench(|| positions.iter().map(|position| city.project(*position).distance).sum::<f64>());
+}
+
+/// Shortest ways between lanes all over the city.
+#[divan::bench(sample_count = 20)]
+fn routes(bencher: Bencher) {
+    const ROUTES: usize = 50;
+    let city = figure_3();
+    let ids: Vec<_> = city.ids().collect();
+    let place = |i: usize| Place { lane: ids[i % ids.len()], s: 1.0 };
+    bencher.counter(ItemsCount::new(ROUTES)).bench(|| {
+        (0..ROUTES)
+            .map(|i| city.route(place(1009 * i), place(2503 * i + 1), 20.0).map_or(0, |way| way.lanes.len()))
+            .sum::<usize>()
     });
 }

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector2;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, LaneKind, Network, Place, RoadError, RoadPicture, RoadSegment, Roundabout,
-    TIntersection, grid_city,
+    Composite, CrossIntersection, LaneKind, Network, Place, RoadError, RoadPicture, RoadSegment, Roundabout, Strip,
+    Surface, TIntersection, grid_city,
 };
 use paracosm_engine::{Pose, Side};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -305,6 +305,28 @@ fn a_zebra_crossing_says_which_lanes_it_crosses_and_where() {
         let met = net.lane(*lane).curve.point(*s);
         let expected = crossing.path.point(1.75 + 3.5 * f64::from(i));
         assert!((met - expected).norm() < 1e-9, "lane {i}: {met} {expected}");
+    }
+}
+
+#[test]
+fn a_sidewalk_is_walked_along_its_middle_and_a_broken_line_painted_dash_by_dash() {
+    let net = RoadSegment::new(90.0).build().unwrap();
+    let strips = net.strips();
+    let of = |surface| strips.iter().filter(move |strip| strip.surface == surface);
+    let ends: Vec<_> = of(Surface::Sidewalk).map(|strip| (strip.middle().start(), strip.middle().end())).collect();
+    assert_eq!(ends.len(), 2);
+    for ((start, end), (y, from, to)) in ends.into_iter().zip([(-4.5, 0.0, 90.0), (4.5, 90.0, 0.0)]) {
+        assert!((start.position - Vector2::new(from, y)).norm() < 1e-9, "{start:?}");
+        assert!((end.position - Vector2::new(to, y)).norm() < 1e-9, "{end:?}");
+    }
+    // Ten dashes of 3 m and ten gaps of 6 m, half a gap at either end.
+    let dashes: Vec<_> = of(Surface::CentreLine).flat_map(Strip::solid_parts).collect();
+    assert_eq!(dashes.len(), 10);
+    for (dash, i) in dashes.iter().zip(0..) {
+        assert_eq!((dash.curve.start().position.x, dash.curve.length()), (3.0 + 9.0 * f64::from(i), 3.0));
+        let outline = dash.outline(0.01);
+        let turning: f64 = (0..4).map(|i| outline[i].perp(&outline[(i + 1) % 4])).sum();
+        assert!((0.5 * turning - 3.0 * 0.12).abs() < 1e-9, "counter-clockwise, of a dash's area: {turning}");
     }
 }
 

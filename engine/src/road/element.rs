@@ -237,6 +237,11 @@ impl RoadSegment {
 }
 
 impl TIntersection {
+    /// From its middle to its points, in metres.
+    pub fn reach(&self) -> f64 {
+        self.profile.half_width() + self.shape.corner
+    }
+
     /// An intersection of three arms, whose kerbs have a radius of 6 m.
     #[expect(clippy::new_without_default, reason = "as every other element it is made by its name")]
     pub fn new() -> Self {
@@ -272,6 +277,11 @@ impl CrossIntersection {
 }
 
 impl Roundabout {
+    /// From its middle to its points, in metres.
+    pub fn reach(&self) -> f64 {
+        self.shape.reach(&self.profile)
+    }
+
     /// A roundabout of four arms around an island of 10 m radius, with as many lanes around it as lead into it.
     #[expect(clippy::new_without_default, reason = "as every other element it is made by its name")]
     pub fn new() -> Self {

@@ -58,6 +58,11 @@ impl Strip {
         Self { curve: self.curve.moved(frame), ..*self }
     }
 
+    /// Its middle: the way of a pedestrian on a sidewalk, of a brush on a line.
+    pub fn middle(&self) -> Curve {
+        self.curve.offset(0.5 * (self.right + self.left))
+    }
+
     /// The unbroken strips that it consists of: its dashes, or itself. Dashes begin and end with half a gap.
     pub fn solid_parts(&self) -> Vec<Strip> {
         let Some((dash, gap)) = self.dash else { return vec![*self] };

@@ -124,7 +124,7 @@ impl Plan {
         let reach = match &self.shape {
             Shape::Segment(road) => return segment::ports(road).into(),
             Shape::Tee(corner) | Shape::Cross(corner) => self.profile.half_width() + corner,
-            Shape::Ring(ring) => roundabout::reach(ring, &self.profile),
+            Shape::Ring(ring) => ring.reach(&self.profile),
         };
         let port = |(heading, name)| Port { name, pose: arm(heading).then(&pose(reach, 0.0, 0.0)) };
         self.arms().into_iter().zip(NAMES).map(port).collect()

@@ -60,9 +60,11 @@ pub(super) fn problem(ring: &Ring, profile: &Profile) -> Option<String> {
     })
 }
 
-/// From the middle of the ring to its points.
-pub(super) fn reach(ring: &Ring, profile: &Profile) -> f64 {
-    measures(ring, profile).centre.0
+impl Ring {
+    /// From its middle to its points.
+    pub(in crate::road) fn reach(&self, profile: &Profile) -> f64 {
+        measures(self, profile).centre.0
+    }
 }
 
 pub(super) fn layout(ring: &Ring, profile: &Profile) -> Layout {
