@@ -10,7 +10,6 @@ use super::layout::{Plan, Port};
 use super::network::Network;
 use crate::scenario::Pose;
 use nalgebra::Vector2;
-use paracosm_coverage::nearest;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -89,7 +88,8 @@ impl Composite {
         })
     }
 
-    /// Joins two points of this composite, which closes a loop: they have to meet to 1 cm and 0.1 degrees.
+    /// Joins two points of this composite, which closes a loop: they have to meet to 1 cm and 0.1 degrees. Nothing is
+    /// moved: the lanes of the two points then meet as exactly as the points do.
     pub fn close(self, a: &str, b: &str) -> Self {
         self.unless_mistaken(|all| {
             let (a, b) = (all.resolve(a)?, all.resolve(b)?);
@@ -149,17 +149,15 @@ impl Composite {
         };
         let ports = &self.parts[part].ports;
         let port = ports.iter().position(|(port, _)| port.name == name).ok_or_else(|| {
-            let points: Vec<_> = ports.iter().map(|(port, _)| port.name).collect();
-            let element = self.parts[part].name.clone();
-            let nearest = nearest(name, points.iter().copied());
-            let nearest = nearest.and_then(|name| points.iter().copied().find(|point| *point == name));
-            RoadError::UnknownPoint { element, point: name.to_owned(), nearest, points }
+            let points = ports.iter().map(|(port, _)| port.name).collect();
+            RoadError::unknown_point(&self.parts[part].name, name, points)
         })?;
         Ok(End { part, port })
     }
 
     fn find(&self, name: &str) -> Result<usize, RoadError> {
-        self.names.get(name).copied().ok_or_else(|| unknown_element(name, self.parts.iter().map(|part| &*part.name)))
+        let names = self.parts.iter().map(|part| &*part.name);
+        self.names.get(name).copied().ok_or_else(|| RoadError::unknown_element(name, names))
     }
 
     /// The name of an end.
@@ -232,12 +230,6 @@ impl Composite {
         self.links.push([a, b]);
         Ok(())
     }
-}
-
-/// That no element has this name.
-pub(super) fn unknown_element<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> RoadError {
-    let nearest = nearest(name, names).map(str::to_owned);
-    RoadError::UnknownElement { name: name.to_owned(), nearest }
 }
 
 /// The pose of the origin as seen from `pose`.

@@ -1,6 +1,6 @@
 //! Why a road network cannot be. Points are named as `element.point`.
 
-use paracosm_coverage::did_you_mean;
+use paracosm_coverage::{did_you_mean, nearest};
 use thiserror::Error;
 
 /// Why a road network cannot be built, or what it was asked for in vain.
@@ -119,6 +119,19 @@ pub enum RoadError {
         /// The length of the element in metres.
         length: f64,
     },
+}
+
+impl RoadError {
+    pub(super) fn unknown_element<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Self {
+        Self::UnknownElement { name: name.to_owned(), nearest: nearest(name, names).map(str::to_owned) }
+    }
+
+    pub(super) fn unknown_point(element: &str, point: &str, points: Vec<&'static str>) -> Self {
+        let nearest = nearest(point, points.iter().copied());
+        // The very name, which lives longer than the list.
+        let nearest = points.iter().copied().find(|name| nearest == Some(name));
+        Self::UnknownPoint { element: element.to_owned(), point: point.to_owned(), nearest, points }
+    }
 }
 
 fn from_to(between: &Option<(String, String)>) -> String {

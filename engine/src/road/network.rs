@@ -1,12 +1,12 @@
 //! A road network as it is used: lanes with all that lies around them, built once and shared.
 
 use super::bounds::{Bounds, Tree};
-use super::composite::{Composite, unknown_element};
+use super::composite::Composite;
 use super::curve::{Curve, wrapped};
 use super::element::{Profile, Shape};
 use super::error::RoadError;
 use super::lane::{Conflict, Lane, LaneId, LaneKind};
-use super::layout::{ConflictPlan, Layout, Mouth, Plan, ZEBRA};
+use super::layout::{ConflictPlan, LanePlan, Layout, Plan, ZEBRA};
 use super::overlap;
 use super::strip::Strip;
 use crate::scenario::{Pose, Side};
@@ -145,21 +145,21 @@ impl Network {
         })
     }
 
-    /// The lane of an intersection that leads from one of its points to another, by the number that it has there.
+    /// The lane that leads from one point of an element to another: over an intersection, or along a road. Its number is
+    /// that of the lanes of the roads that it joins, counted from the centre line.
     ///
     /// # Errors
     /// There is no such element or point, or no lane leads from the one to the other.
     pub fn lane_between(&self, element: &str, from: &str, to: &str, number: i32) -> Result<LaneId, RoadError> {
         let placed = self.find(element)?;
-        let mouth = |port| Some(Mouth { port, number });
         let (from, to) = (placed.port(from)?, placed.port(to)?);
-        let leads = |plan: &super::layout::LanePlan| plan.from == mouth(from) && plan.to == mouth(to);
-        let index = placed.layout.lanes.iter().position(leads).ok_or_else(|| {
-            let between = |plan: &&super::layout::LanePlan| {
-                plan.from.is_some_and(|mouth| mouth.port == from) && plan.to.is_some_and(|mouth| mouth.port == to)
-            };
-            let numbers = placed.layout.lanes.iter().filter(between).filter_map(|plan| plan.from);
-            let numbers: Vec<String> = numbers.map(|mouth| mouth.number.to_string()).collect();
+        let leads = |plan: &&LanePlan| {
+            plan.from.is_some_and(|mouth| mouth.port == from) && plan.to.is_some_and(|mouth| mouth.port == to)
+        };
+        let index = placed.layout.lanes.iter().position(|plan| leads(&plan) && plan.number.abs() == number);
+        let index = index.ok_or_else(|| {
+            let numbers = placed.layout.lanes.iter().filter(leads).map(|plan| plan.number.abs().to_string());
+            let numbers: Vec<String> = numbers.collect();
             RoadError::UnknownLane {
                 element: element.to_owned(),
                 lane: number,
@@ -209,7 +209,7 @@ impl Network {
     }
 
     fn find(&self, name: &str) -> Result<&Placed, RoadError> {
-        let index = self.names.get(name).ok_or_else(|| unknown_element(name, self.elements()))?;
+        let index = self.names.get(name).ok_or_else(|| RoadError::unknown_element(name, self.elements()))?;
         Ok(&self.elements[*index])
     }
 
@@ -281,12 +281,8 @@ impl Placed {
     }
 
     fn port(&self, name: &str) -> Result<usize, RoadError> {
-        self.points.iter().position(|point| *point == name).ok_or_else(|| {
-            let nearest = paracosm_coverage::nearest(name, self.points.iter().copied());
-            let nearest = nearest.and_then(|name| self.points.iter().copied().find(|point| *point == name));
-            let points = self.points.clone();
-            RoadError::UnknownPoint { element: self.name.clone(), point: name.to_owned(), nearest, points }
-        })
+        let port = self.points.iter().position(|point| *point == name);
+        port.ok_or_else(|| RoadError::unknown_point(&self.name, name, self.points.clone()))
     }
 
     /// The centre line, if it is a road.
