@@ -183,6 +183,27 @@ fn a_loop_closes_to_a_centimetre_and_a_tenth_of_a_degree() {
 }
 
 #[test]
+fn the_papers_loop_of_straight_roads_and_t_intersections_closes_and_leads_round_to_the_right() {
+    // Each T is entered along its stem and left to the right.
+    let names = ["north", "east", "south", "west"];
+    let road = |name: &str| RoadSegment::new(40.0).named(format!("{name} road"));
+    let tee = |name: &str| TIntersection::new().named(name);
+    let mut ring = tee(names[0]).connect("one", road(names[0]), "one");
+    for pair in names.windows(2) {
+        ring = ring.connect(&format!("{} road.two", pair[0]), tee(pair[1]), "two");
+        ring = ring.connect(&format!("{}.one", pair[1]), road(pair[1]), "one");
+    }
+    let net = ring.close("west road.two", "north.two").build().unwrap();
+    let start = Place { lane: net.lane_of("north road", 1).unwrap(), s: 20.0 };
+    let round = net.route(start, Place { s: 10.0, ..start }, 20.0).unwrap();
+    let kinds = round.lanes.iter().map(|lane| net.lane(*lane).kind);
+    let expected = [LaneKind::Road, LaneKind::Right].into_iter().cycle().take(9);
+    assert!(kinds.eq(expected), "{round:?}");
+    // Four roads and four quarters of a circle of 6 m and half a lane, but for the last 10 m.
+    assert!((round.length - (4.0 * 40.0 + 2.0 * PI * 7.75 - 10.0)).abs() < 1e-9, "{}", round.length);
+}
+
+#[test]
 fn a_composite_stands_where_its_root_is_put() {
     let pose = Pose { position: Vector2::new(100.0, -40.0), heading: FRAC_PI_2 };
     let net = RoadSegment::new(50.0).connect("two", RoadSegment::new(30.0), "one").at(pose).build().unwrap();
