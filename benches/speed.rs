@@ -1,5 +1,6 @@
-//! Whole tests per second on one core, points per second of each generator, and a city's roads. Divan's items per second are the
-//! figures; `baseline` is plain integer arithmetic, by which two machines (or two moods of one) can be compared.
+//! Whole tests per second on one core, points per second of each generator, and a city's roads. Divan's items per
+//! second are the figures; `baseline` is plain integer arithmetic, by which two machines (or two moods of one) can be
+//! compared.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};

@@ -110,6 +110,18 @@ fn nearest_by_sampling(lane: &Lane, position: Vector2<f64>) -> f64 {
     distances.fold(f64::INFINITY, f64::min)
 }
 
+/// A size, often one that nothing can have.
+fn any_size() -> impl Strategy<Value = f64> {
+    prop_oneof![-10.0..500.0f64, Just(f64::NAN), Just(f64::INFINITY), Just(0.0)]
+}
+
+/// The name of a point, often of one that is not there.
+fn any_point() -> impl Strategy<Value = &'static str> {
+    let bare = vec!["one", "two", "three", "four", "five"];
+    let full = vec!["road.one", "road-2.two", "roundabout.three", "road.", ".one", ".", ""];
+    prop::sample::select([bare, full].concat())
+}
+
 fn angle_between(a: f64, b: f64) -> f64 {
     let (sin, cos) = libm::sincos(a - b);
     libm::atan2(sin, cos).abs()
@@ -129,7 +141,8 @@ proptest! {
         let here = lane.curve.at(s);
         let position = here.position + Vector2::new(-libm::sin(here.heading), libm::cos(here.heading)) * offset;
         let onto = net.project_onto(net.ids().nth(index).unwrap(), position);
-        prop_assert!((onto.s - s).abs() < 1e-8 && (onto.offset - offset).abs() < 1e-8, "{onto:?}, expected {s} {offset}");
+        let exact = (onto.s - s).abs() < 1e-8 && (onto.offset - offset).abs() < 1e-8;
+        prop_assert!(exact, "{onto:?}, expected {s} {offset}");
         prop_assert!(angle_between(onto.heading, here.heading) < 1e-9);
         // Another lane may be nearer still.
         let nearest = net.project(position);
@@ -198,7 +211,9 @@ proptest! {
                     continue;
                 }
                 let others = polyline(&other.curve, 0.1);
-                let distance = |point: &Vector2<f64>| others.iter().map(|o| (o - point).norm()).fold(f64::INFINITY, f64::min);
+                let distance = |point: &Vector2<f64>| {
+                    others.iter().map(|other| (other - point).norm()).fold(f64::INFINITY, f64::min)
+                };
                 let close = 0.7 * lane.width;
                 for (i, point) in points.iter().enumerate() {
                     let (s, distance) = ((i as f64 * step).min(lane.length()), distance(point));
@@ -298,10 +313,8 @@ proptest! {
     fn whatever_is_connected_there_is_a_network_or_a_message_and_never_a_panic(
         (additions, sizes, points) in (
             additions(6),
-            prop::collection::vec((prop_oneof![-10.0..500.0f64, Just(f64::NAN), Just(f64::INFINITY), Just(0.0)], -1..20i32), 6),
-            prop::collection::vec(prop::sample::select(vec![
-                "one", "two", "three", "four", "five", "", ".", "road.one", "road-2.two", "roundabout.three", "road.", ".one",
-            ]), 24),
+            prop::collection::vec((any_size(), -1..20i32), 6),
+            prop::collection::vec(any_point(), 24),
         )
     ) {
         let mut all = additions[0].element(sizes[0].1);

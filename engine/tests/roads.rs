@@ -111,6 +111,9 @@ fn elements_that_cannot_be_are_refused() {
     assert!(refused(RoadSegment::new(50.0).zebra(20.0).zebra(17.0).into()).contains("zebra crossing at 20 m"));
     assert!(refused(CrossIntersection::new().corner(1.5).into()).contains("radius of 1.5 m, expected more than 2 m"));
     assert!(refused(Roundabout::new().arms(2).into()).contains("has 2 arms, expected 3 to 8"));
+    assert!(refused(Roundabout::new().arms(i32::MAX).into()).contains("arms"));
+    let nowhere = Pose { position: Vector2::new(f64::NAN, 0.0), heading: 0.0 };
+    assert_eq!(refused(RoadSegment::new(50.0).at(nowhere)), "`road` is put at (NaN, 0), heading 0, expected numbers");
     let narrow = refused(Roundabout::new().arms(8).into());
     assert!(narrow.contains("at least"), "{narrow}");
     // What is said to be enough is.

@@ -2,12 +2,11 @@
 
 use super::composite::Composite;
 use super::element::{CrossIntersection, RoadSegment, TIntersection};
+use super::layout::POINTS;
 use crate::scenario::Pose;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The points of an intersection, clockwise.
-const POINTS: [&str; 4] = ["one", "two", "three", "four"];
 /// Directions are counted clockwise from the east, as the points of intersections are.
 const EAST: usize = 0;
 const SOUTH: usize = 1;

@@ -59,7 +59,9 @@ impl<S: Into<Shape>> From<Element<S>> for Composite {
         let named = element.name.is_some();
         let name = element.name.unwrap_or_else(|| plan.kind().to_owned());
         let mistake = plan.problem().map(|problem| RoadError::Element { element: name.clone(), problem });
-        let ports = plan.ports().into_iter().map(|port| (port, None)).collect();
+        // Of what cannot be, nothing is asked.
+        let ports = if mistake.is_some() { Vec::new() } else { plan.ports() };
+        let ports = ports.into_iter().map(|port| (port, None)).collect();
         let pose = Pose { position: Vector2::zeros(), heading: 0.0 };
         let unnamed = if named { HashMap::new() } else { HashMap::from([(plan.kind(), 1)]) };
         let names = HashMap::from([(name.clone(), 0)]);
@@ -105,22 +107,28 @@ impl Composite {
     }
 
     /// Puts the origin of the root at this pose and everything else accordingly.
-    pub fn at(mut self, pose: Pose) -> Self {
-        let frame = pose.then(&inverse(&self.parts[0].pose));
-        for part in &mut self.parts {
-            part.pose = frame.then(&part.pose);
-        }
-        self
+    pub fn at(self, pose: Pose) -> Self {
+        self.unless_mistaken(|all| {
+            let Pose { position, heading } = pose;
+            if ![position.x, position.y, heading].into_iter().all(f64::is_finite) {
+                let problem =
+                    format!("is put at ({}, {}), heading {heading}, expected numbers", position.x, position.y);
+                return Err(RoadError::Element { element: all.parts[0].name.clone(), problem });
+            }
+            let frame = pose.then(&inverse(&all.parts[0].pose));
+            for part in &mut all.parts {
+                part.pose = frame.then(&part.pose);
+            }
+            Ok(())
+        })
     }
 
     /// The points that nothing is connected to, as they are named.
     pub fn free_points(&self) -> Vec<String> {
-        let free = |part: &Part, index| {
-            let ends = (0..part.ports.len()).map(move |port| End { part: index, port });
-            ends.filter(|end| part.ports[end.port].1.is_none()).collect::<Vec<_>>()
-        };
-        let ends = self.parts.iter().enumerate().flat_map(|(index, part)| free(part, index));
-        ends.map(|end| self.label(end)).collect()
+        let ends = |(part, of): (usize, &Part)| (0..of.ports.len()).map(move |port| End { part, port });
+        let ends = self.parts.iter().enumerate().flat_map(ends);
+        let free = ends.filter(|end| self.parts[end.part].ports[end.port].1.is_none());
+        free.map(|end| self.label(end)).collect()
     }
 
     /// The network of all elements.

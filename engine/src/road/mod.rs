@@ -3,7 +3,8 @@
 //! An element (a straight or curved [`RoadSegment`], a [`TIntersection`], a [`CrossIntersection`], a [`Roundabout`])
 //! has named points where others can be connected. A connection gives the child its place and yields a
 //! [`Composite`], which is connected on as elements are. [`Composite::build`] checks it and makes of it a [`Network`]:
-//! immutable, shared by an [`Arc`](std::sync::Arc), the same for every run on it. This is section 2 of the paper, whose example reads
+//! immutable, shared by an [`Arc`](std::sync::Arc), the same for every run on it. This is section 2 of the paper,
+//! whose example reads
 //!
 //! ```
 //! use paracosm_engine::road::{RoadSegment, TIntersection};

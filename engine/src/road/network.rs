@@ -145,8 +145,8 @@ impl Network {
         })
     }
 
-    /// The lane that leads from one point of an element to another: over an intersection, or along a road. Its number is
-    /// that of the lanes of the roads that it joins, counted from the centre line.
+    /// The lane that leads from one point of an element to another: over an intersection, or along a road. Its number
+    /// is that of the lanes of the roads that it joins, counted from the centre line.
     ///
     /// # Errors
     /// There is no such element or point, or no lane leads from the one to the other.

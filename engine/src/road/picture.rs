@@ -196,7 +196,8 @@ impl Svg {
     /// The way along the middles of its lanes; where it changes to a lane beside, over half of what is left of both.
     fn route(&mut self, network: &Network, route: &Route, colour: Colour) {
         self.write(format_args!(
-            "<path fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\" stroke-linecap=\"round\" stroke-opacity=\"0.85\" d=\"",
+            "<path fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\" stroke-linecap=\"round\" \
+             stroke-opacity=\"0.85\" d=\"",
             hex(colour)
         ));
         let curve = |index: usize| &network.lane(route.lanes[index]).curve;
@@ -253,8 +254,9 @@ impl Svg {
     /// A bar of a round number of metres, a hundred pixels or somewhat more long.
     fn scale(&mut self, scale: f64, y: f64) {
         let wanted = 100.0 / scale;
-        let lengths = [1.0, 10.0, 100.0, 1000.0, 10_000.0].into_iter().flat_map(|ten| [ten, 2.0 * ten, 5.0 * ten]);
-        let metres = lengths.clone().find(|metres| *metres >= wanted).unwrap_or(wanted);
+        let tens = [1.0, 10.0, 100.0, 1000.0, 10_000.0].into_iter();
+        let metres =
+            tens.flat_map(|ten| [ten, 2.0 * ten, 5.0 * ten]).find(|metres| *metres >= wanted).unwrap_or(wanted);
         let (from, to) = (MARGIN, MARGIN + metres * scale);
         self.line(format_args!(
             "<path fill=\"none\" stroke=\"{INK}\" stroke-width=\"1.5\" d=\"M{from} {:.1}V{:.1}H{to:.1}V{:.1}\"/>",
@@ -263,8 +265,8 @@ impl Svg {
             y - 5.0
         ));
         self.line(format_args!(
-            "<text x=\"{:.1}\" y=\"{:.1}\" font-family=\"Open Sans, sans-serif\" font-size=\"14\" fill=\"{INK}\">{metres} \
-             m</text>",
+            "<text x=\"{:.1}\" y=\"{:.1}\" font-family=\"Open Sans, sans-serif\" font-size=\"14\" \
+             fill=\"{INK}\">{metres} m</text>",
             to + 8.0,
             y + 1.0
         ));

@@ -29,8 +29,8 @@ impl Projection {
 }
 
 impl Network {
-    /// The lane whose middle is nearest to a position, the first of them among equals. Nothing can be said of a position
-    /// that is not finite.
+    /// The lane whose middle is nearest to a position, the first of them among equals. Nothing can be said of a
+    /// position that is not finite.
     pub fn project(&self, position: Vector2<f64>) -> Projection {
         let nearest = self.tree.nearest(position, |lane| Some(self.distance_squared(lane, position)));
         let lane = nearest.expect("a network has lanes");

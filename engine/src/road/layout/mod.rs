@@ -76,7 +76,8 @@ pub(super) struct Plan {
     pub profile: Profile,
 }
 
-const NAMES: [&str; 8] = ["one", "two", "three", "four", "five", "six", "seven", "eight"];
+/// What points are called, in their order.
+pub(super) const POINTS: [&str; 8] = ["one", "two", "three", "four", "five", "six", "seven", "eight"];
 
 impl Plan {
     /// What an element without a name is called.
@@ -127,7 +128,7 @@ impl Plan {
             Shape::Ring(ring) => ring.reach(&self.profile),
         };
         let port = |(heading, name)| Port { name, pose: arm(heading).then(&pose(reach, 0.0, 0.0)) };
-        self.arms().into_iter().zip(NAMES).map(port).collect()
+        self.arms().into_iter().zip(POINTS).map(port).collect()
     }
 
     pub fn layout(&self) -> Layout {
