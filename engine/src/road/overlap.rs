@@ -97,3 +97,47 @@ fn overlap(one: &Quad, other: &Quad) -> f64 {
     }
     least
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A piece of a strip somewhere: as wide at both ends, or not, as on an arc.
+    fn quad() -> impl Strategy<Value = Quad> {
+        let place = (-5.0..5.0f64, -5.0..5.0f64, -4.0..4.0f64);
+        (place, 0.5..6.0f64, 0.5..6.0f64, 0.5..6.0f64).prop_map(|((x, y, heading), length, begin, end)| {
+            let pose = Pose { position: Vector2::new(x, y), heading };
+            let corners = [(0.0, -0.5 * begin), (length, -0.5 * end), (length, 0.5 * end), (0.0, 0.5 * begin)];
+            corners.map(|(x, y)| pose.then(&Pose { position: Vector2::new(x, y), heading: 0.0 }).position)
+        })
+    }
+
+    fn holds(quad: &Quad, point: Vector2<f64>) -> bool {
+        (0..4).all(|i| (quad[(i + 1) % 4] - quad[i]).perp(&(point - quad[i])) >= 0.0)
+    }
+
+    /// Whether one of many points of the first lies in the second.
+    fn meet_by_sampling(one: &Quad, other: &Quad) -> bool {
+        const STEPS: usize = 80;
+        let share = |i: usize| i as f64 / STEPS as f64;
+        let point = |u: f64, v: f64| one[0].lerp(&one[1], u).lerp(&one[3].lerp(&one[2], u), v);
+        (0..=STEPS).any(|i| (0..=STEPS).any(|j| holds(other, point(share(i), share(j)))))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(512))]
+
+        #[test]
+        fn two_quadrilaterals_overlap_exactly_where_they_have_a_point_in_common(one in quad(), other in quad()) {
+            let overlap = overlap(&one, &other);
+            // How far apart they are is not asked, only whether.
+            prop_assert_eq!(overlap.max(0.0), super::overlap(&other, &one).max(0.0));
+            if overlap <= 0.0 {
+                prop_assert!(!meet_by_sampling(&one, &other), "{overlap}");
+            } else if overlap > 0.3 {
+                prop_assert!(meet_by_sampling(&one, &other), "{overlap}");
+            }
+        }
+    }
+}
