@@ -1,12 +1,15 @@
-//! Whole tests per second on one core, points per second of each generator, and samples per second of formulas. Divan's items per second are the
-//! figures; `baseline` is plain integer arithmetic, by which two machines (or two moods of one) can be compared.
+//! Whole tests per second on one core, points per second of each generator, samples per second of formulas, and a city's
+//! roads. Divan's items per second are the figures; `baseline` is plain integer arithmetic, by which two machines (or two
+//! moods of one) can be compared.
 
 mod baseline;
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
+use nalgebra::Vector2;
 use paracosm::Study;
 use paracosm::coverage::Space;
+use paracosm::engine::road::{Network, Place, grid_city};
 use paracosm::engine::{driver, simulate};
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
@@ -102,4 +105,45 @@ fn online(bencher: Bencher, formula: &str) {
 fn parse(bencher: Bencher) {
     let text = FORMULAS[2];
     bencher.counter(ItemsCount::new(1_usize)).bench(|| black_box(text).parse::<Formula>().unwrap());
+}
+
+/// The city of the paper's Figure 3: 20 x 20 junctions, 5,848 lanes.
+fn figure_3() -> std::sync::Arc<Network> {
+    grid_city(20, 20, 80.0, 2).build().unwrap()
+}
+
+/// Connecting the city's elements, checking them and building the lane graph.
+#[divan::bench(sample_count = 20)]
+fn city(bencher: Bencher) {
+    bencher.bench(figure_3);
+}
+
+/// Positions all over the city, most of them far from any street, projected onto the nearest lane.
+#[divan::bench(sample_count = 20)]
+fn projections(bencher: Bencher) {
+    const POSITIONS: usize = 10_000;
+    let city = figure_3();
+    let (low, high) = (city.bounds().min, city.bounds().max);
+    // The plastic number's Kronecker sequence.
+    let share = |i: usize, step: f64| (i as f64 * step).fract();
+    let position =
+        |i| Vector2::new(share(i, 0.754_877_666), share(i, 0.569_840_291)).component_mul(&(high - low)) + low;
+    let positions: Vec<Vector2<f64>> = (0..POSITIONS).map(position).collect();
+    bencher
+        .counter(ItemsCount::new(POSITIONS))
+        .bench(|| positions.iter().map(|position| city.project(*position).distance).sum::<f64>());
+}
+
+/// Shortest ways between lanes all over the city.
+#[divan::bench(sample_count = 20)]
+fn routes(bencher: Bencher) {
+    const ROUTES: usize = 50;
+    let city = figure_3();
+    let ids: Vec<_> = city.ids().collect();
+    let place = |i: usize| Place { lane: ids[i % ids.len()], s: 1.0 };
+    bencher.counter(ItemsCount::new(ROUTES)).bench(|| {
+        (0..ROUTES)
+            .map(|i| city.route(place(1009 * i), place(2503 * i + 1), 20.0).map_or(0, |way| way.lanes.len()))
+            .sum::<usize>()
+    });
 }

@@ -32,6 +32,7 @@ pub mod driver;
 mod observation;
 mod outcome;
 mod program;
+pub mod road;
 mod run;
 mod scenario;
 pub mod stream;
@@ -41,9 +42,9 @@ mod world;
 pub use observation::{Briefing, Control, Observation, Other};
 pub use outcome::{Metric, Outcome};
 pub use program::{Declaration, Declared, Program, ProgramError};
+pub use road::RoadSegment;
 pub use run::{DEFAULT_DT, Run, Step, simulate};
 pub use scenario::{
-    AutonomousVehicle, Car, Line, Param, Pedestrian, Pose, Road, RoadSegment, Scenario, Side, Walk, Walker, eventually,
-    never,
+    AutonomousVehicle, Car, Line, Param, Paved, Pedestrian, Pose, Road, Scenario, Side, Walk, Walker, eventually, never,
 };
 pub use stream::Stream;

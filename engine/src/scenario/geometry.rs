@@ -1,5 +1,6 @@
 //! Where things are: poses in the ground plane, and lines across it.
 
+use crate::road::wrapped;
 use nalgebra::Vector2;
 
 /// A position with a heading.
@@ -23,6 +24,14 @@ impl Pose {
         let ahead = self.forward();
         let offset = point - self.position;
         Vector2::new(ahead.dot(&offset), ahead.perp(&offset))
+    }
+
+    /// The pose in the plane of what has the pose `local` as seen from here.
+    pub(crate) fn then(&self, local: &Pose) -> Pose {
+        let (sin, cos) = libm::sincos(self.heading);
+        let (x, y) = (local.position.x, local.position.y);
+        let position = self.position + Vector2::new(cos * x - sin * y, sin * x + cos * y);
+        Pose { position, heading: wrapped(self.heading + local.heading) }
     }
 }
 

@@ -16,7 +16,7 @@ pub use car::{AutonomousVehicle, Car};
 pub use geometry::{Line, Pose};
 pub use param::Param;
 pub use requirement::{Draft, eventually, never};
-pub use road::{Road, RoadSegment, Side};
+pub use road::{Paved, Road, Side};
 pub use walker::{Pedestrian, Walk, Walker};
 
 pub(crate) use car::CarSetup;

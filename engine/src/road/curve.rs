@@ -1,0 +1,159 @@
+//! Lines and circular arcs in the ground plane, parametrised by arc length: what all road geometry is made of.
+
+use super::bounds::Bounds;
+use crate::scenario::Pose;
+use nalgebra::Vector2;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// A line or a circular arc of a certain length, with a direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Curve {
+    start: Pose,
+    /// The unit vector of the start's heading.
+    forward: Vector2<f64>,
+    curvature: f64,
+    length: f64,
+}
+
+/// The angle in (-π, π] that points the same way.
+pub(crate) fn wrapped(angle: f64) -> f64 {
+    angle - (((angle + PI) / TAU).ceil() - 1.0) * TAU
+}
+
+/// A vector turned to the left by a quarter.
+fn left_of(vector: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(-vector.y, vector.x)
+}
+
+impl Curve {
+    /// From `start` on for `length` metres; `curvature` in 1/m, positive where it bends to the left, 0 for a line.
+    pub fn new(start: Pose, curvature: f64, length: f64) -> Self {
+        Self { start, forward: start.forward(), curvature, length }
+    }
+
+    /// Its length in metres.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Its curvature in 1/m, positive where it bends to the left.
+    pub fn curvature(&self) -> f64 {
+        self.curvature
+    }
+
+    /// The point `s` metres along it; before its start and beyond its end it goes on as it is.
+    pub fn point(&self, s: f64) -> Vector2<f64> {
+        self.beside(s, 0.0)
+    }
+
+    /// The point `offset` metres to the left of the point `s` metres along it.
+    pub fn beside(&self, s: f64, offset: f64) -> Vector2<f64> {
+        let left = left_of(self.forward);
+        if self.curvature == 0.0 {
+            return self.start.position + self.forward * s + left * offset;
+        }
+        let (sin, cos) = libm::sincos(self.curvature * s);
+        // 1 - cos, without the cancellation that ruins it on an arc that is nearly straight.
+        let half = libm::sin(0.5 * self.curvature * s);
+        let ahead = sin / self.curvature - offset * sin;
+        let aside = 2.0 * half * half / self.curvature + offset * cos;
+        self.start.position + self.forward * ahead + left * aside
+    }
+
+    /// The heading `s` metres along it, in (-π, π].
+    pub fn heading(&self, s: f64) -> f64 {
+        wrapped(self.start.heading + self.curvature * s)
+    }
+
+    /// Position and heading `s` metres along it.
+    pub fn at(&self, s: f64) -> Pose {
+        Pose { position: self.point(s), heading: self.heading(s) }
+    }
+
+    /// Position and heading at its start.
+    pub fn start(&self) -> Pose {
+        self.at(0.0)
+    }
+
+    /// Position and heading at its end.
+    pub fn end(&self) -> Pose {
+        self.at(self.length)
+    }
+
+    /// How many metres along it the point lies that is nearest to `point`.
+    pub fn nearest(&self, point: Vector2<f64>) -> f64 {
+        let from_start = point - self.start.position;
+        if self.curvature == 0.0 {
+            return from_start.dot(&self.forward).clamp(0.0, self.length);
+        }
+        let centre = self.centre();
+        let (spoke, to_point) = (self.start.position - centre, point - centre);
+        let turn = libm::atan2(spoke.perp(&to_point), spoke.dot(&to_point)) * self.curvature.signum();
+        let s = turn.rem_euclid(TAU) / self.curvature.abs();
+        if s <= self.length {
+            s
+        } else if from_start.norm_squared() <= (point - self.point(self.length)).norm_squared() {
+            0.0
+        } else {
+            self.length
+        }
+    }
+
+    /// The centre of the circle that it is an arc of.
+    fn centre(&self) -> Vector2<f64> {
+        self.start.position + left_of(self.forward) / self.curvature
+    }
+
+    /// The curve that runs `left` metres beside it. On the inner side of an arc that is less than its radius.
+    pub(super) fn offset(&self, left: f64) -> Self {
+        let stretch = 1.0 - self.curvature * left;
+        let start = Pose { position: self.beside(0.0, left), heading: self.start.heading };
+        Self { start, forward: self.forward, curvature: self.curvature / stretch, length: self.length * stretch }
+    }
+
+    /// The curve from its end to its start.
+    pub(super) fn reversed(&self) -> Self {
+        let end = self.end();
+        let start = Pose { position: end.position, heading: wrapped(end.heading + PI) };
+        Self::new(start, -self.curvature, self.length)
+    }
+
+    /// The piece of it between two distances along it.
+    pub(super) fn piece(&self, from: f64, to: f64) -> Self {
+        Self::new(self.at(from), self.curvature, to - from)
+    }
+
+    /// The curve where it is when `frame` is the pose of what it belongs to.
+    pub(super) fn moved(&self, frame: &Pose) -> Self {
+        Self::new(frame.then(&self.start), self.curvature, self.length)
+    }
+
+    /// The smallest box with sides along the axes that it fits into.
+    pub(super) fn bounds(&self) -> Bounds {
+        let mut bounds = Bounds::around([self.start.position, self.point(self.length)]);
+        if self.curvature != 0.0 {
+            let (centre, radius) = (self.centre(), 1.0 / self.curvature.abs());
+            let side = self.curvature.signum();
+            for (quarter, direction) in
+                [(0.0, Vector2::x()), (1.0, Vector2::y()), (2.0, -Vector2::x()), (3.0, -Vector2::y())]
+            {
+                // Where the arc, gone all the way round, faces the axis at a right angle.
+                let turn = (quarter * FRAC_PI_2 - (self.start.heading - side * FRAC_PI_2)) * side;
+                if turn.rem_euclid(TAU) * radius <= self.length {
+                    bounds.include(centre + direction * radius);
+                }
+            }
+        }
+        bounds
+    }
+
+    /// The fewest equal pieces of it that are straight to within `tolerance` metres, seen `offset` metres beside it.
+    pub(super) fn pieces(&self, offset: f64, tolerance: f64) -> usize {
+        let radius = (1.0 / self.curvature - offset).abs();
+        if self.curvature == 0.0 || radius <= tolerance {
+            return 1;
+        }
+        let most = 2.0 * libm::acos(1.0 - tolerance / radius);
+        ((self.curvature.abs() * self.length / most).ceil() as usize).max(1)
+    }
+}

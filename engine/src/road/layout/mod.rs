@@ -1,0 +1,170 @@
+//! What an element is made of, in its own frame: the points where it can be connected, its lanes, and its strips.
+
+mod conflicts;
+mod intersection;
+mod roundabout;
+mod segment;
+
+use super::curve::Curve;
+use super::element::{Profile, Shape};
+use super::lane::LaneKind;
+use super::strip::{Strip, Surface};
+use crate::scenario::Pose;
+use nalgebra::Vector2;
+use std::f64::consts::PI;
+
+pub(super) use conflicts::ConflictPlan;
+pub(super) use segment::ZEBRA;
+
+/// The most lanes of both directions together.
+const MOST_LANES: i32 = 16;
+/// Width of a painted line in metres.
+const LINE: f64 = 0.12;
+/// Width of a kerb in metres.
+const KERB: f64 = 0.15;
+/// Width in metres of the line at which one stops.
+const STOP_LINE: f64 = 0.5;
+
+/// Where an element can be connected: heading outward.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Port {
+    pub name: &'static str,
+    pub pose: Pose,
+}
+
+/// The end of a lane at the edge of its element: the port, and the lane's number there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Mouth {
+    pub port: usize,
+    pub number: i32,
+}
+
+/// A lane of an element; others are named by their indices in it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct LanePlan {
+    pub kind: LaneKind,
+    pub number: i32,
+    pub curve: Curve,
+    /// Where it comes from, unless it begins within the element.
+    pub from: Option<Mouth>,
+    /// Where it leads to, unless it ends within the element.
+    pub to: Option<Mouth>,
+    pub successors: Vec<usize>,
+    pub left: Option<usize>,
+    pub right: Option<usize>,
+    pub conflicts: Vec<ConflictPlan>,
+}
+
+impl LanePlan {
+    fn new(kind: LaneKind, number: i32, curve: Curve) -> Self {
+        let (successors, conflicts) = Default::default();
+        Self { kind, number, curve, from: None, to: None, successors, left: None, right: None, conflicts }
+    }
+}
+
+/// All that an element is made of.
+#[derive(Debug, Default)]
+pub(super) struct Layout {
+    pub lanes: Vec<LanePlan>,
+    pub strips: Vec<Strip>,
+}
+
+/// An element's shape and what its roads are across.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Plan {
+    pub shape: Shape,
+    pub profile: Profile,
+}
+
+/// What points are called, in their order.
+pub(super) const POINTS: [&str; 8] = ["one", "two", "three", "four", "five", "six", "seven", "eight"];
+
+impl Plan {
+    /// What an element without a name is called.
+    pub fn kind(&self) -> &'static str {
+        match self.shape {
+            Shape::Segment(_) => "road",
+            Shape::Tee(_) => "t-intersection",
+            Shape::Cross(_) => "cross-intersection",
+            Shape::Ring(_) => "roundabout",
+        }
+    }
+
+    /// What is wrong with it, if anything is.
+    pub fn problem(&self) -> Option<String> {
+        let Profile { lanes, lane_width, sidewalk } = self.profile;
+        if !(2..=MOST_LANES).contains(&lanes) || lanes % 2 != 0 {
+            return Some(format!("has {lanes} lanes, expected an even number from 2 to {MOST_LANES}"));
+        }
+        if !(2.0..=10.0).contains(&lane_width) {
+            return Some(format!("has lanes of {lane_width} m, expected 2 to 10 m"));
+        }
+        if !(0.0..=20.0).contains(&sidewalk) {
+            return Some(format!("has sidewalks of {sidewalk} m, expected 0 to 20 m"));
+        }
+        match &self.shape {
+            Shape::Segment(road) => segment::problem(road, &self.profile),
+            Shape::Tee(corner) | Shape::Cross(corner) => kerb_problem("kerbs", *corner, sidewalk),
+            Shape::Ring(ring) => kerb_problem("kerbs at its entries", ring.entry, sidewalk)
+                .or_else(|| roundabout::problem(ring, &self.profile)),
+        }
+    }
+
+    /// The headings of its arms, as seen from its middle.
+    fn arms(&self) -> Vec<f64> {
+        let quarter = 0.5 * PI;
+        match &self.shape {
+            Shape::Segment(_) => Vec::new(),
+            Shape::Tee(_) => vec![0.0, -quarter, PI],
+            Shape::Cross(_) => vec![0.0, -quarter, PI, quarter],
+            Shape::Ring(ring) => roundabout::headings(ring.arms).collect(),
+        }
+    }
+
+    pub fn ports(&self) -> Vec<Port> {
+        let reach = match &self.shape {
+            Shape::Segment(road) => return segment::ports(road).into(),
+            Shape::Tee(corner) | Shape::Cross(corner) => self.profile.half_width() + corner,
+            Shape::Ring(ring) => ring.reach(&self.profile),
+        };
+        let port = |(heading, name)| Port { name, pose: arm(heading).then(&pose(reach, 0.0, 0.0)) };
+        self.arms().into_iter().zip(POINTS).map(port).collect()
+    }
+
+    pub fn layout(&self) -> Layout {
+        match &self.shape {
+            Shape::Segment(road) => segment::layout(road, &self.profile),
+            Shape::Tee(corner) | Shape::Cross(corner) => intersection::layout(&self.arms(), *corner, &self.profile),
+            Shape::Ring(ring) => roundabout::layout(ring, &self.profile),
+        }
+    }
+}
+
+fn kerb_problem(what: &str, radius: f64, sidewalk: f64) -> Option<String> {
+    let least = sidewalk.max(1.0);
+    // Written so that NaN is refused too.
+    let fits = radius > least && radius <= 1000.0;
+    (!fits).then(|| format!("has {what} with a radius of {radius} m, expected more than {least} m and at most 1000 m"))
+}
+
+fn pose(x: f64, y: f64, heading: f64) -> Pose {
+    Pose { position: Vector2::new(x, y), heading }
+}
+
+/// The frame of an arm: x from the middle of the element outward along it.
+fn arm(heading: f64) -> Pose {
+    pose(0.0, 0.0, heading)
+}
+
+impl Layout {
+    /// A kerb along this curve, with the road to its left and the sidewalk to its right. Where there is no sidewalk
+    /// there is the line at the edge.
+    fn add_kerb(&mut self, curve: Curve, profile: &Profile) {
+        if profile.sidewalk > 0.0 {
+            self.strips.push(Strip::new(Surface::Sidewalk, curve, -profile.sidewalk, 0.0));
+            self.strips.push(Strip::new(Surface::Kerb, curve, -KERB, 0.0));
+        } else {
+            self.strips.push(Strip::new(Surface::EdgeLine, curve, LINE, 2.0 * LINE));
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Roads: elements connected to networks, with a graph of their lanes.
+//!
+//! An element (a straight or curved [`RoadSegment`], a [`TIntersection`], a [`CrossIntersection`], a [`Roundabout`])
+//! has named points where others can be connected. A connection gives the child its place and yields a
+//! [`Composite`], which is connected on as elements are. [`Composite::build`] checks it and makes of it a [`Network`]:
+//! immutable, shared by an [`Arc`](std::sync::Arc), the same for every run on it. This is section 2 of the paper,
+//! whose example reads
+//!
+//! ```
+//! use paracosm_engine::road::{RoadSegment, TIntersection};
+//!
+//! let east = RoadSegment::new(50.0).lanes(4).named("east");
+//! let south = RoadSegment::new(50.0).lanes(4).named("south");
+//! let west = RoadSegment::new(20.0).lanes(4).named("west");
+//! let net = TIntersection::new()
+//!     .lanes(4)
+//!     .connect("one", east, "two")
+//!     .connect("two", south, "one")
+//!     .connect("three", west, "one")
+//!     .build()?;
+//!
+//! // A lane is a line or an arc; any position has its place on one, and between two places there is a way.
+//! let here = net.project(net.on_lane("east", 1, 10.0)?.position);
+//! let there = net.project(net.on_lane("south", 1, 30.0)?.position);
+//! assert!((here.s - 10.0).abs() < 1e-9 && here.offset.abs() < 1e-9);
+//! let route = net.route(here.place(), there.place(), 20.0).expect("it turns left at the intersection");
+//! assert_eq!(route.lanes.len(), 3);
+//! # Ok::<(), paracosm_engine::road::RoadError>(())
+//! ```
+//!
+//! Traffic keeps to the right; positions are in metres, x to the east, y to the north; headings are in radians,
+//! counter-clockwise from x; curvatures and offsets are positive to the left. All geometry is of lines and circular
+//! arcs ([`Curve`]) in 64 bits.
+
+mod bounds;
+mod city;
+mod composite;
+mod curve;
+mod element;
+mod error;
+mod lane;
+mod layout;
+mod network;
+mod overlap;
+mod picture;
+mod projection;
+mod route;
+mod strip;
+
+pub use bounds::Bounds;
+pub use city::grid_city;
+pub use composite::Composite;
+pub use curve::Curve;
+pub use element::{Cross, CrossIntersection, Element, Ring, RoadSegment, Roundabout, Segment, TIntersection, Tee};
+pub use error::RoadError;
+pub use lane::{Conflict, Lane, LaneId, LaneKind};
+pub use network::{Crossing, Network};
+pub use picture::{Colour, RoadPicture};
+pub use projection::Projection;
+pub use route::{Place, Route};
+pub use strip::{Strip, Surface};
+
+pub(crate) use curve::wrapped;
+pub(crate) use element::Profile;
+pub(crate) use network::{lane_pose, sidewalk_pose};

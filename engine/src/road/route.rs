@@ -1,0 +1,141 @@
+//! Shortest ways over the lanes (Dijkstra 1959).
+//!
+//! A way follows lanes to their ends and changes to lanes beside them at their beginnings, or where it starts. A
+//! change costs as much as a number of metres, which the caller says.
+
+use super::lane::LaneId;
+use super::network::Network;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// A place on a lane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// The lane.
+    pub lane: LaneId,
+    /// Metres along it.
+    pub s: f64,
+}
+
+/// A way from one place to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Route {
+    /// Its lanes in order. Each is a successor of the one before it, or lies beside it and is changed to.
+    pub lanes: Vec<LaneId>,
+    /// Where it starts: metres along the first lane.
+    pub start: f64,
+    /// Where it ends: metres along the last lane.
+    pub end: f64,
+    /// Metres along it, without its lane changes.
+    pub length: f64,
+    /// How often it changes lanes.
+    pub changes: usize,
+}
+
+/// A lane as it is come upon: at its beginning, or beside the start of the way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Node(u32);
+
+impl Node {
+    fn new(lane: LaneId, beside_start: bool) -> Self {
+        Self(2 * lane.0 + u32::from(beside_start))
+    }
+
+    fn lane(self) -> LaneId {
+        LaneId(self.0 / 2)
+    }
+
+    fn beside_start(self) -> bool {
+        self.0 % 2 == 1
+    }
+}
+
+/// What is left to be looked at, the cheapest on top.
+struct Open {
+    cost: f64,
+    /// `None`: the goal.
+    node: Option<Node>,
+    from: Option<Node>,
+}
+
+impl Ord for Open {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.cost.total_cmp(&self.cost).then(other.node.cmp(&self.node)).then(other.from.cmp(&self.from))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Open {}
+
+impl Network {
+    /// The shortest way between two places, where a change to the lane beside costs as much as `change` metres; none
+    /// where there is no way. What lies beyond the ends of a lane counts as its end.
+    ///
+    /// # Panics
+    /// A lane is of another network, which has more, or `change` is no number from 0 on.
+    pub fn route(&self, from: Place, to: Place, change: f64) -> Option<Route> {
+        assert!(change >= 0.0, "a lane change costs {change} m, expected a number from 0 on");
+        // As a share of the lane, so that it means the same place on the lanes beside.
+        let begun = (from.s / self.lane(from.lane).length()).clamp(0.0, 1.0);
+        let end = to.s.clamp(0.0, self.lane(to.lane).length());
+        let mut reached: Vec<Option<Option<Node>>> = vec![None; 2 * self.lanes().len()];
+        let mut open = BinaryHeap::from([Open { cost: 0.0, node: Some(Node::new(from.lane, true)), from: None }]);
+        while let Some(Open { cost, node, from: before }) = open.pop() {
+            let Some(node) = node else {
+                return before.map(|last| self.unwound(last, &reached, [begun, end]));
+            };
+            let at = &mut reached[node.0 as usize];
+            if at.is_some() {
+                continue;
+            }
+            *at = Some(before);
+            let lane = self.lane(node.lane());
+            let entered = if node.beside_start() { begun * lane.length() } else { 0.0 };
+            let mut offer = |to, metres: f64| open.push(Open { cost: cost + metres, node: to, from: Some(node) });
+            if node.lane() == to.lane && end >= entered {
+                offer(None, end - entered);
+            }
+            for successor in &lane.successors {
+                offer(Some(Node::new(*successor, false)), lane.length() - entered);
+            }
+            for beside in lane.beside() {
+                offer(Some(Node::new(beside, node.beside_start())), change);
+            }
+        }
+        None
+    }
+
+    /// The way that led to `last`, by what each node was reached from.
+    fn unwound(&self, last: Node, reached: &[Option<Option<Node>>], [begun, end]: [f64; 2]) -> Route {
+        let mut nodes = vec![last];
+        while let Some(before) = reached[nodes[nodes.len() - 1].0 as usize].flatten() {
+            nodes.push(before);
+        }
+        nodes.reverse();
+        let (mut length, mut changes) = (0.0, 0);
+        for pair in nodes.windows(2) {
+            let lane = self.lane(pair[0].lane());
+            let entered = if pair[0].beside_start() { begun * lane.length() } else { 0.0 };
+            if lane.beside().any(|beside| beside == pair[1].lane()) {
+                changes += 1;
+            } else {
+                length += lane.length() - entered;
+            }
+        }
+        let entered = if last.beside_start() { begun * self.lane(last.lane()).length() } else { 0.0 };
+        let start = begun * self.lane(nodes[0].lane()).length();
+        let lanes = nodes.into_iter().map(Node::lane).collect();
+        Route { lanes, start, end, length: length + end - entered, changes }
+    }
+}
