@@ -40,10 +40,10 @@ mod world;
 
 pub use observation::{Briefing, Control, Observation, Other};
 pub use outcome::{Metric, Outcome};
-pub use program::{Declaration, Declared, Program, ProgramError};
+pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use run::{DEFAULT_DT, Run, Step, simulate};
 pub use scenario::{
     AutonomousVehicle, Car, Line, Param, Pedestrian, Pose, Road, RoadSegment, Scenario, Side, Walk, Walker, eventually,
     never,
 };
-pub use stream::Stream;
+pub use stream::{Forward, Stream};

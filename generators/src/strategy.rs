@@ -183,7 +183,7 @@ impl Strategy {
         let levels = space.levels();
         check_existing(space, existing)?;
         if self == Self::Greedy && dims > 0 {
-            let k = k.unwrap_or(2.min(space.parameters().len()));
+            let k = k.unwrap_or(2.min(dims + levels.len()));
             // Of all parameters together, the k-wise dispersion is the dispersion.
             let is_dispersion = levels.is_empty() && k == dims;
             let aim = aim.unwrap_or(if levels.is_empty() { Aim::Dispersion } else { Aim::KwiseDispersion });

@@ -7,3 +7,4 @@ mod common;
 mod generate;
 mod pedestrian_study;
 mod plan;
+mod signals;

@@ -3,7 +3,7 @@
 use super::{Space, SpaceError};
 
 /// What SPACE.toml may hold, but this version does not read yet.
-const RESERVED: [&str; 4] = ["constraints", "distribution", "scale", "signal"];
+const RESERVED: [&str; 3] = ["constraints", "distribution", "scale"];
 
 impl Space {
     /// Reads a SPACE.toml.
@@ -19,8 +19,13 @@ impl Space {
     ///     [[parameter]]
     ///     name = "lanes"
     ///     choice = [2, 4, 6]
+    ///
+    ///     [[parameter]]
+    ///     name = "leader_speed"
+    ///     interval = [0.0, 20.0]
+    ///     signal = { shape = "polynomial", degree = 2 }
     /// "#)?;
-    /// assert_eq!((space.dims(), space.levels()), (1, vec![3]));
+    /// assert_eq!((space.dims(), space.levels()), (4, vec![3]));
     /// # Ok::<(), paracosm_coverage::SpaceError>(())
     /// ```
     ///
