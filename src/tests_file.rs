@@ -70,7 +70,7 @@ impl Tests {
                     }
                     values.push(value);
                 }
-                let value = if parameter.signal.is_some() { Value::List(values) } else { values.remove(0) };
+                let value = if parameter.signal.is_some() { values.into_iter().collect() } else { values.remove(0) };
                 test.set(parameter.name.clone(), value);
             }
             let point = space.encode(&test).map_err(|error| Error::content(path, line, format!("{error}{hint}")))?;

@@ -104,7 +104,7 @@ impl Parameter {
     pub fn scalars(&self, value: &Value) -> Result<Vec<Value>, SpaceError> {
         self.check(value)?;
         Ok(match value {
-            Value::List(values) => values.clone(),
+            Value::List(values) => values.to_vec(),
             value => vec![value.clone(); self.coordinates()],
         })
     }

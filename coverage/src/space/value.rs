@@ -13,7 +13,7 @@ pub enum Value {
     /// A word.
     Word(String),
     /// The values of a signal's coordinates.
-    List(Vec<Value>),
+    List(Box<[Value]>),
 }
 
 impl Value {
@@ -150,7 +150,7 @@ impl<'de> Deserialize<'de> for Value {
                     }
                     values.push(value);
                 }
-                Ok(Value::List(values))
+                Ok(values.into_iter().collect())
             }
         }
         deserializer.deserialize_any(AnyValue)

@@ -32,12 +32,15 @@ pub(super) struct Given {
     pub signal: Option<Option<Shape>>,
 }
 
+/// The value as one of type `T`, if it is one.
+type With<T> = Rc<dyn Fn(&Value) -> Option<T>>;
+
 /// How values become values of type `T`.
 #[derive(Clone)]
 pub(super) struct Read<T> {
-    pub with: Rc<dyn Fn(&Value) -> Option<T>>,
+    with: With<T>,
     /// Any value, to go on with after a mistake that is reported.
-    pub placeholder: T,
+    placeholder: T,
 }
 
 impl Read<f64> {
