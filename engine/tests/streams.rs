@@ -183,6 +183,20 @@ fn a_program_declares_signals_and_reads_them_as_any_parameter() {
 }
 
 #[test]
+fn a_shape_that_does_not_suit_its_parameter_is_refused_in_every_run() {
+    fn build(s: &mut Scenario) {
+        rolling(s);
+        let weather = s.choice("weather", ["clear", "fog"]).signal(Shape::Polynomial { degree: 2 });
+        let light = s.interval("light", 0.0..=1.0).signal(Shape::PiecewiseConstant { pieces: 0 });
+        record(s, &Stream::from(light).when(&Stream::from(weather).equals("fog")));
+    }
+    let test = [("weather".to_owned(), "fog".into()), ("light".to_owned(), 0.5.into())].into_iter().collect();
+    let error = run(build, &test).unwrap_err();
+    assert!(error.contains("`weather`: a choice is piecewise constant"), "{error}");
+    assert!(error.contains("`light`: the signal piecewise-constant(0) has 0 coordinates"), "{error}");
+}
+
+#[test]
 fn the_structure_of_a_world_does_not_vary_over_time() {
     let refused = refusal(|s| {
         rolling(s);

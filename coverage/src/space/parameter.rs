@@ -143,7 +143,7 @@ impl Parameter {
                 }
             }
         }
-        self.validate_signal()?;
+        self.signal.map_or(Ok(()), |shape| self.check_signal(shape))?;
         self.default.as_ref().map_or(Ok(()), |value| self.check(value))
     }
 }

@@ -109,14 +109,17 @@ impl Parameter {
         })
     }
 
-    pub(super) fn validate_signal(&self) -> Result<(), SpaceError> {
-        let Some(shape) = self.signal else { return Ok(()) };
+    /// Checks that it can vary in this shape.
+    ///
+    /// # Errors
+    /// The shape has no piece or too many coordinates, or the parameter is a choice and the shape not piecewise constant.
+    pub fn check_signal(&self, shape: Shape) -> Result<(), SpaceError> {
         let refuse = |message| Err(SpaceError::Signal { name: self.name.clone(), message });
-        if !(1..=MOST).contains(&shape.coordinates()) {
-            let found = shape.coordinates();
-            return refuse(format!("the signal {shape} has {found} coordinates, expected 1 to {MOST}"));
-        }
+        let found = shape.coordinates();
         match shape {
+            _ if !(1..=MOST).contains(&found) => {
+                refuse(format!("the signal {shape} has {found} coordinates, expected 1 to {MOST}"))
+            }
             Shape::PiecewiseLinear { pieces: 0 } => refuse("a signal needs at least one piece".to_owned()),
             Shape::Polynomial { .. } | Shape::PiecewiseLinear { .. } if self.levels().is_some() => {
                 refuse(format!("a choice is piecewise constant where it varies, found the shape {shape}"))
@@ -149,7 +152,7 @@ impl FromStr for Shape {
 }
 
 impl Shape {
-    /// The shape of that name, its number from `number`.
+    /// The shape of that name, with the number that it takes.
     fn named(name: &str, number: impl Fn() -> Result<usize, String>) -> Result<Self, String> {
         const NAMES: [&str; 3] = ["polynomial", "piecewise-constant", "piecewise-linear"];
         match name {
@@ -213,7 +216,8 @@ pub struct Coordinate<'a> {
 impl Coordinate<'_> {
     /// The name of the parameter; of a signal with the index: `leader_speed[0]`.
     pub fn name(&self) -> String {
-        self.indexed(&self.parameter.name)
+        let Parameter { name, signal, .. } = self.parameter;
+        if signal.is_some() { format!("{name}[{}]", self.index) } else { name.clone() }
     }
 
     /// The name with its unit, for an axis or a column: `leader_speed[0] (m/s)`.
@@ -230,9 +234,5 @@ impl Coordinate<'_> {
             Value::List(values) => values.get(self.index),
             value => Some(value),
         }
-    }
-
-    fn indexed(&self, name: &str) -> String {
-        if self.parameter.signal.is_some() { format!("{name}[{}]", self.index) } else { name.to_owned() }
     }
 }

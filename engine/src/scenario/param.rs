@@ -128,7 +128,11 @@ impl<T: Datum> Param<T> {
     fn stream(&self) -> Stream<T> {
         let parameter = self.name();
         let value = self.given_or_nominal();
-        let Some(shape) = self.shape() else {
+        let shape = self.shape().filter(|shape| {
+            let suits = self.declared.borrow()[self.index].parameter.check_signal(*shape);
+            suits.map_err(|error| self.problem(error.to_string())).is_ok()
+        });
+        let Some(shape) = shape else {
             if matches!(value, Value::List(_)) {
                 self.problem(format!("parameter `{parameter}` has the values {value}, but does not vary over time"));
             }

@@ -15,7 +15,7 @@ pub enum Sample {
 
 impl Sample {
     pub fn is_absent(self) -> bool {
-        self == Sample::Absent
+        matches!(self, Sample::Absent)
     }
 }
 

@@ -137,7 +137,7 @@ impl Graph {
         for &delay in &self.delays {
             let Operation { inputs: [at, _], width, memory, .. } = &mut self.operations[delay];
             if let Memory::Value { samples, over } = memory {
-                samples.copy_from_slice(&self.values[*at..*at + *width]);
+                copy(&self.values[*at..*at + *width], samples);
                 *over = self.over[*at];
             }
         }
@@ -184,7 +184,7 @@ impl Operation {
             (Kind::Signal { values, .. }, _) => {
                 let pieces = values.len() / width;
                 let piece = Shape::piece(pieces, clock.tick, clock.ticks);
-                output.copy_from_slice(&values[piece * width..][..width]);
+                copy(&values[piece * width..][..width], output);
                 false
             }
             (Kind::Unary(function), _) => {
@@ -246,7 +246,7 @@ impl Operation {
                 over
             }
             (Kind::Concat, _) => {
-                output.copy_from_slice(from(if left_over { right } else { left }));
+                copy(from(if left_over { right } else { left }), output);
                 left_over && right_over
             }
             (Kind::Sum(_), Memory::Value { samples, .. }) => {
@@ -265,7 +265,7 @@ impl Operation {
                 left_over
             }
             (Kind::Merge, _) => {
-                output.copy_from_slice(from(if values[left].is_absent() { right } else { left }));
+                copy(from(if values[left].is_absent() { right } else { left }), output);
                 left_over && right_over
             }
             (Kind::SkipUntil, Memory::Occurred(begun)) => {
@@ -279,12 +279,12 @@ impl Operation {
                 *ended || left_over
             }
             (Kind::Pre, Memory::Value { samples, over }) => {
-                output.copy_from_slice(samples);
+                copy(samples, output);
                 *over
             }
             (Kind::Hold { .. }, _) => {
                 if !values[left].is_absent() {
-                    output.copy_from_slice(from(left));
+                    copy(from(left), output);
                 }
                 false
             }
@@ -300,8 +300,16 @@ impl Operation {
 /// The value, if it is to be seen.
 fn put(output: &mut [Sample], present: bool, value: &[Sample]) {
     if present {
-        output.copy_from_slice(value);
+        copy(value, output);
     } else {
         output[0] = Sample::Absent;
+    }
+}
+
+/// Nearly all values are one sample, for which a call to copy memory would take longer than the rest.
+fn copy(value: &[Sample], output: &mut [Sample]) {
+    match (value, output) {
+        ([value], [output]) => *output = *value,
+        (value, output) => output.copy_from_slice(value),
     }
 }
