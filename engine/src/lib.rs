@@ -40,6 +40,7 @@ mod world;
 
 pub use observation::{Briefing, Control, Observation, Other};
 pub use outcome::{Metric, Outcome};
+pub use paracosm_coverage::Shape;
 pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use run::{DEFAULT_DT, Run, Step, simulate};
 pub use scenario::{

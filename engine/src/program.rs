@@ -1,5 +1,6 @@
 //! A scenario as the function that it is, and what it declares when it is run without a test.
 
+use crate::run::standard_signals;
 use crate::scenario::Scenario;
 use paracosm_coverage::{Domain, Parameter, Shape, Space, SpaceError, Value, Values};
 use paracosm_oracles::Requirement;
@@ -167,6 +168,16 @@ impl Program {
             let id = &stated.requirement.id;
             if requirements[..i].iter().any(|other| other.requirement.id == *id) {
                 problems.push(format!("requirement `{id}` is stated twice"));
+            }
+            let name = stated.signal.to_string();
+            let other = requirements[..i].iter().find(|other| other.signal.to_string() == name);
+            if other.is_some_and(|other| !other.signal.means(&stated.signal)) {
+                problems.push(format!(
+                    "two streams that requirements speak of are called `{name}`: tell them apart by `named`"
+                ));
+            }
+            if !stated.signal.is_output() && standard_signals(&scenario.walkers).contains(&name) {
+                problems.push(format!("a stream is called `{name}`, which is the name of an object's output"));
             }
         }
         drop(requirements);

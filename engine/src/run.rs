@@ -355,6 +355,11 @@ impl WalkerState {
     }
 }
 
+/// The names of the outputs that every trace shows.
+pub(crate) fn standard_signals(walkers: &[WalkerSetup]) -> Vec<String> {
+    standard_columns(walkers).0
+}
+
 /// The outputs that every trace shows.
 fn standard_columns(walkers: &[WalkerSetup]) -> (Vec<String>, Vec<Column>) {
     let car = [

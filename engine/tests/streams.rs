@@ -222,6 +222,32 @@ fn a_comparison_of_two_streams_is_worth_their_difference() {
 }
 
 #[test]
+fn streams_that_a_trace_could_not_tell_apart_are_refused() {
+    let closures = refusal(|s| {
+        let car = rolling(s);
+        s.require("slow", never(car.speed().map(|speed| speed).above(50.0)));
+        s.require("near", never(car.speed().map(|speed| speed * speed).above(900.0)));
+    });
+    assert!(closures.contains("are called `map(car.speed)`: tell them apart by `named`"), "{closures}");
+    let output = refusal(|s| {
+        let car = rolling(s);
+        s.require("slow", never((car.speed() * 3.6).named("car.speed").above(50.0)));
+    });
+    assert!(output.contains("a stream is called `car.speed`"), "{output}");
+    let fine: fn(&mut Scenario) = |s| {
+        let car = rolling(s);
+        let squared = car.speed().map(|speed| speed * speed);
+        s.require("slow", never(squared.above(900.0)));
+        s.require("fast", never(squared.below(25.0)));
+        s.require("double", never((car.speed() * 2.0).below(5.0)));
+        s.require("half", never((car.speed() * 2.0).above(60.0)));
+        s.require("other", never(car.speed().map(|speed| speed).named("other").above(50.0)));
+    };
+    let declaration = Program { name: "streams", about: "streams", build: fine }.declare().unwrap();
+    assert_eq!(declaration.requirements.len(), 5);
+}
+
+#[test]
 fn the_graph_is_drawn_in_dot() {
     fn build(s: &mut Scenario) {
         let speed = s.interval("speed", 1.0..=5.0).default(2.0);

@@ -48,8 +48,9 @@ pub(super) struct Options {
     /// row of --discrete, k-wise-dispersion of others]
     #[arg(long, value_name = "MEASURE")]
     measure: Option<String>,
-    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one. With a SHAPE each test lets
-    /// it vary over time: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES, per-tick, constant
+    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one. With a SHAPE each test
+    /// lets it vary over time: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES, per-tick,
+    /// constant
     #[arg(long, value_name = "NAME[:SHAPE][=LO..HI|=A,B,C]")]
     open: Vec<String>,
     /// Fix a parameter, a signal at one value or at A,B,C; or change a setting of the driver with driver.NAME=VALUE

@@ -112,7 +112,8 @@ impl Parameter {
     /// Checks that it can vary in this shape.
     ///
     /// # Errors
-    /// The shape has no piece or too many coordinates, or the parameter is a choice and the shape not piecewise constant.
+    /// The shape has no piece or too many coordinates, or the parameter is a choice and the shape not piecewise
+    /// constant.
     pub fn check_signal(&self, shape: Shape) -> Result<(), SpaceError> {
         let refuse = |message| Err(SpaceError::Signal { name: self.name.clone(), message });
         let found = shape.coordinates();

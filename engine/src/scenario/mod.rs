@@ -131,8 +131,8 @@ impl Scenario {
         Param::new(self.parameters.clone(), self.problems.clone(), given.unwrap_or_default(), read)
     }
 
-    /// The shape of a signal with a value of its own at every tick of a run of [`DEFAULT_DT`](crate::DEFAULT_DT) seconds
-    /// a tick. It takes as many coordinates; the [duration](Scenario::duration) has to be said before.
+    /// The shape of a signal with a value of its own at every tick of a run of [`DEFAULT_DT`](crate::DEFAULT_DT)
+    /// seconds a tick. It takes as many coordinates; the [duration](Scenario::duration) has to be said before.
     pub fn per_tick(&self) -> Shape {
         Shape::PiecewiseConstant { pieces: crate::run::ticks(self.duration, crate::run::DEFAULT_DT) }
     }

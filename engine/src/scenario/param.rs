@@ -12,8 +12,8 @@ use std::cell::RefCell;
 use std::fmt;
 use std::rc::Rc;
 
-/// A parameter of type `T` (a number, a word, or whatever else stands for the values of a choice) with the value that the
-/// test gives it.
+/// A parameter of type `T` (a number, a word, or whatever else stands for the values of a choice) with the value that
+/// the test gives it.
 #[derive(Clone)]
 pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
@@ -79,8 +79,8 @@ impl<T: Clone> Param<T> {
         self
     }
 
-    /// Gives an open parameter its nominal value, where shrinking goes and what it has when a study closes it. That of a
-    /// signal is a list with a value for each coordinate, or one value for all.
+    /// Gives an open parameter its nominal value, where shrinking goes and what it has when a study closes it. That of
+    /// a signal is a list with a value for each coordinate, or one value for all.
     pub fn default(self, value: impl Into<Value>) -> Self {
         self.declared.borrow_mut()[self.index].parameter.default = Some(value.into());
         self
@@ -93,8 +93,8 @@ impl<T: Clone> Param<T> {
         self
     }
 
-    /// The value that this test gives it. Where the test lets it vary over time, the world cannot be built: who asks for
-    /// a value needs one for the whole run.
+    /// The value that this test gives it. Where the test lets it vary over time, the world cannot be built: who asks
+    /// for a value needs one for the whole run.
     pub fn value(&self) -> T {
         if self.shape().is_some() {
             let name = self.name();

@@ -6,8 +6,9 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::rc::Rc;
 
-/// A graph with its readers: outputs of objects are boxes, parameters ellipses, readers bold boxes, and what a `pre` takes
-/// from the tick before comes along a dashed line. Where the order of two inputs matters, their lines are numbered.
+/// A graph with its readers: outputs of objects are boxes, parameters ellipses, readers bold boxes, and what a `pre`
+/// takes from the tick before comes along a dashed line. Where the order of two inputs matters, their lines are
+/// numbered.
 pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equation]) -> Result<String, Fault> {
     let ordered = order(readers.iter().map(|(_, node)| node), equations)?;
     let mut names: HashMap<*const Node, Vec<&str>> = HashMap::new();

@@ -10,8 +10,9 @@
 //! # Feedback
 //! An expression is made of expressions that exist. One that is needed before it exists is announced by
 //! [`Scenario::forward`](crate::Scenario::forward) and defined later. It may depend on its own values at earlier ticks,
-//! by way of a [`pre`](Stream::pre); if it depends on its value at the same tick, the scenario is refused with the names
-//! of all that is on the cycle. Physics closes loops too: outputs of objects show the state at the beginning of a tick.
+//! by way of a [`pre`](Stream::pre); if it depends on its value at the same tick, the scenario is refused with the
+//! names of all that is on the cycle. Physics closes loops too: outputs of objects show the state at the beginning of a
+//! tick.
 //!
 //! # Tick by tick
 //! An empty cell is an absent value; *over* says from which tick on a stream is known to be absent for ever, which
@@ -42,9 +43,10 @@
 //! | `x.pre().initially(0)` | 0 | 1 | 2 | 3 | 4 | over when both are |
 //! | `y.for_each(f)` | | f(7) | | f(8) | f(9) | done, not read |
 //!
-//! Operands of different clocks need no conversion: what only happens now and then is made continuous by `hold`, and what
-//! is continuous is sampled by `when`. Nothing is ever queued. The paper's `v.pos.take(1).concat(v.pos)`, whose lists
-//! are one element apart, is therefore written `v.pos.take(1).concat(v.pos.pre())`, or `v.pos.pre().initially(v.pos)`:
+//! Operands of different clocks need no conversion: what only happens now and then is made continuous by `hold`, and
+//! what is continuous is sampled by `when`. Nothing is ever queued. The paper's `v.pos.take(1).concat(v.pos)`, whose
+//! lists are one element apart, is therefore written `v.pos.take(1).concat(v.pos.pre())`, or
+//! `v.pos.pre().initially(v.pos)`:
 //!
 //! ```
 //! # use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario, eventually};

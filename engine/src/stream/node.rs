@@ -155,6 +155,35 @@ impl Node {
         }
     }
 
+    /// Whether two nodes mean the same: the same operations on the same inputs. Closures are the same only if they are
+    /// one.
+    pub fn means(self: &Rc<Self>, other: &Rc<Self>) -> bool {
+        let (left, right) = (self.unnamed(), other.unnamed());
+        if Rc::ptr_eq(left, right) {
+            return true;
+        }
+        let kinds = match (&left.kind, &right.kind) {
+            (Kind::Map(left), Kind::Map(right)) => Rc::ptr_eq(left, right),
+            (Kind::Filter(left), Kind::Filter(right)) => Rc::ptr_eq(left, right),
+            (Kind::Scan { step: left, .. }, Kind::Scan { step: right, .. }) => Rc::ptr_eq(left, right),
+            (Kind::ForEach(left), Kind::ForEach(right)) => Rc::ptr_eq(left, right),
+            (Kind::Forward { equation: left, .. }, Kind::Forward { equation: right, .. }) => left == right,
+            (Kind::Constant { value: left, .. }, Kind::Constant { value: right, .. }) => left == right,
+            (Kind::Towards(left), Kind::Towards(right)) => left == right,
+            (one, another) => {
+                std::mem::discriminant(one) == std::mem::discriminant(another) && left.label() == right.label()
+            }
+        };
+        kinds
+            && left.inputs.len() == right.inputs.len()
+            && left.inputs.iter().zip(&right.inputs).all(|(left, right)| left.means(right))
+    }
+
+    /// Whether it is an output of an object, under its own name.
+    pub fn is_output(&self) -> bool {
+        matches!(self.kind, Kind::Output { .. })
+    }
+
     /// What is behind names given by the program.
     pub fn unnamed(self: &Rc<Self>) -> &Rc<Self> {
         match self.kind {

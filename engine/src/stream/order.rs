@@ -1,8 +1,8 @@
 //! In which order the nodes of a graph are evaluated, or why there is none.
 //!
-//! Operands come before what uses them; a `pre` uses its operand only once the tick is over. What is left is a search in
-//! depth (Tarjan, SIAM J. Comput. 1, 1972) that stops at the first node it meets again on its own path: that path is a
-//! causal cycle, as the compilers of synchronous languages know it (Halbwachs et al., Proc. IEEE 79(9), 1991).
+//! Operands come before what uses them; a `pre` uses its operand only once the tick is over. What is left is a search
+//! in depth (Tarjan, SIAM J. Comput. 1, 1972) that stops at the first node it meets again on its own path: that path is
+//! a causal cycle, as the compilers of synchronous languages know it (Halbwachs et al., Proc. IEEE 79(9), 1991).
 
 use super::node::{Equation, Kind, Node};
 use std::collections::{HashMap, VecDeque};

@@ -31,8 +31,8 @@ fn over<T: Datum>(stream: &Stream<T>, ticks: &[(Option<f64>, Option<f64>)]) -> V
     values
 }
 
-/// Checks a stream against a row of the tables in the documentation: what it is at the five ticks at which `x` is 1, 2, 3,
-/// 4, 5 and `y` is absent, 7, absent, 8, 9.
+/// Checks a stream against a row of the tables in the documentation: what it is at the five ticks at which `x` is 1, 2,
+/// 3, 4, 5 and `y` is absent, 7, absent, 8, 9.
 fn row<T: Datum + PartialEq + std::fmt::Debug>(stream: &Stream<T>, expected: [Option<T>; 5]) {
     let ys = [None, Some(7.0), None, Some(8.0), Some(9.0)];
     let ticks: Vec<_> = (1..6).map(f64::from).map(Some).zip(ys).collect();
