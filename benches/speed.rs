@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 use paracosm::Study;
 use paracosm::coverage::Space;
 use paracosm::engine::road::{Network, Place, grid_city};
-use paracosm::engine::{driver, simulate};
+use paracosm::engine::{AutonomousVehicle, DEFAULT_DT, Program, RoadSegment, Run, Scenario, Stream, driver, simulate};
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
 
@@ -32,6 +32,33 @@ fn tests(bencher: Bencher, driver: &str) {
             black_box(simulate(&program, test, driver.as_mut()).trace.map(|trace| trace.hash()));
         }
     });
+}
+
+/// Nodes of streams evaluated in each tick of a run of 1,000 ticks: arithmetic, a comparison, a closure, and what
+/// remembers something. The run around them takes the time of some thirty nodes.
+#[divan::bench(sample_count = 20)]
+fn stream_nodes(bencher: Bencher) {
+    const CHAINS: usize = 100;
+    const NODES: usize = 10;
+    fn build(s: &mut Scenario) {
+        let road = s.place(RoadSegment::new(200.0));
+        let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)));
+        s.duration(10.0);
+        let mut chain: Stream<f64> = car.speed();
+        for _ in 0..CHAINS {
+            let near = (&chain + car.travelled()).below(5.0);
+            let held = chain.map(|x| 0.5 * x).when(&near).merge(&-&chain).hold(0.0);
+            chain = held.pre().skip_until(&near).max(&held);
+        }
+        s.place(chain.for_each(|x| assert!(x.is_finite())));
+    }
+    let program = Program { name: "streams", about: "many nodes", build };
+    let test = program.declare().unwrap().nominal();
+    let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
+    bencher
+        .counter(ItemsCount::new(CHAINS * NODES * 1000))
+        .with_inputs(|| Run::new(&program, &test, DEFAULT_DT, 0.1).unwrap())
+        .bench_local_values(|mut run| black_box(run.drive(driver.as_mut())));
 }
 
 /// Points in five dimensions, the building of the generator included. `greedy`, which thinks for milliseconds about

@@ -12,7 +12,7 @@ use paracosm_coverage::dispersion::LargestEmptyBox;
 use paracosm_coverage::kwise_dispersion::projections;
 use paracosm_coverage::proof::{Budget, Proof, Proved, Scope, prove};
 use paracosm_coverage::rules::Rules;
-use paracosm_coverage::{Bracket, Deadline, Parameter, Value};
+use paracosm_coverage::{Bracket, Coordinate, Deadline, Parameter, Value};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -173,8 +173,10 @@ impl Tests {
             self.claim(measured, &rules, deadline)
         });
         let claims = claims.collect::<Result<_, _>>()?;
-        let interval = |p: &Parameter| Interval { name: p.name.clone(), interval: [0.0, 1.0].map(|u| p.value_at(u)) };
-        let choice = |p: &Parameter| Choice { name: p.name.clone(), values: p.levels().unwrap_or_default().to_vec() };
+        let ends = |parameter: &Parameter| [0.0, 1.0].map(|u| parameter.value_at(u));
+        let interval = |c: Coordinate| Interval { name: c.name(), interval: ends(c.parameter) };
+        let values = |parameter: &Parameter| parameter.levels().unwrap_or_default().to_vec();
+        let choice = |c: Coordinate| Choice { name: c.name(), values: values(c.parameter) };
         let certificate = Certificate {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION").to_owned(),

@@ -8,7 +8,7 @@ use paracosm_coverage::kwise::kwise_coverage;
 use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion, row_dispersion};
 use paracosm_coverage::rules::Rules;
 use paracosm_coverage::star::star_discrepancy;
-use paracosm_coverage::{Bracket, Deadline, Parameter, Point, PointSet, Record, Space, Value};
+use paracosm_coverage::{Bracket, Coordinate, Deadline, Point, PointSet, Record, Space, Value};
 use paracosm_coverage::{did_you_mean, l2, nearest};
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;
@@ -132,7 +132,7 @@ pub struct Coverage {
 /// How well tests cover the continuous parameters, each scaled to `[0,1]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Continuous {
-    /// The parameters.
+    /// The parameters; of a signal each of its coordinates.
     pub parameters: Vec<String>,
     /// The largest empty box.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -294,7 +294,7 @@ impl Tests {
         limit: Option<Duration>,
         watch: &mut Watch,
     ) -> Result<(Coverage, Holes), Error> {
-        let parameters = self.space.parameters().len();
+        let parameters = self.space.coordinates().count();
         let k = k.or(self.k).unwrap_or(parameters.min(2));
         if !(1..=parameters).contains(&k) {
             return Err(Error::Usage(format!("k is {k}, expected 1 to {parameters}, the number of parameters")));
@@ -358,8 +358,8 @@ impl Tests {
         axes: &[usize],
         witness: Option<&LargestEmptyBox>,
     ) -> KwiseWorst {
-        let discrete: Vec<&Parameter> = self.space.discrete().collect();
-        let continuous: Vec<&Parameter> = self.space.continuous().collect();
+        let discrete: Vec<Coordinate> = self.space.discrete().collect();
+        let continuous: Vec<Coordinate> = self.space.continuous().collect();
         let fixed = fixed.iter().map(|&(parameter, level)| named_level(&discrete, parameter, level)).collect();
         let axes = axes.iter().map(|&axis| continuous[axis]);
         KwiseWorst { fixed, empty_box: witness.map(|witness| sides(axes, witness)).unwrap_or_default() }
@@ -373,8 +373,8 @@ impl Tests {
         watch: &mut Watch,
     ) -> Result<Continuous, Error> {
         let points = PointSet::new(self.space.dims(), self.points.iter().map(|point| &point.continuous))?;
-        let parameters: Vec<&Parameter> = self.space.continuous().collect();
-        let mut coverage = Continuous::of(parameters.iter().map(|parameter| parameter.name.clone()).collect());
+        let parameters: Vec<Coordinate> = self.space.continuous().collect();
+        let mut coverage = Continuous::of(parameters.iter().map(Coordinate::name).collect());
         // From the fastest to the slowest: what one leaves of the time is for those after it.
         for measure in Measure::CONTINUOUS.into_iter().filter(|measure| measures.contains(measure)) {
             watch(measure, None);
@@ -396,7 +396,7 @@ impl Tests {
                 Measure::Fill => {
                     coverage.fill = Some(fill(&points, deadline).map(|found| {
                         let places = parameters.iter().zip(&found.centre);
-                        let centre = places.map(|(p, &u)| (p.name.clone(), p.value_at(u))).collect();
+                        let centre = places.map(|(p, &u)| (p.name(), p.parameter.value_at(u))).collect();
                         Ball { radius: found.radius, centre }
                     }));
                 }
@@ -407,7 +407,7 @@ impl Tests {
     }
 
     fn discrete(&self, k: usize, rules: &Rules) -> Result<Discrete, Error> {
-        let parameters: Vec<&Parameter> = self.space.discrete().collect();
+        let parameters: Vec<Coordinate> = self.space.discrete().collect();
         let counted = kwise_coverage(rules, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
         let name = |&(parameter, level): &(usize, usize)| named_level(&parameters, parameter, level);
         Ok(Discrete {
@@ -421,16 +421,17 @@ impl Tests {
     }
 }
 
-/// A discrete parameter with one of its values.
-fn named_level(parameters: &[&Parameter], parameter: usize, level: usize) -> (String, Value) {
-    let parameter = parameters[parameter];
-    (parameter.name.clone(), parameter.levels().expect("it is a discrete parameter")[level].clone())
+/// A discrete coordinate with one of its values.
+fn named_level(coordinates: &[Coordinate], coordinate: usize, level: usize) -> (String, Value) {
+    let coordinate = coordinates[coordinate];
+    let levels = coordinate.parameter.levels().expect("it is a discrete parameter");
+    (coordinate.name(), levels[level].clone())
 }
 
-/// A box over some continuous parameters, as values.
-fn sides<'a>(parameters: impl Iterator<Item = &'a Parameter>, witness: &LargestEmptyBox) -> Record<[f64; 2]> {
+/// A box over some continuous coordinates, as values.
+fn sides<'a>(coordinates: impl Iterator<Item = Coordinate<'a>>, witness: &LargestEmptyBox) -> Record<[f64; 2]> {
     let ends = witness.lower.iter().zip(&witness.upper);
-    parameters.zip(ends).map(|(p, (&lo, &hi))| (p.name.clone(), [lo, hi].map(|u| p.value_at(u)))).collect()
+    coordinates.zip(ends).map(|(c, (&lo, &hi))| (c.name(), [lo, hi].map(|u| c.parameter.value_at(u)))).collect()
 }
 
 /// A time limit for several measures: what one leaves of the time is for those after it.

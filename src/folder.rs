@@ -212,7 +212,7 @@ fn table(study: &Study, trials: &[Trial]) -> Vec<u8> {
         }
     }
     let mut csv = csv::Writer::from_writer(Vec::new());
-    let parameters = study.space.parameters().iter().map(|parameter| parameter.name.clone());
+    let parameters = study.space.coordinates().map(|coordinate| coordinate.name());
     let requirements = study.requirements.iter().map(|requirement| format!("robustness.{}", requirement.id));
     let header = ["index".to_owned()].into_iter().chain(parameters).chain(["verdict".to_owned()]);
     let header = header.chain(requirements).chain(metrics.iter().map(|name| format!("metric.{name}")));
@@ -221,7 +221,7 @@ fn table(study: &Study, trials: &[Trial]) -> Vec<u8> {
     write(header.collect());
     for trial in trials {
         let mut row = vec![trial.index.to_string()];
-        row.extend(trial.test.iter().map(|(_, value)| value.to_string()));
+        row.extend(trial.test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string));
         row.push(trial.verdict.to_string());
         row.extend(
             study

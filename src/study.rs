@@ -1,9 +1,9 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
 use crate::{Error, Trial};
-use paracosm_coverage::{Domain, Parameter, Record, Space, Value, Values, did_you_mean, nearest};
+use paracosm_coverage::{Domain, Parameter, Record, Shape, Space, Value, Values, did_you_mean, nearest};
 use paracosm_engine::driver::{self, Driver};
-use paracosm_engine::{DEFAULT_DT, Declaration, Program};
+use paracosm_engine::{DEFAULT_DT, Declaration, Declared, Program, Test};
 use paracosm_generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
@@ -220,7 +220,30 @@ impl Study {
         Ok(self)
     }
 
-    /// Fixes a parameter at a value.
+    /// Lets an open parameter vary over time in this shape, or not at all.
+    ///
+    /// # Errors
+    /// It is not open, does not vary in such a shape, or the world is built with one value of it.
+    pub fn vary(mut self, name: &str, signal: Option<Shape>) -> Result<Self, Error> {
+        let mut parameter = self.space.parameter(name)?.clone();
+        parameter.signal = signal;
+        parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
+        self.rebuild(|other| other.name == name, Some(parameter))?;
+        let program = self.program()?;
+        let mut test = program.declare()?.nominal();
+        for parameter in self.space.parameters() {
+            test.set(&parameter.name, Declared { parameter: parameter.clone(), open: true }.nominal());
+        }
+        program.check(Test::new(&test, &self.space))?;
+        Ok(self)
+    }
+
+    /// How many ticks a test takes, unless a contact ends it.
+    pub fn ticks(&self) -> usize {
+        (self.duration / self.dt).round() as usize
+    }
+
+    /// Fixes a parameter at a value; a signal at a value or at a list of them.
     ///
     /// # Errors
     /// There is no such parameter, it does not take the value, or it was the last open one.

@@ -78,13 +78,19 @@ impl Tests {
             Self::check_size(points.len(), space.parameters().len())
                 .map_err(|error| Error::content(path, line, error.to_string()))?;
             let mut test = Values::default();
-            for (parameter, column) in space.parameters().iter().zip(&columns) {
-                let text = &record[*column];
-                let value = Value::parse(text);
-                if parameter.levels().is_none() && value.number().is_none() {
-                    let message = format!("column `{}`: found `{text}`, expected a number{hint}", parameter.name);
-                    return Err(Error::content(path, line, message));
+            let mut columns = columns.iter();
+            for parameter in space.parameters() {
+                let mut values = Vec::new();
+                for column in columns.by_ref().take(parameter.coordinates()) {
+                    let value = Value::parse(&record[*column]);
+                    if parameter.levels().is_none() && value.number().is_none() {
+                        let message =
+                            format!("column `{}`: found `{value}`, expected a number{hint}", &header[*column]);
+                        return Err(Error::content(path, line, message));
+                    }
+                    values.push(value);
                 }
+                let value = if parameter.signal.is_some() { values.into_iter().collect() } else { values.remove(0) };
                 test.set(parameter.name.clone(), value);
             }
             let point = space.encode(&test).map_err(|error| Error::content(path, line, format!("{error}{hint}")))?;
@@ -114,7 +120,7 @@ fn of_columns(path: &Path, header: &csv::StringRecord) -> Result<Space, Error> {
     Space::new(axes).map_err(|error| Error::content(path, 1, error.to_string()))
 }
 
-/// In which column each parameter stands.
+/// In which column each coordinate stands.
 fn columns(path: &Path, space: &Space, header: &csv::StringRecord) -> Result<Vec<usize>, Error> {
     let column = |name: &str| {
         header.iter().position(|column| column == name).ok_or_else(|| {
@@ -122,7 +128,7 @@ fn columns(path: &Path, space: &Space, header: &csv::StringRecord) -> Result<Vec
             Error::content(path, 1, format!("no column is called `{name}`{hint}"))
         })
     };
-    space.parameters().iter().map(|parameter| column(&parameter.name)).collect()
+    space.coordinates().map(|coordinate| column(&coordinate.name())).collect()
 }
 
 fn broken(path: &Path, error: &csv::Error) -> Error {

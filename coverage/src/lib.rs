@@ -34,4 +34,4 @@ pub mod theory;
 pub use bracket::{Bracket, Deadline};
 pub use names::{did_you_mean, nearest};
 pub use points::{PointSet, PointSetError};
-pub use space::{Domain, Parameter, Point, Record, Space, SpaceError, Value, Values};
+pub use space::{Coordinate, Domain, Parameter, Point, Record, Shape, Space, SpaceError, Value, Values};

@@ -87,7 +87,7 @@ fn leaf(space: &Space, kind: u8, [a, b, c]: [usize; 3]) -> Expression {
         Relation::Greater,
         Relation::GreaterOrEqual,
     ];
-    let discrete: Vec<_> = space.discrete().collect();
+    let discrete: Vec<_> = space.discrete().map(|coordinate| coordinate.parameter).collect();
     let left = discrete[a % discrete.len()];
     let levels = left.levels().unwrap();
     let numeric = |parameter: &Parameter| parameter.levels().unwrap().iter().all(|level| level.number().is_some());
@@ -268,4 +268,30 @@ fn a_constraint_without_short_clauses_is_refused() {
     let pairs: Vec<_> = (0..30).map(|i| format!("p{} == 1 and p{} == 1", 2 * i, 2 * i + 1)).collect();
     let error = space.with_constraints([pairs.join(" or ")]).unwrap_err().to_string();
     assert!(error.contains("too many clauses") && error.contains("joined by `and`"), "{error}");
+}
+
+#[test]
+fn constraints_count_coordinates_where_a_choice_varies_over_time_and_refuse_to_speak_of_it() {
+    let text = r#"
+        constraints = ["lanes == 2 implies weather != 'fog'"]
+
+        [[parameter]]
+        name = "light"
+        choice = ["day", "night"]
+        signal = { shape = "piecewise-constant", pieces = 3 }
+
+        [[parameter]]
+        name = "lanes"
+        choice = [2, 4]
+
+        [[parameter]]
+        name = "weather"
+        choice = ["clear", "fog"]
+    "#;
+    let space = Space::from_toml(text).unwrap();
+    let rules = space.rules().unwrap();
+    assert_eq!(rules.levels(), [2, 2, 2, 2, 2]);
+    assert!(!rules.allows(&[1, 1, 1, 0, 1]) && rules.allows(&[1, 1, 1, 1, 1]) && rules.allows(&[0, 0, 1, 0, 0]));
+    let error = space.with_constraints(["light == 'day'"]).unwrap_err().to_string();
+    assert!(error.contains("`light` varies over time, expected a parameter with one value"), "{error}");
 }

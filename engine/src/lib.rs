@@ -41,10 +41,11 @@ mod world;
 
 pub use observation::{Briefing, Control, Observation, Other};
 pub use outcome::{Metric, Outcome};
-pub use program::{Declaration, Declared, Program, ProgramError};
+pub use paracosm_coverage::Shape;
+pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use road::RoadSegment;
 pub use run::{DEFAULT_DT, Run, Step, simulate};
 pub use scenario::{
     AutonomousVehicle, Car, Line, Param, Paved, Pedestrian, Pose, Road, Scenario, Side, Walk, Walker, eventually, never,
 };
-pub use stream::Stream;
+pub use stream::{Forward, Stream};

@@ -1,7 +1,8 @@
 //! A scenario as the function that it is, and what it declares when it is run without a test.
 
+use crate::run::standard_signals;
 use crate::scenario::Scenario;
-use paracosm_coverage::{Domain, Parameter, Space, SpaceError, Value, Values};
+use paracosm_coverage::{Domain, Parameter, Shape, Space, SpaceError, Value, Values};
 use paracosm_oracles::Requirement;
 use thiserror::Error;
 
@@ -45,6 +46,33 @@ pub struct Declaration {
     pub requirements: Vec<Requirement>,
     /// How long a run takes unless a contact ends it, in seconds.
     pub duration: f64,
+}
+
+/// The values that a test gives to all parameters of a program, and how those vary that do.
+///
+/// Mere values are a test too: their parameters vary as the program declares.
+#[derive(Debug, Clone, Copy)]
+pub struct Test<'a> {
+    pub(crate) values: &'a Values,
+    space: Option<&'a Space>,
+}
+
+impl<'a> Test<'a> {
+    /// These values, of which those of the parameters of `space` vary as it says.
+    pub fn new(values: &'a Values, space: &'a Space) -> Self {
+        Self { values, space: Some(space) }
+    }
+
+    /// How a parameter varies, if the test says so.
+    pub(crate) fn signal(&self, name: &str) -> Option<Option<Shape>> {
+        self.space?.parameter(name).ok().map(|parameter| parameter.signal)
+    }
+}
+
+impl<'a> From<&'a Values> for Test<'a> {
+    fn from(values: &'a Values) -> Self {
+        Self { values, space: None }
+    }
 }
 
 impl Declaration {
@@ -97,13 +125,30 @@ impl Program {
         Ok(Declaration { parameters, requirements, duration: scenario.duration })
     }
 
+    /// Checks that the program can build its world for this test.
+    ///
+    /// # Errors
+    /// It cannot.
+    pub fn check<'a>(&self, test: impl Into<Test<'a>>) -> Result<(), ProgramError> {
+        self.built(Some(test.into())).map(|_| ())
+    }
+
+    /// The graph of its streams with nominal values, in the DOT language of Graphviz.
+    ///
+    /// # Errors
+    /// The world cannot be built with nominal values.
+    pub fn dot(&self) -> Result<String, ProgramError> {
+        Ok(self.built(None)?.dot(self.name))
+    }
+
     /// Runs the program, with a test or without, and checks what it built.
-    pub(crate) fn built(&self, test: Option<&Values>) -> Result<Scenario, ProgramError> {
-        let mut scenario = Scenario::new(test.cloned());
+    pub(crate) fn built(&self, test: Option<Test>) -> Result<Scenario, ProgramError> {
+        let mut scenario = Scenario::new(test.as_ref());
         (self.build)(&mut scenario);
         if let Some(test) = test {
-            self.check_names(&scenario, test)?;
+            self.check_names(&scenario, test.values)?;
         }
+        scenario.lay_out();
         let mut problems = Vec::new();
         for problem in scenario.problems.take() {
             // The same mistake on every line that uses the same value is one mistake.
@@ -123,6 +168,16 @@ impl Program {
             let id = &stated.requirement.id;
             if requirements[..i].iter().any(|other| other.requirement.id == *id) {
                 problems.push(format!("requirement `{id}` is stated twice"));
+            }
+            let name = stated.signal.to_string();
+            let other = requirements[..i].iter().find(|other| other.signal.to_string() == name);
+            if other.is_some_and(|other| !other.signal.means(&stated.signal)) {
+                problems.push(format!(
+                    "two streams that requirements speak of are called `{name}`: tell them apart by `named`"
+                ));
+            }
+            if !stated.signal.is_output() && standard_signals(&scenario.walkers).contains(&name) {
+                problems.push(format!("a stream is called `{name}`, which is the name of an object's output"));
             }
         }
         drop(requirements);

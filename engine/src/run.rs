@@ -10,13 +10,12 @@
 use crate::driver::Driver;
 use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Metric, Outcome};
-use crate::program::{Program, ProgramError};
+use crate::program::{Program, ProgramError, Test};
 use crate::scenario::{CarSetup, Pose, WalkerSetup};
-use crate::stream::{Datum, Graph, Sample, Slot, Source};
+use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::{GRAVITY, Motion};
 use crate::world::{Contact, WALKER_RADIUS, World};
 use nalgebra::Vector2;
-use paracosm_coverage::Values;
 use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
 
 /// The tick in seconds where nothing else is asked for.
@@ -103,25 +102,25 @@ impl Run {
     ///
     /// # Panics
     /// `dt` or `period` is no positive number of seconds.
-    pub fn new(program: &Program, test: &Values, dt: f64, period: f64) -> Result<Self, ProgramError> {
+    pub fn new<'a>(program: &Program, test: impl Into<Test<'a>>, dt: f64, period: f64) -> Result<Self, ProgramError> {
         assert!(dt > 0.0 && dt.is_finite() && period > 0.0, "a tick and a period are positive numbers of seconds");
-        let scenario = program.built(Some(test))?;
+        let mut scenario = program.built(Some(test.into()))?;
         let setup = scenario.cars[0];
-        let mut graph = Graph::default();
-        let friction = graph.add(&scenario.roads[0].friction);
-        let walkers: Vec<_> = scenario.walkers.iter().map(|walker| WalkerState::new(walker, &mut graph)).collect();
-        let premise = scenario.premise.as_ref().map(|event| graph.add(event));
+        let graph = std::mem::take(&mut scenario.graph);
+        let friction = graph.slot(&scenario.roads[0].friction.node);
+        let walkers: Vec<_> = scenario.walkers.iter().map(|walker| WalkerState::new(walker, &graph)).collect();
+        let premise = scenario.premise.as_ref().map(|event| graph.slot(&event.node));
         let (mut names, mut columns) = standard_columns(&scenario.walkers);
         let mut requirements = Vec::new();
         for stated in scenario.requirements.take() {
             let name = stated.signal.to_string();
             if !names.contains(&name) {
-                columns.push(Column::Stream(graph.add_node(&stated.signal)));
+                columns.push(Column::Stream(graph.slot(&stated.signal)));
                 names.push(name);
             }
             requirements.push(stated.requirement);
         }
-        let ticks = (scenario.duration / dt).round() as usize;
+        let ticks = ticks(scenario.duration, dt);
         let mut world = World::new(&setup.vehicle, setup.start, walkers.iter().map(|walker| walker.pose));
         let overlapping = world.contact().is_some();
         let mut trace = Trace::new(dt, names);
@@ -221,7 +220,7 @@ impl Run {
     /// No comparison with NaN holds, so that a signal without a value would satisfy every `never`.
     fn look(&mut self) -> Result<(), String> {
         let mut graph = std::mem::take(&mut self.graph);
-        graph.tick(|source| self.output(source));
+        graph.tick(Clock { tick: self.tick, ticks: self.ticks }, |source| self.output(source));
         self.graph = graph;
         self.triggered |= self.premise.is_some_and(|slot| self.graph.value(slot) == Some(true));
         for (index, column) in self.columns.iter().enumerate() {
@@ -240,19 +239,19 @@ impl Run {
 
     fn output(&self, source: Source) -> Sample {
         match source {
-            Source::CarPosition => self.car_pose().position.wrap(),
-            Source::CarX => self.car_pose().position.x.wrap(),
-            Source::CarY => self.car_pose().position.y.wrap(),
-            Source::CarSpeed => self.motion.speed.wrap(),
-            Source::CarAcceleration => self.motion.acceleration.wrap(),
-            Source::CarTravelled => self.motion.travelled.wrap(),
-            Source::CarClearance => self.clearance.wrap(),
-            Source::CarThrottle => self.control.throttle.wrap(),
-            Source::WalkerPosition(i) => self.walkers[i].pose.position.wrap(),
-            Source::WalkerX(i) => self.walkers[i].pose.position.x.wrap(),
-            Source::WalkerY(i) => self.walkers[i].pose.position.y.wrap(),
-            Source::WalkerSpeed(i) => self.walkers[i].velocity.norm().wrap(),
-            Source::WalkerRemaining(i) => self.walkers[i].remaining().wrap(),
+            Source::CarPosition => self.car_pose().position.into(),
+            Source::CarX => self.car_pose().position.x.into(),
+            Source::CarY => self.car_pose().position.y.into(),
+            Source::CarSpeed => self.motion.speed.into(),
+            Source::CarAcceleration => self.motion.acceleration.into(),
+            Source::CarTravelled => self.motion.travelled.into(),
+            Source::CarClearance => self.clearance.into(),
+            Source::CarThrottle => self.control.throttle.into(),
+            Source::WalkerPosition(i) => self.walkers[i].pose.position.into(),
+            Source::WalkerX(i) => self.walkers[i].pose.position.x.into(),
+            Source::WalkerY(i) => self.walkers[i].pose.position.y.into(),
+            Source::WalkerSpeed(i) => self.walkers[i].velocity.norm().into(),
+            Source::WalkerRemaining(i) => self.walkers[i].remaining().into(),
         }
     }
 
@@ -346,15 +345,19 @@ impl Run {
 }
 
 impl WalkerState {
-    fn new(setup: &WalkerSetup, graph: &mut Graph) -> Self {
-        let task = setup.task.borrow();
+    fn new(setup: &WalkerSetup, graph: &Graph) -> Self {
         Self {
             pose: setup.start,
-            target: task.target,
+            target: setup.task.borrow().target,
             velocity: Vector2::zeros(),
-            input: task.speed.as_ref().map(|speed| graph.add(speed)),
+            input: setup.speed().map(|speed| graph.slot(&speed.node)),
         }
     }
+}
+
+/// The names of the outputs that every trace shows.
+pub(crate) fn standard_signals(walkers: &[WalkerSetup]) -> Vec<String> {
+    standard_columns(walkers).0
 }
 
 /// The outputs that every trace shows.
@@ -381,12 +384,17 @@ fn as_number(sample: Sample) -> f64 {
     match sample {
         Sample::Number(number) => number,
         Sample::Truth(truth) => f64::from(u8::from(truth)),
-        Sample::Absent | Sample::Vector(_) => f64::NAN,
+        Sample::Absent | Sample::Event | Sample::Vector(_) | Sample::Word(_) => f64::NAN,
     }
 }
 
+/// How many ticks of `dt` seconds a duration takes, rounded.
+pub(crate) fn ticks(duration: f64, dt: f64) -> usize {
+    (duration / dt).round() as usize
+}
+
 /// Runs a test to its end with a driver; a world that cannot be built is an outcome too.
-pub fn simulate(program: &Program, test: &Values, driver: &mut dyn Driver) -> Outcome {
+pub fn simulate<'a>(program: &Program, test: impl Into<Test<'a>>, driver: &mut dyn Driver) -> Outcome {
     let mut run = match Run::new(program, test, DEFAULT_DT, driver.period()) {
         Ok(run) => run,
         Err(error @ ProgramError::World { .. }) => return Outcome::broken(Verdict::Invalid, error.to_string()),

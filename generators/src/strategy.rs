@@ -200,7 +200,7 @@ impl Strategy {
         let rules = space.rules()?;
         check_existing(space, existing)?;
         if self == Self::Greedy && dims > 0 {
-            let k = k.unwrap_or(2.min(space.parameters().len()));
+            let k = k.unwrap_or(2.min(dims + rules.levels().len()));
             // Of all parameters together, the k-wise dispersion is the dispersion.
             let is_dispersion = rules.levels().is_empty() && k == dims;
             let aim = aim.unwrap_or(if rules.levels().is_empty() { Aim::Dispersion } else { Aim::KwiseDispersion });

@@ -287,15 +287,20 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
     check(
         Halton,
         Request { discrete: DiscreteFamily::Cross, ..Request::new(&huge, 5) },
-        "the discrete family has 19487171 rows, more than 10,000,000; use the random family",
+        "the discrete family has 19487171 rows, more than 10,000,000; use the family ipog",
     );
     check(
         Halton,
         Request { discrete: DiscreteFamily::Cross, ..Request::new(&beyond, 5) },
-        "the discrete family has over 10^19 rows, more than 10,000,000; use the random family",
+        "the discrete family has over 10^19 rows, more than 10,000,000; use the family ipog",
     );
-    let refused = refusal(Halton, &Request { k: Some(7), ..Request::new(&huge, 5) });
-    assert!(refused.to_string().ends_with("more than 10,000,000; use a smaller k"), "{refused}");
+    let refused = refusal(Halton, &Request { k: Some(7), discrete: random(0.05), ..Request::new(&huge, 5) });
+    assert!(refused.to_string().ends_with("more than 10,000,000; use a smaller k, or the family ipog"), "{refused}");
+    check(
+        Halton,
+        Request { k: Some(7), ..Request::new(&huge, 5) },
+        "at least 19487171 tests are needed, more than 10000000; lower the strength",
+    );
     check(
         Lhs,
         Request::new(&cube, usize::MAX),
@@ -347,12 +352,13 @@ fn names_are_read_back_and_unknown_ones_meet_a_suggestion() {
         assert!(!strategy.about().contains('\n'));
     }
     assert_eq!("cross".parse(), Ok(DiscreteFamily::Cross));
-    assert_eq!("random".parse(), Ok(DiscreteFamily::default()));
+    assert_eq!("random".parse(), Ok(DiscreteFamily::Random { delta: 0.05 }));
+    assert_eq!("ipog".parse(), Ok(DiscreteFamily::default()));
     let error = |name: &str| name.parse::<Strategy>().expect_err("an unknown name").to_string();
     assert_eq!(error("haltom"), "no strategy is called `haltom` (did you mean `halton`?)");
     assert_eq!(error("zzz"), "no strategy is called `zzz`");
     let family = "crss".parse::<DiscreteFamily>().expect_err("an unknown name").to_string();
-    assert_eq!(family, "no discrete family is called `crss` (did you mean `cross`?); there are random and cross");
+    assert_eq!(family, "no discrete family is called `crss` (did you mean `cross`?); there are ipog, random and cross");
 }
 
 fn extended(space: &Space, existing: &[Point], n: usize) -> Vec<Point> {

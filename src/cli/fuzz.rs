@@ -1,12 +1,13 @@
 //! The arguments of `paracosm-fuzz`.
 
-use super::{Failure, Found, Verbosity, list, replay, run};
+use super::{Failure, Found, Verbosity, describe, list, replay, run};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz --strategy halton --budget 500       the pedestrian study of the paper, into paracosm-out/
   paracosm-fuzz pedestrian-crossing --driver aeb --open friction=0.3..0.8 --out slippery
+  paracosm-fuzz --open friction:piecewise-linear:3   the friction varies while a test runs
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
@@ -33,6 +34,9 @@ enum Verb {
     /// Show scenarios, strategies and drivers with their parameters
     #[command(after_help = "Example:\n  paracosm-fuzz list")]
     List(list::Options),
+    /// Show a scenario: its parameters and requirements, or the graph of its streams
+    #[command(after_help = "Example:\n  paracosm-fuzz describe pedestrian-crossing --dot | dot -Tsvg > streams.svg")]
+    Describe(describe::Options),
     /// Run a logged test again and compare its trace hash with the log's
     #[command(after_help = "Example:\n  paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv")]
     Replay(replay::Options),
@@ -44,6 +48,7 @@ impl Command {
             None => self.run.execute(self.verbosity),
             Some(Verb::Run(options)) => options.execute(self.verbosity),
             Some(Verb::List(options)) => options.execute(),
+            Some(Verb::Describe(options)) => options.execute(),
             Some(Verb::Replay(options)) => options.execute(self.verbosity),
         }
     }

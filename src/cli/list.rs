@@ -1,8 +1,7 @@
 //! `paracosm-fuzz list`: everything that can be chosen by name.
 
-use super::output::{Format, digits, json};
+use super::output::{Format, digits, domain_words, json, value_words};
 use super::{Failure, Found, print};
-use crate::coverage::Domain;
 use crate::engine::driver;
 use crate::generators::Strategy;
 use crate::scenarios;
@@ -35,20 +34,16 @@ fn table() -> Result<String, Failure> {
         let declaration = program.declare()?;
         for declared in &declaration.parameters {
             let parameter = &declared.parameter;
-            let domain = match &parameter.domain {
-                Domain::Interval { lo, hi } => format!("{lo}..{hi}"),
-                Domain::Choice(levels) => levels.iter().map(ToString::to_string).collect::<Vec<_>>().join(","),
+            let state = match declared.open {
+                true => "open".to_owned(),
+                false => format!("{} unless opened", value_words(&declared.nominal())),
             };
-            let state = match declared.nominal().number() {
-                _ if declared.open => "open".to_owned(),
-                Some(number) => format!("{} unless opened", digits(number)),
-                None => format!("{} unless opened", declared.nominal()),
-            };
+            let signal = parameter.signal.map(|shape| format!(", {shape}")).unwrap_or_default();
             writeln!(
                 text,
-                "    {:<20}{:<12}{:<6}{state}",
+                "    {:<20}{:<12}{:<6}{state}{signal}",
                 parameter.name,
-                domain,
+                domain_words(&parameter.domain),
                 parameter.unit.as_deref().unwrap_or("")
             )?;
         }

@@ -1,6 +1,6 @@
 //! How results are printed: as a table for people, as JSON for programs.
 
-use crate::coverage::Bracket;
+use crate::coverage::{Bracket, Domain, Value};
 use crate::estimate::{Continuous, Coverage, Discrete, KEpsilon};
 use clap::ValueEnum;
 use std::fmt::Write;
@@ -170,6 +170,28 @@ pub(super) fn digits(number: f64) -> String {
     let decimals = (4 - exponent).max(0) as usize;
     let text = format!("{number:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// The domain of a parameter as `--open` takes it.
+pub(super) fn domain_words(domain: &Domain) -> String {
+    match domain {
+        Domain::Interval { lo, hi } => format!("{lo}..{hi}"),
+        Domain::Choice(levels) => levels.iter().map(ToString::to_string).collect::<Vec<_>>().join(","),
+    }
+}
+
+/// A value of a parameter, its numbers with five digits; of a long list no more than begins and ends it.
+pub(super) fn value_words(value: &Value) -> String {
+    let scalar = |value: &Value| value.number().map_or_else(|| value.to_string(), digits);
+    match value {
+        Value::List(values) if values.len() > 8 => {
+            let ends =
+                [&values[..3], &values[values.len() - 1..]].map(|part| part.iter().map(scalar).collect::<Vec<_>>());
+            format!("[{}, .., {}] ({} values)", ends[0].join(", "), ends[1].join(", "), values.len())
+        }
+        Value::List(values) => format!("[{}]", values.iter().map(scalar).collect::<Vec<_>>().join(", ")),
+        value => scalar(value),
+    }
 }
 
 /// A word as a shell takes it.

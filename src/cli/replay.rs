@@ -1,6 +1,6 @@
 //! `paracosm-fuzz replay`: one logged test once more.
 
-use super::output::{Format, Table, digits, json};
+use super::output::{Format, Table, digits, json, value_words};
 use super::{Failure, Found, Verbosity, print};
 use crate::engine::Metric;
 use crate::{Error, Folder, Study, Trial, simulate_trial, write_trace};
@@ -71,8 +71,7 @@ fn table(study: &Study, trial: &Trial) -> String {
     let mut table = Table::default();
     table.heading(&format!("test {}: {}", trial.index, trial.verdict));
     for (parameter, (name, value)) in study.space.parameters().iter().zip(trial.test.iter()) {
-        let value = value.number().map_or_else(|| value.to_string(), digits);
-        table.row(name, &format!("{value} {}", parameter.unit.as_deref().unwrap_or_default()));
+        table.row(name, &format!("{} {}", value_words(value), parameter.unit.as_deref().unwrap_or_default()));
     }
     for requirement in &study.requirements {
         let value = trial.robustness(&requirement.id);

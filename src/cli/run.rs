@@ -1,8 +1,8 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
-use super::output::{Format, Table, digits, json, percent, shell_word, short_bracket};
+use super::output::{Format, Table, digits, json, percent, shell_word, short_bracket, value_words};
 use super::{Failure, Found, Verbosity, complain, print};
-use crate::coverage::{Domain, Value};
+use crate::coverage::{Domain, Shape, Value};
 use crate::generators::Aim;
 use crate::oracles::Verdict;
 use crate::{
@@ -52,10 +52,12 @@ pub(super) struct Options {
     /// row of --discrete, k-wise-dispersion of others]
     #[arg(long, value_name = "MEASURE")]
     measure: Option<String>,
-    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one
-    #[arg(long, value_name = "NAME[=LO..HI|=A,B,C]")]
+    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one. With a SHAPE each test
+    /// lets it vary over time: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES, per-tick,
+    /// constant
+    #[arg(long, value_name = "NAME[:SHAPE][=LO..HI|=A,B,C]")]
     open: Vec<String>,
-    /// Fix a parameter, or change a setting of the driver with driver.NAME=VALUE
+    /// Fix a parameter, a signal at one value or at A,B,C; or change a setting of the driver with driver.NAME=VALUE
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// The system under test
@@ -141,6 +143,7 @@ impl Options {
                 .split_once('=')
                 .ok_or_else(|| Error::Usage(format!("--set {text}: expected NAME=VALUE, or driver.NAME=VALUE")))?;
             match name.strip_prefix("driver.") {
+                None if value.contains(',') => fixed.push((name, value.split(',').map(Value::parse).collect())),
                 None => fixed.push((name, Value::parse(value))),
                 Some(setting) => {
                     let number = value
@@ -171,10 +174,17 @@ impl Options {
                 None => (text.as_str(), None),
                 Some((name, over)) => (name, Some(domain(text, over)?)),
             };
+            let (name, shape) = match name.split_once(':') {
+                None => (name, None),
+                Some((name, shape)) => (name, Some(signal(text, shape, &study)?)),
+            };
             study = study.open(name, over)?;
+            if let Some(shape) = shape {
+                study = study.vary(name, shape)?;
+            }
         }
         for (i, (name, value)) in fixed.iter().enumerate() {
-            let opened = self.open.iter().any(|text| text.split('=').next() == Some(name));
+            let opened = self.open.iter().any(|text| text.split(['=', ':']).next() == Some(name));
             if opened || fixed[..i].iter().any(|(other, _)| other == name) {
                 return Err(Error::Usage(format!("parameter `{name}` is set and opened, or set twice")));
             }
@@ -218,6 +228,15 @@ fn domain(text: &str, over: &str) -> Result<Domain, Error> {
     match (lo.parse(), hi.parse()) {
         (Ok(lo), Ok(hi)) => Ok(Domain::Interval { lo, hi }),
         _ => Err(Error::Usage(format!("--open {text}: found `{over}`, expected numbers LO..HI or values A,B,C"))),
+    }
+}
+
+/// How a parameter varies over time, as `--open` takes it.
+fn signal(text: &str, shape: &str, study: &Study) -> Result<Option<Shape>, Error> {
+    match shape {
+        "constant" => Ok(None),
+        "per-tick" => Ok(Some(Shape::PiecewiseConstant { pieces: study.ticks() })),
+        shape => shape.parse().map(Some).map_err(|message| Error::Usage(format!("--open {text}: {message}"))),
     }
 }
 
@@ -282,7 +301,7 @@ impl Progress {
 /// Where a test is: its values with their units.
 fn in_words(study: &Study, trial: &Trial) -> String {
     let value = |(name, value): (&str, &Value)| {
-        let value = value.number().map_or_else(|| value.to_string(), digits);
+        let value = value_words(value);
         let unit = study.space.parameter(name).ok().and_then(|p| p.unit.as_deref()).unwrap_or_default();
         format!("{name} {value} {unit}").trim_end().to_owned()
     };

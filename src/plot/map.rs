@@ -2,7 +2,7 @@
 
 use super::{FAMILY, GRID, INK};
 use crate::{Study, Trial};
-use paracosm_coverage::{Domain, Parameter};
+use paracosm_coverage::{Coordinate, Domain};
 use paracosm_oracles::Verdict;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
@@ -21,10 +21,10 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// The axis of a continuous parameter.
-    fn of(parameter: &Parameter) -> Option<Self> {
-        match parameter.domain {
-            Domain::Interval { lo, hi } => Some(Self { label: parameter.label(), range: (lo, hi) }),
+    /// The axis of a continuous coordinate.
+    fn of(coordinate: &Coordinate) -> Option<Self> {
+        match coordinate.parameter.domain {
+            Domain::Interval { lo, hi } => Some(Self { label: coordinate.label(), range: (lo, hi) }),
             Domain::Choice(_) => None,
         }
     }
@@ -55,26 +55,25 @@ const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
 const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
 
 /// What varies too, though the map does not show it.
-fn others(study: &Study, shown: [&Parameter; 2]) -> String {
-    let others = study.space.parameters().iter().filter(|parameter| shown.iter().all(|s| s.name != parameter.name));
-    let others: Vec<&str> = others.map(|parameter| parameter.name.as_str()).collect();
+fn others(study: &Study, shown: [Coordinate; 2]) -> String {
+    let others: Vec<String> = study.space.coordinates().filter(|c| !shown.contains(c)).map(|c| c.name()).collect();
     if others.is_empty() { String::new() } else { format!("; not shown, but varied too: {}", others.join(", ")) }
 }
 
 type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 impl FailureMap {
-    /// The map of a campaign over its first two continuous parameters; `None` where it has less than two.
+    /// The map of a campaign over its first two continuous coordinates; `None` where it has less than two.
     pub fn of(study: &Study, trials: &[Trial]) -> Option<Self> {
         let mut continuous = study.space.continuous();
         let (x, y) = (continuous.next()?, continuous.next()?);
-        let at = |trial: &Trial, parameter: &Parameter| trial.test.get(&parameter.name)?.number();
-        let mark = |trial: &Trial| Some((at(trial, x)?, at(trial, y)?, trial.verdict));
+        let at = |trial: &Trial, c: &Coordinate| c.value(trial.test.get(&c.parameter.name)?)?.number();
+        let mark = |trial: &Trial| Some((at(trial, &x)?, at(trial, &y)?, trial.verdict));
         Some(Self {
             title: format!("{}, driver {}", study.scenario, study.driver.name),
             note: format!("{} tests, strategy {}{}", trials.len(), study.strategy_label(), others(study, [x, y])),
-            x: Axis::of(x)?,
-            y: Axis::of(y)?,
+            x: Axis::of(&x)?,
+            y: Axis::of(&y)?,
             marks: trials.iter().filter_map(mark).collect(),
         })
     }

@@ -197,7 +197,9 @@ fn list_shows_scenarios_strategies_and_drivers() {
 #[test]
 fn every_command_has_help_with_an_example() {
     let dir = tempfile::tempdir().unwrap();
-    for arguments in [&["--help"][..], &["run", "--help"], &["list", "--help"], &["replay", "--help"]] {
+    for arguments in
+        [&["--help"][..], &["run", "--help"], &["list", "--help"], &["describe", "--help"], &["replay", "--help"]]
+    {
         let help = stdout(&succeeds(fuzz(dir.path(), arguments)));
         assert!(help.contains("Example") && help.contains("paracosm-fuzz "), "{arguments:?}: {help}");
     }

@@ -10,3 +10,4 @@ mod covering;
 mod generate;
 mod pedestrian_study;
 mod plan;
+mod signals;

@@ -199,11 +199,15 @@ impl<'a> Resolver<'a> {
             let meant = nearest(name, self.parameters.iter().map(|parameter| parameter.name.as_str()));
             return Err(format!("no parameter is called `{name}`{}", did_you_mean(&meant)));
         };
-        let mut discrete = self.parameters.iter().filter(|parameter| parameter.levels().is_some());
-        match (parameter.levels(), discrete.position(|other| other.name == name)) {
-            (Some(levels), Some(position)) => Ok(Side { name: &parameter.name, position, levels }),
-            _ => Err(format!("`{name}` is continuous, expected a discrete parameter")),
+        let Some(levels) = parameter.levels() else {
+            return Err(format!("`{name}` is continuous, expected a discrete parameter"));
+        };
+        if parameter.signal.is_some() {
+            return Err(format!("`{name}` varies over time, expected a parameter with one value"));
         }
+        let before = self.parameters.iter().take_while(|other| other.name != name);
+        let position = before.filter(|other| other.levels().is_some()).map(Parameter::coordinates).sum();
+        Ok(Side { name: &parameter.name, position, levels })
     }
 }
 
@@ -277,5 +281,7 @@ fn order(a: &Value, b: &Value) -> Ordering {
         (Value::Word(a), Value::Word(b)) => a.cmp(b),
         (Value::Number(_), Value::Word(_)) => Ordering::Less,
         (Value::Word(_), Value::Number(_)) => Ordering::Greater,
+        // Lists are values of signals, which are not compared.
+        (Value::List(_), _) | (_, Value::List(_)) => Ordering::Equal,
     }
 }

@@ -156,6 +156,7 @@ impl fmt::Display for Written<'_> {
         match self.0 {
             Value::Number(number) => write!(f, "{number}"),
             Value::Word(word) => enclosed(f, '\'', word, '\''),
+            Value::List(_) => write!(f, "{}", self.0),
         }
     }
 }

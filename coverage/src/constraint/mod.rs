@@ -66,7 +66,14 @@ impl Constraint {
     pub(crate) fn new(text: &str, parameters: &[Parameter]) -> Result<Self, ConstraintError> {
         let (expression, places) = parse::parse(text)?;
         let condition = Resolver::new(parameters, &places).resolve(&expression)?;
-        let sizes: Vec<usize> = parameters.iter().filter_map(Parameter::levels).map(<[_]>::len).collect();
+        let sizes = |parameter: &Parameter| {
+            let levels = parameter.levels().map(<[_]>::len);
+            levels
+                .into_iter()
+                .flat_map(|levels| std::iter::repeat_n(levels, parameter.coordinates()))
+                .collect::<Vec<_>>()
+        };
+        let sizes: Vec<usize> = parameters.iter().flat_map(sizes).collect();
         let clauses = clauses::clauses(&condition, &sizes).map_err(|message| ConstraintError { offset: 0, message })?;
         Ok(Self { text: text.to_owned(), expression, condition, clauses })
     }

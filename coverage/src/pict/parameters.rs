@@ -31,6 +31,7 @@ impl Listed {
         match value {
             Value::Number(number) => self.value.number().is_some_and(|own| relation.holds(&own, number)),
             Value::Word(word) => relation.holds(&self.text.to_lowercase(), &word.to_lowercase()),
+            Value::List(_) => false,
         }
     }
 }

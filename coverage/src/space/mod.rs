@@ -2,15 +2,18 @@
 //!
 //! A test has *values* (what a scenario reads and a log keeps) and *coordinates* (what generators propose and
 //! coverage measures): a number in `[0,1]` for each continuous parameter, a level index for each discrete
-//! one. [`Space::decode`] and [`Space::encode`] are the only way from one to the other.
+//! one, and as many for a parameter that varies over time as its [`Shape`] says. [`Space::decode`] and
+//! [`Space::encode`] are the only way from one to the other.
 
 mod parameter;
 mod record;
+mod signal;
 mod text;
 mod value;
 
 pub use parameter::{Domain, Parameter};
 pub use record::Record;
+pub use signal::{Coordinate, Shape};
 pub(crate) use text::position;
 pub use value::{Value, Values};
 
@@ -23,9 +26,9 @@ use thiserror::Error;
 /// A test as coordinates, in the order of the space's parameters.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Point {
-    /// One coordinate in `[0,1]` for each continuous parameter.
+    /// One coordinate in `[0,1]` for each continuous parameter; several of a signal.
     pub continuous: Vec<f64>,
-    /// One level index for each discrete parameter.
+    /// One level index for each discrete parameter; several of a signal.
     pub discrete: Vec<usize>,
 }
 
@@ -76,6 +79,14 @@ pub enum SpaceError {
         name: String,
         /// The repeated value.
         value: Value,
+    },
+    /// A signal that cannot be, or values that do not make it.
+    #[error("parameter `{name}`: {message}")]
+    Signal {
+        /// The parameter.
+        name: String,
+        /// What was found and what was expected.
+        message: String,
     },
     /// A value that the parameter does not take.
     #[error("parameter `{name}`: found {value}, expected {expected}{}", did_you_mean(.nearest))]
@@ -138,7 +149,15 @@ impl Space {
             }
             parameter.validate()?;
         }
-        Ok(Self { parameters, constraints: Vec::new() })
+        let space = Self { parameters, constraints: Vec::new() };
+        // What is called as a coordinate of a signal could not be told from it in a table.
+        let signals = space.coordinates().filter(|coordinate| coordinate.parameter.signal.is_some());
+        for name in signals.map(|coordinate| coordinate.name()) {
+            if space.parameter(&name).is_ok() {
+                return Err(SpaceError::Twice(name));
+            }
+        }
+        Ok(space)
     }
 
     /// The same space with these constraints besides those it has, in the language of
@@ -191,24 +210,30 @@ impl Space {
         })
     }
 
-    /// The continuous parameters in order: one coordinate of [`Point::continuous`] each.
-    pub fn continuous(&self) -> impl Iterator<Item = &Parameter> {
-        self.parameters.iter().filter(|p| p.levels().is_none())
+    /// All coordinates of a test in the order of their parameters, which is that of a table's columns.
+    pub fn coordinates(&self) -> impl Iterator<Item = Coordinate<'_>> {
+        let of = |parameter| (0..Parameter::coordinates(parameter)).map(move |index| Coordinate { parameter, index });
+        self.parameters.iter().flat_map(of)
     }
 
-    /// The discrete parameters in order: one coordinate of [`Point::discrete`] each.
-    pub fn discrete(&self) -> impl Iterator<Item = &Parameter> {
-        self.parameters.iter().filter(|p| p.levels().is_some())
+    /// What each coordinate of [`Point::continuous`] belongs to, in order.
+    pub fn continuous(&self) -> impl Iterator<Item = Coordinate<'_>> {
+        self.coordinates().filter(|coordinate| coordinate.parameter.levels().is_none())
+    }
+
+    /// What each coordinate of [`Point::discrete`] belongs to, in order.
+    pub fn discrete(&self) -> impl Iterator<Item = Coordinate<'_>> {
+        self.coordinates().filter(|coordinate| coordinate.parameter.levels().is_some())
     }
 
     /// The number of continuous coordinates.
     pub fn dims(&self) -> usize {
-        self.continuous().count()
+        self.parameters.iter().filter(|p| p.levels().is_none()).map(Parameter::coordinates).sum()
     }
 
     /// The number of levels of each discrete coordinate.
     pub fn levels(&self) -> Vec<usize> {
-        self.parameters.iter().filter_map(Parameter::levels).map(<[Value]>::len).collect()
+        self.discrete().filter_map(|coordinate| coordinate.parameter.levels()).map(<[Value]>::len).collect()
     }
 
     /// The constraints in order.
@@ -247,15 +272,17 @@ impl Space {
     pub fn decode(&self, point: &Point) -> Values {
         let mut continuous = point.continuous.iter();
         let mut discrete = point.discrete.iter();
+        let mut scalar = |domain: &Domain| match domain {
+            Domain::Interval { lo, hi } => {
+                let u = continuous.next().expect("a number for every continuous coordinate");
+                Value::Number(at(*lo, *hi, *u))
+            }
+            Domain::Choice(levels) => levels[*discrete.next().expect("a level for every discrete coordinate")].clone(),
+        };
         let values = self.parameters.iter().map(|parameter| {
-            let value = match &parameter.domain {
-                Domain::Interval { lo, hi } => {
-                    let u = continuous.next().expect("a coordinate for every continuous parameter");
-                    Value::Number(at(*lo, *hi, *u))
-                }
-                Domain::Choice(levels) => {
-                    levels[*discrete.next().expect("a level for every discrete parameter")].clone()
-                }
+            let value = match parameter.signal {
+                None => scalar(&parameter.domain),
+                Some(shape) => Value::List((0..shape.coordinates()).map(|_| scalar(&parameter.domain)).collect()),
             };
             (parameter.name.clone(), value)
         });
@@ -278,15 +305,16 @@ impl Space {
         let mut point = Point::default();
         for parameter in &self.parameters {
             let value = values.get(&parameter.name).ok_or_else(|| SpaceError::Missing(parameter.name.clone()))?;
-            parameter.check(value)?;
-            match &parameter.domain {
-                Domain::Interval { lo, hi } => {
-                    let v = value.number().expect("checked against an interval");
-                    point.continuous.push(coordinate(*lo, *hi, v));
-                }
-                Domain::Choice(levels) => {
-                    let level = levels.iter().position(|level| level == value);
-                    point.discrete.push(level.expect("checked against the choice"));
+            for value in parameter.scalars(value)? {
+                match &parameter.domain {
+                    Domain::Interval { lo, hi } => {
+                        let v = value.number().expect("checked against an interval");
+                        point.continuous.push(coordinate(*lo, *hi, v));
+                    }
+                    Domain::Choice(levels) => {
+                        let level = levels.iter().position(|level| *level == value);
+                        point.discrete.push(level.expect("checked against the choice"));
+                    }
                 }
             }
         }

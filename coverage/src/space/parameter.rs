@@ -1,6 +1,6 @@
 //! One parameter: its name, what values it takes, and its unit.
 
-use super::{SpaceError, Value};
+use super::{Shape, SpaceError, Value, signal};
 use crate::names::nearest;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -46,12 +46,14 @@ pub struct Parameter {
     pub unit: Option<String>,
     /// The nominal value: what it is where nobody varies it, and where shrinking goes.
     pub default: Option<Value>,
+    /// How it varies over time; `None` of what is constant in each test.
+    pub signal: Option<Shape>,
 }
 
 impl Parameter {
-    /// A parameter without unit and nominal value.
+    /// A parameter without unit and nominal value, constant over time.
     pub fn new(name: impl Into<String>, domain: Domain) -> Self {
-        Self { name: name.into(), domain, unit: None, default: None }
+        Self { name: name.into(), domain, unit: None, default: None, signal: None }
     }
 
     /// The values of a discrete parameter; `None` of a continuous one.
@@ -81,14 +83,27 @@ impl Parameter {
         }
     }
 
-    /// Checks that the parameter takes this value.
+    /// Checks that the parameter takes this value. A signal takes a list with a value for each coordinate, or a single
+    /// value for one that never changes.
     ///
     /// # Errors
     /// It does not; the error says what it takes.
     pub fn check(&self, value: &Value) -> Result<(), SpaceError> {
+        if let (Value::List(values), Some(shape)) = (value, self.signal) {
+            if values.len() != shape.coordinates() {
+                let (found, expected) = (values.len(), shape.coordinates());
+                let message = format!("found {found} values, expected the {expected} of a signal {shape}");
+                return Err(SpaceError::Signal { name: self.name.clone(), message });
+            }
+            return values.iter().try_for_each(|value| self.check_scalar(value));
+        }
+        self.check_scalar(value)
+    }
+
+    fn check_scalar(&self, value: &Value) -> Result<(), SpaceError> {
         let taken = match (&self.domain, value) {
             (Domain::Interval { lo, hi }, Value::Number(v)) => (*lo..=*hi).contains(v),
-            (Domain::Interval { .. }, Value::Word(_)) => false,
+            (Domain::Interval { .. }, Value::Word(_) | Value::List(_)) => false,
             (Domain::Choice(levels), value) => levels.contains(value),
         };
         if taken {
@@ -118,12 +133,17 @@ impl Parameter {
                     return Err(SpaceError::EmptyChoice(name()));
                 }
                 for (i, level) in levels.iter().enumerate() {
+                    if matches!(level, Value::List(_)) {
+                        let message = format!("a choice is between numbers and words, found {level}");
+                        return Err(SpaceError::Signal { name: name(), message });
+                    }
                     if levels[..i].contains(level) {
                         return Err(SpaceError::SameLevel { name: name(), value: level.clone() });
                     }
                 }
             }
         }
+        self.signal.map_or(Ok(()), |shape| self.check_signal(shape))?;
         self.default.as_ref().map_or(Ok(()), |value| self.check(value))
     }
 }
@@ -141,6 +161,8 @@ struct Entry {
     unit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     default: Option<Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    signal: Option<signal::Entry>,
 }
 
 impl TryFrom<Entry> for Parameter {
@@ -157,7 +179,9 @@ impl TryFrom<Entry> for Parameter {
                 ));
             }
         };
-        Ok(Self { name: entry.name, domain, unit: entry.unit, default: entry.default })
+        let shape = entry.signal.map(|signal| signal.shape()).transpose();
+        let signal = shape.map_err(|message| format!("parameter `{}`: {message}", entry.name))?.flatten();
+        Ok(Self { name: entry.name, domain, unit: entry.unit, default: entry.default, signal })
     }
 }
 
@@ -167,6 +191,7 @@ impl From<Parameter> for Entry {
             Domain::Interval { lo, hi } => (Some([lo, hi]), None),
             Domain::Choice(levels) => (None, Some(levels)),
         };
-        Self { name: parameter.name, interval, choice, unit: parameter.unit, default: parameter.default }
+        let signal = parameter.signal.map(Into::into);
+        Self { name: parameter.name, interval, choice, unit: parameter.unit, default: parameter.default, signal }
     }
 }

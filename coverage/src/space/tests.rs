@@ -74,7 +74,181 @@ fn a_space_file_with_an_error_says_where_it_is() {
     assert_eq!(message, "parameter `a` is declared twice");
 }
 
+fn varying(parameter: Parameter, shape: Shape) -> Parameter {
+    Parameter { signal: Some(shape), ..parameter }
+}
+
+/// A parameter of every kind that varies, and one that does not.
+fn signals() -> Space {
+    let interval = |name: &str, lo, hi| Parameter::new(name, Domain::Interval { lo, hi });
+    let weather = Parameter::new("weather", Domain::Choice(vec!["clear".into(), "fog".into()]));
+    Space::new(vec![
+        varying(weather, Shape::PiecewiseConstant { pieces: 2 }),
+        varying(interval("leader", 0.0, 20.0), Shape::Polynomial { degree: 2 }),
+        interval("gap", 5.0, 60.0),
+        varying(interval("light", 0.0, 1.0), Shape::PiecewiseLinear { pieces: 1 }),
+        varying(interval("friction", 0.2, 0.8), Shape::PiecewiseConstant { pieces: 2 }),
+    ])
+    .unwrap()
+}
+
+#[test]
+fn a_signal_counts_once_for_each_of_its_coordinates() {
+    let space = signals();
+    assert_eq!((space.dims(), space.levels()), (8, vec![2, 2]));
+    let names: Vec<String> = space.coordinates().map(|coordinate| coordinate.name()).collect();
+    let expected = [
+        "weather[0]",
+        "weather[1]",
+        "leader[0]",
+        "leader[1]",
+        "leader[2]",
+        "gap",
+        "light[0]",
+        "light[1]",
+        "friction[0]",
+        "friction[1]",
+    ];
+    assert_eq!(names, expected);
+    assert_eq!(space.continuous().map(|coordinate| coordinate.name()).collect::<Vec<_>>(), expected[2..]);
+    assert_eq!(space.discrete().map(|coordinate| coordinate.name()).collect::<Vec<_>>(), expected[..2]);
+}
+
+#[test]
+fn the_value_of_a_signal_is_a_list_or_one_value_for_all() {
+    let space = signals();
+    let point = Point { continuous: vec![0.0, 0.5, 1.0, 0.5, 0.25, 0.75, 0.0, 1.0], discrete: vec![1, 0] };
+    let values = space.decode(&point);
+    let text = r#"{"weather":["fog","clear"],"leader":[0,10,20],"gap":32.5,"light":[0.25,0.75],"friction":[0.2,0.8]}"#;
+    assert_eq!(serde_json::to_string(&values).unwrap(), text);
+    assert_eq!(serde_json::from_str::<Values>(text).unwrap(), values);
+    let mut constant = values;
+    constant.set("leader", 5.0);
+    assert_eq!(space.encode(&constant).unwrap().continuous[..3], [0.25; 3]);
+}
+
+#[test]
+fn a_space_with_signals_is_written_as_the_contract_says() {
+    let toml = "[[parameter]]\nname = \"leader\"\ninterval = [0.0, 20.0]\n";
+    let read = |signal: &str| Space::from_toml(&format!("{toml}signal = {signal}\n"));
+    let shape = |signal: &str| read(signal).unwrap().parameters()[0].signal;
+    assert_eq!(shape(r#"{ shape = "polynomial", degree = 2 }"#), Some(Shape::Polynomial { degree: 2 }));
+    assert_eq!(shape(r#"{ shape = "piecewise-constant", pieces = 3 }"#), Some(Shape::PiecewiseConstant { pieces: 3 }));
+    assert_eq!(shape(r#"{ shape = "piecewise-linear", pieces = 4 }"#), Some(Shape::PiecewiseLinear { pieces: 4 }));
+    assert_eq!(shape(r#"{ shape = "constant" }"#), None);
+    assert_eq!(Space::from_toml(&signals().to_toml()), Ok(signals()));
+    let refused = |signal: &str, expected: &str| {
+        let error = read(signal).unwrap_err().to_string();
+        assert!(error.contains(expected) && error.contains("leader"), "{signal}: {error}");
+    };
+    refused(r#"{ shape = "polinomial", degree = 2 }"#, "did you mean `polynomial`?");
+    refused(r#"{ shape = "polynomial", pieces = 2 }"#, "takes `degree`, and no `pieces`");
+    refused(r#"{ shape = "polynomial", degree = 2, pieces = 2 }"#, "takes `degree`, and no `pieces`");
+    refused(r#"{ shape = "piecewise-linear" }"#, "takes `pieces`, and no `degree`");
+    refused(r#"{ shape = "piecewise-constant", pieces = 0 }"#, "has 0 coordinates, expected 1 to 1000000");
+    refused(r#"{ shape = "piecewise-linear", pieces = 0 }"#, "at least one piece");
+    refused(r#"{ shape = "polynomial", degree = 10000000000 }"#, "expected 1 to 1000000");
+}
+
+#[test]
+fn values_that_make_no_signal_are_refused() {
+    let space = signals();
+    let with = |name: &str, value: Value| {
+        let mut values = space.decode(&Point { continuous: vec![0.5; 8], discrete: vec![0, 1] });
+        values.set(name, value);
+        space.encode(&values).unwrap_err().to_string()
+    };
+    assert_eq!(
+        with("leader", [1.0, 2.0].into()),
+        "parameter `leader`: found 2 values, expected the 3 of a signal polynomial(2)"
+    );
+    assert_eq!(with("leader", [1.0, 2.0, 21.0].into()), "parameter `leader`: found 21, expected a number in [0, 20]");
+    assert_eq!(with("gap", [6.0].into()), "parameter `gap`: found [6], expected a number in [5, 60]");
+    let weather = Parameter::new("weather", Domain::Choice(vec!["clear".into(), "fog".into()]));
+    let error = Space::new(vec![varying(weather, Shape::Polynomial { degree: 1 })]).unwrap_err().to_string();
+    assert_eq!(
+        error,
+        "parameter `weather`: a choice is piecewise constant where it varies, found the shape polynomial(1)"
+    );
+    let taken = Parameter::new("light[1]", Domain::Interval { lo: 0.0, hi: 1.0 });
+    let parameters = signals().parameters().iter().cloned().chain([taken]).collect();
+    assert_eq!(Space::new(parameters), Err(SpaceError::Twice("light[1]".into())));
+}
+
+#[test]
+fn shapes_are_read_as_they_are_written() {
+    for text in ["polynomial(2)", "piecewise-constant(5)", "piecewise-linear(1)"] {
+        assert_eq!(text.parse::<Shape>().unwrap().to_string(), text);
+        let for_a_shell = text.replace('(', ":").replace(')', "");
+        assert_eq!(for_a_shell.parse::<Shape>(), text.parse());
+    }
+    let refused = |text: &str| text.parse::<Shape>().unwrap_err();
+    assert!(refused("piecewise-liner:2").contains("(did you mean `piecewise-linear`?)"));
+    assert!(refused("polynomial").contains("expected `polynomial` with a number"));
+    assert!(refused("polynomial:two").contains("polynomial:two"));
+}
+
+/// The value of a Bézier curve by de Casteljau's corner cutting, straight from its definition.
+fn casteljau(coefficients: &[f64], u: f64) -> f64 {
+    match coefficients {
+        [value] => *value,
+        values => (1.0 - u) * casteljau(&values[..values.len() - 1], u) + u * casteljau(&values[1..], u),
+    }
+}
+
 proptest! {
+    #[test]
+    fn a_polynomial_has_these_bernstein_coefficients(
+        values in prop::collection::vec(-20.0..20.0f64, 1..9), tick in 0..=100usize
+    ) {
+        let shape = Shape::Polynomial { degree: values.len() - 1 };
+        let value = shape.number_at(&values, tick, 100);
+        prop_assert!((value - casteljau(&values, tick as f64 / 100.0)).abs() < 1e-12, "{}", value);
+    }
+
+    #[test]
+    fn every_shape_stays_in_the_range_of_its_values_and_is_constant_where_they_are(
+        values in prop::collection::vec(-1e3..1e3f64, 2..40), tick in 0..=333usize
+    ) {
+        let n = values.len();
+        let shapes = [
+            Shape::Polynomial { degree: n - 1 },
+            Shape::PiecewiseConstant { pieces: n },
+            Shape::PiecewiseLinear { pieces: n - 1 },
+        ];
+        let (least, most) = values.iter().fold((f64::MAX, f64::MIN), |(a, b), v| (a.min(*v), b.max(*v)));
+        for shape in shapes {
+            let value = shape.number_at(&values, tick, 333);
+            prop_assert!((least..=most).contains(&value), "{}: {}", shape, value);
+            prop_assert_eq!(shape.number_at(&vec![values[0]; n], tick, 333), values[0]);
+        }
+    }
+
+    #[test]
+    fn pieces_are_equal_parts_of_a_run(pieces in 1..50usize, ticks in 1..500usize) {
+        let values: Vec<f64> = (0..=pieces).map(|i| i as f64).collect();
+        for tick in 0..=ticks {
+            // Of the line from 0 to the number of pieces, joints are whole numbers.
+            let line = pieces as f64 * tick as f64 / ticks as f64;
+            let step = Shape::PiecewiseConstant { pieces }.number_at(&values[..pieces], tick, ticks);
+            let exact = (tick * pieces / ticks).min(pieces - 1);
+            prop_assert_eq!(step, exact as f64);
+            let linear = Shape::PiecewiseLinear { pieces }.number_at(&values, tick, ticks);
+            prop_assert!((linear - line).abs() < 1e-12 * pieces as f64, "{} {}", linear, line);
+        }
+    }
+
+    #[test]
+    fn signals_survive_the_round_trip(
+        continuous in prop::collection::vec(0.0..=1.0f64, 8), discrete in prop::collection::vec(0..2usize, 2)
+    ) {
+        let space = signals();
+        let values = space.decode(&Point { continuous, discrete: discrete.clone() });
+        let point = space.encode(&values).unwrap();
+        prop_assert_eq!(&point.discrete, &discrete);
+        prop_assert_eq!(space.decode(&point), values);
+    }
+
     #[test]
     fn encoding_what_was_decoded_gives_the_same_values_back(
         lo in -1e6..1e6f64, width in prop_oneof![1e-6..1.0f64, 1.0..1e6f64], u in 0.0..=1.0f64

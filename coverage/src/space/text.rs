@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::Spanned;
 
 /// What SPACE.toml may hold, but this version does not read yet.
-const RESERVED: [&str; 3] = ["distribution", "scale", "signal"];
+const RESERVED: [&str; 2] = ["distribution", "scale"];
 
 impl Space {
     /// Reads a SPACE.toml.
@@ -28,8 +28,13 @@ impl Space {
     ///     [[parameter]]
     ///     name = "weather"
     ///     choice = ["clear", "rain", "fog"]
+    ///
+    ///     [[parameter]]
+    ///     name = "leader_speed"
+    ///     interval = [0.0, 20.0]
+    ///     signal = { shape = "polynomial", degree = 2 }
     /// "#)?;
-    /// assert_eq!((space.dims(), space.levels(), space.constraints().len()), (1, vec![3, 3], 1));
+    /// assert_eq!((space.dims(), space.levels(), space.constraints().len()), (4, vec![3, 3], 1));
     /// # Ok::<(), paracosm_coverage::SpaceError>(())
     /// ```
     ///

@@ -1,17 +1,19 @@
-//! Values of parameters: numbers and words.
+//! Values of parameters: numbers, words, and the lists of them that make signals.
 
 use super::Record;
-use serde::de::Visitor;
+use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
-/// A number or a word.
+/// A number, a word, or a list of them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// A number; whole ones are written without a point.
     Number(f64),
     /// A word.
     Word(String),
+    /// The values of a signal's coordinates.
+    List(Box<[Value]>),
 }
 
 impl Value {
@@ -19,15 +21,23 @@ impl Value {
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(number) => Some(*number),
-            Value::Word(_) => None,
+            Value::Word(_) | Value::List(_) => None,
         }
     }
 
     /// The word, if it is one.
     pub fn word(&self) -> Option<&str> {
         match self {
-            Value::Number(_) => None,
             Value::Word(word) => Some(word),
+            Value::Number(_) | Value::List(_) => None,
+        }
+    }
+
+    /// The value as a list: its own elements, or itself alone.
+    pub fn scalars(&self) -> &[Value] {
+        match self {
+            Value::List(values) => values,
+            value => std::slice::from_ref(value),
         }
     }
 
@@ -51,6 +61,13 @@ impl fmt::Display for Value {
         match self {
             Value::Number(number) => write!(f, "{number}"),
             Value::Word(word) => f.write_str(word),
+            Value::List(values) => {
+                f.write_str("[")?;
+                for (i, value) in values.iter().enumerate() {
+                    write!(f, "{}{value}", if i == 0 { "" } else { ", " })?;
+                }
+                f.write_str("]")
+            }
         }
     }
 }
@@ -73,6 +90,20 @@ impl From<&str> for Value {
     }
 }
 
+/// A list.
+impl<T: Into<Value>, const N: usize> From<[T; N]> for Value {
+    fn from(values: [T; N]) -> Self {
+        values.into_iter().collect()
+    }
+}
+
+/// A list.
+impl<T: Into<Value>> FromIterator<T> for Value {
+    fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
+        Value::List(values.into_iter().map(Into::into).collect())
+    }
+}
+
 impl Serialize for Value {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
@@ -81,6 +112,7 @@ impl Serialize for Value {
                 None => serializer.serialize_f64(*number),
             },
             Value::Word(word) => serializer.serialize_str(word),
+            Value::List(values) => values.serialize(serializer),
         }
     }
 }
@@ -88,11 +120,11 @@ impl Serialize for Value {
 impl<'de> Deserialize<'de> for Value {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct AnyValue;
-        impl Visitor<'_> for AnyValue {
+        impl<'de> Visitor<'de> for AnyValue {
             type Value = Value;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a number or a word")
+                f.write_str("a number, a word or a list of them")
             }
 
             fn visit_i64<E>(self, number: i64) -> Result<Value, E> {
@@ -109,6 +141,17 @@ impl<'de> Deserialize<'de> for Value {
 
             fn visit_str<E>(self, word: &str) -> Result<Value, E> {
                 Ok(Value::Word(word.to_owned()))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Value, A::Error> {
+                let mut values = Vec::new();
+                while let Some(value) = list.next_element()? {
+                    if matches!(value, Value::List(_)) {
+                        return Err(A::Error::custom("found a list within a list, expected numbers and words"));
+                    }
+                    values.push(value);
+                }
+                Ok(values.into_iter().collect())
             }
         }
         deserializer.deserialize_any(AnyValue)

@@ -23,9 +23,10 @@ pub(crate) use car::CarSetup;
 pub(crate) use road::RoadSetup;
 pub(crate) use walker::WalkerSetup;
 
-use crate::program::Declared;
-use crate::stream::Stream;
-use paracosm_coverage::{Domain, Parameter, Value, Values};
+use crate::program::{Declared, Test};
+use crate::stream::{Datum, Effect, Equation, Forward, Graph, Kind, Node, Stream, dot};
+use paracosm_coverage::{Domain, Parameter, Shape, Value};
+use param::Read;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use std::rc::Rc;
@@ -35,8 +36,8 @@ pub(crate) type Problems = Rc<RefCell<Vec<String>>>;
 
 /// The world under construction, for one test or for none.
 pub struct Scenario {
-    /// The values of this test; `None` while the program is only asked for its parameters.
-    test: Option<Values>,
+    /// What this test says of parameters, by name; nothing while the program is only asked for them.
+    given: Vec<(String, param::Given)>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
     pub(crate) problems: Problems,
     pub(crate) roads: Vec<RoadSetup>,
@@ -45,6 +46,10 @@ pub struct Scenario {
     pub(crate) requirements: Rc<RefCell<Vec<requirement::Stated>>>,
     pub(crate) premise: Option<Stream<bool>>,
     pub(crate) duration: f64,
+    effects: Vec<Rc<Node>>,
+    equations: Rc<RefCell<Vec<Equation>>>,
+    /// All that reads streams, laid out, once the program has returned.
+    pub(crate) graph: Graph,
 }
 
 /// Something that can be placed in a world: a road, a car, a pedestrian.
@@ -56,10 +61,22 @@ pub trait Place {
     fn place(self, scenario: &mut Scenario) -> Self::Handle;
 }
 
+impl Place for Effect {
+    type Handle = ();
+
+    fn place(self, scenario: &mut Scenario) {
+        scenario.effects.push(self.0);
+    }
+}
+
 impl Scenario {
-    pub(crate) fn new(test: Option<Values>) -> Self {
+    pub(crate) fn new(test: Option<&Test>) -> Self {
+        let given = |(name, value): (&str, &Value)| {
+            let signal = test.and_then(|test| test.signal(name));
+            (name.to_owned(), param::Given { value: Some(value.clone()), signal })
+        };
         Self {
-            test,
+            given: test.map(|test| test.values.iter().map(given).collect()).unwrap_or_default(),
             parameters: Rc::default(),
             problems: Rc::default(),
             roads: Vec::new(),
@@ -68,50 +85,79 @@ impl Scenario {
             requirements: Rc::default(),
             premise: None,
             duration: 10.0,
+            effects: Vec::new(),
+            equations: Rc::default(),
+            graph: Graph::default(),
         }
     }
 
     /// An open parameter with values in an interval.
     pub fn interval(&mut self, name: &str, range: RangeInclusive<f64>) -> Param<f64> {
         let (lo, hi) = range.into_inner();
-        self.declare(name, Domain::Interval { lo, hi }, None)
+        self.declare(name, Domain::Interval { lo, hi }, None, Read::number())
     }
 
     /// A parameter with values in an interval that stays at its nominal value until a study opens it.
     pub fn nominal(&mut self, name: &str, range: RangeInclusive<f64>, nominal: f64) -> Param<f64> {
         let (lo, hi) = range.into_inner();
-        self.declare(name, Domain::Interval { lo, hi }, Some(nominal.into()))
+        self.declare(name, Domain::Interval { lo, hi }, Some(nominal.into()), Read::number())
     }
 
-    /// An open parameter with one of these values.
-    pub fn choice<T: Into<Value> + param::Plain, const N: usize>(&mut self, name: &str, levels: [T; N]) -> Param<T> {
-        self.declare(name, Domain::Choice(levels.map(Into::into).into()), None)
+    /// An open parameter with one of these values, of which there is at least one.
+    pub fn choice<T: Into<Value> + Clone + 'static, const N: usize>(&mut self, name: &str, levels: [T; N]) -> Param<T> {
+        const { assert!(N > 0, "a choice needs at least one value") }
+        self.declare(name, Domain::Choice(levels.clone().map(Into::into).into()), None, Read::level(levels))
     }
 
     /// A parameter with one of these values that stays at its nominal value until a study opens it.
-    pub fn nominal_choice<T: Into<Value> + param::Plain, const N: usize>(
+    pub fn nominal_choice<T: Into<Value> + Clone + 'static, const N: usize>(
         &mut self,
         name: &str,
         levels: [T; N],
         nominal: T,
     ) -> Param<T> {
-        self.declare(name, Domain::Choice(levels.map(Into::into).into()), Some(nominal.into()))
+        const { assert!(N > 0, "a choice needs at least one value") }
+        let domain = Domain::Choice(levels.clone().map(Into::into).into());
+        self.declare(name, domain, Some(nominal.into()), Read::level(levels))
     }
 
-    fn declare<T: param::Plain>(&mut self, name: &str, domain: Domain, nominal: Option<Value>) -> Param<T> {
+    fn declare<T: Clone>(&mut self, name: &str, domain: Domain, nominal: Option<Value>, read: Read<T>) -> Param<T> {
         let open = nominal.is_none();
         let mut parameter = Parameter::new(name, domain);
         parameter.default = nominal;
-        let declared = Declared { parameter, open };
         // A name that the test does not know is reported once the program has returned, with all the others.
-        let given = self.test.as_ref().and_then(|test| test.get(name).cloned());
-        let value = given.unwrap_or_else(|| declared.nominal());
-        let value = T::from_value(&value).unwrap_or_else(|| {
-            self.problem(format!("parameter `{name}` has the value {value}, which is of another type"));
-            T::placeholder()
-        });
-        self.parameters.borrow_mut().push(declared);
-        Param::new(self.parameters.clone(), value)
+        let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
+        self.parameters.borrow_mut().push(Declared { parameter, open });
+        Param::new(self.parameters.clone(), self.problems.clone(), given.unwrap_or_default(), read)
+    }
+
+    /// The shape of a signal with a value of its own at every tick of a run of [`DEFAULT_DT`](crate::DEFAULT_DT)
+    /// seconds a tick. It takes as many coordinates; the [duration](Scenario::duration) has to be said before.
+    pub fn per_tick(&self) -> Shape {
+        Shape::PiecewiseConstant { pieces: crate::run::ticks(self.duration, crate::run::DEFAULT_DT) }
+    }
+
+    /// Announces a stream that is read before it can be defined: feedback, which goes through a [`Stream::pre`].
+    ///
+    /// ```
+    /// # use paracosm_engine::{Scenario, Stream};
+    /// fn count(s: &mut Scenario, event: &Stream<bool>) -> Stream<f64> {
+    ///     let count = s.forward("count");
+    ///     let before = count.pre().initially(0.0);
+    ///     count.define((&before + 1.0).when(event).merge(&before));
+    ///     count.clone()
+    /// }
+    /// ```
+    pub fn forward<T: Datum>(&mut self, name: &str) -> Forward<T> {
+        let mut equations = self.equations.borrow_mut();
+        let equation = equations.len();
+        equations.push(Equation { name: name.to_owned(), definition: None });
+        Forward {
+            stream: Stream::new(Kind::Forward { equation, name: name.to_owned() }, []),
+            equation,
+            equations: self.equations.clone(),
+            problems: self.problems.clone(),
+        }
     }
 
     /// Adds an object to the world; the handle by which the program speaks of it.
@@ -133,6 +179,33 @@ impl Scenario {
     /// How long a run takes in simulated seconds, unless a contact ends it before; 10 where nothing is said.
     pub fn duration(&mut self, seconds: f64) {
         self.duration = seconds;
+    }
+
+    /// Everything in the world that reads a stream, with what it is called.
+    fn readers(&self) -> Vec<(String, Rc<Node>)> {
+        let roads = self.roads.iter().map(|road| ("road.friction".to_owned(), road.friction.node.clone()));
+        let speed = |walker: &WalkerSetup| Some((format!("{}.speed", walker.name), walker.speed()?.node));
+        let premise = self.premise.iter().map(|event| ("premise".to_owned(), event.node.clone()));
+        let requirements = self.requirements.borrow();
+        let requirements = requirements.iter().map(|stated| (stated.requirement.id.clone(), stated.signal.clone()));
+        let effects = self.effects.iter().map(|effect| ("for_each".to_owned(), effect.clone()));
+        roads.chain(self.walkers.iter().filter_map(speed)).chain(premise).chain(requirements).chain(effects).collect()
+    }
+
+    /// Lays out all streams that are read or defined; what is wrong with them is a problem of the scenario.
+    pub(crate) fn lay_out(&mut self) {
+        let readers = self.readers();
+        let equations = self.equations.borrow();
+        let definitions = equations.iter().filter_map(|equation| equation.definition.as_ref());
+        match Graph::new(readers.iter().map(|(_, node)| node).chain(definitions), &equations) {
+            Ok(graph) => self.graph = graph,
+            Err(fault) => self.problem(fault.to_string()),
+        }
+    }
+
+    /// The streams in the language of Graphviz. They have been laid out.
+    pub(crate) fn dot(&self, title: &str) -> String {
+        dot(title, &self.readers(), &self.equations.borrow()).expect("what has been laid out can be drawn")
     }
 
     pub(crate) fn problem(&self, message: String) {

@@ -1,64 +1,76 @@
 //! Parameters as programs see them: a stream where a stream is read, a plain value where the structure of the
 //! world depends on it.
+//!
+//! Whether a parameter is constant or a signal that varies over a run is nobody's business but the test's: the object
+//! that reads it gets a [`Stream`] either way.
 
+use super::Problems;
 use crate::program::Declared;
-use crate::stream::{Datum, Stream};
-use paracosm_coverage::Value;
+use crate::stream::{Datum, Kind, Sample, Stream, samples};
+use paracosm_coverage::{Shape, Value};
 use std::cell::RefCell;
+use std::fmt;
 use std::rc::Rc;
 
-/// A parameter of type `T` (a number or a word) with the value that the test gives it.
-#[derive(Debug, Clone)]
+/// A parameter of type `T` (a number, a word, or whatever else stands for the values of a choice) with the value that
+/// the test gives it.
+#[derive(Clone)]
 pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
     index: usize,
-    value: T,
+    problems: Problems,
+    given: Given,
+    read: Read<T>,
 }
 
-/// The types that parameters have in programs.
-pub trait Plain: Clone {
-    /// The value of this type, if `value` is of it.
-    fn from_value(value: &Value) -> Option<Self>;
-
-    /// Any value of this type, to go on with after a mistake that is reported.
-    fn placeholder() -> Self;
+/// What a test says of a parameter.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Given {
+    /// Its value; `None` where there is no test.
+    pub value: Option<Value>,
+    /// How it varies, where the test says so: not at all, or in a shape. `None`: as the program declares.
+    pub signal: Option<Option<Shape>>,
 }
 
-impl Plain for f64 {
-    fn from_value(value: &Value) -> Option<Self> {
-        value.number()
-    }
+/// The value as one of type `T`, if it is one.
+type With<T> = Rc<dyn Fn(&Value) -> Option<T>>;
 
-    fn placeholder() -> Self {
-        f64::NAN
-    }
+/// How values become values of type `T`.
+#[derive(Clone)]
+pub(super) struct Read<T> {
+    with: With<T>,
+    /// Any value, to go on with after a mistake that is reported.
+    placeholder: T,
 }
 
-impl Plain for i32 {
-    fn from_value(value: &Value) -> Option<Self> {
-        value.number().filter(|number| number.trunc() == *number).map(|number| number as i32)
-    }
-
-    fn placeholder() -> Self {
-        0
-    }
-}
-
-impl Plain for String {
-    fn from_value(value: &Value) -> Option<Self> {
-        value.word().map(str::to_owned)
-    }
-
-    fn placeholder() -> Self {
-        String::new()
+impl Read<f64> {
+    pub fn number() -> Self {
+        Self { with: Rc::new(Value::number), placeholder: f64::NAN }
     }
 }
 
-impl<T: Plain> Param<T> {
+impl<T: Into<Value> + Clone + 'static> Read<T> {
+    /// One of these levels.
+    pub fn level<const N: usize>(levels: [T; N]) -> Self {
+        let placeholder = levels[0].clone();
+        let levels = levels.map(|level| (level.clone().into(), level));
+        let with = move |value: &Value| levels.iter().find(|(known, _)| known == value).map(|(_, level)| level.clone());
+        Self { with: Rc::new(with), placeholder }
+    }
+}
+
+impl<T: Clone> Param<T> {
     /// Of the parameter that was declared last.
-    pub(super) fn new(declared: Rc<RefCell<Vec<Declared>>>, value: T) -> Self {
+    pub(super) fn new(declared: Rc<RefCell<Vec<Declared>>>, problems: Problems, given: Given, read: Read<T>) -> Self {
         let index = declared.borrow().len() - 1;
-        Self { declared, index, value }
+        let parameter = Self { declared, index, problems, given, read };
+        for value in parameter.given.value.iter().flat_map(Value::scalars) {
+            if (parameter.read.with)(value).is_none() {
+                let name = parameter.name();
+                parameter.problem(format!("parameter `{name}` has the value {value}, which is of another type"));
+            }
+        }
+        parameter
     }
 
     /// Says in which unit its values are read.
@@ -67,26 +79,99 @@ impl<T: Plain> Param<T> {
         self
     }
 
-    /// Gives an open parameter its nominal value, where shrinking goes and what it has when a study closes it.
+    /// Gives an open parameter its nominal value, where shrinking goes and what it has when a study closes it. That of
+    /// a signal is a list with a value for each coordinate, or one value for all.
     pub fn default(self, value: impl Into<Value>) -> Self {
         self.declared.borrow_mut()[self.index].parameter.default = Some(value.into());
         self
     }
 
-    /// The value that this test gives it.
+    /// Lets it vary over time: the test gives it a value for each coordinate of this shape. A study may ask for another
+    /// shape, or for none. A choice varies in pieces.
+    pub fn signal(self, shape: Shape) -> Self {
+        self.declared.borrow_mut()[self.index].parameter.signal = Some(shape);
+        self
+    }
+
+    /// The value that this test gives it. Where the test lets it vary over time, the world cannot be built: who asks
+    /// for a value needs one for the whole run.
     pub fn value(&self) -> T {
-        self.value.clone()
+        if self.shape().is_some() {
+            let name = self.name();
+            self.problem(format!("parameter `{name}` varies over time, but the world is built with one value of it"));
+        }
+        self.read(self.given_or_nominal().scalars().first())
+    }
+
+    fn name(&self) -> String {
+        self.declared.borrow()[self.index].parameter.name.clone()
+    }
+
+    fn problem(&self, message: String) {
+        self.problems.borrow_mut().push(message);
+    }
+
+    fn shape(&self) -> Option<Shape> {
+        self.given.signal.unwrap_or(self.declared.borrow()[self.index].parameter.signal)
+    }
+
+    fn given_or_nominal(&self) -> Value {
+        self.given.value.clone().unwrap_or_else(|| self.declared.borrow()[self.index].nominal())
+    }
+
+    fn read(&self, value: Option<&Value>) -> T {
+        value.and_then(|value| (self.read.with)(value)).unwrap_or_else(|| self.read.placeholder.clone())
     }
 }
 
-impl<T: Datum + Plain> From<Param<T>> for Stream<T> {
+impl<T: Datum> Param<T> {
+    fn stream(&self) -> Stream<T> {
+        let parameter = self.name();
+        let value = self.given_or_nominal();
+        let shape = self.shape().filter(|shape| {
+            let suits = self.declared.borrow()[self.index].parameter.check_signal(*shape);
+            suits.map_err(|error| self.problem(error.to_string())).is_ok()
+        });
+        let Some(shape) = shape else {
+            if matches!(value, Value::List(_)) {
+                self.problem(format!("parameter `{parameter}` has the values {value}, but does not vary over time"));
+            }
+            let value = samples(self.read(value.scalars().first()));
+            return Stream::new(Kind::Constant { value, parameter: Some(parameter) }, []);
+        };
+        let expected = shape.coordinates();
+        let values: Vec<Sample> = match &value {
+            Value::List(values) if values.len() == expected => {
+                values.iter().flat_map(|value| samples(self.read(Some(value)))).collect()
+            }
+            value => {
+                let found = value.scalars().len();
+                if found != 1 {
+                    let message =
+                        format!("parameter `{parameter}` has {found} values, expected {expected} of a {shape}");
+                    self.problem(message);
+                }
+                samples(self.read(value.scalars().first())).repeat(expected)
+            }
+        };
+        Stream::new(Kind::Signal { parameter, shape, values }, [])
+    }
+}
+
+impl<T> fmt::Debug for Param<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}: {:?}", self.declared.borrow()[self.index].parameter.name, self.given)
+    }
+}
+
+impl<T: Datum> From<Param<T>> for Stream<T> {
     fn from(parameter: Param<T>) -> Self {
-        Stream::constant(parameter.value)
+        parameter.stream()
     }
 }
 
-impl<T: Datum + Plain> From<&Param<T>> for Stream<T> {
+impl<T: Datum> From<&Param<T>> for Stream<T> {
     fn from(parameter: &Param<T>) -> Self {
-        Stream::constant(parameter.value)
+        parameter.stream()
     }
 }

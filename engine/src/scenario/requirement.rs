@@ -1,6 +1,6 @@
 //! Requirements as programs state them: temporal operators over streams.
 
-use crate::stream::{Node, Sample, Stream};
+use crate::stream::{Binary, Kind, Node, Sample, Stream};
 use paracosm_oracles::{Comparison, Formula, Requirement, signal};
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -77,14 +77,24 @@ impl Draft {
     }
 }
 
-/// A stream of truths as a comparison of a recorded signal with a number. What is a comparison with a constant
-/// already keeps its robustness; of anything else only the truth is known, which is recorded as 1 and 0.
+/// A stream of truths as a comparison of a recorded signal with a number. What is a comparison already keeps its
+/// robustness: of two streams, their difference is compared with 0. Of anything else only the truth is known, which is
+/// recorded as 1 and 0.
 fn comparison(event: &Stream<bool>) -> (Rc<Node>, Formula) {
-    if let Node::Compare { left, comparison, right } = &*event.node
-        && let Node::Constant(Sample::Number(threshold)) = **right
-    {
-        return (left.clone(), signal(left.to_string()).compare(*comparison, threshold));
-    }
-    let truth = signal(event.node.to_string()).compare(Comparison::AtLeast, 1.0);
-    (event.node.clone(), truth)
+    let node = event.node.unnamed();
+    let (measured, comparison, threshold) = match (&node.kind, node.inputs.as_slice()) {
+        (Kind::Compare(comparison), [left, right]) => match &right.unnamed().kind {
+            Kind::Constant { value, .. } if let [Sample::Number(threshold)] = value[..] => {
+                (left.clone(), *comparison, threshold)
+            }
+            _ => {
+                let difference = Kind::Binary(Binary::Difference);
+                let difference = Node { kind: difference, inputs: vec![left.clone(), right.clone()], width: 1 };
+                (Rc::new(difference), *comparison, 0.0)
+            }
+        },
+        _ => (event.node.clone(), Comparison::AtLeast, 1.0),
+    };
+    let formula = signal(measured.to_string()).compare(comparison, threshold);
+    (measured, formula)
 }

@@ -1,7 +1,7 @@
 //! Pedestrians: their pose is set by the program, tick by tick (the paper's `Geometric`).
 
 use super::{Place, Pose, Scenario};
-use crate::stream::{Source, Stream};
+use crate::stream::{Datum, Source, Stream};
 use nalgebra::Vector2;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -40,6 +40,13 @@ pub struct Walker {
 #[derive(Debug)]
 pub struct Walk {
     task: Rc<RefCell<Task>>,
+}
+
+impl WalkerSetup {
+    /// The stream that its speed is bound to.
+    pub fn speed(&self) -> Option<Stream<f64>> {
+        self.task.borrow().speed.clone()
+    }
 }
 
 impl Pedestrian {
@@ -82,12 +89,12 @@ impl Walker {
 
 impl Walk {
     /// Begins at the tick of the event: [`Stream::skip_until`].
-    pub fn skip_until(self, event: &Stream<bool>) -> Self {
+    pub fn skip_until<E: Datum>(self, event: &Stream<E>) -> Self {
         self.rebind(|speed| speed.skip_until(event))
     }
 
     /// Ends at the tick of the event: [`Stream::take_until`].
-    pub fn take_until(self, event: &Stream<bool>) -> Self {
+    pub fn take_until<E: Datum>(self, event: &Stream<E>) -> Self {
         self.rebind(|speed| speed.take_until(event))
     }
 

@@ -1,9 +1,9 @@
-//! The expressions of a run laid out for evaluation: operands first, one slot each, no allocation per tick.
+//! The streams of a run laid out for evaluation: operands first, all values in one place, no allocation per tick.
 
-use super::Stream;
-use super::expression::{Datum, Node, Sample, Source};
-use crate::scenario::Line;
-use paracosm_oracles::Comparison;
+use super::datum::{Datum, Sample};
+use super::node::{Equation, Kind, Node, Source};
+use super::order::{Fault, order};
+use paracosm_coverage::Shape;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -11,15 +11,40 @@ use std::rc::Rc;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Slot(usize);
 
+/// When it is: the tick from 0, and how many there are until the end of the run.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Clock {
+    pub tick: usize,
+    pub ticks: usize,
+}
+
+/// A node with what it remembers from tick to tick.
 #[derive(Debug)]
-enum Operation {
-    Constant(Sample),
-    Output(Source),
-    Difference(Slot, Slot),
-    Towards { position: Slot, line: Line },
-    Compare { left: Slot, comparison: Comparison, right: Slot },
-    SkipUntil { stream: Slot, event: Slot, begun: bool },
-    TakeUntil { stream: Slot, event: Slot, ended: bool },
+struct Operation {
+    node: Rc<Node>,
+    /// Where its value stands, and how many samples it takes.
+    at: usize,
+    width: usize,
+    /// Where those of its inputs stand; of one or none, its own place.
+    inputs: [usize; 2],
+    memory: Memory,
+}
+
+/// What an operation remembers.
+#[derive(Debug)]
+enum Memory {
+    Nothing,
+    /// Whether an event has occurred.
+    Occurred(bool),
+    /// How many values are still to come.
+    Left(usize),
+    /// A value, and whether it was the last one.
+    Value {
+        samples: Vec<Sample>,
+        over: bool,
+    },
+    /// The values of a signal.
+    Numbers(Vec<f64>),
 }
 
 /// All streams that a run reads.
@@ -27,83 +52,100 @@ enum Operation {
 pub(crate) struct Graph {
     operations: Vec<Operation>,
     values: Vec<Sample>,
-    /// Which slot an expression has got. Only looked up, never iterated over: addresses differ between runs.
+    /// Of each value, whether its stream is over.
+    over: Vec<bool>,
+    /// The operations that take in their operand when the tick is over.
+    delays: Vec<usize>,
+    /// Which slot a node has got. Only looked up, never iterated over: addresses differ between runs.
     slots: HashMap<*const Node, Slot>,
-    /// Keeps the expressions alive, so that no address is used twice.
-    expressions: Vec<Rc<Node>>,
+    /// Keeps the nodes alive that have no operation, so that no address is used twice.
+    nodes: Vec<Rc<Node>>,
 }
 
 impl Graph {
-    /// Adds a stream, with all that it is made of; the slot where its value will stand.
-    pub fn add<T: Datum>(&mut self, stream: &Stream<T>) -> Slot {
-        self.add_node(&stream.node)
+    /// Lays out all that the roots are made of.
+    pub fn new<'a>(roots: impl IntoIterator<Item = &'a Rc<Node>>, equations: &'a [Equation]) -> Result<Self, Fault> {
+        let mut graph = Self::default();
+        for node in order(roots, equations)? {
+            let slot = match &node.kind {
+                // Other names of a stream share its slot.
+                Kind::Named(_) => graph.slot(&node.inputs[0]),
+                Kind::Forward { equation, .. } => {
+                    graph.slot(equations[*equation].definition.as_ref().expect("it has been ordered"))
+                }
+                _ => graph.add(node),
+            };
+            graph.slots.insert(Rc::as_ptr(node), slot);
+            graph.nodes.push(node.clone());
+        }
+        for &delay in &graph.delays {
+            // Only now has every operand its place.
+            graph.operations[delay].inputs[0] = graph.slots[&Rc::as_ptr(&graph.operations[delay].node.inputs[0])].0;
+        }
+        Ok(graph)
     }
 
-    pub fn add_node(&mut self, node: &Rc<Node>) -> Slot {
-        if let Some(slot) = self.slots.get(&Rc::as_ptr(node)) {
-            return *slot;
-        }
-        let operation = match &**node {
-            Node::Constant(sample) => Operation::Constant(*sample),
-            Node::Output { source, .. } => Operation::Output(*source),
-            Node::Difference(left, right) => Operation::Difference(self.add_node(left), self.add_node(right)),
-            Node::Towards { position, line } => {
-                Operation::Towards { position: self.add_node(position), line: line.clone() }
-            }
-            Node::Compare { left, comparison, right } => {
-                Operation::Compare { left: self.add_node(left), comparison: *comparison, right: self.add_node(right) }
-            }
-            Node::SkipUntil { stream, event } => {
-                Operation::SkipUntil { stream: self.add_node(stream), event: self.add_node(event), begun: false }
-            }
-            Node::TakeUntil { stream, event } => {
-                Operation::TakeUntil { stream: self.add_node(stream), event: self.add_node(event), ended: false }
-            }
+    fn add(&mut self, node: &Rc<Node>) -> Slot {
+        let at = self.values.len();
+        let initial = match &node.kind {
+            Kind::Constant { value, .. } | Kind::Hold { initial: value } => value.clone(),
+            _ => vec![Sample::Absent; node.width],
         };
-        let slot = Slot(self.operations.len());
-        self.operations.push(operation);
-        self.values.push(Sample::Absent);
-        self.slots.insert(Rc::as_ptr(node), slot);
-        self.expressions.push(node.clone());
-        slot
+        self.values.extend(initial);
+        self.over.resize(self.values.len(), false);
+        if matches!(node.kind, Kind::Constant { .. }) {
+            return Slot(at);
+        }
+        let memory = match &node.kind {
+            Kind::SkipUntil | Kind::TakeUntil => Memory::Occurred(false),
+            Kind::Take(count) => Memory::Left(*count),
+            Kind::Pre => Memory::Value { samples: vec![Sample::Absent; node.width], over: false },
+            Kind::Sum(initial) => Memory::Value { samples: vec![*initial], over: false },
+            Kind::Scan { initial, .. } => Memory::Value { samples: initial.clone(), over: false },
+            Kind::Signal { values, shape, .. } if !matches!(shape, Shape::PiecewiseConstant { .. }) => {
+                Memory::Numbers(values.iter().filter_map(|value| f64::get(std::slice::from_ref(value))).collect())
+            }
+            _ => Memory::Nothing,
+        };
+        let mut inputs = [at; 2];
+        if matches!(node.kind, Kind::Pre) {
+            self.delays.push(self.operations.len());
+        } else {
+            for (place, input) in inputs.iter_mut().zip(&node.inputs) {
+                *place = self.slot(input).0;
+            }
+        }
+        self.operations.push(Operation { node: node.clone(), at, width: node.width, inputs, memory });
+        Slot(at)
+    }
+
+    /// Where the value of a node stands.
+    ///
+    /// # Panics
+    /// It is no node of the graph.
+    pub fn slot(&self, node: &Rc<Node>) -> Slot {
+        self.slots[&Rc::as_ptr(node)]
     }
 
     /// Evaluates every stream for the tick whose world `outputs` shows.
-    pub fn tick(&mut self, outputs: impl Fn(Source) -> Sample) {
-        for (index, operation) in self.operations.iter_mut().enumerate() {
-            let values = &self.values;
-            let at = |slot: &Slot| values[slot.0];
-            let value = match operation {
-                Operation::Constant(sample) => *sample,
-                Operation::Output(source) => outputs(*source),
-                Operation::Difference(left, right) => match (at(left), at(right)) {
-                    (Sample::Number(left), Sample::Number(right)) => Sample::Number(left - right),
-                    _ => Sample::Absent,
-                },
-                Operation::Towards { position, line } => match at(position) {
-                    Sample::Vector(position) => Sample::Number(line.ahead_of(position)),
-                    _ => Sample::Absent,
-                },
-                Operation::Compare { left, comparison, right } => match (at(left), at(right)) {
-                    (Sample::Number(left), Sample::Number(right)) => Sample::Truth(comparison.holds(left, right)),
-                    _ => Sample::Absent,
-                },
-                Operation::SkipUntil { stream, event, begun } => {
-                    *begun |= at(event) == Sample::Truth(true);
-                    if *begun { at(stream) } else { Sample::Absent }
-                }
-                Operation::TakeUntil { stream, event, ended } => {
-                    *ended |= at(event) == Sample::Truth(true);
-                    if *ended { Sample::Absent } else { at(stream) }
-                }
-            };
-            self.values[index] = value;
+    pub fn tick(&mut self, clock: Clock, outputs: impl Fn(Source) -> Sample) {
+        for operation in &mut self.operations {
+            let (values, rest) = self.values.split_at_mut(operation.at);
+            let over = operation.evaluate(clock, values, &mut rest[..operation.width], &self.over, &outputs);
+            self.over[operation.at] = over;
+        }
+        for &delay in &self.delays {
+            let Operation { inputs: [at, _], width, memory, .. } = &mut self.operations[delay];
+            if let Memory::Value { samples, over } = memory {
+                copy(&self.values[*at..*at + *width], samples);
+                *over = self.over[*at];
+            }
         }
     }
 
     /// The value in a slot at the last tick; `None` where it was absent.
     pub fn value<T: Datum>(&self, slot: Slot) -> Option<T> {
-        T::unwrap(self.sample(slot))
+        T::get(&self.values[slot.0..])
     }
 
     pub fn sample(&self, slot: Slot) -> Sample {
@@ -111,66 +153,163 @@ impl Graph {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Whether an event occurs: a truth that holds, or any other value that is there.
+fn occurs(value: &[Sample]) -> bool {
+    !matches!(value[0], Sample::Absent | Sample::Truth(false))
+}
 
-    /// Runs `stream` over ticks at which the car's speed takes these values.
-    fn over<T: Datum>(stream: &Stream<T>, speeds: &[f64]) -> Vec<Option<T>> {
-        let mut graph = Graph::default();
-        let slot = graph.add(stream);
-        let tick = |speed: &f64| {
-            graph.tick(|_| Sample::Number(*speed));
-            graph.value(slot)
-        };
-        speeds.iter().map(tick).collect()
+impl Operation {
+    /// Writes the value of a tick, of which `values` holds all that come before; whether the stream is over.
+    fn evaluate(
+        &mut self,
+        clock: Clock,
+        values: &[Sample],
+        output: &mut [Sample],
+        over: &[bool],
+        outputs: &impl Fn(Source) -> Sample,
+    ) -> bool {
+        let Self { node, width, inputs: [left, right], memory, .. } = self;
+        let width = *width;
+        let ([left, right], [left_over, right_over]) = ([*left, *right], [over[*left], over[*right]]);
+        let from = |at: usize| &values[at..at + width];
+        match (&node.kind, memory) {
+            (Kind::Output { source, .. }, _) => {
+                output[0] = outputs(*source);
+                false
+            }
+            (Kind::Signal { shape, .. }, Memory::Numbers(numbers)) => {
+                output[0] = shape.number_at(numbers, clock.tick, clock.ticks).into();
+                false
+            }
+            (Kind::Signal { values, .. }, _) => {
+                let pieces = values.len() / width;
+                let piece = Shape::piece(pieces, clock.tick, clock.ticks);
+                copy(&values[piece * width..][..width], output);
+                false
+            }
+            (Kind::Unary(function), _) => {
+                output[0] = function.of(values[left]);
+                left_over
+            }
+            (Kind::Binary(function), _) => {
+                output[0] = function.of(values[left], values[right]);
+                left_over || right_over
+            }
+            (Kind::Compare(comparison), _) => {
+                output[0] = match (values[left], values[right]) {
+                    (Sample::Number(left), Sample::Number(right)) => comparison.holds(left, right).into(),
+                    _ => Sample::Absent,
+                };
+                left_over || right_over
+            }
+            (Kind::Equal, _) => {
+                let width = node.inputs[0].width;
+                let absent = values[left].is_absent() || values[right].is_absent();
+                let equal = values[left..left + width] == values[right..right + width];
+                output[0] = if absent { Sample::Absent } else { equal.into() };
+                left_over || right_over
+            }
+            (Kind::Towards(line), _) => {
+                output[0] = match values[left] {
+                    Sample::Vector(position) => line.ahead_of(position).into(),
+                    _ => Sample::Absent,
+                };
+                left_over
+            }
+            (Kind::Map(map), _) => {
+                output[0] = Sample::Absent;
+                map(&values[left..], output);
+                left_over
+            }
+            (Kind::Filter(keep), _) => {
+                put(output, keep(&values[left..]), from(left));
+                left_over
+            }
+            (Kind::When, _) => {
+                put(output, occurs(&values[right..]), from(left));
+                left_over || right_over
+            }
+            (Kind::Zip, _) => {
+                let middle = node.inputs[0].width;
+                let present = !values[left].is_absent() && !values[right].is_absent();
+                output[..middle].copy_from_slice(&values[left..left + middle]);
+                output[middle..].copy_from_slice(&values[right..right + width - middle]);
+                if !present {
+                    output[0] = Sample::Absent;
+                }
+                left_over || right_over
+            }
+            (Kind::Take(_), Memory::Left(count)) => {
+                let over = *count == 0 || left_over;
+                put(output, *count > 0, from(left));
+                *count -= usize::from(!output[0].is_absent());
+                over
+            }
+            (Kind::Concat, _) => {
+                copy(from(if left_over { right } else { left }), output);
+                left_over && right_over
+            }
+            (Kind::Sum(_), Memory::Value { samples, .. }) => {
+                if !values[left].is_absent() {
+                    samples[0] = super::node::Binary::Sum.of(samples[0], values[left]);
+                }
+                put(output, !values[left].is_absent(), samples);
+                left_over
+            }
+            (Kind::Scan { step, .. }, Memory::Value { samples, .. }) => {
+                let present = !values[left].is_absent();
+                if present {
+                    step(samples, &values[left..]);
+                }
+                put(output, present, samples);
+                left_over
+            }
+            (Kind::Merge, _) => {
+                copy(from(if values[left].is_absent() { right } else { left }), output);
+                left_over && right_over
+            }
+            (Kind::SkipUntil, Memory::Occurred(begun)) => {
+                *begun |= occurs(&values[right..]);
+                put(output, *begun, from(left));
+                left_over
+            }
+            (Kind::TakeUntil, Memory::Occurred(ended)) => {
+                *ended |= occurs(&values[right..]);
+                put(output, !*ended, from(left));
+                *ended || left_over
+            }
+            (Kind::Pre, Memory::Value { samples, over }) => {
+                copy(samples, output);
+                *over
+            }
+            (Kind::Hold { .. }, _) => {
+                if !values[left].is_absent() {
+                    copy(from(left), output);
+                }
+                false
+            }
+            (Kind::ForEach(effect), _) => {
+                (effect.borrow_mut())(&values[left..]);
+                left_over
+            }
+            _ => unreachable!("constants and other names have no operation, and every memory fits its node"),
+        }
     }
+}
 
-    fn x() -> Stream<f64> {
-        Stream::output(Source::CarSpeed, "x".into())
+/// The value, if it is to be seen.
+fn put(output: &mut [Sample], present: bool, value: &[Sample]) {
+    if present {
+        copy(value, output);
+    } else {
+        output[0] = Sample::Absent;
     }
+}
 
-    const TICKS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
-
-    #[test]
-    fn skip_until_begins_at_the_tick_of_the_event() {
-        let stream = x().skip_until(&x().above(2.5));
-        assert_eq!(over(&stream, &TICKS), [None, None, Some(3.0), Some(4.0), Some(5.0)]);
-    }
-
-    #[test]
-    fn take_until_ends_before_the_tick_of_the_event() {
-        let stream = x().take_until(&x().above(3.5));
-        assert_eq!(over(&stream, &TICKS), [Some(1.0), Some(2.0), Some(3.0), None, None]);
-    }
-
-    #[test]
-    fn what_has_begun_or_ended_stays_so_when_the_event_is_over() {
-        let ticks = [1.0, 9.0, 1.0];
-        assert_eq!(over(&x().skip_until(&x().above(5.0)), &ticks), [None, Some(9.0), Some(1.0)]);
-        assert_eq!(over(&x().take_until(&x().above(5.0)), &ticks), [Some(1.0), None, None]);
-    }
-
-    #[test]
-    fn an_operation_on_an_absent_value_is_absent() {
-        let late = x().skip_until(&x().above(4.5));
-        assert_eq!(over(&(x() - late.clone()), &TICKS), [None, None, None, None, Some(0.0)]);
-        assert_eq!(over(&late.below(9.0), &TICKS), [None, None, None, None, Some(true)]);
-    }
-
-    #[test]
-    fn a_shared_expression_is_evaluated_once() {
-        let mut graph = Graph::default();
-        let gap = x() - 1.0;
-        let first = graph.add(&gap.below(2.0));
-        let second = graph.add(&gap.above(2.0));
-        assert_ne!(first, second);
-        // x, 1, x - 1, 2, below, 2, above
-        assert_eq!(graph.operations.len(), 7);
-    }
-
-    #[test]
-    fn an_expression_prints_as_it_is_written() {
-        assert_eq!((x() - 2.0).below(30.0).node.to_string(), "((x - 2) < 30)");
+/// Nearly all values are one sample, for which a call to copy memory would take longer than the rest.
+fn copy(value: &[Sample], output: &mut [Sample]) {
+    match (value, output) {
+        ([value], [output]) => *output = *value,
+        (value, output) => output.copy_from_slice(value),
     }
 }

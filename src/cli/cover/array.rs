@@ -4,7 +4,7 @@
 use super::time_limit;
 use crate::Error;
 use crate::cli::Verbosity;
-use crate::coverage::{Deadline, Point, Space, SpaceError};
+use crate::coverage::{Deadline, Point, Space};
 use crate::generators::GeneratorError;
 use crate::generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -81,11 +81,13 @@ fn group(text: &str, space: &Space) -> Result<(Vec<usize>, usize), Error> {
     let wrong = |why: String| Error::Usage(format!("--strength {text}: {why}"));
     let (names, k) = text.rsplit_once('=').ok_or_else(|| wrong("expected NAME,NAME,..=K".into()))?;
     let k: usize = k.trim().parse().map_err(|_| wrong(format!("found `{k}`, expected a number of parameters")))?;
-    let discrete: Vec<&str> = space.discrete().map(|parameter| parameter.name.as_str()).collect();
+    let discrete: Vec<String> = space.discrete().map(|coordinate| coordinate.name()).collect();
     let position = |name: &str| {
-        let parameter = space.parameter(name.trim()).map_err(|error: SpaceError| wrong(error.to_string()))?;
-        let found = discrete.iter().position(|other| *other == parameter.name);
-        found.ok_or_else(|| wrong(format!("parameter `{}` is continuous", parameter.name)))
+        let found = discrete.iter().position(|other| other == name.trim());
+        found.ok_or_else(|| match space.parameter(name.trim()) {
+            Err(error) => wrong(error.to_string()),
+            Ok(_) => wrong(format!("parameter `{name}` is continuous or varies over time")),
+        })
     };
     let mut members = names.split(',').map(position).collect::<Result<Vec<_>, _>>()?;
     members.sort_unstable();

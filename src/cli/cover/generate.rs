@@ -4,7 +4,7 @@ use super::array::ArrayOptions;
 use super::space_file::SpaceFile;
 use crate::cli::output::digits;
 use crate::cli::{Failure, Verbosity};
-use crate::coverage::{Parameter, Point, Space};
+use crate::coverage::{Point, Space};
 use crate::generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use crate::{Error, KEpsilon, Measure, Tests};
 use clap::{ArgGroup, Args};
@@ -187,7 +187,7 @@ fn write(
     let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {eta} left";
     let bar = bar.with_style(ProgressStyle::with_template(template).expect("the template is one"));
     let mut csv = csv::Writer::from_writer(io::stdout().lock());
-    csv.write_record(space.parameters().iter().map(|parameter: &Parameter| &parameter.name)).map_err(plain)?;
+    csv.write_record(space.coordinates().map(|coordinate| coordinate.name())).map_err(plain)?;
     let mut written = 0;
     while written < most {
         let tests = generator.ask(BATCH.min(most - written));
@@ -195,7 +195,9 @@ fn write(
             break;
         }
         for test in &tests {
-            csv.write_record(space.decode(test).iter().map(|(_, value)| value.to_string())).map_err(plain)?;
+            let values = space.decode(test);
+            let values = values.iter().flat_map(|(_, value)| value.scalars());
+            csv.write_record(values.map(ToString::to_string)).map_err(plain)?;
         }
         written += tests.len();
         bar.inc(tests.len() as u64);

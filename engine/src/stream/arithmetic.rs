@@ -1,0 +1,176 @@
+//! Numbers, truths and vectors: what is computed at the ticks at which all operands have a value.
+
+use super::Stream;
+use super::node::{Binary, Kind, Unary};
+use crate::scenario::Line;
+use nalgebra::Vector2;
+use paracosm_oracles::Comparison;
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
+
+impl Stream<f64> {
+    /// True at the ticks at which this is below the other.
+    pub fn below(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
+        self.with(Kind::Compare(Comparison::Below), &other.into())
+    }
+
+    /// True at the ticks at which this is at most the other.
+    pub fn at_most(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
+        self.with(Kind::Compare(Comparison::AtMost), &other.into())
+    }
+
+    /// True at the ticks at which this is above the other.
+    pub fn above(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
+        self.with(Kind::Compare(Comparison::Above), &other.into())
+    }
+
+    /// True at the ticks at which this is at least the other.
+    pub fn at_least(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
+        self.with(Kind::Compare(Comparison::AtLeast), &other.into())
+    }
+
+    /// The smaller of both; NaN where one is NaN.
+    pub fn min(&self, other: impl Into<Stream<f64>>) -> Self {
+        self.with(Kind::Binary(Binary::Least), &other.into())
+    }
+
+    /// The larger of both; NaN where one is NaN.
+    pub fn max(&self, other: impl Into<Stream<f64>>) -> Self {
+        self.with(Kind::Binary(Binary::Greatest), &other.into())
+    }
+
+    /// The distance from 0.
+    pub fn abs(&self) -> Self {
+        self.then(Kind::Unary(Unary::Absolute))
+    }
+
+    /// The square root; NaN below 0.
+    pub fn sqrt(&self) -> Self {
+        self.then(Kind::Unary(Unary::SquareRoot))
+    }
+
+    /// The sum of all values so far, at the ticks that have one.
+    pub fn sum(&self) -> Self {
+        self.then(Kind::Sum(0.0.into()))
+    }
+}
+
+impl Stream<Vector2<f64>> {
+    /// The vector of two coordinates.
+    pub fn vector(x: impl Into<Stream<f64>>, y: impl Into<Stream<f64>>) -> Self {
+        x.into().with(Kind::Binary(Binary::Vector), &y.into())
+    }
+
+    /// How far the line still lies ahead of this position, along the line's direction, in metres; negative
+    /// behind it.
+    pub fn distance_to(&self, line: &Line) -> Stream<f64> {
+        self.then(Kind::Towards(line.clone()))
+    }
+
+    /// The length.
+    pub fn norm(&self) -> Stream<f64> {
+        self.then(Kind::Unary(Unary::Norm))
+    }
+
+    /// The scalar product.
+    pub fn dot(&self, other: impl Into<Stream<Vector2<f64>>>) -> Stream<f64> {
+        self.with(Kind::Binary(Binary::Dot), &other.into())
+    }
+
+    /// The first coordinate.
+    pub fn x(&self) -> Stream<f64> {
+        self.then(Kind::Unary(Unary::X))
+    }
+
+    /// The second coordinate.
+    pub fn y(&self) -> Stream<f64> {
+        self.then(Kind::Unary(Unary::Y))
+    }
+
+    /// The sum of all values so far, at the ticks that have one.
+    pub fn sum(&self) -> Self {
+        self.then(Kind::Sum(Vector2::zeros().into()))
+    }
+}
+
+/// An operator between streams, and between a stream and whatever becomes one.
+macro_rules! operator {
+    ($trait:ident, $method:ident, $binary:ident, $left:ty, $right:ty) => {
+        impl<S: Into<Stream<$right>>> $trait<S> for &Stream<$left> {
+            type Output = Stream<$left>;
+
+            fn $method(self, other: S) -> Stream<$left> {
+                self.with(Kind::Binary(Binary::$binary), &other.into())
+            }
+        }
+
+        impl<S: Into<Stream<$right>>> $trait<S> for Stream<$left> {
+            type Output = Stream<$left>;
+
+            fn $method(self, other: S) -> Stream<$left> {
+                $trait::$method(&self, other)
+            }
+        }
+    };
+}
+
+operator!(Add, add, Sum, f64, f64);
+operator!(Sub, sub, Difference, f64, f64);
+operator!(Mul, mul, Product, f64, f64);
+operator!(Div, div, Quotient, f64, f64);
+operator!(Add, add, Sum, Vector2<f64>, Vector2<f64>);
+operator!(Sub, sub, Difference, Vector2<f64>, Vector2<f64>);
+operator!(Mul, mul, Product, Vector2<f64>, f64);
+operator!(Div, div, Quotient, Vector2<f64>, f64);
+operator!(BitAnd, bitand, And, bool, bool);
+operator!(BitOr, bitor, Or, bool, bool);
+
+/// An operator with a plain number on its left.
+macro_rules! number_first {
+    ($trait:ident, $method:ident) => {
+        impl $trait<Stream<f64>> for f64 {
+            type Output = Stream<f64>;
+
+            fn $method(self, other: Stream<f64>) -> Stream<f64> {
+                $trait::$method(Stream::constant(self), other)
+            }
+        }
+
+        impl $trait<&Stream<f64>> for f64 {
+            type Output = Stream<f64>;
+
+            fn $method(self, other: &Stream<f64>) -> Stream<f64> {
+                $trait::$method(Stream::constant(self), other)
+            }
+        }
+    };
+}
+
+number_first!(Add, add);
+number_first!(Sub, sub);
+number_first!(Mul, mul);
+number_first!(Div, div);
+
+/// An operator on one stream.
+macro_rules! prefix {
+    ($trait:ident, $method:ident, $unary:ident, $type:ty) => {
+        impl $trait for &Stream<$type> {
+            type Output = Stream<$type>;
+
+            fn $method(self) -> Stream<$type> {
+                self.then(Kind::Unary(Unary::$unary))
+            }
+        }
+
+        impl $trait for Stream<$type> {
+            type Output = Stream<$type>;
+
+            fn $method(self) -> Stream<$type> {
+                $trait::$method(&self)
+            }
+        }
+    };
+}
+
+prefix!(Neg, neg, Negative, f64);
+prefix!(Neg, neg, Negative, Vector2<f64>);
+prefix!(Not, not, Not, bool);

@@ -1,0 +1,169 @@
+//! The typed handles by which programs write streams of any type.
+
+use super::datum::{Datum, samples};
+use super::node::{Kind, Node, Source};
+use std::cell::RefCell;
+use std::fmt;
+use std::marker::PhantomData;
+use std::rc::Rc;
+
+/// A stream of values of type `T`: a cheap handle, see the [module](crate::stream).
+pub struct Stream<T> {
+    pub(crate) node: Rc<Node>,
+    carries: PhantomData<T>,
+}
+
+impl<T> Clone for Stream<T> {
+    fn clone(&self) -> Self {
+        Self { node: self.node.clone(), carries: PhantomData }
+    }
+}
+
+impl<T> fmt::Debug for Stream<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(&self.node, f)
+    }
+}
+
+/// What is done at the ticks of a stream: [`Stream::for_each`] makes it, and
+/// [`Scenario::place`](crate::Scenario::place) makes it part of the world.
+#[must_use = "it is only done once it is placed in the scenario"]
+#[derive(Debug)]
+pub struct Effect(pub(crate) Rc<Node>);
+
+impl Stream<()> {
+    /// The clock: an event at every tick.
+    pub fn tick() -> Self {
+        Self::constant(())
+    }
+}
+
+impl<T: Datum> Stream<T> {
+    pub(crate) fn new(kind: Kind, inputs: impl Into<Vec<Rc<Node>>>) -> Self {
+        let node = Node { kind, inputs: inputs.into(), width: T::WIDTH };
+        Self { node: Rc::new(node), carries: PhantomData }
+    }
+
+    /// The stream that has this value at every tick.
+    pub fn constant(value: T) -> Self {
+        Self::new(Kind::Constant { value: samples(value), parameter: None }, [])
+    }
+
+    pub(crate) fn output(source: Source, name: String) -> Self {
+        Self::new(Kind::Output { source, name }, [])
+    }
+
+    /// The same stream, called so where the graph is printed and where a trace records it.
+    pub fn named(&self, name: &str) -> Self {
+        self.then(Kind::Named(name.to_owned()))
+    }
+
+    /// `f` of the value, at the ticks that have one. `f` is to be a pure function: nobody says how often it is called.
+    pub fn map<U: Datum>(&self, f: impl Fn(T) -> U + 'static) -> Stream<U> {
+        let map = move |input: &[_], output: &mut [_]| {
+            if let Some(value) = T::get(input) {
+                f(value).put(output);
+            }
+        };
+        self.then(Kind::Map(Rc::new(map)))
+    }
+
+    /// The stream at the ticks whose value `keep` holds of; absent at all others.
+    pub fn filter(&self, keep: impl Fn(T) -> bool + 'static) -> Self {
+        self.then(Kind::Filter(Rc::new(move |input: &[_]| T::get(input).is_some_and(&keep))))
+    }
+
+    /// The stream at the ticks at which `event` occurs; absent at all others.
+    pub fn when<E: Datum>(&self, event: &Stream<E>) -> Self {
+        self.with(Kind::When, event)
+    }
+
+    /// Both values, at the ticks at which both streams have one.
+    pub fn zip<U: Datum>(&self, other: &Stream<U>) -> Stream<(T, U)> {
+        Stream::new(Kind::Zip, [self.node.clone(), other.node.clone()])
+    }
+
+    /// The first `count` values; over after that.
+    pub fn take(&self, count: usize) -> Self {
+        self.then(Kind::Take(count))
+    }
+
+    /// The stream until it is over, from then on the other one as it is by then: nothing is kept or begun anew.
+    pub fn concat(&self, next: &Stream<T>) -> Self {
+        self.with(Kind::Concat, next)
+    }
+
+    /// The value at the first tick, the stream from then on: Lustre's `->`. With [`Stream::pre`] it is how a feedback
+    /// begins: `x.pre().initially(0.0)`.
+    pub fn initially(&self, value: impl Into<Stream<T>>) -> Self {
+        value.into().take(1).concat(self)
+    }
+
+    /// What the values come to when they are folded, at the ticks that have one: `f` of what they came to before,
+    /// `initial` at first, and the value. `f` is to be a pure function.
+    pub fn scan<A: Datum>(&self, initial: A, f: impl Fn(A, T) -> A + 'static) -> Stream<A> {
+        let step = move |sum: &mut [_], input: &[_]| {
+            if let (Some(before), Some(value)) = (A::get(sum), T::get(input)) {
+                f(before, value).put(sum);
+            }
+        };
+        self.then(Kind::Scan { initial: samples(initial), step: Rc::new(step) })
+    }
+
+    /// The stream at the ticks at which it has a value, the other at those at which only the other has one.
+    pub fn merge(&self, other: &Stream<T>) -> Self {
+        self.with(Kind::Merge, other)
+    }
+
+    /// The stream itself until the first tick at which `event` occurs; over from that tick on.
+    pub fn take_until<E: Datum>(&self, event: &Stream<E>) -> Self {
+        self.with(Kind::TakeUntil, event)
+    }
+
+    /// Absent until the first tick at which `event` occurs; the stream itself from that tick on.
+    pub fn skip_until<E: Datum>(&self, event: &Stream<E>) -> Self {
+        self.with(Kind::SkipUntil, event)
+    }
+
+    /// What the stream was at the tick before: absent where it was absent then, and at the first tick.
+    pub fn pre(&self) -> Self {
+        self.then(Kind::Pre)
+    }
+
+    /// The latest value, `initial` before the first one: a value at every tick.
+    pub fn hold(&self, initial: T) -> Self {
+        self.then(Kind::Hold { initial: samples(initial) })
+    }
+
+    /// True at the ticks at which both streams have the same value.
+    pub fn equals(&self, other: impl Into<Stream<T>>) -> Stream<bool> {
+        Stream::new(Kind::Equal, [self.node.clone(), other.into().node])
+    }
+
+    /// Does something with the value, at the ticks that have one. It has to be placed in the scenario.
+    pub fn for_each(&self, mut f: impl FnMut(T) + 'static) -> Effect {
+        let effect = move |input: &[_]| T::get(input).map_or((), &mut f);
+        let effect: Stream<()> = self.then(Kind::ForEach(Rc::new(RefCell::new(effect))));
+        Effect(effect.node)
+    }
+
+    pub(super) fn then<U: Datum>(&self, kind: Kind) -> Stream<U> {
+        Stream::new(kind, [self.node.clone()])
+    }
+
+    pub(super) fn with<U: Datum, V: Datum>(&self, kind: Kind, other: &Stream<U>) -> Stream<V> {
+        Stream::new(kind, [self.node.clone(), other.node.clone()])
+    }
+}
+
+impl<T: Datum> From<T> for Stream<T> {
+    fn from(value: T) -> Self {
+        Stream::constant(value)
+    }
+}
+
+impl<T: Datum> From<&Stream<T>> for Stream<T> {
+    fn from(stream: &Stream<T>) -> Self {
+        stream.clone()
+    }
+}

@@ -1,0 +1,108 @@
+//! What streams carry, and how a value lies in the memory of a run.
+
+use nalgebra::Vector2;
+
+/// A value at one tick, or a part of one. Public only because [`Datum`] speaks of it; nobody outside can name it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sample {
+    Absent,
+    Event,
+    Truth(bool),
+    Number(f64),
+    Vector(Vector2<f64>),
+    Word(&'static str),
+}
+
+impl Sample {
+    pub fn is_absent(self) -> bool {
+        matches!(self, Sample::Absent)
+    }
+}
+
+/// The types that streams carry: numbers (`f64`, `i32`), truths (`bool`), words (`&'static str`), vectors in the ground
+/// plane (`Vector2<f64>`), the bare event `()`, and pairs of these.
+pub trait Datum: Copy + 'static {
+    /// How many samples a value takes. It is absent where the first of them is.
+    #[doc(hidden)]
+    const WIDTH: usize;
+    /// Writes the value over the first samples.
+    #[doc(hidden)]
+    fn put(self, samples: &mut [Sample]);
+    /// Reads the value from the first samples.
+    #[doc(hidden)]
+    fn get(samples: &[Sample]) -> Option<Self>;
+}
+
+macro_rules! datum {
+    ($type:ty, $variant:ident) => {
+        impl Datum for $type {
+            const WIDTH: usize = 1;
+
+            fn put(self, samples: &mut [Sample]) {
+                samples[0] = self.into();
+            }
+
+            fn get(samples: &[Sample]) -> Option<Self> {
+                match samples[0] {
+                    Sample::$variant(value) => Some(value),
+                    _ => None,
+                }
+            }
+        }
+
+        impl From<$type> for Sample {
+            fn from(value: $type) -> Self {
+                Sample::$variant(value)
+            }
+        }
+    };
+}
+
+datum!(bool, Truth);
+datum!(f64, Number);
+datum!(Vector2<f64>, Vector);
+datum!(&'static str, Word);
+
+impl Datum for i32 {
+    const WIDTH: usize = 1;
+
+    fn put(self, samples: &mut [Sample]) {
+        samples[0] = Sample::Number(self.into());
+    }
+
+    fn get(samples: &[Sample]) -> Option<Self> {
+        f64::get(samples).map(|number| number as i32)
+    }
+}
+
+impl Datum for () {
+    const WIDTH: usize = 1;
+
+    fn put(self, samples: &mut [Sample]) {
+        samples[0] = Sample::Event;
+    }
+
+    fn get(samples: &[Sample]) -> Option<Self> {
+        (!samples[0].is_absent()).then_some(())
+    }
+}
+
+impl<A: Datum, B: Datum> Datum for (A, B) {
+    const WIDTH: usize = A::WIDTH + B::WIDTH;
+
+    fn put(self, samples: &mut [Sample]) {
+        self.0.put(samples);
+        self.1.put(&mut samples[A::WIDTH..]);
+    }
+
+    fn get(samples: &[Sample]) -> Option<Self> {
+        A::get(samples).zip(B::get(&samples[A::WIDTH..]))
+    }
+}
+
+/// A value as the samples that it takes.
+pub(crate) fn samples<T: Datum>(value: T) -> Vec<Sample> {
+    let mut samples = vec![Sample::Absent; T::WIDTH];
+    value.put(&mut samples);
+    samples
+}

@@ -1,0 +1,82 @@
+//! A graph of streams in the DOT language of Graphviz, to be looked at.
+
+use super::node::{Binary, Equation, Kind, Node};
+use super::order::{Fault, order};
+use std::collections::HashMap;
+use std::fmt::Write;
+use std::rc::Rc;
+
+/// A graph with its readers: outputs of objects are boxes, parameters ellipses, readers bold boxes, and what a `pre`
+/// takes from the tick before comes along a dashed line. Where the order of two inputs matters, their lines are
+/// numbered.
+pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equation]) -> Result<String, Fault> {
+    let ordered = order(readers.iter().map(|(_, node)| node), equations)?;
+    let mut names: HashMap<*const Node, Vec<&str>> = HashMap::new();
+    let mut numbers: HashMap<*const Node, usize> = HashMap::new();
+    for node in &ordered {
+        match &node.kind {
+            Kind::Named(name) | Kind::Forward { name, .. } => {
+                names.entry(Rc::as_ptr(meant(node, equations))).or_default().push(name);
+            }
+            _ => {
+                let number = numbers.len();
+                numbers.insert(Rc::as_ptr(node), number);
+            }
+        }
+    }
+    let number = |node| numbers[&Rc::as_ptr(meant(node, equations))];
+    let mut text = format!("digraph {} {{\n  rankdir=LR;\n", quoted(title));
+    for node in ordered.iter().filter(|node| numbers.contains_key(&Rc::as_ptr(node))) {
+        let name: String =
+            names.get(&Rc::as_ptr(node)).into_iter().flatten().map(|name| format!("{name} = ")).collect();
+        let (label, shape) = match &node.kind {
+            Kind::Constant { parameter: Some(name), .. } => (format!("{name} = {node}"), "ellipse"),
+            Kind::Signal { .. } => (node.label(), "ellipse"),
+            Kind::Output { .. } => (node.label(), "box"),
+            _ => (node.label(), "plaintext"),
+        };
+        let label = quoted(&format!("{name}{label}"));
+        let _ = writeln!(text, "  n{} [label={label}, shape={shape}];", number(node));
+    }
+    for node in ordered.iter().filter(|node| numbers.contains_key(&Rc::as_ptr(node))) {
+        for (i, input) in node.inputs.iter().enumerate() {
+            let style = match &node.kind {
+                Kind::Pre => " [style=dashed]".to_owned(),
+                kind if node.inputs.len() > 1 && !commutes(kind) => format!(" [headlabel={}]", i + 1),
+                _ => String::new(),
+            };
+            let _ = writeln!(text, "  n{} -> n{}{style};", number(input), number(node));
+        }
+    }
+    for (i, (reader, node)) in readers.iter().enumerate() {
+        let _ = writeln!(text, "  r{i} [label={}, shape=box, style=bold];", quoted(reader));
+        let _ = writeln!(text, "  n{} -> r{i};", number(node));
+    }
+    text.push_str("}\n");
+    Ok(text)
+}
+
+/// The node that a name stands for.
+fn meant<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> &'a Rc<Node> {
+    let mut node = node;
+    loop {
+        node = match &node.kind {
+            Kind::Named(_) => &node.inputs[0],
+            Kind::Forward { equation, .. } => match &equations[*equation].definition {
+                Some(definition) => definition,
+                None => return node,
+            },
+            _ => return node,
+        };
+    }
+}
+
+fn commutes(kind: &Kind) -> bool {
+    use Binary::{And, Dot, Greatest, Least, Or, Product, Sum};
+    matches!(kind, Kind::Equal | Kind::Binary(Sum | Product | Least | Greatest | Dot | And | Or))
+}
+
+/// A string as DOT takes it.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
+}

@@ -1,0 +1,37 @@
+//! Streams that are read before they are defined: how feedback is written.
+
+use super::Stream;
+use super::node::Equation;
+use crate::scenario::Problems;
+use std::cell::RefCell;
+use std::ops::Deref;
+use std::rc::Rc;
+
+/// A stream that was announced by [`Scenario::forward`](crate::Scenario::forward) and is defined later. Until then, and
+/// after, it can be used as the stream that it is.
+#[derive(Debug)]
+pub struct Forward<T> {
+    pub(crate) stream: Stream<T>,
+    /// The position of its equation among all.
+    pub(crate) equation: usize,
+    pub(crate) equations: Rc<RefCell<Vec<Equation>>>,
+    pub(crate) problems: Problems,
+}
+
+impl<T> Forward<T> {
+    /// Says what the stream is. To define it twice is a mistake of the scenario.
+    pub fn define(&self, definition: impl Into<Stream<T>>) {
+        let equation = &mut self.equations.borrow_mut()[self.equation];
+        if equation.definition.replace(definition.into().node).is_some() {
+            self.problems.borrow_mut().push(format!("the stream `{}` is defined twice", equation.name));
+        }
+    }
+}
+
+impl<T> Deref for Forward<T> {
+    type Target = Stream<T>;
+
+    fn deref(&self) -> &Stream<T> {
+        &self.stream
+    }
+}

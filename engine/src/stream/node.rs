@@ -1,0 +1,353 @@
+//! The nodes that streams are handles of: what each computes, and from which others.
+
+use super::datum::Sample;
+use crate::scenario::Line;
+use paracosm_coverage::Shape;
+use paracosm_oracles::Comparison;
+use std::cell::RefCell;
+use std::fmt;
+use std::rc::Rc;
+
+/// An output of an object in the world, as it stands at the beginning of a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Source {
+    CarPosition,
+    CarX,
+    CarY,
+    CarSpeed,
+    CarAcceleration,
+    CarTravelled,
+    CarClearance,
+    CarThrottle,
+    WalkerPosition(usize),
+    WalkerX(usize),
+    WalkerY(usize),
+    WalkerSpeed(usize),
+    WalkerRemaining(usize),
+}
+
+/// A function of one value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Unary {
+    Negative,
+    Absolute,
+    SquareRoot,
+    Not,
+    Norm,
+    X,
+    Y,
+}
+
+/// A function of two values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Binary {
+    Sum,
+    Difference,
+    /// Of numbers, or of a vector and a number.
+    Product,
+    Quotient,
+    Least,
+    Greatest,
+    Dot,
+    /// Two numbers as the coordinates of a vector.
+    Vector,
+    And,
+    Or,
+}
+
+/// Reads a value and writes another one.
+pub(crate) type Map = Rc<dyn Fn(&[Sample], &mut [Sample])>;
+/// Reads a value and judges it.
+pub(crate) type Filter = Rc<dyn Fn(&[Sample]) -> bool>;
+/// Changes the first value by the second.
+pub(crate) type Scan = Rc<dyn Fn(&mut [Sample], &[Sample])>;
+/// Does something with a value.
+pub(crate) type Effect = Rc<RefCell<dyn FnMut(&[Sample])>>;
+
+/// What a node makes of its inputs. [The module](super) says what that is, tick by tick.
+#[derive(Clone)]
+pub(crate) enum Kind {
+    /// A value, and the parameter that it is of.
+    Constant {
+        value: Vec<Sample>,
+        parameter: Option<String>,
+    },
+    /// The values of a parameter that varies over time, one after the other.
+    Signal {
+        parameter: String,
+        shape: Shape,
+        values: Vec<Sample>,
+    },
+    Output {
+        source: Source,
+        name: String,
+    },
+    /// What the equation of that number defines.
+    Forward {
+        equation: usize,
+        name: String,
+    },
+    Named(String),
+    Unary(Unary),
+    Binary(Binary),
+    Compare(Comparison),
+    Equal,
+    /// The distance along a line's direction from a position to the line's point.
+    Towards(Line),
+    Map(Map),
+    Filter(Filter),
+    When,
+    Zip,
+    Take(usize),
+    Concat,
+    /// The sum so far, from this value on.
+    Sum(Sample),
+    Scan {
+        initial: Vec<Sample>,
+        step: Scan,
+    },
+    Merge,
+    TakeUntil,
+    SkipUntil,
+    Pre,
+    Hold {
+        initial: Vec<Sample>,
+    },
+    ForEach(Effect),
+}
+
+/// A node of the graph.
+pub(crate) struct Node {
+    pub kind: Kind,
+    /// What it reads: none, one or two others.
+    pub inputs: Vec<Rc<Node>>,
+    /// How many samples its value takes.
+    pub width: usize,
+}
+
+/// What a forward stream stands for, once it is known: an equation `name = definition`.
+#[derive(Debug, Clone)]
+pub(crate) struct Equation {
+    pub name: String,
+    pub definition: Option<Rc<Node>>,
+}
+
+impl Node {
+    /// What the node is called where its inputs are shown beside it.
+    pub fn label(&self) -> String {
+        match &self.kind {
+            Kind::Constant { value, parameter: None } => value.iter().map(text).collect::<Vec<_>>().join(", "),
+            Kind::Constant { parameter: Some(name), .. }
+            | Kind::Output { name, .. }
+            | Kind::Forward { name, .. }
+            | Kind::Named(name) => name.clone(),
+            Kind::Signal { parameter, shape, .. } => format!("{parameter}: {shape}"),
+            Kind::Unary(function) => function.word().to_owned(),
+            Kind::Binary(function) => function.word().to_owned(),
+            Kind::Compare(comparison) => comparison.symbol().to_owned(),
+            Kind::Equal => "==".to_owned(),
+            Kind::Towards(line) => format!("distance to {}", line.name),
+            Kind::Take(count) => format!("take {count}"),
+            Kind::Hold { initial } => {
+                format!("hold, first {}", initial.iter().map(text).collect::<Vec<_>>().join(", "))
+            }
+            kind => kind.word().to_owned(),
+        }
+    }
+
+    /// Whether two nodes mean the same: the same operations on the same inputs. Closures are the same only if they are
+    /// one.
+    pub fn means(self: &Rc<Self>, other: &Rc<Self>) -> bool {
+        let (left, right) = (self.unnamed(), other.unnamed());
+        if Rc::ptr_eq(left, right) {
+            return true;
+        }
+        let kinds = match (&left.kind, &right.kind) {
+            (Kind::Map(left), Kind::Map(right)) => Rc::ptr_eq(left, right),
+            (Kind::Filter(left), Kind::Filter(right)) => Rc::ptr_eq(left, right),
+            (Kind::Scan { step: left, .. }, Kind::Scan { step: right, .. }) => Rc::ptr_eq(left, right),
+            (Kind::ForEach(left), Kind::ForEach(right)) => Rc::ptr_eq(left, right),
+            (Kind::Forward { equation: left, .. }, Kind::Forward { equation: right, .. }) => left == right,
+            (Kind::Constant { value: left, .. }, Kind::Constant { value: right, .. }) => left == right,
+            (Kind::Towards(left), Kind::Towards(right)) => left == right,
+            (one, another) => {
+                std::mem::discriminant(one) == std::mem::discriminant(another) && left.label() == right.label()
+            }
+        };
+        kinds
+            && left.inputs.len() == right.inputs.len()
+            && left.inputs.iter().zip(&right.inputs).all(|(left, right)| left.means(right))
+    }
+
+    /// Whether it is an output of an object, under its own name.
+    pub fn is_output(&self) -> bool {
+        matches!(self.kind, Kind::Output { .. })
+    }
+
+    /// What is behind names given by the program.
+    pub fn unnamed(self: &Rc<Self>) -> &Rc<Self> {
+        match self.kind {
+            Kind::Named(_) => self.inputs[0].unnamed(),
+            _ => self,
+        }
+    }
+}
+
+impl Kind {
+    /// The method by which programs ask for it.
+    fn word(&self) -> &'static str {
+        match self {
+            Kind::Map(_) => "map",
+            Kind::Filter(_) => "filter",
+            Kind::When => "when",
+            Kind::Zip => "zip",
+            Kind::Take(_) => "take",
+            Kind::Concat => "concat",
+            Kind::Sum(_) => "sum",
+            Kind::Scan { .. } => "scan",
+            Kind::Merge => "merge",
+            Kind::TakeUntil => "take_until",
+            Kind::SkipUntil => "skip_until",
+            Kind::Pre => "pre",
+            Kind::Hold { .. } => "hold",
+            Kind::ForEach(_) => "for_each",
+            Kind::Equal => "equals",
+            Kind::Towards(_) => "distance",
+            Kind::Constant { .. } | Kind::Signal { .. } | Kind::Output { .. } => "input",
+            Kind::Forward { .. } | Kind::Named(_) => "name",
+            Kind::Unary(function) => function.word(),
+            Kind::Binary(function) => function.word(),
+            Kind::Compare(comparison) => comparison.symbol(),
+        }
+    }
+}
+
+impl Unary {
+    fn word(self) -> &'static str {
+        match self {
+            Unary::Negative => "-",
+            Unary::Absolute => "abs",
+            Unary::SquareRoot => "sqrt",
+            Unary::Not => "not",
+            Unary::Norm => "norm",
+            Unary::X => "x",
+            Unary::Y => "y",
+        }
+    }
+
+    /// The value of the function; absent where its argument is.
+    pub fn of(self, value: Sample) -> Sample {
+        use Sample::{Absent, Number, Truth, Vector};
+        match (self, value) {
+            (Unary::Negative, Number(x)) => Number(-x),
+            (Unary::Negative, Vector(v)) => Vector(-v),
+            (Unary::Absolute, Number(x)) => Number(x.abs()),
+            (Unary::SquareRoot, Number(x)) => Number(x.sqrt()),
+            (Unary::Not, Truth(x)) => Truth(!x),
+            (Unary::Norm, Vector(v)) => Number(v.norm()),
+            (Unary::X, Vector(v)) => Number(v.x),
+            (Unary::Y, Vector(v)) => Number(v.y),
+            _ => Absent,
+        }
+    }
+}
+
+impl Binary {
+    fn word(self) -> &'static str {
+        match self {
+            Binary::Sum => "+",
+            Binary::Difference => "-",
+            Binary::Product => "*",
+            Binary::Quotient => "/",
+            Binary::Least => "min",
+            Binary::Greatest => "max",
+            Binary::Dot => "dot",
+            Binary::Vector => "vector",
+            Binary::And => "and",
+            Binary::Or => "or",
+        }
+    }
+
+    /// The value of the function; absent where an argument is.
+    pub fn of(self, left: Sample, right: Sample) -> Sample {
+        use Sample::{Absent, Number, Truth, Vector};
+        match (self, left, right) {
+            (Binary::Sum, Number(a), Number(b)) => Number(a + b),
+            (Binary::Difference, Number(a), Number(b)) => Number(a - b),
+            (Binary::Product, Number(a), Number(b)) => Number(a * b),
+            (Binary::Quotient, Number(a), Number(b)) => Number(a / b),
+            (Binary::Least, Number(a), Number(b)) => Number(if a <= b || a.is_nan() { a } else { b }),
+            (Binary::Greatest, Number(a), Number(b)) => Number(if a >= b || a.is_nan() { a } else { b }),
+            (Binary::Vector, Number(a), Number(b)) => Vector([a, b].into()),
+            (Binary::Sum, Vector(a), Vector(b)) => Vector(a + b),
+            (Binary::Difference, Vector(a), Vector(b)) => Vector(a - b),
+            (Binary::Product, Vector(a), Number(b)) => Vector(a * b),
+            (Binary::Quotient, Vector(a), Number(b)) => Vector(a / b),
+            (Binary::Dot, Vector(a), Vector(b)) => Number(a.dot(&b)),
+            (Binary::And, Truth(a), Truth(b)) => Truth(a && b),
+            (Binary::Or, Truth(a), Truth(b)) => Truth(a || b),
+            _ => Absent,
+        }
+    }
+}
+
+fn text(sample: &Sample) -> String {
+    match sample {
+        Sample::Absent => "absent".to_owned(),
+        Sample::Event => "tick".to_owned(),
+        Sample::Truth(truth) => truth.to_string(),
+        Sample::Number(number) => number.to_string(),
+        Sample::Vector(vector) => format!("({}, {})", vector.x, vector.y),
+        Sample::Word(word) => (*word).to_owned(),
+    }
+}
+
+/// The expression as one would write it, which is also the name of the signal that records it.
+impl fmt::Display for Node {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (&self.kind, self.inputs.as_slice()) {
+            (Kind::Constant { value, .. }, _) => f.write_str(&value.iter().map(text).collect::<Vec<_>>().join(", ")),
+            (Kind::Signal { parameter, .. }, _) => f.write_str(parameter),
+            (Kind::Output { name, .. } | Kind::Forward { name, .. } | Kind::Named(name), _) => f.write_str(name),
+            (Kind::Unary(Unary::Negative), [input]) => write!(f, "-{input}"),
+            (Kind::Towards(line), [position]) => write!(f, "distance({position}, {})", line.name),
+            (Kind::Take(count), [input]) => write!(f, "take({input}, {count})"),
+            (Kind::Hold { initial }, [input]) => {
+                write!(f, "hold({input}, {})", initial.iter().map(text).collect::<Vec<_>>().join(", "))
+            }
+            (
+                Kind::Binary(
+                    Binary::Sum | Binary::Difference | Binary::Product | Binary::Quotient | Binary::And | Binary::Or,
+                )
+                | Kind::Compare(_)
+                | Kind::Equal,
+                [left, right],
+            ) => write!(f, "({left} {} {right})", self.label()),
+            (kind, inputs) => {
+                write!(f, "{}(", kind.word())?;
+                for (i, input) in inputs.iter().enumerate() {
+                    write!(f, "{}{input}", if i == 0 { "" } else { ", " })?;
+                }
+                f.write_str(")")
+            }
+        }
+    }
+}
+
+impl fmt::Debug for Node {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// One node after the other: a chain of many thousands would otherwise need as many stack frames.
+impl Drop for Node {
+    fn drop(&mut self) {
+        let mut waiting = std::mem::take(&mut self.inputs);
+        while let Some(node) = waiting.pop() {
+            if let Some(mut node) = Rc::into_inner(node) {
+                waiting.append(&mut node.inputs);
+            }
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! `paracosm-fuzz describe`: what a scenario asks for and asks of its runs.
+
+use super::output::{Format, Table, digits, domain_words, json, value_words};
+use super::{Failure, Found, print};
+use crate::Study;
+use crate::engine::Declaration;
+use clap::Args;
+use serde_json::json;
+
+/// What `describe` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The scenario; `paracosm-fuzz list` shows them all
+    #[arg(default_value = "pedestrian-crossing")]
+    scenario: String,
+    /// Print the graph of its streams in the language of Graphviz
+    #[arg(long, conflicts_with = "format")]
+    dot: bool,
+    /// How to print it [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self) -> Result<Found, Failure> {
+        let study = Study::of(&self.scenario)?;
+        let program = study.program()?;
+        let declaration = program.declare()?;
+        let text = match Format::or_fitting(self.format) {
+            _ if self.dot => program.dot()?,
+            Format::Table => table(&study, program.about, &declaration),
+            Format::Json => as_json(&study, program.about, &declaration),
+        };
+        print(&text).map(|()| Found::Nothing)
+    }
+}
+
+fn table(study: &Study, about: &str, declaration: &Declaration) -> String {
+    let mut table = Table::default();
+    table.heading(&format!("{}: {about}; {} s", study.scenario, digits(declaration.duration)));
+    table.heading("parameters");
+    for declared in &declaration.parameters {
+        let parameter = &declared.parameter;
+        let unit = parameter.unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
+        let nominal = value_words(&declared.nominal());
+        let state = if declared.open { ", open" } else { ", unless opened" };
+        let signal = parameter.signal.map(|shape| format!(", {shape} over time")).unwrap_or_default();
+        let domain = domain_words(&parameter.domain);
+        table.row(&parameter.name, &format!("{domain}{unit}, nominally {nominal}{state}{signal}"));
+    }
+    table.heading("requirements");
+    for requirement in &study.requirements {
+        table.row(&requirement.id, &requirement.text);
+        let unit = if requirement.unit.is_empty() { "" } else { " " };
+        let scale = format!("{}{unit}{}", digits(requirement.scale), requirement.unit);
+        table.row("", &format!("{}, scale {scale}", requirement.formula));
+    }
+    table.finish()
+}
+
+fn as_json(study: &Study, about: &str, declaration: &Declaration) -> String {
+    let parameters: Vec<_> = declaration
+        .parameters
+        .iter()
+        .map(|declared| json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal()}))
+        .collect();
+    json(&json!({"name": study.scenario, "about": about, "duration": declaration.duration, "parameters": parameters,
+        "requirements": study.requirements}))
+}
