@@ -373,7 +373,7 @@ impl Tests {
 }
 
 /// A discrete parameter with one of its values.
-fn named_level(parameters: &[&Parameter], parameter: usize, level: usize) -> (String, Value) {
+pub(crate) fn named_level(parameters: &[&Parameter], parameter: usize, level: usize) -> (String, Value) {
     let parameter = parameters[parameter];
     (parameter.name.clone(), parameter.levels().expect("it is a discrete parameter")[level].clone())
 }

@@ -1,0 +1,116 @@
+//! Which values of discrete parameters are behind the failures of a campaign, by name.
+//!
+//! Only tests that failed or passed are evidence; what broke, was impossible or decided nothing is left out.
+
+mod locate;
+
+pub use locate::{Conclusion, Located, Location, TestOfLocation};
+
+use crate::estimate::named_level;
+use crate::{Error, Study, Trial};
+use paracosm_coverage::rules::Rules;
+use paracosm_coverage::suspects::{self, JudgedTest, suspects};
+use paracosm_coverage::{Parameter, Point, Space, Values};
+use paracosm_oracles::Verdict;
+use serde::Serialize;
+
+/// How many suspects are listed at most.
+const MOST_LISTED: usize = 20;
+
+/// Combinations of at least so many values are looked at, where there are as many parameters.
+const LEAST_SIZE: usize = 3;
+
+/// A combination of values that only failing tests have, and of which no part is such a combination.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Suspect {
+    /// The values.
+    pub values: Values,
+    /// How many tests have them; all of them failed.
+    pub failures: usize,
+    /// How suspect the values are on their own, from 0 to 1.
+    pub suspicion: f64,
+}
+
+/// What a campaign says about the combinations of discrete values behind its failures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Suspects {
+    /// How many values a combination has at most.
+    pub size: usize,
+    /// How many suspects there are.
+    pub found: u64,
+    /// The first of them, 20 at most: the smallest first, among these those that explain most failures.
+    pub ranked: Vec<Suspect>,
+    /// Few suspects that together explain all failures but the unexplained ones.
+    pub explanation: Vec<Suspect>,
+    /// The indices of the failing trials that have no suspect combination.
+    pub unexplained: Vec<usize>,
+}
+
+impl Suspects {
+    /// The suspects of a campaign; `None` where there is nothing to tell apart: no discrete parameter, no failing test
+    /// or no passing one.
+    ///
+    /// # Errors
+    /// A trial is none of the study's space, or its constraints cannot be kept.
+    pub fn of(study: &Study, trials: &[Trial]) -> Result<Option<Self>, Error> {
+        let evidence = Evidence::of(study, trials)?;
+        if !evidence.tells_apart() {
+            return Ok(None);
+        }
+        let size = study.strength().unwrap_or(LEAST_SIZE).max(LEAST_SIZE).min(evidence.rules.levels().len());
+        let found = suspects(&evidence.rules, &evidence.tests, size, MOST_LISTED)?;
+        let named = |suspect: suspects::Suspect| Suspect {
+            values: evidence.named(&suspect.values),
+            failures: suspect.failures,
+            suspicion: suspect.suspicion,
+        };
+        Ok(Some(Self {
+            size,
+            found: found.found,
+            ranked: found.ranked.into_iter().map(named).collect(),
+            explanation: found.explanation.into_iter().map(named).collect(),
+            unexplained: found.unexplained.into_iter().map(|test| evidence.indices[test]).collect(),
+        }))
+    }
+}
+
+/// The trials that failed or passed, as tests of the discrete parameters.
+struct Evidence<'a> {
+    space: &'a Space,
+    rules: Rules,
+    tests: Vec<JudgedTest>,
+    points: Vec<Point>,
+    indices: Vec<usize>,
+}
+
+impl<'a> Evidence<'a> {
+    fn of(study: &'a Study, trials: &[Trial]) -> Result<Self, Error> {
+        let space = &study.space;
+        let rules = Rules::new(&space.levels(), &space.clauses()).map_err(|conflict| {
+            let all = space.constraints();
+            let texts: Vec<&str> = conflict.constraints.iter().map(|&constraint| all[constraint].text()).collect();
+            Error::Usage(format!("no test keeps all constraints: {}", texts.join("; ")))
+        })?;
+        let mut evidence = Self { space, rules, tests: Vec::new(), points: Vec::new(), indices: Vec::new() };
+        for trial in trials.iter().filter(|trial| matches!(trial.verdict, Verdict::Fail | Verdict::Pass)) {
+            let point = space.encode(&trial.test)?;
+            if evidence.rules.allows(&point.discrete) {
+                evidence.tests.push(JudgedTest { levels: point.discrete.clone(), failed: trial.is_failure() });
+                evidence.points.push(point);
+                evidence.indices.push(trial.index);
+            }
+        }
+        Ok(evidence)
+    }
+
+    fn tells_apart(&self) -> bool {
+        let failures = self.tests.iter().filter(|test| test.failed).count();
+        !self.rules.levels().is_empty() && 0 < failures && failures < self.tests.len()
+    }
+
+    /// The values of (parameter, level) pairs.
+    fn named(&self, values: &[(usize, usize)]) -> Values {
+        let parameters: Vec<&Parameter> = self.space.discrete().collect();
+        values.iter().map(|&(parameter, level)| named_level(&parameters, parameter, level)).collect()
+    }
+}
