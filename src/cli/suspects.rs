@@ -85,11 +85,11 @@ fn show_suspects(suspects: &Suspects, table: &mut Table) {
         table.row("", &format!("and {more} more combinations of at most {} values", suspects.size));
     }
     let few = suspects.explanation.len();
-    if few > 0 && suspects.found > 1 {
+    if few > 0 && (few as u64) < suspects.found {
         let shown: Vec<String> =
             suspects.explanation.iter().take(SHOWN).map(|suspect| names(&suspect.values)).collect();
         let more = if few > SHOWN { format!("; and {} more", few - SHOWN) } else { String::new() };
-        table.row("  a few that explain", &format!("{}{more}", shown.join("; ")));
+        table.row("  explained by", &format!("{}{more}", shown.join("; ")));
     }
     let unexplained = suspects.unexplained.len();
     if unexplained > 0 {
@@ -106,7 +106,10 @@ fn in_words(location: &Location) -> String {
     let mut text = match conclusion {
         Conclusion::Guilty => values,
         Conclusion::Refuted(passed) => {
-            format!("{values} makes test {failing} fail, but {} with the same values passed", list("test", passed))
+            format!(
+                "{values} makes test {failing} fail, but {} with these values passed: they are no cause by themselves",
+                list("test", passed)
+            )
         }
         Conclusion::NoStart(passed) => {
             let them = list("test", passed);

@@ -17,8 +17,11 @@ use serde::Serialize;
 /// How many suspects are listed at most.
 const MOST_LISTED: usize = 20;
 
-/// Combinations of at least so many values are looked at, where there are as many parameters.
-const LEAST_SIZE: usize = 3;
+/// Combinations of so many values are looked at, or of more where the tests were to cover more together.
+const USUAL_SIZE: usize = 3;
+
+/// How many combinations failing tests may have, all of them counted: some seconds of looking.
+const MOST_LOOKED_AT: f64 = 1e8;
 
 /// A combination of values that only failing tests have, and of which no part is such a combination.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,7 +37,8 @@ pub struct Suspect {
 /// What a campaign says about the combinations of discrete values behind its failures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Suspects {
-    /// How many values a combination has at most.
+    /// How many values a combination has at most: three, or as many as the tests were to cover together; fewer where
+    /// there are too many combinations to look at.
     pub size: usize,
     /// How many suspects there are.
     pub found: u64,
@@ -57,7 +61,7 @@ impl Suspects {
         if !evidence.tells_apart() {
             return Ok(None);
         }
-        let size = study.strength().unwrap_or(LEAST_SIZE).max(LEAST_SIZE).min(evidence.rules.levels().len());
+        let size = evidence.size(study.strength());
         let found = suspects(&evidence.rules, &evidence.tests, size, MOST_LISTED)?;
         let named = |suspect: suspects::Suspect| Suspect {
             values: evidence.named(&suspect.values),
@@ -108,9 +112,25 @@ impl<'a> Evidence<'a> {
         !self.rules.levels().is_empty() && 0 < failures && failures < self.tests.len()
     }
 
+    /// Of how many values combinations are looked at: as many as were to be covered together, or three, unless the
+    /// failing tests have too many combinations of them.
+    fn size(&self, strength: Option<usize>) -> usize {
+        let parameters = self.rules.levels().len();
+        let failures = self.tests.iter().filter(|test| test.failed).count();
+        let mut combinations = failures as f64;
+        let affordable = (1..=parameters).take_while(|&size| {
+            combinations *= (parameters - size + 1) as f64 / size as f64;
+            size == 1 || combinations <= MOST_LOOKED_AT
+        });
+        affordable.last().unwrap_or(1).min(strength.unwrap_or(USUAL_SIZE).max(USUAL_SIZE))
+    }
+
     /// The values of (parameter, level) pairs.
     fn named(&self, values: &[(usize, usize)]) -> Values {
         let parameters: Vec<&Parameter> = self.space.discrete().collect();
         values.iter().map(|&(parameter, level)| named_level(&parameters, parameter, level)).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

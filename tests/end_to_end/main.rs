@@ -7,5 +7,6 @@ mod commands;
 mod common;
 mod comparison;
 mod generate;
+mod guilty;
 mod pedestrian_study;
 mod plan;
