@@ -20,7 +20,7 @@ const MOST_LISTED: usize = 20;
 /// Combinations of so many values are looked at, or of more where the tests were to cover more together.
 const USUAL_SIZE: usize = 3;
 
-/// How many combinations failing tests may have, all of them counted: some seconds of looking.
+/// How many combinations of one size are looked at, counted for each failing test: some seconds of looking.
 const MOST_LOOKED_AT: f64 = 1e8;
 
 /// A combination of values that only failing tests have, and of which no part is such a combination.
