@@ -18,6 +18,9 @@ use search::{Search, Visitor};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
+/// So many suspects are kept, and looked for anew where there are more.
+const KEPT: usize = 1 << 14;
+
 /// A test that failed or passed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JudgedTest {
@@ -108,22 +111,41 @@ pub fn suspects(rules: &Rules, tests: &[JudgedTest], size: usize, most: usize) -
     }
     let search = Search::new(levels.len(), size, valid.iter().map(|&index| &tests[index]));
 
-    let mut ranking = Ranking { most, best: BinaryHeap::new(), found: 0 };
+    let mut ranking = Ranking { most: most.max(KEPT), best: BinaryHeap::new(), found: 0 };
     search.visit(&search.failing(), &mut ranking);
     let Ranking { best, found, .. } = ranking;
-    let ranked = best.into_sorted_vec().into_iter().map(|ranked| ranked.0).collect();
+    let mut ranked: Vec<Suspect> = best.into_sorted_vec().into_iter().map(|ranked| ranked.0).collect();
 
+    let all = (found == ranked.len() as u64).then_some(&ranked[..]);
+    let (explanation, left) = explain(&search, all);
+    ranked.truncate(most);
+    let unexplained = search::ones(&left).map(|failure| failing[failure]).collect();
+    Ok(Suspects { ranked, found, explanation, unexplained, invalid })
+}
+
+/// Few suspects that explain what can be explained, and the failures that are left. Where not all suspects are given,
+/// they are looked for each time.
+fn explain(search: &Search, all: Option<&[Suspect]>) -> (Vec<Suspect>, Vec<u64>) {
     let mut left = search.failing();
     let mut explanation: Vec<Suspect> = Vec::new();
     loop {
         let mut greatest = Greatest(None);
-        search.visit(&left, &mut greatest);
-        let Some((_, next)) = greatest.0 else { break };
-        search.remove(&mut left, &next.values);
+        match all {
+            None => search.visit(&left, &mut greatest),
+            Some(all) => {
+                for suspect in all {
+                    let explained = search::count(&search.containing(&left, &suspect.values));
+                    if explained > 0 && greatest.wants(suspect.values.len(), explained) {
+                        greatest.see(suspect.clone(), explained);
+                    }
+                }
+            }
+        }
+        let Some((_, next)) = greatest.0 else { return (explanation, left) };
+        let explained = search.containing(&left, &next.values);
+        left.iter_mut().zip(&explained).for_each(|(word, explained)| *word &= !explained);
         explanation.push(next);
     }
-    let unexplained = search::ones(&left).map(|failure| failing[failure]).collect();
-    Ok(Suspects { ranked, found, explanation, unexplained, invalid })
 }
 
 /// Keeps the first suspects in order and counts all.
@@ -188,3 +210,25 @@ impl PartialEq for Ranked {
 }
 
 impl Eq for Ranked {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_explanation_is_the_same_whether_suspects_are_kept_or_looked_for_anew(
+            tests in prop::collection::vec((prop::collection::vec(0..3usize, 6), any::<bool>()), 2..=150),
+            size in 1..=4usize,
+        ) {
+            let tests: Vec<JudgedTest> =
+                tests.into_iter().map(|(levels, failed)| JudgedTest { levels, failed }).collect();
+            let search = Search::new(6, size, tests.iter());
+            let mut ranking = Ranking { most: usize::MAX, best: BinaryHeap::new(), found: 0 };
+            search.visit(&search.failing(), &mut ranking);
+            let all: Vec<Suspect> = ranking.best.into_iter().map(|ranked| ranked.0).collect();
+            prop_assert_eq!(explain(&search, Some(&all)), explain(&search, None));
+        }
+    }
+}

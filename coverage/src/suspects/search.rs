@@ -42,7 +42,7 @@ fn set(bits: &mut [u64], bit: usize) {
     bits[bit / 64] |= 1 << (bit % 64);
 }
 
-fn count(bits: &[u64]) -> usize {
+pub(super) fn count(bits: &[u64]) -> usize {
     bits.iter().map(|word| word.count_ones() as usize).sum()
 }
 
@@ -105,13 +105,13 @@ impl Search {
         all
     }
 
-    /// Takes out the failing tests that contain these (parameter, level) pairs.
-    pub fn remove(&self, failures: &mut [u64], values: &[(usize, usize)]) {
-        let mut contained = self.failing();
+    /// The failing tests among these that contain the (parameter, level) pairs.
+    pub fn containing(&self, failures: &[u64], values: &[(usize, usize)]) -> Vec<u64> {
+        let mut containing = failures.to_vec();
         for item in values.iter().map(|&(parameter, level)| self.item(parameter, level)) {
-            contained.iter_mut().zip(&item.failed).for_each(|(word, failed)| *word &= failed);
+            containing.iter_mut().zip(&item.failed).for_each(|(word, failed)| *word &= failed);
         }
-        failures.iter_mut().zip(&contained).for_each(|(word, contained)| *word &= !contained);
+        containing
     }
 
     fn item(&self, parameter: usize, level: usize) -> &Item {
@@ -122,17 +122,14 @@ impl Search {
     /// The suspect of these items.
     fn suspect(&self, items: &[usize]) -> Suspect {
         let items = || items.iter().map(|&item| &self.items[item]);
-        let mut failed = self.failing();
-        items().for_each(|item| failed.iter_mut().zip(&item.failed).for_each(|(word, failed)| *word &= failed));
+        let values: Vec<(usize, usize)> = items().map(|item| (item.parameter, item.level)).collect();
+        let failures = count(&self.containing(&self.failing(), &values));
         let share = |item: &Item| {
             let (failed, passed) = (count(&item.failed), count(&item.passed));
             (failed + 1) as f64 / (failed + passed + 2) as f64
         };
-        Suspect {
-            values: items().map(|item| (item.parameter, item.level)).collect(),
-            failures: count(&failed),
-            suspicion: items().map(share).sum::<f64>() / items().count() as f64,
-        }
+        let suspicion = items().map(share).sum::<f64>() / values.len() as f64;
+        Suspect { values, failures, suspicion }
     }
 
     /// Shows each suspect that one of the given failures contains.
