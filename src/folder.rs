@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 const STUDY: &str = "campaign.json";
 const TRIALS: &str = "trials.jsonl";
 /// What is derived from the trials at the end of a campaign.
-const DERIVED: [&str; 4] = ["trials.csv", "coverage.json", "failure-map.svg", "failure-map.png"];
+const DERIVED: [&str; 5] = ["trials.csv", "coverage.json", "failure-map.svg", "failure-map.png", "located.json"];
 
 /// The folder of a campaign, open for appending.
 #[derive(Debug)]

@@ -33,6 +33,7 @@ mod plot;
 pub mod statistics;
 mod study;
 mod summary;
+mod suspects;
 mod tests_file;
 mod trace_file;
 mod trial;
@@ -51,6 +52,7 @@ pub use plan::{Guarantee, Need, Plan};
 pub use plot::{Axis, FailureMap, Picture};
 pub use study::{DriverChoice, RequirementText, Study};
 pub use summary::{Summary, Worst};
+pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation};
 pub use trace_file::write_trace;
 pub use trial::Trial;
 

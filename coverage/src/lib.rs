@@ -7,6 +7,8 @@
 //! [`kwise_dispersion`]. [`empty_boxes`] knows the holes as tests arrive one by one, and [`proof`] proves that there are
 //! no larger ones. [`theory`] holds the bounds that are known without looking at any point.
 //!
+//! Where tests failed, [`suspects`] says which combinations of discrete values are behind it.
+//!
 //! Which tests make sense is said by constraints: [`constraint`] is their language, [`rules`] what follows from
 //! them, and [`pict`] reads spaces and constraints from the model files of PICT.
 //!
@@ -29,6 +31,7 @@ pub mod proof;
 pub mod rules;
 mod space;
 pub mod star;
+pub mod suspects;
 pub mod theory;
 
 pub use bracket::{Bracket, Deadline};

@@ -10,6 +10,7 @@ mod list;
 mod output;
 mod replay;
 mod run;
+mod suspects;
 
 use crate::executor::WORKER;
 use clap::{Args, Parser};

@@ -1,6 +1,7 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
 use super::output::{Format, Table, digits, json, percent, shell_word, short_bracket, value_words};
+use super::suspects::Guilt;
 use super::{Failure, Found, Verbosity, complain, print};
 use crate::coverage::{Domain, Shape, Value};
 use crate::generators::Aim;
@@ -72,6 +73,9 @@ pub(super) struct Options {
     /// Continue the campaign in the folder
     #[arg(long)]
     resume: bool,
+    /// Find the combinations of discrete values behind the failures with a few more tests, into located.json
+    #[arg(long)]
+    locate: bool,
     /// Exit with status 1 if a test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
@@ -83,6 +87,10 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
         let study = self.study()?;
+        if self.locate && study.space.levels().is_empty() {
+            let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
+            return Err(Error::Usage(message.into()).into());
+        }
         let mut campaign = Campaign::new(&study)?;
         if let Some(jobs) = self.jobs {
             campaign = campaign.jobs(jobs);
@@ -120,8 +128,15 @@ impl Options {
         let coverage = self.write_results(&folder, &study, &trials, verbosity);
         progress.bar.finish_and_clear();
         let coverage = coverage?;
-        let report =
-            Report { study: &study, trials: &trials, summary: &progress.summary, coverage: &coverage, out: &self.out };
+        let guilt = Guilt::of(&study, &trials, self.locate.then_some(&folder))?;
+        let report = Report {
+            study: &study,
+            trials: &trials,
+            summary: &progress.summary,
+            coverage: &coverage,
+            guilt: &guilt,
+            out: &self.out,
+        };
         print(&match Format::or_fitting(self.format) {
             Format::Table => report.table(),
             Format::Json => json(&report.json()),
@@ -314,6 +329,7 @@ struct Report<'a> {
     trials: &'a [Trial],
     summary: &'a Summary,
     coverage: &'a Coverage,
+    guilt: &'a Guilt,
     out: &'a Path,
 }
 
@@ -338,6 +354,7 @@ impl Report<'_> {
             }
         }
         table.coverage(self.coverage);
+        self.guilt.show(&mut table);
         table.row("written to", &self.out.display().to_string());
         if let Some(worst) = summary.worst() {
             let trial = &self.trials[worst.index];
@@ -357,8 +374,10 @@ impl Report<'_> {
             json!({"index": worst.index, "requirement": worst.requirement, "test": self.trials[worst.index].test,
                 "robustness": self.trials[worst.index].robustness(&worst.requirement), "replay": self.replay(worst.index)})
         });
-        json!({"tests": self.summary.tests(), "verdicts": serde_json::Map::from_iter(counts), "coverage": self.coverage,
-            "out": self.out, "worst": worst})
+        let mut summary = json!({"tests": self.summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
+            "coverage": self.coverage, "out": self.out, "worst": worst});
+        self.guilt.add_to(&mut summary);
+        summary
     }
 
     /// The command that runs a test again, with the program as it was called.

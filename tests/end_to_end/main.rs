@@ -8,6 +8,7 @@ mod common;
 mod comparison;
 mod covering;
 mod generate;
+mod guilty;
 mod pedestrian_study;
 mod plan;
 mod signals;

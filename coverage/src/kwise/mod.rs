@@ -153,7 +153,7 @@ fn valid(rules: &Rules, k: usize) -> Result<u64, KwiseError> {
 }
 
 /// Whether a test is one of the space.
-fn check(levels: &[usize], index: usize, test: &[usize]) -> Result<(), KwiseError> {
+pub(crate) fn check(levels: &[usize], index: usize, test: &[usize]) -> Result<(), KwiseError> {
     if test.len() != levels.len() {
         return Err(KwiseError::Ragged { index, found: test.len(), expected: levels.len() });
     }

@@ -1,5 +1,11 @@
 //! How well tests cover their space: what `paracosm-cover estimate` prints.
 
+mod measure;
+mod report;
+
+pub use measure::Measure;
+pub use report::{Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst};
+
 use crate::Error;
 use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox, dispersion_watched};
 use paracosm_coverage::extreme::extreme_discrepancy;
@@ -8,10 +14,7 @@ use paracosm_coverage::kwise::kwise_coverage;
 use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion, row_dispersion};
 use paracosm_coverage::rules::Rules;
 use paracosm_coverage::star::star_discrepancy;
-use paracosm_coverage::{Bracket, Coordinate, Deadline, Point, PointSet, Record, Space, Value};
-use paracosm_coverage::{did_you_mean, l2, nearest};
-use serde::{Deserialize, Serialize};
-use std::str::FromStr;
+use paracosm_coverage::{Bracket, Coordinate, Deadline, Point, PointSet, Record, Space, Value, l2};
 use std::time::{Duration, Instant};
 
 /// Tests with the space that they are points of.
@@ -25,229 +28,8 @@ pub struct Tests {
     pub k: Option<usize>,
 }
 
-/// A number that says how well tests cover a space.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Measure {
-    /// The volume of the largest box without a test.
-    Dispersion,
-    /// The star discrepancy.
-    Star,
-    /// The extreme discrepancy.
-    Extreme,
-    /// The radius of the largest empty ball with its centre in the cube.
-    Fill,
-    /// The L2-star discrepancy.
-    L2Star,
-    /// The centered discrepancy, squared.
-    Centered,
-    /// The wraparound discrepancy, squared.
-    Wraparound,
-    /// The mixture discrepancy, squared.
-    Mixture,
-    /// The share of combinations of k discrete parameters that are covered.
-    KWise,
-    /// The largest dispersion that any k parameters show.
-    KWiseDispersion,
-}
-
-impl Measure {
-    /// Every measure.
-    pub const ALL: [Self; 10] = [
-        Self::Dispersion,
-        Self::Star,
-        Self::Extreme,
-        Self::Fill,
-        Self::L2Star,
-        Self::Centered,
-        Self::Wraparound,
-        Self::Mixture,
-        Self::KWise,
-        Self::KWiseDispersion,
-    ];
-
-    /// Those of the continuous parameters alone, in the order in which they are measured.
-    const CONTINUOUS: [Self; 8] = [
-        Self::L2Star,
-        Self::Centered,
-        Self::Wraparound,
-        Self::Mixture,
-        Self::Dispersion,
-        Self::Fill,
-        Self::Star,
-        Self::Extreme,
-    ];
-
-    /// The name by which it is asked for.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Dispersion => "dispersion",
-            Self::Star => "star",
-            Self::Extreme => "extreme",
-            Self::Fill => "fill",
-            Self::L2Star => "l2_star",
-            Self::Centered => "centered",
-            Self::Wraparound => "wraparound",
-            Self::Mixture => "mixture",
-            Self::KWise => "k-wise",
-            Self::KWiseDispersion => "k-wise-dispersion",
-        }
-    }
-}
-
-impl FromStr for Measure {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        Self::ALL.into_iter().find(|measure| measure.name() == name).ok_or_else(|| {
-            let names = Self::ALL.map(Self::name);
-            let hint = did_you_mean(&nearest(name, names));
-            format!("no measure is called `{name}`{hint}; there are {}", names.join(", "))
-        })
-    }
-}
-
 /// What is told who watches a measurement: the measure at work, and its bracket by now.
 pub type Watch<'a> = dyn FnMut(Measure, Option<Bracket>) + 'a;
-
-/// How well a set of tests covers its space. Measures that were not asked for are absent.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Coverage {
-    /// How many tests there are.
-    pub tests: usize,
-    /// The continuous half; `None` where the space has none.
-    pub continuous: Option<Continuous>,
-    /// How many of the tests violate a constraint; they cover nothing.
-    #[serde(skip_serializing_if = "is_zero", default)]
-    pub violating: usize,
-    /// The discrete half; `None` where the space has none.
-    pub discrete: Option<Discrete>,
-    /// Whether the tests are (k, epsilon)-covering; absent where one half is all.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub k_epsilon: Option<KEpsilon>,
-    /// Both halves together.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub k_wise_dispersion: Option<KwiseHole>,
-}
-
-/// How well tests cover the continuous parameters, each scaled to `[0,1]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Continuous {
-    /// The parameters; of a signal each of its coordinates.
-    pub parameters: Vec<String>,
-    /// The largest empty box.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub dispersion: Option<Hole>,
-    /// The star discrepancy.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub star_discrepancy: Option<Bracket>,
-    /// The extreme discrepancy.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub extreme_discrepancy: Option<Bracket>,
-    /// The radius of the largest empty ball with its centre in the cube; null without tests.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fill: Option<Option<Ball>>,
-    /// The L2-star discrepancy; null without tests or time.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub l2_star: Option<Option<f64>>,
-    /// The squared centered discrepancy; null without tests or time.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub centered: Option<Option<f64>>,
-    /// The squared wraparound discrepancy; null without tests or time.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wraparound: Option<Option<f64>>,
-    /// The squared mixture discrepancy; null without tests or time.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mixture: Option<Option<f64>>,
-}
-
-impl Continuous {
-    /// Nothing measured yet.
-    fn of(parameters: Vec<String>) -> Self {
-        Self {
-            parameters,
-            dispersion: None,
-            star_discrepancy: None,
-            extreme_discrepancy: None,
-            fill: None,
-            l2_star: None,
-            centered: None,
-            wraparound: None,
-            mixture: None,
-        }
-    }
-}
-
-/// The largest box that no test has entered.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Hole {
-    /// Its volume as a share of the space.
-    #[serde(flatten)]
-    pub volume: Bracket,
-    /// A box of the lower volume: from and to of each parameter, as values.
-    pub largest_empty_box: Record<[f64; 2]>,
-}
-
-/// The largest ball that holds no test.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Ball {
-    /// Its radius, each parameter scaled to `[0,1]`.
-    #[serde(flatten)]
-    pub radius: Bracket,
-    /// The centre of a ball of the lower radius, as values.
-    pub centre: Record<f64>,
-}
-
-/// How well tests cover the discrete parameters.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Discrete {
-    /// How many parameters are looked at together.
-    pub k: usize,
-    /// All combinations of values of k parameters.
-    pub valid: u64,
-    /// Those that some test contains.
-    pub covered: u64,
-    /// covered / valid.
-    pub ratio: f64,
-    /// Some that no test contains, 20 at most.
-    pub missing: Vec<Record<Value>>,
-    /// The share of the valid combinations of all parameters that are tested; null where these are too many to count.
-    pub combinations: Option<f64>,
-}
-
-/// Whether tests are (k, epsilon)-covering: any k discrete parameters show all valid combinations of their values, and
-/// no row of discrete values has an empty box larger than epsilon (the paper, section 3.1).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct KEpsilon {
-    /// How many discrete parameters are looked at together.
-    pub k: usize,
-    /// Whether all valid combinations of them are covered.
-    pub complete: bool,
-    /// The smallest epsilon; null if they are not.
-    pub epsilon: Option<f64>,
-    /// The largest dispersion of the rows that there are; where the time limit cut it short, an upper bound.
-    pub epsilon_over_covered_rows: f64,
-}
-
-/// The largest hole that any k parameters show.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct KwiseHole {
-    /// How many parameters are looked at together.
-    pub k: usize,
-    /// Its volume as a share of the values of those parameters.
-    #[serde(flatten)]
-    pub volume: Bracket,
-    /// Where it is.
-    pub worst: KwiseWorst,
-}
-
-/// The place of a hole: values of some discrete parameters, and a box over some continuous ones.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct KwiseWorst {
-    /// The discrete parameters among the k, with their values.
-    pub fixed: Record<Value>,
-    /// From and to of the continuous ones, as values.
-    pub empty_box: Record<[f64; 2]>,
-}
 
 /// The holes behind a report, in coordinates.
 #[derive(Debug, Default)]
@@ -255,10 +37,6 @@ pub(crate) struct Holes {
     pub dispersion: Option<Dispersion>,
     /// With how many parameters were looked at together.
     pub k_wise: Option<(usize, KwiseDispersion)>,
-}
-
-fn is_zero(number: &usize) -> bool {
-    *number == 0
 }
 
 impl Tests {
@@ -422,7 +200,7 @@ impl Tests {
 }
 
 /// A discrete coordinate with one of its values.
-fn named_level(coordinates: &[Coordinate], coordinate: usize, level: usize) -> (String, Value) {
+pub(crate) fn named_level(coordinates: &[Coordinate], coordinate: usize, level: usize) -> (String, Value) {
     let coordinate = coordinates[coordinate];
     let levels = coordinate.parameter.levels().expect("it is a discrete parameter");
     (coordinate.name(), levels[level].clone())

@@ -1,0 +1,134 @@
+//! Campaigns whose failures are known: a rule decides instead of a simulation.
+
+use super::*;
+use paracosm_coverage::{Domain, Value};
+use paracosm_engine::Outcome;
+
+fn number(test: &Values, name: &str) -> f64 {
+    test.get(name).and_then(Value::number).unwrap()
+}
+
+fn among(values: &[f64]) -> Option<Domain> {
+    Some(Domain::Choice(values.iter().map(|&value| value.into()).collect()))
+}
+
+/// All 54 combinations of a few values of four parameters.
+fn discrete_study() -> Study {
+    let study = Study::of("pedestrian-crossing").unwrap().discrete("cross").unwrap().budget(54).unwrap();
+    let study = study.open("speed", among(&[1.0, 2.0, 3.0])).unwrap().open("distance", among(&[10.0, 20.0, 30.0]));
+    study.unwrap().open("lanes", None).unwrap().open("friction", among(&[0.3, 0.8])).unwrap()
+}
+
+/// A campaign in which this is the verdict of a test.
+fn trials(study: &Study, verdict: impl Fn(&Values) -> Verdict) -> Vec<Trial> {
+    let points = study.generator().unwrap().ask(study.budget);
+    let trial = |(index, point)| {
+        let test = study.space.decode(point);
+        Trial::new(index, test.clone(), Outcome::broken(verdict(&test), ""), None)
+    };
+    points.iter().enumerate().map(trial).collect()
+}
+
+fn fail_if(fails: bool) -> Verdict {
+    if fails { Verdict::Fail } else { Verdict::Pass }
+}
+
+fn values(named: &[(&str, f64)]) -> Values {
+    named.iter().map(|&(name, value)| (name.to_owned(), value.into())).collect()
+}
+
+fn locate(study: &Study, trials: &[Trial], verdict: impl Fn(&Values) -> Verdict) -> Located {
+    Located::of(study, trials, |test| Ok(verdict(test))).unwrap().unwrap()
+}
+
+#[test]
+fn every_guilty_combination_is_suspect_and_located_by_its_values() {
+    let study = discrete_study();
+    let slippery = |test: &Values| number(test, "friction") == 0.3 && number(test, "speed") == 3.0;
+    let wide = |test: &Values| number(test, "lanes") == 6.0;
+    let verdict = |test: &Values| fail_if(slippery(test) || wide(test));
+    let trials = trials(&study, verdict);
+
+    let suspects = Suspects::of(&study, &trials).unwrap().unwrap();
+    let guilty = [values(&[("lanes", 6.0)]), values(&[("speed", 3.0), ("friction", 0.3)])];
+    assert_eq!(suspects.explanation.iter().map(|suspect| suspect.values.clone()).collect::<Vec<_>>(), guilty);
+    assert_eq!((suspects.found, suspects.size, suspects.unexplained.len()), (2, 3, 0));
+
+    let located = locate(&study, &trials, verdict);
+    assert!(located.unexplained.is_empty());
+    let mut found: Vec<Values> = located.locations.iter().map(|location| location.values.clone()).collect();
+    found.sort_by_key(|values| values.iter().count());
+    assert_eq!(found, guilty);
+    for location in &located.locations {
+        assert_eq!((&location.conclusion, location.starting), (&Conclusion::Guilty, 0));
+        assert!(location.bound.is_none_or(|bound| location.tests.len() <= bound));
+    }
+}
+
+#[test]
+fn what_broke_or_decided_nothing_is_no_evidence() {
+    let study = discrete_study();
+    let verdict = |test: &Values| match (number(test, "lanes") as i32, number(test, "speed") as i32) {
+        (2, _) => Verdict::Error,
+        (_, 1) => Verdict::Inconclusive,
+        (_, 2) => Verdict::Fail,
+        _ => Verdict::Pass,
+    };
+    let suspects = Suspects::of(&study, &trials(&study, verdict)).unwrap().unwrap();
+    assert_eq!(suspects.ranked.len(), 1);
+    assert_eq!((&suspects.ranked[0].values, suspects.ranked[0].failures), (&values(&[("speed", 2.0)]), 12));
+    // Without any test that passed there is nothing to tell apart.
+    let none_passed = |test: &Values| match verdict(test) {
+        Verdict::Pass => Verdict::Invalid,
+        other => other,
+    };
+    assert_eq!(Suspects::of(&study, &trials(&study, none_passed)).unwrap(), None);
+}
+
+#[test]
+fn a_test_on_the_way_that_decides_nothing_ends_the_search_without_a_claim() {
+    let study = discrete_study();
+    let verdict = |test: &Values| fail_if(number(test, "lanes") == 6.0 && number(test, "speed") == 3.0);
+    let located = locate(&study, &trials(&study, verdict), |_| Verdict::Inconclusive);
+    let [location] = &located.locations[..] else { panic!("one search, found {located:?}") };
+    assert_eq!(location.conclusion, Conclusion::Undecided(Verdict::Inconclusive));
+    assert_eq!((location.tests.len(), location.values.iter().count(), location.bound), (1, 0, None));
+    assert_eq!(located.unexplained.len(), 6);
+}
+
+/// The lanes, the friction and any speed.
+fn mixed_study() -> Study {
+    let study = Study::of("pedestrian-crossing").unwrap().discrete("cross").unwrap().budget(60).unwrap();
+    let study = study.set("distance", 30.into()).unwrap().open("friction", among(&[0.3, 0.8])).unwrap();
+    study.open("lanes", None).unwrap()
+}
+
+#[test]
+fn continuous_values_stay_those_of_the_failing_test() {
+    let study = mixed_study();
+    let verdict = |test: &Values| fail_if(number(test, "lanes") == 4.0 && number(test, "friction") == 0.3);
+    let trials = trials(&study, verdict);
+    let located = locate(&study, &trials, verdict);
+    let [location] = &located.locations[..] else { panic!("one search, found {located:?}") };
+    assert_eq!(location.conclusion, Conclusion::Guilty);
+    assert_eq!(location.values, values(&[("friction", 0.3), ("lanes", 4.0)]));
+    assert_eq!(location.starting, 1);
+    let speed = number(&trials[location.failing].test, "speed");
+    assert!(location.tests.iter().all(|test| number(&test.test, "speed") == speed));
+}
+
+#[test]
+fn failures_that_depend_on_continuous_values_are_not_blamed_on_discrete_ones() {
+    let study = mixed_study();
+    let fast = |test: &Values| fail_if(number(test, "speed") > 7.0);
+    let located = locate(&study, &trials(&study, fast), fast);
+    assert!(matches!(&located.locations[0].conclusion, Conclusion::NoStart(passed) if passed.len() == 3));
+    // Partly discrete: what is located at this speed is refuted by slower tests.
+    let both = |test: &Values| fail_if(number(test, "speed") > 7.0 && number(test, "lanes") == 4.0);
+    let trials = trials(&study, both);
+    let located = locate(&study, &trials, both);
+    let location = &located.locations[0];
+    assert_eq!(location.values, values(&[("lanes", 4.0)]));
+    let Conclusion::Refuted(passed) = &location.conclusion else { panic!("found {location:?}") };
+    assert!(passed.iter().all(|&trial| number(&trials[trial].test, "lanes") == 4.0 && !trials[trial].is_failure()));
+}
