@@ -2,7 +2,7 @@
 
 use crate::estimate::Tests;
 use crate::{Error, Folder, Study, Trial};
-use paracosm_coverage::{Space, Value, Values, nearest};
+use paracosm_coverage::{Coordinate, Parameter, Space, Value, Values, nearest};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -44,59 +44,52 @@ impl Tests {
             let (study, trials) = Folder::read(path)?;
             return Self::of_trials(&study, &trials);
         }
-        let mut file = BufReader::new(File::open(path).map_err(Error::file("read", path))?);
-        if file.fill_buf().map_err(Error::file("read", path))?.is_empty() {
-            return Err(Error::content(
-                path,
-                None,
-                "the file is empty, expected a header with the names of the columns",
-            ));
-        }
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
-        let header = reader.headers().map_err(|error| broken(path, &error))?.clone();
-        if header.iter().all(|name| name.parse::<f64>().is_ok()) {
-            let message = "found numbers, expected a header with the names of the columns";
-            return Err(Error::content(path, 1, message));
-        }
-        if header.len() == 1 && header[0].contains(';') {
-            let message = "the columns seem to be separated by `;`, expected `,`";
-            return Err(Error::content(path, 1, message));
-        }
-        let hint = match space {
-            Some(_) => "",
-            None => "; name the space of the tests with --space SPACE.toml",
-        };
-        let space = match space {
-            Some(space) => space,
-            None => of_columns(path, &header)?,
-        };
-        let columns = columns(path, &space, &header)?;
+        let mut file = TestsFile::open(path, space)?;
         let mut points = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|error| broken(path, &error))?;
-            let line = record.position().map(|position| position.line() as usize);
-            Self::check_size(points.len(), space.parameters().len())
-                .map_err(|error| Error::content(path, line, error.to_string()))?;
+        while let Some((line, record)) = file.next(points.len())? {
             let mut test = Values::default();
-            let mut columns = columns.iter();
-            for parameter in space.parameters() {
+            let mut columns = file.columns.iter();
+            for parameter in file.space.parameters() {
                 let mut values = Vec::new();
                 for column in columns.by_ref().take(parameter.coordinates()) {
                     let value = Value::parse(&record[*column]);
                     if parameter.levels().is_none() && value.number().is_none() {
-                        let message =
-                            format!("column `{}`: found `{value}`, expected a number{hint}", &header[*column]);
-                        return Err(Error::content(path, line, message));
+                        return Err(file.wrong(line, format!("found `{value}`, expected a number"), Some(*column)));
                     }
                     values.push(value);
                 }
                 let value = if parameter.signal.is_some() { values.into_iter().collect() } else { values.remove(0) };
                 test.set(parameter.name.clone(), value);
             }
-            let point = space.encode(&test).map_err(|error| Error::content(path, line, format!("{error}{hint}")))?;
+            let point = file.space.encode(&test).map_err(|error| file.wrong(line, error.to_string(), None))?;
             points.push(point);
         }
-        Ok(Self { space, points, k: None })
+        Ok(Self { space: file.space, points, k: None })
+    }
+
+    /// Reads tests of a space without continuous parameters that may say nothing yet of some of the others: an empty
+    /// cell is no level.
+    ///
+    /// # Errors
+    /// As [`Tests::read`].
+    pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<Vec<Option<usize>>>, Error> {
+        let mut file = TestsFile::open(path, Some(space.clone()))?;
+        let mut rows = Vec::new();
+        while let Some((line, record)) = file.next(rows.len())? {
+            let level = |(coordinate, column): (Coordinate, &usize)| {
+                let text = &record[*column];
+                if text.is_empty() {
+                    return Ok(None);
+                }
+                // What a constant of this choice would take, a coordinate of a signal does.
+                let constant = Parameter { signal: None, ..coordinate.parameter.clone() };
+                let value = Value::parse(text);
+                constant.check(&value).map_err(|error| file.wrong(line, error.to_string(), None))?;
+                Ok(constant.levels().and_then(|levels| levels.iter().position(|level| *level == value)))
+            };
+            rows.push(space.discrete().zip(&file.columns).map(level).collect::<Result<_, Error>>()?);
+        }
+        Ok(rows)
     }
 
     /// The tests of a campaign that say anything of where they are: not those with the verdict `error` or
@@ -108,6 +101,61 @@ impl Tests {
         let covering = trials.iter().filter(|trial| trial.covers());
         let points = covering.map(|trial| study.space.encode(&trial.test)).collect::<Result<_, _>>()?;
         Ok(Self { space: study.space.clone(), points, k: study.strength() })
+    }
+}
+
+/// A CSV of tests, past its header.
+struct TestsFile<'p> {
+    path: &'p Path,
+    reader: csv::Reader<BufReader<File>>,
+    header: csv::StringRecord,
+    space: Space,
+    /// In which column each coordinate stands.
+    columns: Vec<usize>,
+    /// What to do about wrong values where the space was made up.
+    hint: &'static str,
+}
+
+impl<'p> TestsFile<'p> {
+    fn open(path: &'p Path, space: Option<Space>) -> Result<Self, Error> {
+        let mut file = BufReader::new(File::open(path).map_err(Error::file("read", path))?);
+        if file.fill_buf().map_err(Error::file("read", path))?.is_empty() {
+            let message = "the file is empty, expected a header with the names of the columns";
+            return Err(Error::content(path, None, message));
+        }
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+        let header = reader.headers().map_err(|error| broken(path, &error))?.clone();
+        if header.iter().all(|name| name.parse::<f64>().is_ok()) {
+            let message = "found numbers, expected a header with the names of the columns";
+            return Err(Error::content(path, 1, message));
+        }
+        if header.len() == 1 && header[0].contains(';') {
+            let message = "the columns seem to be separated by `;`, expected `,`";
+            return Err(Error::content(path, 1, message));
+        }
+        let (space, hint) = match space {
+            Some(space) => (space, ""),
+            None => (of_columns(path, &header)?, "; name the space of the tests with --space SPACE.toml"),
+        };
+        let columns = columns(path, &space, &header)?;
+        Ok(Self { path, reader, header, space, columns, hint })
+    }
+
+    /// The next line, with its number; `known` tests came before.
+    fn next(&mut self, known: usize) -> Result<Option<(Option<usize>, csv::StringRecord)>, Error> {
+        let mut record = csv::StringRecord::new();
+        if !self.reader.read_record(&mut record).map_err(|error| broken(self.path, &error))? {
+            return Ok(None);
+        }
+        let line = record.position().map(|position| position.line() as usize);
+        Tests::check_size(known, self.space.parameters().len())
+            .map_err(|error| Error::content(self.path, line, error.to_string()))?;
+        Ok(Some((line, record)))
+    }
+
+    fn wrong(&self, line: Option<usize>, message: String, column: Option<usize>) -> Error {
+        let column = column.map(|column| format!("column `{}`: ", &self.header[column])).unwrap_or_default();
+        Error::content(self.path, line, format!("{column}{message}{}", self.hint))
     }
 }
 

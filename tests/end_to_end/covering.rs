@@ -215,3 +215,21 @@ fn where_nothing_is_missing_nothing_is_added() {
     let (added, _) = generated(dir.path(), &["--space", "SPACE.toml", "--extend", "all.csv"]);
     assert_eq!(added, "lanes,sky,car,wet\n");
 }
+
+#[test]
+fn rows_that_are_begun_are_completed_and_count_as_new() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), discrete_space()).unwrap();
+    fs::write(dir.path().join("begun.csv"), "lanes,sky,car,wet\n2,,truck,\n4,fog,small,no\n,fog,,yes\n").unwrap();
+    let (added, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--extend", "begun.csv"]);
+    assert!(notes.contains("(3 of them existing)"), "{notes}");
+    let rows = rows(&added);
+    assert!(rows.iter().any(|row| row[0] == "2" && row[2] == "truck" && row[1] != "fog"));
+    assert!(!rows.contains(&["4", "fog", "small", "no"].map(str::to_owned).to_vec()), "it is there already");
+    let all = added + "4,fog,small,no\n";
+    fs::write(dir.path().join("all.csv"), all).unwrap();
+    assert_eq!(measured(dir.path(), &["all.csv", "--space", "SPACE.toml"])["discrete"]["ratio"], 1.0);
+    fs::write(dir.path().join("wrong.csv"), "lanes,sky,car,wet\n2,,lorry,\n").unwrap();
+    let output = cover(dir.path(), &["generate", "--space", "SPACE.toml", "--extend", "wrong.csv"]);
+    refused(&output, &["wrong.csv, line 2", "`car`", "lorry", "small, truck"]);
+}

@@ -4,7 +4,7 @@
 use super::time_limit;
 use crate::Error;
 use crate::cli::Verbosity;
-use crate::coverage::{Deadline, Point, Space};
+use crate::coverage::{Deadline, Space};
 use crate::generators::GeneratorError;
 use crate::generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -21,12 +21,13 @@ pub(super) struct ArrayOptions<'a> {
 }
 
 impl ArrayOptions<'_> {
-    /// The rows of a covering array of a space with discrete parameters, after those of existing tests.
+    /// The rows of a covering array of a space with discrete parameters, after those of existing tests, which may leave
+    /// some levels open.
     pub fn rows(
         &self,
         space: &Space,
         mut groups: Vec<(Vec<usize>, usize)>,
-        existing: &[Point],
+        mut existing: Vec<Vec<Option<usize>>>,
         verbosity: Verbosity,
     ) -> Result<Vec<Vec<usize>>, Error> {
         for text in self.strengths {
@@ -34,8 +35,6 @@ impl ArrayOptions<'_> {
         }
         let rules = space.rules()?;
         let k = self.k.unwrap_or(space.levels().len().min(2));
-        let mut existing: Vec<Vec<Option<usize>>> =
-            existing.iter().map(|test| test.discrete.iter().copied().map(Some).collect()).collect();
         existing.sort_unstable();
         existing.dedup();
         let request = CoveringRequest {

@@ -84,12 +84,21 @@ impl Options {
             }
             (None, None) => (None, Vec::new()),
         };
-        let (space, existing) = match (space, &self.extend) {
-            (space, Some(path)) => {
-                let tests = Tests::read(path, space)?;
-                (tests.space, tests.points)
+        let (space, existing, existing_rows) = match (space, &self.extend) {
+            // Rows of a covering array may be begun and left for us to complete.
+            (Some(space), Some(path)) if space.dims() == 0 => {
+                let rows = Tests::read_partial(path, &space)?;
+                let complete = rows.iter().filter_map(|row| row.iter().copied().collect());
+                let existing: Vec<Point> =
+                    complete.map(|discrete| Point { continuous: Vec::new(), discrete }).collect();
+                (space, existing, rows)
             }
-            (Some(space), None) => (space, Vec::new()),
+            (space, Some(path)) => {
+                let Tests { space, points, .. } = Tests::read(path, space)?;
+                let rows = points.iter().map(|test| test.discrete.iter().copied().map(Some).collect()).collect();
+                (space, points, rows)
+            }
+            (Some(space), None) => (space, Vec::new(), Vec::new()),
             (None, None) => return Err(Error::Usage("expected --space, --dims or --extend".into()).into()),
         };
         let strategy = match &self.strategy {
@@ -107,7 +116,7 @@ impl Options {
         let any_row = [vec![0; space.levels().len()]];
         strategy.build(&Request { rows: Some(&any_row), ..request }).map_err(Error::from)?;
         let rows = match uses_array && request.aim != Some(Aim::KwiseDispersion) {
-            true => Some(options.rows(&space, groups, &existing, verbosity)?),
+            true => Some(options.rows(&space, groups, existing_rows, verbosity)?),
             false if !self.strength.is_empty() || self.optimise.is_some() => {
                 let message = "--strength and --optimise are about the rows of a covering array, and there are none";
                 return Err(Error::Usage(message.into()).into());
