@@ -5,9 +5,11 @@
 
 use crate::Error;
 use paracosm_coverage::dispersion::is_at_most;
+use paracosm_coverage::rules::Rules;
 use paracosm_coverage::theory::{points, rows};
 use paracosm_coverage::{Deadline, PointSet, Space};
-use paracosm_generators::{Generator, Request, Strategy};
+use paracosm_generators::covering::{CoveringError, CoveringRequest, covering_array};
+use paracosm_generators::{Generator, GeneratorError, Request, Strategy};
 use serde::{Serialize, Serializer};
 use std::time::Duration;
 
@@ -106,7 +108,8 @@ impl Plan {
                 return Err(Error::Usage(message));
             }
         };
-        let rows = (!levels.is_empty()).then(|| rows_needed(&levels, k, delta));
+        let rules = space.rules()?;
+        let rows = if levels.is_empty() { None } else { Some(rows_needed(&rules, k, delta)?) };
         let points = if dims == 0 { None } else { Some(points_needed(dims, epsilon, delta, limit)?) };
         let tests = rows.as_ref().zip(points.as_ref()).map(|(rows, points)| joined(rows, points));
         Ok(Self { k: (!levels.is_empty()).then_some(k), epsilon, delta, rows, points, tests })
@@ -114,10 +117,9 @@ impl Plan {
 }
 
 /// How many rows cover discrete parameters k-wise.
-fn rows_needed(levels: &[usize], k: usize, delta: f64) -> Vec<Need> {
-    let mut sorted = levels.to_vec();
-    sorted.sort_unstable_by(|a, b| b.cmp(a));
-    let product = |levels: &[usize]| levels.iter().try_fold(1u64, |product, &v| product.checked_mul(v as u64));
+fn rows_needed(rules: &Rules, k: usize, delta: f64) -> Result<Vec<Need>, Error> {
+    let levels = rules.levels();
+    let every: Vec<usize> = (0..levels.len()).collect();
     let random = |name: &str, tests| Need {
         of: format!("random rows, {name}"),
         tests,
@@ -125,15 +127,29 @@ fn rows_needed(levels: &[usize], k: usize, delta: f64) -> Vec<Need> {
         guarantee: Guarantee::Probable,
     };
     let countable = |tests| (tests < u64::MAX).then_some(tests);
+    // No row has two combinations of the same parameters.
+    let least = u64::try_from(rules.count(&every, k).largest).ok();
+    let array = match covering_array(&CoveringRequest::new(rules, k)) {
+        Ok(array) => Some(array.rows.len() as u64),
+        Err(CoveringError::TooLarge { .. }) => None,
+        Err(error) => return Err(GeneratorError::from(error).into()),
+    };
+    let all = rules.tests().filter(|all| *all < 9e15).map(|all| all as u64);
+    let need = |of: &str, tests, guarantee| Need { of: of.into(), tests, over: None, guarantee };
     let mut needs = vec![
-        Need { of: "any rows".into(), tests: product(&sorted[..k]), over: None, guarantee: Guarantee::NeededByAny },
-        Need { of: "all combinations".into(), tests: product(levels), over: None, guarantee: Guarantee::Proved },
+        need("any rows", least, Guarantee::NeededByAny),
+        need("ipog, the array of seed 0", array, Guarantee::Proved),
+        need("all combinations", all, Guarantee::Proved),
     ];
+    if rules.groups() > 0 {
+        // Under constraints combinations are not equally probable, which the bounds for random rows rest on.
+        return Ok(needs);
+    }
     if levels.iter().all(|&v| v == 2) {
         needs.push(random("Proposition 3.2", countable(rows::random_family_size(levels, k, delta))));
     }
     needs.push(random("union bound", countable(rows::union_bound(levels, k, delta))));
-    needs
+    Ok(needs)
 }
 
 /// How many points have a dispersion of at most epsilon.
@@ -176,7 +192,8 @@ fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) 
             if deadline.passed() {
                 return Ok(None);
             }
-            all.extend(generator.ask((n - all.len()).min(64)));
+            // In very many dimensions a few points take long enough to look at the clock again.
+            all.extend(generator.ask((n - all.len()).min(1 + 10_000 / dims)));
         }
         let points = PointSet::new(dims, all[..n].iter().map(|point| &point.continuous))?;
         Ok(is_at_most(&points, epsilon, deadline))
@@ -207,7 +224,11 @@ fn joined(rows: &[Need], points: &[Need]) -> Vec<Need> {
         let known = needs.iter().filter(|need| need.guarantee == guarantee);
         known.filter(|need| need.tests.is_some()).min_by_key(|need| need.tests).cloned()
     };
+    // Rows get stretches of one Halton sequence, for which its bound is proved wherever they begin; it is not for the
+    // shifted copies that rows get of other sets.
+    let halton: Vec<Need> = points.iter().filter(|need| need.of.starts_with("halton")).cloned().collect();
     let pair = |of_rows, of_points, guarantee| {
+        let points = if of_points == Guarantee::Proved { &halton[..] } else { points };
         let (row, point) = (fewest(rows, of_rows)?, fewest(points, of_points)?);
         let tests = row.tests.zip(point.tests).and_then(|(rows, points)| rows.checked_mul(points));
         let of = match guarantee {

@@ -58,7 +58,7 @@ def follow(tests, axes, bound, pivots, where):
     check(next(pivots, None) is None, f"{where}: the proof goes on after its end")
 
 
-def projections(claim, dims, levels):
+def projections(claim, dims, levels, constrained):
     """The projections that a claim is about, as (fixed levels, axes), and in words."""
     if claim["measure"] == "dispersion":
         return [((), tuple(range(dims)))], f"in all {dims} continuous parameters together"
@@ -69,17 +69,20 @@ def projections(claim, dims, levels):
         axes, discrete = [i for i in chosen if i < dims], [i - dims for i in chosen if i >= dims]
         wanted += [(tuple(zip(discrete, v)), tuple(axes)) for v in product(*(range(levels[q]) for q in discrete))]
     excluded = {tuple(map(tuple, fixed)) for fixed in claim["excluded"]}
-    if excluded:
-        print(f"{len(excluded)} combinations of values are excluded by constraints: not checked")
-    return [of for of in wanted if of[0] not in excluded], f"in any {k} parameters"
+    check(constrained or not excluded, "combinations are excluded, but there are no constraints")
+    check(all(excluded), "a combination of no values is excluded")
+    kept = [of for of in wanted if of[0] not in excluded]
+    check(kept, "everything is excluded")
+    trust = f" but {len(excluded)} combinations of values, on trust excluded by constraints," if excluded else ""
+    return kept, f"in any {k} parameters{trust}"
 
 
 def key(of):
     return tuple(map(tuple, of["fixed"])), tuple(of["axes"])
 
 
-def check_claim(claim, coordinates, levels, dims, choices):
-    bound, hole, (wanted, which) = claim["upper"], claim["witness"], projections(claim, dims, choices)
+def check_claim(claim, coordinates, levels, dims, choices, constrained):
+    bound, hole, (wanted, which) = claim["upper"], claim["witness"], projections(claim, dims, choices, constrained)
     selected = lambda fixed: {i: coordinates[i] for i, test in enumerate(levels) if all(test[q] == v for q, v in fixed)}
     if hole:
         ends = list(zip(hole["axes"], hole["lower"], hole["upper"], strict=True))
@@ -116,7 +119,7 @@ def main(path):
         check(len(test) == len(choices) and all(v in range(n) for v, n in zip(test, choices)), f"test {i}: no such level")
     check(certificate["claims"], "nothing is claimed")
     for claim in certificate["claims"]:
-        check_claim(claim, coordinates, levels, dims, choices)
+        check_claim(claim, coordinates, levels, dims, choices, bool(certificate["constraints"]))
 
 
 if __name__ == "__main__":

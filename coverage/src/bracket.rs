@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 /// A certified interval around an exact value: `lower <= exact <= upper`.
 ///
-/// `lower == upper` says that the value was computed to the end.
+/// `lower == upper` says that the value was computed to the end, and is exact but for the rounding of that computation: a
+/// product of differences for a volume, a distance for a radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bracket {
     /// The largest value that was witnessed.
@@ -57,7 +58,7 @@ impl Deadline {
     }
 }
 
-/// A deadline for a search whose steps are short: reading the clock takes as long as looking at some dozen points.
+/// A deadline for a search whose steps are short: reading the clock takes as long as looking at some hundred numbers.
 #[derive(Debug)]
 pub(crate) struct Watch {
     deadline: Deadline,
@@ -65,14 +66,14 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// How many points are looked at before the clock is.
-    const WORK_BETWEEN_LOOKS: usize = 1 << 12;
+    /// How many numbers are looked at before the clock is.
+    const WORK_BETWEEN_LOOKS: usize = 1 << 14;
 
     pub(crate) fn new(deadline: Deadline) -> Self {
         Self { deadline, work: 0 }
     }
 
-    /// Counts `work` more points; whether the deadline has been seen to pass. Once it has, it always has.
+    /// Counts `work` more numbers; whether the deadline has been seen to pass. Once it has, it always has.
     pub(crate) fn passed_after(&mut self, work: usize) -> bool {
         self.work = self.work.saturating_add(work);
         if self.work < Self::WORK_BETWEEN_LOOKS {

@@ -154,6 +154,10 @@ fn worst_of(mut projections: impl Iterator<Item = Projection>, tests: &[Point], 
 
 /// The largest hole of a projection; `None` where it is proved to be no larger than `above`.
 fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline) -> Option<KwiseDispersion> {
+    if deadline.passed() {
+        let Projection { fixed, axes } = projection;
+        return Some(KwiseDispersion { volume: Bracket { lower: 0.0, upper: 1.0 }, fixed, axes, witness: None });
+    }
     let mut selected = tests.iter().filter(|test| projection.selects(test));
     let (volume, witness) = if projection.axes.is_empty() {
         let volume = if selected.next().is_some() { 0.0 } else { 1.0 };

@@ -18,7 +18,7 @@ pub(crate) use sides::Sides;
 /// The star discrepancy: the largest of `vol [0,y) - #{x < y} / n` and `#{x <= y} / n - vol [0,y)` over all `y`
 /// in the unit cube (Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, 1992, section 2.1).
 ///
-/// Exact, in any dimension, unless `deadline` cuts the search short. A set without points leaves the whole
+/// Exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. A set without points leaves the whole
 /// cube uncovered: 1.
 pub fn star_discrepancy(points: &PointSet, deadline: Deadline) -> Bracket {
     if points.is_empty() {

@@ -99,3 +99,20 @@ fn whoever_watches_sees_the_bracket_close_and_never_open_again() {
         assert!(pair[0].lower <= pair[1].lower && pair[1].upper <= pair[0].upper, "{pair:?}");
     }
 }
+
+#[test]
+fn points_on_a_sphere_take_no_more_time_than_there_is_and_little_memory() {
+    // Boxes can be cut as deep as there are points, which the search must not list at every depth.
+    let golden = std::f64::consts::PI * (3.0 - 5.0f64.sqrt());
+    let on_sphere = |i: usize| {
+        let z = 1.0 - (2 * i + 1) as f64 / 30_000.0;
+        let (radius, turn) = ((1.0 - z * z).sqrt(), golden * i as f64);
+        [0.5 + 0.49 * radius * libm::cos(turn), 0.5 + 0.49 * radius * libm::sin(turn), 0.5 + 0.49 * z]
+    };
+    let points = PointSet::new(3, (0..30_000).map(on_sphere)).unwrap();
+    let begun = Instant::now();
+    let found = dispersion(&points, Deadline::after(Duration::from_secs(1)));
+    assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
+    // A box of sides 0.49 * 2 / sqrt(3) fits into the sphere.
+    assert!(found.volume.upper > 0.18 && found.volume.lower <= found.volume.upper, "{:?}", found.volume);
+}

@@ -61,16 +61,20 @@ impl Table {
         if let Some(continuous) = &coverage.continuous {
             self.continuous(continuous);
         }
-        if let Some(discrete) = &coverage.discrete {
+        if let Some(Some(discrete)) = &coverage.discrete {
             self.discrete(discrete);
         }
         if coverage.violating > 0 {
             self.row("violate a constraint", &format!("{} tests, which cover nothing", coverage.violating));
         }
-        if let Some(KEpsilon { k, epsilon, epsilon_over_covered_rows, .. }) = &coverage.k_epsilon {
-            let value = match epsilon {
-                Some(epsilon) => format!("({k}, {})-covering", digits(*epsilon)),
-                None => format!("no: {k}-wise incomplete; {} over the rows", digits(*epsilon_over_covered_rows)),
+        if let Some(KEpsilon { k, complete, epsilon_over_covered_rows, epsilon_at_least, .. }) = &coverage.k_epsilon {
+            let worst = Bracket { lower: *epsilon_at_least, upper: *epsilon_over_covered_rows };
+            let value = match (complete, worst.is_exact()) {
+                (true, true) => format!("({k}, {})-covering", digits(worst.upper)),
+                (true, false) => {
+                    format!("({k}, {})-covering, perhaps better: {}", digits(worst.upper), bracket(&worst))
+                }
+                (false, _) => format!("no: {k}-wise incomplete; over the rows {}", bracket(&worst)),
             };
             self.row("(k, epsilon)", &value);
         }

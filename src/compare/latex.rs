@@ -48,7 +48,10 @@ fn table(text: &mut String, compared: &Compared, measure: Measure) {
             let _ = write!(text, "{first} & {}", escaped(strategy.name()));
             for &n in &budgets {
                 let shown = compared.shown(measure, d);
-                let medians = shown.iter().filter_map(|&s| compared.cell(measure, d, n, s)).map(|cell| cell.median);
+                let cells = || shown.iter().filter_map(|&s| compared.cell(measure, d, n, s));
+                // Nothing is known to be the lowest where a value is a bracket.
+                let known = cells().all(|cell| cell.exact);
+                let medians = cells().filter(|_| known).map(|cell| cell.median);
                 let least = medians.fold(f64::INFINITY, f64::min);
                 let cell = compared.cell(measure, d, n, strategy);
                 let _ = write!(text, " & {}", cell.map_or(String::new(), |cell| median(cell, least)));

@@ -26,6 +26,8 @@ use std::time::Duration;
 
 /// With how many pairs the tests and intervals have enough power; fewer are remarked upon.
 const ENOUGH_SEEDS: usize = 30;
+/// More sets than this are a mistake rather than a plan.
+const MOST_SETS: usize = 10_000_000;
 /// Up to which budget to the power of the dimension the extreme discrepancy is measured unasked: about a second.
 const QUICK_EXTREME: f64 = 4e6;
 
@@ -103,6 +105,11 @@ impl Comparison {
         if self.seeds < 2 {
             return usage(format!("the number of seeds is {}, expected at least 2, or better 30", self.seeds));
         }
+        let sets = [self.strategies.len(), self.dims.len(), self.budgets.len(), self.seeds];
+        let sets = sets.into_iter().try_fold(1usize, usize::checked_mul);
+        if sets.is_none_or(|sets| sets > MOST_SETS) {
+            return usage(format!("these are more than {MOST_SETS} sets; take fewer seeds, budgets or dimensions"));
+        }
         if self.first_seed.checked_add(self.seeds as u64 - 1).is_none() {
             return usage(format!("{} seeds from {} on go beyond {}", self.seeds, self.first_seed, u64::MAX));
         }
@@ -133,6 +140,8 @@ impl Comparison {
             Measure::KWise => false,
             Measure::KWiseDispersion => self.k < dims,
             Measure::Extreme => quick || self.measures.is_some(),
+            // Balls are not what strategies are judged by, and of greedy's points take seconds.
+            Measure::Fill => self.measures.is_some(),
             _ => true,
         };
         self.all_measures().iter().copied().filter(wanted).collect()

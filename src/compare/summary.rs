@@ -34,7 +34,8 @@ pub struct Cell {
     pub median: f64,
     /// The lower and the upper quartile over the seeds.
     pub quartiles: [f64; 2],
-    /// How it compares; none for the baseline itself.
+    /// How it compares; none for the baseline itself, where a value of either is a bracket, and where neither differs
+    /// between seeds, as with measures that do not see a shift.
     pub versus: Option<Versus>,
 }
 
@@ -132,6 +133,14 @@ struct Place {
     exact: bool,
 }
 
+impl Place {
+    /// Whether the values differ by more than rounding.
+    fn spreads(&self) -> bool {
+        let ends = self.values.iter().fold([f64::INFINITY, 0.0], |[low, high], &v| [v.min(low), v.max(high)]);
+        ends[1] - ends[0] > 1e-9 * ends[1].abs()
+    }
+}
+
 impl Line {
     fn of(measure: Measure, dims: usize, strategy: Strategy, budgets: &[usize], sets: &[MeasuredSet]) -> Self {
         let place = |&budget: &usize| {
@@ -151,7 +160,9 @@ impl Line {
 
     fn cell(&self, place: &Place, base: Option<&Place>, baseline: Strategy) -> Cell {
         let (median, quartiles) = median_and_quartiles(&place.values);
-        let base = base.filter(|_| self.strategy != baseline);
+        // Of bracketed values the order is not known, and of values that chance does not move no test can be made.
+        let tells = |base: &&Place| place.exact && base.exact && (place.spreads() || base.spreads());
+        let base = base.filter(|_| self.strategy != baseline).filter(tells);
         Cell {
             measure: self.measure,
             dims: self.dims,
@@ -166,7 +177,11 @@ impl Line {
         }
     }
 
+    /// The slope; none where a value is a bracket.
     fn slope(&self) -> Option<Slope> {
+        if self.places.iter().any(|place| !place.exact) {
+            return None;
+        }
         let at = |value: &dyn Fn(&Place) -> Option<f64>| {
             let points = self.places.iter().map(|place| Some((place.budget as f64, value(place)?)));
             power_law_slope(&points.collect::<Option<Vec<_>>>()?)

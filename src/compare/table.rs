@@ -39,7 +39,8 @@ impl Compared {
             }
             let slope = self.slope(measure, dims, strategy).map_or("-".into(), |slope| format!("{:.2}", slope.slope));
             let versus = self.cell(measure, dims, most, strategy).and_then(|cell| cell.versus.as_ref());
-            let versus = versus.map_or("the baseline".into(), |versus| {
+            let none = if strategy == self.comparison.baseline { "the baseline" } else { "no order known" };
+            let versus = versus.map_or(none.into(), |versus| {
                 let [low, high] = versus.interval.map(|end| format!("{end:.3}"));
                 let ratio = format!("{:.3} ({low} to {high})", versus.ratio);
                 format!("{ratio:<27}{:>6.2}  {:>9}", versus.better, p_value(versus.p_holm))

@@ -94,18 +94,26 @@ impl Tests {
             0 => None,
             _ => Some(self.continuous(measures, &mut clock, &mut holes, watch)?),
         };
-        let discrete = if levels.is_empty() || !measures.contains(&Measure::KWise) {
-            None
-        } else {
-            watch(Measure::KWise, None);
-            Some(self.discrete(k.min(levels.len()), &rules)?)
+        let discrete = match levels.len() {
+            0 => Some(None),
+            _ if !measures.contains(&Measure::KWise) => None,
+            parameters => {
+                watch(Measure::KWise, None);
+                Some(Some(self.discrete(k.min(parameters), &rules)?))
+            }
         };
-        let k_epsilon = discrete.as_ref().filter(|_| continuous.as_ref().is_some_and(|c| c.dispersion.is_some()));
-        let k_epsilon = k_epsilon.map(|discrete| {
+        let counted = discrete.as_ref().and_then(Option::as_ref);
+        let is_measured = continuous.as_ref().is_some_and(|continuous| continuous.dispersion.is_some());
+        let k_epsilon = counted.filter(|_| is_measured).map(|discrete| {
             let complete = discrete.covered == discrete.valid;
-            let epsilon = row_dispersion(self.space.dims(), &self.points, clock.next()).upper;
-            let all = complete.then_some(epsilon);
-            KEpsilon { k: discrete.k, complete, epsilon: all, epsilon_over_covered_rows: epsilon }
+            let Bracket { lower, upper } = row_dispersion(self.space.dims(), &self.points, clock.next());
+            KEpsilon {
+                k: discrete.k,
+                complete,
+                epsilon: complete.then_some(upper),
+                epsilon_over_covered_rows: upper,
+                epsilon_at_least: lower,
+            }
         });
         let k_wise_dispersion = if measures.contains(&Measure::KWiseDispersion) {
             watch(Measure::KWiseDispersion, None);
@@ -230,5 +238,33 @@ impl Clock {
         self.waiting = waiting - 1;
         let left = self.end.map(|end| end.saturating_duration_since(Instant::now()));
         left.map_or_else(Deadline::never, |left| Deadline::after(left / waiting))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use paracosm_generators::{Request, Strategy};
+
+    #[test]
+    fn scaling_a_space_changes_nothing() {
+        let unit = Space::unit_cube(3);
+        let scaled = "parameter = [{ name = \"x\", interval = [-4, 12] }, { name = \"y\", interval = [0, 0.25] },
+            { name = \"z\", interval = [1024, 1088] }]";
+        let scaled = Space::from_toml(scaled).unwrap();
+        let points = Strategy::Sobol.build(&Request::new(&unit, 60)).unwrap().ask(60);
+        // By way of values, as tests in a file would come: widths are powers of two, so that nothing is rounded.
+        let values = points.iter().map(|point| scaled.encode(&scaled.decode(point)).unwrap()).collect();
+        let measure = |space, points| {
+            let coverage = Tests { space, points, k: None }.measure(&Measure::ALL, None, None).unwrap();
+            let continuous = coverage.continuous.unwrap();
+            let dispersion = continuous.dispersion.unwrap().volume;
+            let hole = coverage.k_wise_dispersion.unwrap().volume;
+            let discrepancies = [continuous.star_discrepancy, continuous.extreme_discrepancy].map(Option::unwrap);
+            let ball = continuous.fill.unwrap().unwrap().radius;
+            let means = [continuous.l2_star, continuous.centered, continuous.wraparound, continuous.mixture];
+            (dispersion, hole, discrepancies, ball, means)
+        };
+        assert_eq!(measure(unit, points), measure(scaled, values));
     }
 }

@@ -13,8 +13,9 @@ pub struct Coverage {
     /// How many of the tests violate a constraint; they cover nothing.
     #[serde(skip_serializing_if = "is_zero", default)]
     pub violating: usize,
-    /// The discrete half; `None` where the space has none.
-    pub discrete: Option<Discrete>,
+    /// The discrete half; `Some(None)`, null, where the space has none, and absent where it was not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub discrete: Option<Option<Discrete>>,
     /// Whether the tests are (k, epsilon)-covering; absent where one half is all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_epsilon: Option<KEpsilon>,
@@ -118,8 +119,11 @@ pub struct KEpsilon {
     pub complete: bool,
     /// The smallest epsilon; null if they are not.
     pub epsilon: Option<f64>,
-    /// The largest dispersion of the rows that there are; where the time limit cut it short, an upper bound.
+    /// The largest dispersion of the rows that there are. Where the time limit cut it short, it is no more than this,
+    /// and so is `epsilon`.
     pub epsilon_over_covered_rows: f64,
+    /// It is no less than this either: the same number, unless the time limit cut it short.
+    pub epsilon_at_least: f64,
 }
 
 /// The largest hole that any k parameters show.

@@ -148,6 +148,14 @@ fn a_certificate_that_was_tampered_with_is_refused() {
         proofs[first]["pivots"] = proofs[second]["pivots"].clone();
     });
     refuses("in any 3 parameters", &|certificate| claim(certificate, "k-wise-dispersion")["k"] = json!(3));
+    refuses("excluded, but there are no constraints", &|certificate| {
+        let forged = claim(certificate, "k-wise-dispersion");
+        (forged["excluded"], forged["proofs"], forged["upper"]) = (json!([[]]), json!([]), json!(0.9));
+    });
+    refuses("a combination of no values is excluded", &|certificate| {
+        certificate["constraints"] = json!(["lanes == 2"]);
+        claim(certificate, "k-wise-dispersion")["excluded"] = json!([[]]);
+    });
     refuses("there are no 0 parameters", &|certificate| claim(certificate, "k-wise-dispersion")["k"] = json!(0));
 }
 

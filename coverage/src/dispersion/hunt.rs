@@ -10,7 +10,7 @@
 //! Intelligence 27, 1985): a search that forgets what is below a goal proves that nothing is above it, in no memory to
 //! speak of, where a best-first search of the same tree fills gigabytes.
 
-use super::search::{Bar, Found, Open, Search};
+use super::search::{Bar, Found, MOST_LISTED, Open, Search};
 use super::side::{Side, inside, volume};
 use super::{Dispersion, LargestEmptyBox};
 use crate::bracket::Watch;
@@ -45,13 +45,15 @@ pub(super) struct Hunt<'a> {
     upper: f64,
     /// How often a better witness was looked for.
     attempts: u64,
+    /// Whether some part could not be explored for lack of memory.
+    full: bool,
 }
 
 impl<'a> Hunt<'a> {
     /// A search that has found the witness so far, and is for boxes larger than it and than `above`.
     pub fn new(points: &'a PointSet, witness: LargestEmptyBox, above: f64) -> Self {
         let bar = Bar::new(witness.volume().max(above));
-        Self { points, bar, witness, open: vec![Open::cube(points)], upper: 1.0, attempts: 0 }
+        Self { points, bar, witness, open: vec![Open::cube(points)], upper: 1.0, attempts: 0, full: false }
     }
 
     /// Searches to the end, or until the deadline; `watch` sees the bracket close.
@@ -64,6 +66,10 @@ impl<'a> Hunt<'a> {
         }
         watch(self.bracket());
         self.explore(0.0, deadline.part(HOPE));
+        if self.full && deadline.left().is_none() {
+            // There is no end to wait for.
+            return Dispersion { volume: self.bracket(), witness: self.witness };
+        }
         self.improve(deadline.part(IMPROVEMENT), watch);
         self.deepen(deadline, watch);
         Dispersion { volume: self.bracket(), witness: self.witness }
@@ -73,20 +79,19 @@ impl<'a> Hunt<'a> {
     /// deadline.
     pub fn finds_none(mut self, above: f64, deadline: Deadline) -> Option<bool> {
         self.begin(deadline);
-        let bar = Bar::new(self.bar.get());
+        let (bar, dims) = (Bar::new(self.bar.get()), self.points.dims());
         let explore = |search: &mut Search, part: &Open| {
             let mut watch = Watch::new(deadline);
             let mut over = deadline.passed();
             search.explore(part, &bar, above, |work| {
                 // A single larger box answers the question.
-                over |= watch.passed_after(work) || bar.get() > above;
+                over |= watch.passed_after(work * dims) || bar.get() > above;
                 !over
             })
         };
         let new_search = || Search::new(self.points, above);
         let parts = self.open.par_iter().with_max_len(1);
-        let done: Vec<bool> =
-            parts.map_init(new_search, |search, part| explore(search, part).open.is_empty()).collect();
+        let done: Vec<bool> = parts.map_init(new_search, |search, part| explore(search, part).is_done()).collect();
         if self.witness.volume().max(bar.get()) > above {
             return Some(false);
         }
@@ -108,9 +113,10 @@ impl<'a> Hunt<'a> {
     fn begin(&mut self, deadline: Deadline) {
         let mut nodes = 0;
         let mut watch = Watch::new(deadline);
+        let dims = self.points.dims();
         self.step(|work| {
             nodes += 1;
-            nodes <= ALONE && !watch.passed_after(work)
+            nodes <= ALONE && !watch.passed_after(work * dims)
         });
         self.split(0.0, deadline);
     }
@@ -121,10 +127,13 @@ impl<'a> Hunt<'a> {
         while let Some(largest) = self.open.last()
             && largest.volume > above
             && !deadline.passed()
+            && self.open.iter().map(|open| open.inside.len()).sum::<usize>() <= MOST_LISTED
             && self.open.iter().rev().take(PARTS).filter(|open| open.volume > above).count() < PARTS
         {
             let mut first = true;
-            self.step(|_| std::mem::take(&mut first));
+            if !self.step(|_| std::mem::take(&mut first)) {
+                break;
+            }
             // Children are fewer than 2 d and smaller than most: a sort of what is nearly sorted.
             self.open.sort_by(|a, b| a.volume.total_cmp(&b.volume));
         }
@@ -132,26 +141,31 @@ impl<'a> Hunt<'a> {
         self.close(1.0);
     }
 
-    /// Explores the last of the open boxes while `go_on`.
-    fn step(&mut self, go_on: impl FnMut(usize) -> bool) {
-        let Some(root) = self.open.pop() else { return };
+    /// Explores the last of the open boxes while `go_on`; whether memory allowed for that.
+    fn step(&mut self, go_on: impl FnMut(usize) -> bool) -> bool {
+        let Some(root) = self.open.pop() else { return true };
         let best = self.bar.get();
         let found = Search::new(self.points, best).explore(&root, &self.bar, best, go_on);
-        self.open.extend(found.open);
+        if found.lost {
+            self.open.push(root);
+        } else {
+            self.open.extend(found.open);
+        }
         self.witness = found.witness.unwrap_or_else(|| self.witness.clone());
+        !found.lost
     }
 
     /// Explores all open boxes on all cores, down to a volume; whether that was done before the deadline. What is
     /// done is closed, if nothing was left out that could be larger than the witness.
     fn explore(&mut self, down_to: f64, deadline: Deadline) -> bool {
-        let floor = self.bar.get();
+        let (floor, dims) = (self.bar.get(), self.points.dims());
         let bar = Bar::new(floor.max(down_to));
         let lowered = down_to > floor;
         let explore = |search: &mut Search, part: &Open| {
             let mut watch = Watch::new(deadline);
             let mut late = deadline.passed();
             search.explore(part, &bar, floor.max(down_to), |work| {
-                late |= watch.passed_after(work);
+                late |= watch.passed_after(work * dims);
                 !late
             })
         };
@@ -161,10 +175,18 @@ impl<'a> Hunt<'a> {
             .with_max_len(1)
             .map_init(|| Search::new(self.points, floor), |search, part| explore(search, part))
             .collect();
-        let done = found.iter().all(|found| found.open.is_empty());
+        let done = found.iter().all(Found::is_done);
+        self.full |= found.iter().any(|found| found.lost);
         let mut left = Vec::new();
-        for found in found {
-            left.extend(found.open);
+        let mut listed = 0;
+        for (found, part) in found.into_iter().zip(&self.open) {
+            listed += found.open.iter().map(|open| open.inside.len()).sum::<usize>();
+            // What is left of a part may take more memory than the part.
+            if found.lost || listed > MOST_LISTED {
+                left.push(part.clone());
+            } else {
+                left.extend(found.open);
+            }
             if let Some(witness) = found.witness
                 && witness.volume() > self.witness.volume()
             {

@@ -58,7 +58,8 @@ pub struct Dispersion {
 /// face of a box is not in it; of a set without points the largest is the cube, with volume 1 (Rote, Tichy,
 /// Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23, 1996).
 ///
-/// Exact, in any dimension, unless `deadline` cuts the search short. Volume and witness of an exact result do not
+/// Exact, in any dimension, unless `deadline` cuts the search short, or memory (some 200 MiB), which only sets with many
+/// points on a curved surface need. Volume and witness of an exact result do not
 /// depend on the number of threads.
 pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
     dispersion_watched(points, deadline, &mut |_| ())

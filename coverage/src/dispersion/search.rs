@@ -72,7 +72,19 @@ pub(super) struct Found {
     pub witness: Option<LargestEmptyBox>,
     /// What was not explored for lack of nodes.
     pub open: Vec<Open>,
+    /// Whether the search ended for lack of memory, and what is open is not all.
+    pub lost: bool,
 }
+
+impl Found {
+    /// Whether all was explored.
+    pub fn is_done(&self) -> bool {
+        self.open.is_empty() && !self.lost
+    }
+}
+
+/// How many points the lists of a search may hold where nothing else is said: 64 MiB.
+pub(super) const MOST_LISTED: usize = 1 << 24;
 
 pub(super) struct Search<'a> {
     points: &'a PointSet,
@@ -87,12 +99,16 @@ pub(super) struct Search<'a> {
     scales: Vec<f64>,
     /// The pivots in the order in which they were taken, where they are to be a proof.
     trail: Option<Vec<u32>>,
+    /// How many points its lists may hold, and how many those of what it leaves open.
+    most_listed: usize,
 }
 
 impl<'a> Search<'a> {
     pub fn new(points: &'a PointSet, reference: f64) -> Self {
         let (nodes, sides, lists, cuts, scales) = Default::default();
-        Self { points, reference, nodes, sides, lists, cuts, scales, trail: None }
+        // A box and its children must fit in any case.
+        let most_listed = MOST_LISTED.max(4 * points.len());
+        Self { points, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed }
     }
 
     /// A search that can be followed without its arithmetic: it tries cuts in the order of the axes and remembers its
@@ -118,7 +134,7 @@ impl<'a> Search<'a> {
         self.sides.extend_from_slice(&root.sides);
         self.nodes.clear();
         self.nodes.push(Node { volume: root.volume, around: 0..self.lists.len(), cut: None });
-        let mut found = Found { witness: None, open: Vec::new() };
+        let mut found = Found { witness: None, open: Vec::new(), lost: false };
         let mut best = floor;
         let mut sides = Vec::with_capacity(dims);
         while let Some(node) = self.nodes.pop() {
@@ -131,7 +147,11 @@ impl<'a> Search<'a> {
             if !go_on(node.around.len()) {
                 self.sides.extend_from_slice(&sides);
                 self.nodes.push(node);
-                found.open = self.left(best.max(shared.get()));
+                self.leave(best.max(shared.get()), &mut found);
+                break;
+            }
+            if node.around.end + node.around.len() > self.most_listed {
+                found.lost = true;
                 break;
             }
             if !self.branch(&node, &mut sides, best, shared.get()) {
@@ -149,22 +169,27 @@ impl<'a> Search<'a> {
         found
     }
 
-    /// What waits on the stack, above a volume.
-    fn left(&mut self, above: f64) -> Vec<Open> {
+    /// Leaves what waits on the stack, above a volume.
+    fn leave(&mut self, above: f64, found: &mut Found) {
         let dims = self.points.dims();
-        let mut open = Vec::new();
+        let mut listed = 0;
         for (node, sides) in self.nodes.drain(..).zip(self.sides.chunks_exact(dims)) {
-            if node.volume > above {
-                let points = self.lists[node.around].iter();
-                let holds = |point: &&u32| inside(self.points.point(**point as usize), sides);
-                open.push(Open {
-                    volume: node.volume,
-                    sides: sides.to_vec(),
-                    inside: points.filter(holds).copied().collect(),
-                });
+            if node.volume <= above {
+                continue;
             }
+            // The points are inside the box that it was cut from, so that only the cut need be compared.
+            let holds = |point: &&u32| {
+                let point = self.points.point(**point as usize);
+                node.cut.is_none_or(|axis| sides[axis as usize].holds(point[axis as usize]))
+            };
+            let inside: Vec<u32> = self.lists[node.around].iter().filter(holds).copied().collect();
+            listed += inside.len();
+            if listed > self.most_listed {
+                found.lost = true;
+                return;
+            }
+            found.open.push(Open { volume: node.volume, sides: sides.to_vec(), inside });
         }
-        open
     }
 
     /// Puts the children of a box on the stack, if there is a point inside.

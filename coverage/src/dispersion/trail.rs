@@ -13,5 +13,5 @@ use crate::PointSet;
 pub(crate) fn trail(points: &PointSet, above: f64, go_on: impl FnMut(usize) -> bool) -> Option<Vec<u32>> {
     let mut search = Search::with_trail(points, above);
     let found = search.explore(&Open::cube(points), &Bar::new(0.0), above, go_on);
-    (found.witness.is_none() && found.open.is_empty()).then(|| search.into_trail())
+    (found.witness.is_none() && found.open.is_empty() && !found.lost).then(|| search.into_trail())
 }

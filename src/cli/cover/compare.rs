@@ -43,7 +43,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
     /// What to measure, of dispersion, star, extreme, fill, l2_star, centered, wraparound, mixture, k-wise-dispersion
-    /// [default: all, extreme only of small sets]
+    /// [default: all but fill, extreme only of small sets]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     measures: Vec<Measure>,
     /// How many coordinates at a time the k-wise dispersion looks at

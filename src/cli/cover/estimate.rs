@@ -74,7 +74,8 @@ impl Options {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read(verbosity)?,
         };
-        let measures = if self.measures.is_empty() { Measure::ALL.to_vec() } else { self.measures.clone() };
+        let asked = |measure: &Measure| self.measures.is_empty() || self.measures.contains(measure);
+        let measures: Vec<Measure> = Measure::ALL.into_iter().filter(asked).collect();
         if verbosity.verbose {
             let names: Vec<&str> = measures.iter().map(|measure| measure.name()).collect();
             verbosity.note(format_args!("measuring {} of {} tests", names.join(", "), tests.points.len()));
