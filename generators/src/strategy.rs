@@ -16,6 +16,9 @@ use crate::{
 use paracosm_coverage::{Point, Space, nearest};
 use std::{fmt, ops::RangeInclusive, str::FromStr};
 
+/// In how many dimensions greedy points take seconds at most.
+const MOST_GREEDY_DIMS: usize = 1_000;
+
 /// How tests are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Strategy {
@@ -163,6 +166,8 @@ impl Strategy {
             Self::HaltonScrambled => 1..=MOST_HALTON_SCRAMBLED_DIMS,
             Self::Sobol | Self::SobolOwen => 1..=MOST_SOBOL_DIMS,
             Self::Fibonacci => 2..=2,
+            // A box has 2d parts with 2d faces each.
+            Self::Greedy => 1..=MOST_GREEDY_DIMS,
             _ => 1..=usize::MAX,
         }
     }

@@ -30,6 +30,8 @@ const IMPROVEMENT: f64 = 0.2;
 const EARLY_IMPROVEMENT: usize = 4;
 /// How many attempts are made at that between two looks at the clock.
 const ROUND: u64 = 64;
+/// In more dimensions the children of one box take gigabytes, and what is known is the widest slab.
+const MOST_DIMS: usize = 1_500;
 /// How many boxes one attempt explores.
 const ATTEMPT: usize = 500;
 
@@ -58,6 +60,9 @@ impl<'a> Hunt<'a> {
 
     /// Searches to the end, or until the deadline; `watch` sees the bracket close.
     pub fn run(mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
+        if self.points.dims() > MOST_DIMS {
+            return Dispersion { volume: self.bracket(), witness: self.witness };
+        }
         self.begin(deadline);
         if self.points.dims() >= EARLY_IMPROVEMENT {
             while !self.open.is_empty() && !deadline.passed() && self.attempt(deadline) {
@@ -78,6 +83,9 @@ impl<'a> Hunt<'a> {
     /// Whether no box is larger than `above`, for which the search was made; `None` if that was not known at the
     /// deadline.
     pub fn finds_none(mut self, above: f64, deadline: Deadline) -> Option<bool> {
+        if self.points.dims() > MOST_DIMS {
+            return (self.witness.volume() > above).then_some(false);
+        }
         self.begin(deadline);
         let (bar, dims) = (Bar::new(self.bar.get()), self.points.dims());
         let explore = |search: &mut Search, part: &Open| {

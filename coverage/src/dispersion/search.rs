@@ -101,6 +101,8 @@ pub(super) struct Search<'a> {
     trail: Option<Vec<u32>>,
     /// How many points its lists may hold, and how many those of what it leaves open.
     most_listed: usize,
+    /// How many sides of boxes may wait.
+    most_sides: usize,
 }
 
 impl<'a> Search<'a> {
@@ -108,7 +110,8 @@ impl<'a> Search<'a> {
         let (nodes, sides, lists, cuts, scales) = Default::default();
         // A box and its children must fit in any case.
         let most_listed = MOST_LISTED.max(4 * points.len());
-        Self { points, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed }
+        let most_sides = (MOST_LISTED / 8).max(4 * points.dims() * points.dims());
+        Self { points, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed, most_sides }
     }
 
     /// A search that can be followed without its arithmetic: it tries cuts in the order of the axes and remembers its
@@ -150,7 +153,7 @@ impl<'a> Search<'a> {
                 self.leave(best.max(shared.get()), &mut found);
                 break;
             }
-            if node.around.end + node.around.len() > self.most_listed {
+            if node.around.end + node.around.len() > self.most_listed || self.sides.len() > self.most_sides {
                 found.lost = true;
                 break;
             }
