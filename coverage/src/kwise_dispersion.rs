@@ -107,11 +107,14 @@ pub fn kwise_dispersion(
 }
 
 /// The largest dispersion that the tests with the same discrete values show, over all such values that some test has:
-/// the smallest epsilon for which they are (k, epsilon)-covering, if they cover k-wise. 0 where there is no test.
+/// the smallest epsilon for which they are (k, epsilon)-covering, if they cover k-wise. 1 where there is no test.
 ///
 /// # Panics
 /// There is no continuous parameter, or a test is none of the space.
 pub fn row_dispersion(dims: usize, tests: &[Point], deadline: Deadline) -> Bracket {
+    if tests.is_empty() {
+        return Bracket::exact(1.0);
+    }
     let rows: BTreeSet<&[usize]> = tests.iter().map(|test| &test.discrete[..]).collect();
     let row =
         |row: &[usize]| Projection { fixed: row.iter().copied().enumerate().collect(), axes: (0..dims).collect() };

@@ -80,6 +80,9 @@ impl Table {
         }
         if let Some(hole) = &coverage.k_wise_dispersion {
             self.row(&format!("{}-wise dispersion", hole.k), &bracket(&hole.volume));
+            if hole.volume.upper == 0.0 {
+                return;
+            }
             let fixed = hole.worst.fixed.iter().map(|(name, value)| format!("{name} {value}"));
             let place: Vec<String> = fixed.chain(hole.worst.empty_box.iter().map(side)).collect();
             self.row("  largest hole", &place.join(", "));

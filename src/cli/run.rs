@@ -121,8 +121,11 @@ impl Options {
             return Err(cut_short(&error, &self.out, trials.len()));
         }
         if trials.len() < study.budget {
-            let message = "the strategy has no more tests for these parameters than";
-            verbosity.note(format_args!("{message} {}, fewer than the budget", trials.len()));
+            let why = match self.epsilon {
+                Some(epsilon) => format!("no row has an empty box above {epsilon} after"),
+                None => "the strategy has no more tests for these parameters than".to_owned(),
+            };
+            verbosity.note(format_args!("{why} {} tests, fewer than the budget", trials.len()));
         }
         progress.bar.set_message("measuring coverage");
         let coverage = self.write_results(&folder, &study, &trials, verbosity);

@@ -50,8 +50,12 @@ impl ArrayOptions<'_> {
         }
         let CoveringArray { rows, kept, invalid, lower_bound } = array;
         if !invalid.is_empty() {
-            let of = if invalid.len() == 1 { "row violates" } else { "rows violate" };
-            verbosity.note(format_args!("{} existing {of} a constraint and do not count", invalid.len()));
+            let of = if invalid.len() == 1 {
+                "row violates a constraint and does"
+            } else {
+                "rows violate a constraint and do"
+            };
+            verbosity.note(format_args!("{} different existing {of} not count", invalid.len()));
         }
         let kept = if kept == 0 { String::new() } else { format!(" ({kept} of them existing)") };
         let bound = match rows.len() as u64 == lower_bound {

@@ -4,13 +4,15 @@ use super::array::ArrayOptions;
 use super::space_file::SpaceFile;
 use crate::cli::output::digits;
 use crate::cli::{Failure, Verbosity};
-use crate::coverage::{Point, Space};
+use crate::coverage::kwise_dispersion::row_dispersion;
+use crate::coverage::{Deadline, Point, Space};
 use crate::generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
-use crate::{Error, KEpsilon, Measure, Tests};
+use crate::{Error, Measure, Tests};
 use clap::{ArgGroup, Args};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io;
 use std::path::PathBuf;
+use std::time::Duration;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -139,7 +141,7 @@ impl Options {
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
         verbosity.note(format_args!("{written} tests{by}{}", after.unwrap_or_default()));
         if self.epsilon.is_some() {
-            verbosity.note(reached(Tests { space, points, k: self.k })?);
+            verbosity.note(reached(&Tests { space, points, k: self.k })?);
         }
         Ok(())
     }
@@ -168,21 +170,28 @@ impl Options {
 const DEFAULT_BUDGET: usize = 500;
 
 /// What the tests are good for, measured.
-fn reached(tests: Tests) -> Result<String, Error> {
-    let coverage = tests.measure(&[Measure::Dispersion, Measure::KWise], None, None)?;
-    Ok(match (coverage.k_epsilon, coverage.continuous.and_then(|continuous| continuous.dispersion)) {
-        (Some(KEpsilon { k, epsilon: Some(epsilon), .. }), _) => {
-            format!("({k}, {})-covering: measured", digits(epsilon))
+fn reached(tests: &Tests) -> Result<String, Error> {
+    let Tests { space, points, k } = tests;
+    if space.dims() == 0 {
+        return Ok("nothing continuous to measure".to_owned());
+    }
+    let rows = row_dispersion(space.dims(), points, Deadline::after(REPORT_LIMIT));
+    let epsilon = if rows.is_exact() { digits(rows.upper) } else { format!("at most {}", digits(rows.upper)) };
+    if space.levels().is_empty() {
+        return Ok(format!("dispersion {epsilon}: measured"));
+    }
+    let coverage = tests.measure(&[Measure::KWise], *k, Some(Duration::ZERO))?;
+    Ok(match coverage.discrete.flatten() {
+        Some(discrete) if discrete.covered == discrete.valid => {
+            format!("({}, {epsilon})-covering: measured", discrete.k)
         }
-        (Some(reached), _) => format!(
-            "not {}-wise complete; dispersion {} over the rows there are: measured",
-            reached.k,
-            digits(reached.epsilon_over_covered_rows)
-        ),
-        (None, Some(hole)) => format!("dispersion {}: measured", digits(hole.volume.upper)),
-        (None, None) => "nothing continuous to measure".to_owned(),
+        Some(discrete) => format!("not {}-wise complete; over the rows there are, dispersion {epsilon}", discrete.k),
+        None => format!("dispersion {epsilon} over the rows: measured"),
     })
 }
+
+/// The time that the measuring after `--epsilon` may take.
+const REPORT_LIMIT: Duration = Duration::from_secs(10);
 
 /// Writes at most that many tests as they are made.
 fn write(

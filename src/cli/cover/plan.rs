@@ -5,7 +5,7 @@ use super::time_limit;
 use crate::cli::output::{Format, Table, json};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::Space;
-use crate::{Need, Plan, Tests};
+use crate::{Guarantee, Need, Plan, Tests};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 
@@ -90,9 +90,10 @@ fn needs(table: &mut Table, needs: &[Need]) {
             (None, Some(over)) => format!("over {over}"),
             (None, None) => "over 10^19".to_owned(),
         };
-        let guarantee = match over {
-            Some(_) => "measured until the time limit",
-            None => guarantee.words(),
+        let guarantee = match (over, guarantee) {
+            (Some(_), Guarantee::Measured) => "measured until the time limit",
+            (Some(_), _) => "not made, for it takes long",
+            (None, _) => guarantee.words(),
         };
         table.line(&format!("{of:<width$}  {tests:>20}  {guarantee}"));
     }

@@ -21,13 +21,18 @@ pub(super) struct SpaceFile {
 impl SpaceFile {
     pub fn read(path: &Path, verbosity: Verbosity) -> Result<Self, Error> {
         let text = fs::read_to_string(path).map_err(Error::file("read", path))?;
-        if path.extension().and_then(OsStr::to_str).is_some_and(|extension| PICT.contains(&extension)) {
+        if path
+            .extension()
+            .and_then(OsStr::to_str)
+            .is_some_and(|extension| PICT.contains(&extension.to_lowercase().as_str()))
+        {
             let model = Model::from_pict(&text).map_err(|error| {
                 Error::content(path, error.line, format!("column {}: {}", error.column, error.message))
             })?;
             for note in &model.notes {
                 verbosity.note(format_args!("{}: {note}", path.display()));
             }
+            check(path, &model.space)?;
             return Ok(Self { space: model.space, groups: model.strengths });
         }
         let space = Space::from_toml(&text).map_err(|error| match error {
@@ -36,6 +41,12 @@ impl SpaceFile {
             }
             error => Error::content(path, None, error.to_string()),
         })?;
+        check(path, &space)?;
         Ok(Self { space, groups: Vec::new() })
     }
+}
+
+/// Checks that some test keeps all constraints.
+fn check(path: &Path, space: &Space) -> Result<(), Error> {
+    space.rules().map(drop).map_err(|error| Error::content(path, None, error.to_string()))
 }
