@@ -20,6 +20,7 @@
 //! The pivots of a search that found nothing above a volume prove that there is nothing (`trail.rs`).
 
 mod hunt;
+mod plane;
 mod search;
 mod side;
 mod trail;
@@ -28,6 +29,7 @@ pub(crate) use trail::trail;
 
 use crate::{Bracket, Deadline, PointSet};
 use hunt::Hunt;
+use plane::Plane;
 
 /// An open box in the unit cube that holds no point.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,19 +68,37 @@ pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
 
 /// The [`dispersion`], while `watch` sees the bracket close.
 pub fn dispersion_watched(points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
-    Hunt::new(points, widest_slab(points), f64::NEG_INFINITY).run(deadline, watch)
+    largest_above(points, f64::NEG_INFINITY, deadline, watch)
 }
 
 /// Whether the dispersion is at most `volume`; `None` if that was not known at the deadline. To know it takes less
 /// than to know the dispersion.
 pub fn is_at_most(points: &PointSet, volume: f64, deadline: Deadline) -> Option<bool> {
-    Hunt::new(points, widest_slab(points), volume).finds_none(volume, deadline)
+    let slab = widest_slab(points);
+    match points.dims() {
+        1 => Some(slab.volume() <= volume),
+        2 => Plane::new(points, slab, volume).finds_none(volume, deadline),
+        _ => Hunt::new(points, slab, volume).finds_none(volume, deadline),
+    }
 }
 
 /// The dispersion, if it is not proved to be at most `above`.
 pub(crate) fn larger_than(points: &PointSet, above: f64, deadline: Deadline) -> Option<Dispersion> {
-    let found = Hunt::new(points, widest_slab(points), above).run(deadline, &mut |_| ());
+    let found = largest_above(points, above, deadline, &mut |_| ());
     (found.volume.upper > above).then_some(found)
+}
+
+/// The dispersion, if it is more than `above`; otherwise some empty box, as if it were the largest.
+fn largest_above(points: &PointSet, above: f64, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
+    let slab = widest_slab(points);
+    match points.dims() {
+        1 => Dispersion { volume: Bracket::exact(slab.volume()), witness: slab },
+        2 => {
+            watch(Bracket { lower: slab.volume(), upper: 1.0 });
+            Plane::new(points, slab, above).run(deadline)
+        }
+        _ => Hunt::new(points, slab, above).run(deadline, watch),
+    }
 }
 
 /// The widest gap between neighbouring coordinates along any axis, as a box across the whole cube: the candidate
