@@ -353,3 +353,30 @@ fn largest(rows: &[Step], columns: &[Step]) -> f64 {
     let highest = rows[rows.len() - 1].to(&columns[columns.len() - 1]);
     Rectangle { bottom: highest.bottom, top: highest.top, ..widest }.area()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dispersion::hunt::Hunt;
+    use crate::dispersion::widest_slab;
+    use proptest::prelude::*;
+
+    fn coordinate() -> impl Strategy<Value = f64> {
+        prop_oneof![0.0..=1.0f64, (0..=16u8).prop_map(|i| f64::from(i) / 16.0)]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn the_search_of_many_dimensions_finds_the_same_area(
+            points in prop::collection::vec([coordinate(), coordinate()], 0..600),
+        ) {
+            let points = PointSet::new(2, &points).unwrap();
+            let slab = || widest_slab(&points);
+            let plane = Plane::new(&points, slab(), 0.0).run(Deadline::never());
+            let hunt = Hunt::new(&points, slab(), 0.0).run(Deadline::never(), &mut |_| ());
+            prop_assert_eq!(plane.volume, hunt.volume);
+        }
+    }
+}
