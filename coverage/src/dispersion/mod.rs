@@ -18,6 +18,8 @@
 //! sides.
 //!
 //! The pivots of a search that found nothing above a volume prove that there is nothing (`trail.rs`).
+//!
+//! An interval needs no search, and rectangles have one of their own (`plane.rs`).
 
 mod hunt;
 mod plane;
@@ -60,8 +62,8 @@ pub struct Dispersion {
 /// face of a box is not in it; of a set without points the largest is the cube, with volume 1 (Rote, Tichy,
 /// Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23, 1996).
 ///
-/// Exact, in any dimension, unless `deadline` cuts the search short. Volume and witness of an exact result do not
-/// depend on the number of threads.
+/// Exact, in any dimension, unless `deadline` cuts the search short; in one dimension it never does. Volume and witness
+/// of an exact result do not depend on the number of threads.
 pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
     dispersion_watched(points, deadline, &mut |_| ())
 }
