@@ -125,7 +125,7 @@ impl Options {
                 Some(epsilon) => format!("no row has an empty box above {epsilon} after"),
                 None => "the strategy has no more tests for these parameters than".to_owned(),
             };
-            verbosity.note(format_args!("{why} {} tests, fewer than the budget", trials.len()));
+            verbosity.note(format_args!("{why} {}, fewer than the budget", trials.len()));
         }
         progress.bar.set_message("measuring coverage");
         let coverage = self.write_results(&folder, &study, &trials, verbosity);

@@ -18,8 +18,11 @@
 //! sides.
 //!
 //! The pivots of a search that found nothing above a volume prove that there is nothing (`trail.rs`).
+//!
+//! An interval needs no search, and rectangles have one of their own (`plane.rs`).
 
 mod hunt;
+mod plane;
 mod search;
 mod side;
 mod trail;
@@ -28,6 +31,7 @@ pub(crate) use trail::trail;
 
 use crate::{Bracket, Deadline, PointSet};
 use hunt::Hunt;
+use plane::Plane;
 
 /// An open box in the unit cube that holds no point.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,28 +62,46 @@ pub struct Dispersion {
 /// face of a box is not in it; of a set without points the largest is the cube, with volume 1 (Rote, Tichy,
 /// Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23, 1996).
 ///
-/// Exact, in any dimension, unless `deadline` cuts the search short, or memory (some 200 MiB), which only sets with many
-/// points on a curved surface need. Volume and witness of an exact result do not
-/// depend on the number of threads.
+/// Exact, in any dimension, unless `deadline` cuts the search short (in one dimension it never does), or from three
+/// dimensions on memory (some 200 MiB), which only many points on a curved surface need. Volume and witness of an exact
+/// result do not depend on the number of threads.
 pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
     dispersion_watched(points, deadline, &mut |_| ())
 }
 
 /// The [`dispersion`], while `watch` sees the bracket close.
 pub fn dispersion_watched(points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
-    Hunt::new(points, widest_slab(points), f64::NEG_INFINITY).run(deadline, watch)
+    largest_above(points, f64::NEG_INFINITY, deadline, watch)
 }
 
 /// Whether the dispersion is at most `volume`; `None` if that was not known at the deadline. To know it takes less
 /// than to know the dispersion.
 pub fn is_at_most(points: &PointSet, volume: f64, deadline: Deadline) -> Option<bool> {
-    Hunt::new(points, widest_slab(points), volume).finds_none(volume, deadline)
+    let slab = widest_slab(points);
+    match points.dims() {
+        1 => Some(slab.volume() <= volume),
+        2 => Plane::new(points, slab, volume).finds_none(volume, deadline),
+        _ => Hunt::new(points, slab, volume).finds_none(volume, deadline),
+    }
 }
 
 /// The dispersion, if it is not proved to be at most `above`.
 pub(crate) fn larger_than(points: &PointSet, above: f64, deadline: Deadline) -> Option<Dispersion> {
-    let found = Hunt::new(points, widest_slab(points), above).run(deadline, &mut |_| ());
+    let found = largest_above(points, above, deadline, &mut |_| ());
     (found.volume.upper > above).then_some(found)
+}
+
+/// The dispersion, if it is more than `above`; otherwise some empty box, as if it were the largest.
+fn largest_above(points: &PointSet, above: f64, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
+    let slab = widest_slab(points);
+    match points.dims() {
+        1 => Dispersion { volume: Bracket::exact(slab.volume()), witness: slab },
+        2 => {
+            watch(Bracket { lower: slab.volume(), upper: 1.0 });
+            Plane::new(points, slab, above).run(deadline)
+        }
+        _ => Hunt::new(points, slab, above).run(deadline, watch),
+    }
 }
 
 /// The widest gap between neighbouring coordinates along any axis, as a box across the whole cube: the candidate
