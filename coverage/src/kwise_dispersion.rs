@@ -11,7 +11,7 @@
 //! of the blocks before, so that most are done as soon as they are begun, and the result does not depend on threads.
 
 use crate::dispersion::{LargestEmptyBox, larger_than};
-use crate::kwise::{KwiseError, advance, tuple};
+use crate::kwise::{KwiseError, advance, kwise_coverage, tuple};
 use crate::rules::Rules;
 use crate::{Bracket, Deadline, Point, PointSet};
 use rayon::prelude::*;
@@ -93,6 +93,16 @@ pub fn kwise_dispersion(
     k: usize,
     deadline: Deadline,
 ) -> Result<KwiseDispersion, KwiseError> {
+    if dims == 0
+        && let Ok(counted) = kwise_coverage(rules, k, tests.iter().map(|test| &test.discrete[..]))
+    {
+        // Nothing but whether all combinations are covered: counting is faster than looking at one after the other.
+        let (volume, fixed) = match counted.missing.into_iter().next() {
+            Some(missing) => (1.0, missing),
+            None => (0.0, Vec::new()),
+        };
+        return Ok(KwiseDispersion { volume: Bracket::exact(volume), fixed, axes: Vec::new(), witness: None });
+    }
     let found = worst_of(projections(dims, rules, k)?, tests, deadline);
     // None, where the deadline came before anything: the least that can be said.
     let mut worst = match found.worst {
