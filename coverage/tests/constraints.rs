@@ -295,3 +295,15 @@ fn constraints_count_coordinates_where_a_choice_varies_over_time_and_refuse_to_s
     let error = space.with_constraints(["light == 'day'"]).unwrap_err().to_string();
     assert!(error.contains("`light` varies over time, expected a parameter with one value"), "{error}");
 }
+
+#[test]
+fn two_parameters_of_very_many_levels_can_be_compared() {
+    let levels = |name: &str, levels: u32| {
+        Parameter::new(name, Domain::Choice((0..levels).map(|level| Value::Number(level.into())).collect()))
+    };
+    let space = Space::new(vec![levels("a", 300), levels("b", 300), levels("c", 3)]).unwrap();
+    let rules = space.with_constraints(["a < b"]).unwrap().rules().unwrap();
+    // The pairs of a and b, and with c the 299 levels that each of them can have.
+    assert_eq!(rules.count(&[0, 1, 2], 2).valid, 300 * 299 / 2 + 2 * 299 * 3);
+    assert!(rules.is_valid(&[(0, 298), (2, 1)]) && !rules.is_valid(&[(0, 299), (2, 1)]));
+}

@@ -11,6 +11,9 @@ use std::collections::HashMap;
 /// The largest number of edges of a diagram that is not given up; a pass over as many takes some 0.1 ms.
 const MOST_EDGES: usize = 1 << 16;
 
+/// The same for two members, whose diagram is a table that a solver could only look through cell by cell.
+const MOST_EDGES_OF_TWO: usize = 1 << 22;
+
 /// No child.
 const NONE: u32 = u32::MAX;
 
@@ -69,7 +72,7 @@ impl Diagram {
                 .collect();
             let classes = sizes[place].len();
             edges += states.len() * classes;
-            if edges > MOST_EDGES {
+            if edges > if members.len() == 2 { MOST_EDGES_OF_TWO } else { MOST_EDGES } {
                 return None;
             }
             let mut number: HashMap<Vec<u64>, u32> = HashMap::new();
