@@ -234,3 +234,14 @@ fn rows_that_are_begun_are_completed_and_count_as_new() {
     let output = cover(dir.path(), &["generate", "--space", "SPACE.toml", "--extend", "wrong.csv"]);
     refused(&output, &["wrong.csv, line 2", "`car`", "lorry", "small, truck"]);
 }
+
+#[test]
+fn a_random_family_says_what_it_promises_and_when_it_cannot_keep_it() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("MODEL.pict"), MODEL.split("IF").next().unwrap()).unwrap();
+    let arguments = ["--space", "MODEL.pict", "--discrete", "random"];
+    let (_, notes) = generated(dir.path(), &arguments);
+    assert!(notes.contains("random rows have all 2-wise combinations with probability at least 0.95\n"), "{notes}");
+    let (_, notes) = generated(dir.path(), &[&arguments[..], &["--budget", "5"]].concat());
+    assert!(notes.contains("5 tests are fewer, and nothing is promised of them"), "{notes}");
+}

@@ -5,6 +5,7 @@ use super::space_file::SpaceFile;
 use crate::cli::output::digits;
 use crate::cli::{Failure, Verbosity};
 use crate::coverage::kwise_dispersion::row_dispersion;
+use crate::coverage::theory::rows::random_family_size;
 use crate::coverage::{Deadline, Point, Space};
 use crate::generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use crate::{Error, Measure, Tests};
@@ -126,6 +127,11 @@ impl Options {
             false => None,
         };
         let generator = strategy.build(&Request { rows: rows.as_deref(), ..request }).map_err(Error::from)?;
+        if let DiscreteFamily::Random { delta } = request.discrete
+            && !space.levels().is_empty()
+        {
+            verbosity.note(promise(&space.levels(), self.k, delta, self.budget));
+        }
         let most = match self.budget {
             Some(budget) => budget,
             None if space.dims() == 0 || self.epsilon.is_some() => usize::MAX,
@@ -168,6 +174,19 @@ impl Options {
 }
 
 const DEFAULT_BUDGET: usize = 500;
+
+/// What a random family promises, and whether the budget is enough for it.
+fn promise(levels: &[usize], k: Option<usize>, delta: f64, budget: Option<usize>) -> String {
+    let k = k.unwrap_or(levels.len().min(2));
+    let rows = random_family_size(levels, k, delta);
+    let kept = match budget {
+        Some(budget) if (budget as u64) < rows => {
+            format!("; {budget} tests are fewer, and nothing is promised of them")
+        }
+        _ => String::new(),
+    };
+    format!("{rows} random rows have all {k}-wise combinations with probability at least {}{kept}", 1.0 - delta)
+}
 
 /// What the tests are good for, measured.
 fn reached(tests: &Tests) -> Result<String, Error> {
