@@ -10,6 +10,7 @@ mod list;
 mod output;
 mod replay;
 mod run;
+mod sampling;
 mod suspects;
 
 use crate::executor::WORKER;

@@ -1,10 +1,10 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
 use super::output::{Format, Table, digits, json, percent, shell_word, short_bracket, value_words};
+use super::sampling::Sampling;
 use super::suspects::Guilt;
 use super::{Failure, Found, Verbosity, complain, print};
 use crate::coverage::{Domain, Shape, Value};
-use crate::generators::Aim;
 use crate::oracles::Verdict;
 use crate::{
     Campaign, Coverage, Error, FailureMap, Folder, LiveCoverage, Measure, Picture, Study, Summary, Tests, Trial,
@@ -33,26 +33,8 @@ pub(super) struct Options {
     /// How many tests to run
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
-    /// The source of all chance; sequences without it are plain, with it randomly shifted
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-    /// The index of a sequence's first point [default: 1 for halton, 0 for the others]
-    #[arg(long, value_name = "N")]
-    skip: Option<u64>,
-    /// How discrete parameters are covered: ipog (a covering array), random (Proposition 3.2) or cross (all combinations)
-    /// [default: ipog]
-    #[arg(long, value_name = "FAMILY")]
-    discrete: Option<String>,
-    /// How many parameters are covered together [default: 2]
-    #[arg(long, value_name = "K")]
-    k: Option<usize>,
-    /// Go on until no row of discrete values has an empty box above this volume, at most for the budget
-    #[arg(long, value_name = "E")]
-    epsilon: Option<f64>,
-    /// What greedy makes small: dispersion or k-wise-dispersion [default: dispersion of continuous spaces and for each
-    /// row of --discrete, k-wise-dispersion of others]
-    #[arg(long, value_name = "MEASURE")]
-    measure: Option<String>,
+    #[command(flatten)]
+    sampling: Sampling,
     /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one. With a SHAPE each test
     /// lets it vary over time: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES, per-tick,
     /// constant
@@ -121,7 +103,7 @@ impl Options {
             return Err(cut_short(&error, &self.out, trials.len()));
         }
         if trials.len() < study.budget {
-            let why = match self.epsilon {
+            let why = match self.sampling.epsilon {
                 Some(epsilon) => format!("no row has an empty box above {epsilon} after"),
                 None => "the strategy has no more tests for these parameters than".to_owned(),
             };
@@ -171,20 +153,19 @@ impl Options {
                 }
             }
         }
-        // Who names a family wants its rows.
-        let rows = self.discrete.as_ref().filter(|_| self.strategy == "greedy").map(|_| Aim::Dispersion.name());
+        let sampling = &self.sampling;
         let mut study = Study::of(&self.scenario)?
             .driver(&self.driver, &driver_settings)?
             .strategy(&self.strategy)?
-            .k(self.k)
-            .epsilon(self.epsilon)
+            .k(sampling.k)
+            .epsilon(sampling.epsilon)
             .budget(self.budget)?
-            .seed(self.seed)
-            .skip(self.skip);
-        if let Some(family) = &self.discrete {
+            .seed(sampling.seed)
+            .skip(sampling.skip);
+        if let Some(family) = &sampling.discrete {
             study = study.discrete(family)?;
         }
-        if let Some(measure) = self.measure.as_deref().or(rows) {
+        if let Some(measure) = sampling.measure(&self.strategy) {
             study = study.measure(measure)?;
         }
         for text in &self.open {

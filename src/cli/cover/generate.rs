@@ -3,6 +3,7 @@
 use super::array::ArrayOptions;
 use super::space_file::SpaceFile;
 use crate::cli::output::digits;
+use crate::cli::sampling::Sampling;
 use crate::cli::{Failure, Verbosity};
 use crate::coverage::kwise_dispersion::row_dispersion;
 use crate::coverage::theory::rows::random_family_size;
@@ -43,32 +44,14 @@ pub(super) struct Options {
     /// How many tests to make [default: 500; all rows where no parameter is continuous]
     #[arg(long, value_name = "N")]
     budget: Option<usize>,
-    /// The source of all chance; sequences without it are plain, with it randomly shifted
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-    /// The index of a sequence's first point [default: 1 for halton, 0 for the others]
-    #[arg(long, value_name = "N")]
-    skip: Option<u64>,
-    /// How discrete parameters are covered: ipog (a covering array), random (Proposition 3.2) or cross (all combinations)
-    /// [default: ipog]
-    #[arg(long, value_name = "FAMILY")]
-    discrete: Option<String>,
-    /// How many parameters are covered together [default: 2]
-    #[arg(long, value_name = "K")]
-    k: Option<usize>,
+    #[command(flatten)]
+    sampling: Sampling,
     /// A group of discrete parameters of which K are covered together, more than of all
     #[arg(long, value_name = "NAME,NAME,..=K")]
     strength: Vec<String>,
-    /// Go on until no row of discrete values has an empty box above this volume; with --budget, as far as that goes
-    #[arg(long, value_name = "E")]
-    epsilon: Option<f64>,
     /// Time to make the covering array smaller
     #[arg(long, value_name = "SECONDS")]
     optimise: Option<f64>,
-    /// What greedy makes small: dispersion or k-wise-dispersion [default: dispersion of continuous spaces and for each
-    /// row of --discrete, k-wise-dispersion of others]
-    #[arg(long, value_name = "MEASURE")]
-    measure: Option<String>,
     /// Tests that are there already; those printed are the ones to add. Without a space its columns are in [0,1]
     #[arg(long, value_name = "TESTS.csv", group = "of")]
     extend: Option<PathBuf>,
@@ -111,10 +94,17 @@ impl Options {
         };
         let request = self.request(&space, strategy, &existing)?;
         // Where greedy looks at all parameters at once, there are no rows.
-        let has_rows =
-            strategy != Strategy::Greedy || space.dims() == 0 || self.epsilon.is_some() || request.aim.is_some();
+        let has_rows = strategy != Strategy::Greedy
+            || space.dims() == 0
+            || self.sampling.epsilon.is_some()
+            || request.aim.is_some();
         let uses_array = request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && has_rows;
-        let options = ArrayOptions { k: self.k, seed: self.seed, strengths: &self.strength, optimise: self.optimise };
+        let options = ArrayOptions {
+            k: self.sampling.k,
+            seed: self.sampling.seed,
+            strengths: &self.strength,
+            optimise: self.optimise,
+        };
         // What is wrong with the rest is said before an array is made, which may take long.
         let any_row = [vec![0; space.levels().len()]];
         strategy.build(&Request { rows: Some(&any_row), ..request }).map_err(Error::from)?;
@@ -130,45 +120,41 @@ impl Options {
         if let DiscreteFamily::Random { delta } = request.discrete
             && !space.levels().is_empty()
         {
-            verbosity.note(promise(&space.levels(), self.k, delta, self.budget));
+            verbosity.note(promise(&space.levels(), self.sampling.k, delta, self.budget));
         }
         let most = match self.budget {
             Some(budget) => budget,
-            None if space.dims() == 0 || self.epsilon.is_some() => usize::MAX,
+            None if space.dims() == 0 || self.sampling.epsilon.is_some() => usize::MAX,
             None => DEFAULT_BUDGET,
         };
         let mut points = existing.clone();
         let written = write(generator, &space, most, verbosity, |tests| {
-            if self.epsilon.is_some() {
+            if self.sampling.epsilon.is_some() {
                 points.extend(tests);
             }
         })?;
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
         verbosity.note(format_args!("{written} tests{by}{}", after.unwrap_or_default()));
-        if self.epsilon.is_some() {
-            verbosity.note(reached(&Tests { space, points, k: self.k })?);
+        if self.sampling.epsilon.is_some() {
+            verbosity.note(reached(&Tests { space, points, k: self.sampling.k })?);
         }
         Ok(())
     }
 
     fn request<'a>(&self, space: &'a Space, strategy: Strategy, existing: &'a [Point]) -> Result<Request<'a>, Error> {
         let mut request = Request {
-            seed: self.seed,
-            skip: self.skip,
-            k: self.k,
-            epsilon: self.epsilon,
+            seed: self.sampling.seed,
+            skip: self.sampling.skip,
+            k: self.sampling.k,
+            epsilon: self.sampling.epsilon,
             existing,
             ..Request::new(space, self.budget.unwrap_or(DEFAULT_BUDGET))
         };
-        if let Some(family) = &self.discrete {
+        if let Some(family) = &self.sampling.discrete {
             request.discrete = family.parse()?;
         }
-        request.aim = match &self.measure {
-            Some(measure) => Some(measure.parse()?),
-            // Who names a family wants its rows.
-            None => self.discrete.as_ref().filter(|_| strategy == Strategy::Greedy).map(|_| Aim::Dispersion),
-        };
+        request.aim = self.sampling.measure(strategy.name()).map(str::parse).transpose()?;
         Ok(request)
     }
 }

@@ -1,0 +1,37 @@
+//! The options that say how tests are chosen, which `paracosm-fuzz run` and `paracosm-cover generate` share.
+
+use crate::generators::{Aim, Strategy};
+use clap::Args;
+
+/// How a strategy chooses tests.
+#[derive(Debug, Args)]
+pub(super) struct Sampling {
+    /// The source of all chance; sequences without it are plain, with it randomly shifted
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// The index of a sequence's first point [default: 1 for halton, 0 for the others]
+    #[arg(long, value_name = "N")]
+    pub skip: Option<u64>,
+    /// How discrete parameters are covered: ipog (a covering array), random (Proposition 3.2) or cross (all combinations)
+    /// [default: ipog]
+    #[arg(long, value_name = "FAMILY")]
+    pub discrete: Option<String>,
+    /// How many parameters are covered together [default: 2]
+    #[arg(long, value_name = "K")]
+    pub k: Option<usize>,
+    /// Go on until no row of discrete values has an empty box above this volume; with --budget, as far as that goes
+    #[arg(long, value_name = "E")]
+    pub epsilon: Option<f64>,
+    /// What greedy makes small: dispersion or k-wise-dispersion [default: dispersion of continuous spaces and for each
+    /// row of --discrete, k-wise-dispersion of others]
+    #[arg(long, value_name = "MEASURE")]
+    measure: Option<String>,
+}
+
+impl Sampling {
+    /// The measure that the strategy is to make small, if that is said or follows: who names a family wants its rows.
+    pub fn measure(&self, strategy: &str) -> Option<&str> {
+        let rows = self.discrete.as_ref().filter(|_| strategy == Strategy::Greedy.name());
+        self.measure.as_deref().or(rows.map(|_| Aim::Dispersion.name()))
+    }
+}
