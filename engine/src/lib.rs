@@ -28,7 +28,9 @@
 //! Coordinates: x along the road, y to its left, z up, in metres; headings counter-clockwise from x in radians;
 //! speeds in m/s, times in s.
 
+mod actor;
 pub mod driver;
+pub mod object;
 mod observation;
 mod outcome;
 mod program;
@@ -39,6 +41,7 @@ pub mod stream;
 pub mod vehicle;
 mod world;
 
+pub use actor::{Actor, AutonomousVehicle, Car, Fixture, Mover, Pedestrian, Walk, Walker};
 pub use observation::{Briefing, Control, Observation, Other};
 pub use outcome::{Metric, Outcome};
 pub use paracosm_coverage::Shape;
@@ -46,6 +49,7 @@ pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use road::RoadSegment;
 pub use run::{DEFAULT_DT, Run, Step, simulate};
 pub use scenario::{
-    AutonomousVehicle, Car, Line, Param, Paved, Pedestrian, Pose, Road, Scenario, Side, Walk, Walker, eventually, never,
+    Conditions, Draft, Environment, Line, Param, Paved, Place, Pose, Road, Scenario, Side, Streets, Temporal, always,
+    eventually, never,
 };
 pub use stream::{Forward, Stream};

@@ -1,6 +1,5 @@
 //! A scenario as the function that it is, and what it declares when it is run without a test.
 
-use crate::run::standard_signals;
 use crate::scenario::Scenario;
 use paracosm_coverage::{Domain, Parameter, Shape, Space, SpaceError, Value, Values};
 use paracosm_oracles::Requirement;
@@ -156,8 +155,8 @@ impl Program {
                 problems.push(problem);
             }
         }
-        if scenario.cars.len() != 1 || scenario.roads.len() != 1 {
-            let (cars, roads) = (scenario.cars.len(), scenario.roads.len());
+        if scenario.cars.len() != 1 || scenario.networks.len() != 1 {
+            let (cars, roads) = (scenario.cars.len(), scenario.networks.len());
             problems.push(format!("{cars} cars under test on {roads} roads, expected one on one"));
         }
         if !(scenario.duration > 0.0 && scenario.duration.is_finite()) {
@@ -169,15 +168,17 @@ impl Program {
             if requirements[..i].iter().any(|other| other.requirement.id == *id) {
                 problems.push(format!("requirement `{id}` is stated twice"));
             }
-            let name = stated.signal.to_string();
-            let other = requirements[..i].iter().find(|other| other.signal.to_string() == name);
-            if other.is_some_and(|other| !other.signal.means(&stated.signal)) {
-                problems.push(format!(
-                    "two streams that requirements speak of are called `{name}`: tell them apart by `named`"
-                ));
-            }
-            if !stated.signal.is_output() && standard_signals(&scenario.walkers).contains(&name) {
-                problems.push(format!("a stream is called `{name}`, which is the name of an object's output"));
+            for signal in &stated.signals {
+                let name = signal.to_string();
+                let others = requirements[..=i].iter().flat_map(|other| &other.signals);
+                if others.filter(|other| other.to_string() == name).any(|other| !other.means(signal)) {
+                    problems.push(format!(
+                        "two streams that requirements speak of are called `{name}`: tell them apart by `named`"
+                    ));
+                }
+                if !signal.is_output() && scenario.signals.iter().any(|(output, _)| *output == name) {
+                    problems.push(format!("a stream is called `{name}`, which is the name of an object's output"));
+                }
             }
         }
         drop(requirements);

@@ -221,8 +221,8 @@ fn a_world_that_cannot_be_built_is_invalid_and_says_why() {
     let trials = trials(overlaps, "cruise");
     let errors: Vec<&str> = trials.iter().filter_map(|trial| trial.error.as_deref()).collect();
     assert_eq!(count(&trials, Verdict::Invalid), errors.len());
-    assert!(errors.contains(&"bodies overlap at the start"), "{errors:?}");
-    assert!(errors.iter().any(|error| error.contains("the road is 80 m long")), "{errors:?}");
+    assert!(errors.contains(&"car and pedestrian overlap at the start"), "{errors:?}");
+    assert!(errors.iter().any(|error| error.contains("`road` is asked for, which is 80 m long")), "{errors:?}");
     assert!(count(&trials, Verdict::Pass) > 8);
 }
 

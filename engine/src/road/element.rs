@@ -3,7 +3,6 @@
 use super::composite::Composite;
 use super::curve::Curve;
 use super::error::RoadError;
-use super::layout::Plan;
 use super::network::Network;
 use crate::scenario::Pose;
 use nalgebra::Vector2;
@@ -217,16 +216,6 @@ impl RoadSegment {
     pub fn arc(radius: f64, angle: f64) -> Self {
         let length = radius * angle.abs();
         Self::of(Segment { length, curvature: angle.signum() / radius, zebras: Vec::new() })
-    }
-
-    /// Its centre line in its own frame, where it starts from the origin along x.
-    pub(crate) fn centre_line(&self) -> Curve {
-        self.shape.centre_line()
-    }
-
-    /// What is wrong with it, if anything is.
-    pub(crate) fn problem(&self) -> Option<String> {
-        Plan { shape: self.shape.clone().into(), profile: self.profile }.problem()
     }
 
     /// Adds a zebra crossing, 4 m wide, with its middle `at` metres along the road.

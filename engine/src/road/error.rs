@@ -119,6 +119,14 @@ pub enum RoadError {
         /// The length of the element in metres.
         length: f64,
     },
+    /// Two places between which there is no way without a change of lanes.
+    #[error("no way leads from {from} to {to} without a change of lanes")]
+    NoWay {
+        /// Where it was to begin.
+        from: String,
+        /// Where it was to end.
+        to: String,
+    },
 }
 
 impl RoadError {

@@ -42,6 +42,7 @@ mod lane;
 mod layout;
 mod network;
 mod overlap;
+mod path;
 mod picture;
 mod projection;
 mod route;
@@ -55,11 +56,10 @@ pub use element::{Cross, CrossIntersection, Element, Ring, RoadSegment, Roundabo
 pub use error::RoadError;
 pub use lane::{Conflict, Lane, LaneId, LaneKind};
 pub use network::{Crossing, Network};
+pub use path::Path;
 pub use picture::{Colour, RoadPicture};
 pub use projection::Projection;
 pub use route::{Place, Route};
 pub use strip::{Strip, Surface};
 
 pub(crate) use curve::wrapped;
-pub(crate) use element::Profile;
-pub(crate) use network::{lane_pose, sidewalk_pose};

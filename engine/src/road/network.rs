@@ -180,6 +180,14 @@ impl Network {
         Ok(lane_pose(&centre, profile, lane, at))
     }
 
+    /// The centre line of a road, `at` metres along it, facing the way that it leads.
+    ///
+    /// # Errors
+    /// There is no such road, or it is shorter.
+    pub fn on_centre_line(&self, road: &str, at: f64) -> Result<Pose, RoadError> {
+        Ok(self.road(road, at)?.0.at(at))
+    }
+
     /// The middle of a sidewalk of a road, `at` metres along the road, facing the road.
     ///
     /// # Errors

@@ -19,11 +19,22 @@ impl Pose {
         Vector2::new(cos, sin)
     }
 
+    /// The unit vector to the left of the heading.
+    pub fn left(&self) -> Vector2<f64> {
+        let forward = self.forward();
+        Vector2::new(-forward.y, forward.x)
+    }
+
     /// A point of the plane as seen from here: x ahead, y to the left.
     pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
         let ahead = self.forward();
         let offset = point - self.position;
         Vector2::new(ahead.dot(&offset), ahead.perp(&offset))
+    }
+
+    /// Whether it is one: neither infinite nor NaN.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.position.iter().all(|metres| metres.is_finite()) && self.heading.is_finite()
     }
 
     /// The pose in the plane of what has the pose `local` as seen from here.

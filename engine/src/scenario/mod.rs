@@ -5,31 +5,30 @@
 //! cars under test) are collected and reported when the function has returned, so that programs need no `?` on
 //! every line.
 
-mod car;
+mod environment;
 mod geometry;
 mod param;
 mod requirement;
 mod road;
-mod walker;
 
-pub use car::{AutonomousVehicle, Car};
+pub use environment::{Conditions, Environment};
 pub use geometry::{Line, Pose};
 pub use param::Param;
-pub use requirement::{Draft, eventually, never};
-pub use road::{Paved, Road, Side};
-pub use walker::{Pedestrian, Walk, Walker};
+pub use requirement::{Draft, Temporal, always, eventually, never};
+pub use road::{Paved, Road, Side, Streets};
 
-pub(crate) use car::CarSetup;
-pub(crate) use road::RoadSetup;
-pub(crate) use walker::WalkerSetup;
-
+use crate::actor::EgoSetup;
+use crate::object::{self, ObjectSetup, Wiring};
 use crate::program::{Declared, Test};
-use crate::stream::{Datum, Effect, Equation, Forward, Graph, Kind, Node, Stream, dot};
+use crate::road::Network;
+use crate::stream::{Datum, Effect, Equation, Forward, Graph, Kind, Node, Source, Stream, dot};
 use paracosm_coverage::{Domain, Parameter, Shape, Value};
 use param::Read;
 use std::cell::RefCell;
+use std::collections::HashMap;
 use std::ops::RangeInclusive;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Mistakes found while the program ran, shared with the handles that it got.
 pub(crate) type Problems = Rc<RefCell<Vec<String>>>;
@@ -40,9 +39,18 @@ pub struct Scenario {
     given: Vec<(String, param::Given)>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
     pub(crate) problems: Problems,
-    pub(crate) roads: Vec<RoadSetup>,
-    pub(crate) cars: Vec<CarSetup>,
-    pub(crate) walkers: Vec<WalkerSetup>,
+    /// Those that were placed, also such as cannot be built.
+    pub(crate) networks: Vec<Option<Arc<Network>>>,
+    pub(crate) cars: Vec<EgoSetup>,
+    pub(crate) objects: Vec<ObjectSetup>,
+    pub(crate) wiring: Wiring,
+    /// The outputs that every trace records, by name.
+    pub(crate) signals: Vec<(String, Source)>,
+    pub(crate) conditions: Conditions,
+    /// Which conditions the program has said.
+    said: Said,
+    /// What objects were asked to be called, with how often. Only looked up.
+    names: HashMap<String, usize>,
     pub(crate) requirements: Rc<RefCell<Vec<requirement::Stated>>>,
     pub(crate) premise: Option<Stream<bool>>,
     pub(crate) duration: f64,
@@ -50,6 +58,13 @@ pub struct Scenario {
     equations: Rc<RefCell<Vec<Equation>>>,
     /// All that reads streams, laid out, once the program has returned.
     pub(crate) graph: Graph,
+}
+
+/// What of the [`Conditions`] a program has said.
+#[derive(Debug, Clone, Copy, Default)]
+struct Said {
+    friction: bool,
+    weather: bool,
 }
 
 /// Something that can be placed in a world: a road, a car, a pedestrian.
@@ -79,9 +94,14 @@ impl Scenario {
             given: test.map(|test| test.values.iter().map(given).collect()).unwrap_or_default(),
             parameters: Rc::default(),
             problems: Rc::default(),
-            roads: Vec::new(),
+            networks: Vec::new(),
             cars: Vec::new(),
-            walkers: Vec::new(),
+            objects: Vec::new(),
+            wiring: Wiring::default(),
+            signals: Vec::new(),
+            conditions: Conditions::default(),
+            said: Said::default(),
+            names: HashMap::new(),
             requirements: Rc::default(),
             premise: None,
             duration: 10.0,
@@ -165,8 +185,29 @@ impl Scenario {
         object.place(self)
     }
 
+    /// Begins an object of the program's own, called by this name; the second of a name is called `name-2`.
+    pub fn object(&mut self, name: &str) -> object::Draft<'_> {
+        let count = self.names.entry(name.to_owned()).and_modify(|count| *count += 1).or_insert(1);
+        let name = if *count == 1 { name.to_owned() } else { format!("{name}-{count}") };
+        object::Draft::new(self, name)
+    }
+
+    fn say_friction(&mut self, friction: Stream<f64>) {
+        if std::mem::replace(&mut self.said.friction, true) {
+            self.problem("the friction of the roads is said twice".to_owned());
+        }
+        self.conditions.friction = friction;
+    }
+
+    fn say_weather(&mut self, light: Stream<f64>, fog: Stream<f64>) {
+        if std::mem::replace(&mut self.said.weather, true) {
+            self.problem("there are two environments, expected one at most".to_owned());
+        }
+        self.conditions = Conditions { light, fog, friction: self.conditions.friction.clone() };
+    }
+
     /// States a requirement on every run. What it returns takes a text, a unit and a scale.
-    pub fn require(&mut self, id: &str, asked: requirement::Temporal) -> Draft {
+    pub fn require(&mut self, id: &str, asked: Temporal) -> Draft {
         Draft::new(self.requirements.clone(), id, asked)
     }
 
@@ -183,13 +224,21 @@ impl Scenario {
 
     /// Everything in the world that reads a stream, with what it is called.
     fn readers(&self) -> Vec<(String, Rc<Node>)> {
-        let roads = self.roads.iter().map(|road| ("road.friction".to_owned(), road.friction.node.clone()));
-        let speed = |walker: &WalkerSetup| Some((format!("{}.speed", walker.name), walker.speed()?.node));
+        let Conditions { light, fog, friction } = &self.conditions;
+        let mut conditions = vec![("road.friction".to_owned(), friction.node.clone())];
+        if self.said.weather {
+            conditions.push(("light".to_owned(), light.node.clone()));
+            conditions.push(("fog".to_owned(), fog.node.clone()));
+        }
         let premise = self.premise.iter().map(|event| ("premise".to_owned(), event.node.clone()));
         let requirements = self.requirements.borrow();
-        let requirements = requirements.iter().map(|stated| (stated.requirement.id.clone(), stated.signal.clone()));
+        let read = |stated: &requirement::Stated| {
+            let id = stated.requirement.id.clone();
+            stated.signals.clone().into_iter().map(move |signal| (id.clone(), signal))
+        };
+        let requirements = requirements.iter().flat_map(read);
         let effects = self.effects.iter().map(|effect| ("for_each".to_owned(), effect.clone()));
-        roads.chain(self.walkers.iter().filter_map(speed)).chain(premise).chain(requirements).chain(effects).collect()
+        conditions.into_iter().chain(self.wiring.readers()).chain(premise).chain(requirements).chain(effects).collect()
     }
 
     /// Lays out all streams that are read or defined; what is wrong with them is a problem of the scenario.

@@ -1,38 +1,151 @@
 //! Requirements as programs state them: temporal operators over streams.
 
-use crate::stream::{Binary, Kind, Node, Sample, Stream};
-use paracosm_oracles::{Comparison, Formula, Requirement, signal};
+use crate::stream::{Binary, Kind, Node, Sample, Stream, Unary};
+use paracosm_oracles::{Comparison, Formula, Interval, Requirement, signal};
 use std::cell::RefCell;
+use std::ops::Not;
 use std::rc::Rc;
 
-/// A temporal statement about a stream.
+/// A temporal statement about streams: a [`Formula`] over what a trace records of them.
+///
+/// A stream of truths is a statement about every tick. What it is made of by comparisons, `&`, `|` and `!` keeps its
+/// robustness; of any other truth only the truth is known, which is recorded as 1 and 0.
+///
+/// ```
+/// # use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario, Temporal, never};
+/// # fn build(s: &mut Scenario) {
+/// # let road = s.place(RoadSegment::new(300.0));
+/// # let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+/// // The car does not stand still for 5 s.
+/// s.require("moves", never(Temporal::from(car.speed().below(0.1)).historically(0.0..=5.0)));
+/// // Whenever it is quick, it is slow again within 3 s.
+/// s.require("slows", Temporal::from(car.speed().above(20.0)).implies(
+///     Temporal::from(car.speed().below(10.0)).eventually(0.0..=3.0),
+/// ).always(..));
+/// # }
+/// # Program { name: "moves", about: "moves", build }.declare().unwrap();
+/// ```
 #[derive(Debug, Clone)]
 pub struct Temporal {
-    operator: Operator,
-    event: Stream<bool>,
+    formula: Formula,
+    /// The streams that it speaks of, by their names.
+    signals: Vec<Rc<Node>>,
 }
 
-#[derive(Debug, Clone, Copy)]
-enum Operator {
-    Never,
-    Eventually,
+/// The statement holds at no tick.
+pub fn never(statement: impl Into<Temporal>) -> Temporal {
+    (!statement.into()).always(..)
 }
 
-/// The event occurs at no tick.
-pub fn never(event: Stream<bool>) -> Temporal {
-    Temporal { operator: Operator::Never, event }
+/// The statement holds at every tick.
+pub fn always(statement: impl Into<Temporal>) -> Temporal {
+    statement.into().always(..)
 }
 
-/// The event occurs at some tick.
-pub fn eventually(event: Stream<bool>) -> Temporal {
-    Temporal { operator: Operator::Eventually, event }
+/// The statement holds at some tick.
+pub fn eventually(statement: impl Into<Temporal>) -> Temporal {
+    statement.into().eventually(..)
 }
 
-/// A requirement with the stream whose samples its formula speaks of.
+impl Temporal {
+    /// Holds throughout the interval from now on.
+    pub fn always(self, interval: impl Into<Interval>) -> Self {
+        Self { formula: self.formula.always(interval), ..self }
+    }
+
+    /// Holds at some tick of the interval from now on.
+    pub fn eventually(self, interval: impl Into<Interval>) -> Self {
+        Self { formula: self.formula.eventually(interval), ..self }
+    }
+
+    /// Held throughout the interval back from now.
+    pub fn historically(self, interval: impl Into<Interval>) -> Self {
+        Self { formula: self.formula.historically(interval), ..self }
+    }
+
+    /// Held at some tick of the interval back from now.
+    pub fn once(self, interval: impl Into<Interval>) -> Self {
+        Self { formula: self.formula.once(interval), ..self }
+    }
+
+    /// Holds from now until before a tick of the interval at which `goal` holds.
+    pub fn until(self, interval: impl Into<Interval>, goal: impl Into<Temporal>) -> Self {
+        self.join(goal.into(), |hold, goal| hold.until(interval, goal))
+    }
+
+    /// Both hold.
+    pub fn and(self, other: impl Into<Temporal>) -> Self {
+        self.join(other.into(), Formula::and)
+    }
+
+    /// One of them holds.
+    pub fn or(self, other: impl Into<Temporal>) -> Self {
+        self.join(other.into(), Formula::or)
+    }
+
+    /// If this holds, so does the other.
+    pub fn implies(self, other: impl Into<Temporal>) -> Self {
+        self.join(other.into(), Formula::implies)
+    }
+
+    fn join(mut self, other: Self, join: impl FnOnce(Formula, Formula) -> Formula) -> Self {
+        self.signals.extend(other.signals);
+        Self { formula: join(self.formula, other.formula), signals: self.signals }
+    }
+
+    /// The comparison of a recorded stream with a number.
+    fn compare(measured: Rc<Node>, comparison: Comparison, threshold: f64) -> Self {
+        let formula = signal(measured.to_string()).compare(comparison, threshold);
+        Self { formula, signals: vec![measured] }
+    }
+
+    /// What a node of truths says. Of two streams that are compared, the difference is compared with 0.
+    fn of(node: &Rc<Node>) -> Self {
+        let truth = node.unnamed();
+        match (&truth.kind, truth.inputs.as_slice()) {
+            (Kind::Compare(comparison), [left, right]) => match &right.unnamed().kind {
+                Kind::Constant { value, .. } if let [Sample::Number(threshold)] = value[..] => {
+                    Self::compare(left.clone(), *comparison, threshold)
+                }
+                _ => {
+                    let difference = Kind::Binary(Binary::Difference);
+                    let difference = Node { kind: difference, inputs: vec![left.clone(), right.clone()], width: 1 };
+                    Self::compare(Rc::new(difference), *comparison, 0.0)
+                }
+            },
+            (Kind::Unary(Unary::Not), [negated]) => !Self::of(negated),
+            (Kind::Binary(Binary::And), [left, right]) => Self::of(left).and(Self::of(right)),
+            (Kind::Binary(Binary::Or), [left, right]) => Self::of(left).or(Self::of(right)),
+            _ => Self::compare(node.clone(), Comparison::AtLeast, 1.0),
+        }
+    }
+}
+
+impl From<Stream<bool>> for Temporal {
+    fn from(truth: Stream<bool>) -> Self {
+        Self::of(&truth.node)
+    }
+}
+
+impl From<&Stream<bool>> for Temporal {
+    fn from(truth: &Stream<bool>) -> Self {
+        Self::of(&truth.node)
+    }
+}
+
+impl Not for Temporal {
+    type Output = Self;
+
+    fn not(self) -> Self {
+        Self { formula: !self.formula, ..self }
+    }
+}
+
+/// A requirement with the streams whose samples its formula speaks of.
 #[derive(Debug, Clone)]
 pub(crate) struct Stated {
     pub requirement: Requirement,
-    pub signal: Rc<Node>,
+    pub signals: Vec<Rc<Node>>,
 }
 
 /// A requirement just stated; its methods say more of it.
@@ -44,15 +157,11 @@ pub struct Draft {
 
 impl Draft {
     pub(super) fn new(stated: Rc<RefCell<Vec<Stated>>>, id: &str, asked: Temporal) -> Self {
-        let (node, compare) = comparison(&asked.event);
-        let formula = match asked.operator {
-            Operator::Never => (!compare).always(..),
-            Operator::Eventually => compare.eventually(..),
-        };
+        let Temporal { formula, signals } = asked;
         let requirement =
             Requirement { id: id.to_owned(), text: formula.to_string(), formula, unit: String::new(), scale: 1.0 };
         let index = stated.borrow().len();
-        stated.borrow_mut().push(Stated { requirement, signal: node });
+        stated.borrow_mut().push(Stated { requirement, signals });
         Self { stated, index }
     }
 
@@ -75,26 +184,4 @@ impl Draft {
         change(&mut self.stated.borrow_mut()[self.index].requirement);
         self
     }
-}
-
-/// A stream of truths as a comparison of a recorded signal with a number. What is a comparison already keeps its
-/// robustness: of two streams, their difference is compared with 0. Of anything else only the truth is known, which is
-/// recorded as 1 and 0.
-fn comparison(event: &Stream<bool>) -> (Rc<Node>, Formula) {
-    let node = event.node.unnamed();
-    let (measured, comparison, threshold) = match (&node.kind, node.inputs.as_slice()) {
-        (Kind::Compare(comparison), [left, right]) => match &right.unnamed().kind {
-            Kind::Constant { value, .. } if let [Sample::Number(threshold)] = value[..] => {
-                (left.clone(), *comparison, threshold)
-            }
-            _ => {
-                let difference = Kind::Binary(Binary::Difference);
-                let difference = Node { kind: difference, inputs: vec![left.clone(), right.clone()], width: 1 };
-                (Rc::new(difference), *comparison, 0.0)
-            }
-        },
-        _ => (event.node.clone(), Comparison::AtLeast, 1.0),
-    };
-    let formula = signal(measured.to_string()).compare(comparison, threshold);
-    (measured, formula)
 }

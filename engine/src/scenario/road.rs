@@ -1,11 +1,10 @@
-//! The road of a scenario: a road element with a surface, and where its lanes and sidewalks are.
+//! The roads of a scenario: a single road or a whole network, and where its lanes and sidewalks are.
 
 use super::{Line, Place, Pose, Problems, Scenario};
-use crate::road::{Curve, Profile, RoadSegment, lane_pose, sidewalk_pose};
+use crate::road::{Composite, Network, Path, RoadError, RoadSegment};
 use crate::stream::Stream;
-
-/// Friction coefficient of dry asphalt.
-const DRY_ASPHALT: f64 = 0.8;
+use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// A road with a surface of its own, not placed yet.
 #[derive(Debug, Clone)]
@@ -14,17 +13,20 @@ pub struct Paved {
     friction: Stream<f64>,
 }
 
-/// What a run needs of a placed road.
-#[derive(Debug)]
-pub(crate) struct RoadSetup {
-    pub friction: Stream<f64>,
-}
-
 /// A placed road: where its lanes and sidewalks are.
 #[derive(Debug, Clone)]
 pub struct Road {
-    centre: Curve,
-    profile: Profile,
+    streets: Streets,
+    element: String,
+}
+
+/// A placed network of roads: where the lanes and sidewalks of each are. Roads are called by the names of their elements.
+///
+/// Asking for what it does not have is a mistake that is reported when the world is built.
+#[derive(Debug, Clone)]
+pub struct Streets {
+    /// None where the network cannot be as it is described.
+    network: Option<Arc<Network>>,
     problems: Problems,
 }
 
@@ -38,7 +40,8 @@ pub enum Side {
 }
 
 impl RoadSegment {
-    /// The friction coefficient between tyre and road; that of dry asphalt where nothing is said.
+    /// The friction coefficient between tyre and road: [`Environment::friction`](super::Environment::friction) for a
+    /// world with one road.
     pub fn friction(self, friction: impl Into<Stream<f64>>) -> Paved {
         Paved { road: self, friction: friction.into() }
     }
@@ -48,7 +51,9 @@ impl Place for RoadSegment {
     type Handle = Road;
 
     fn place(self, scenario: &mut Scenario) -> Road {
-        self.friction(DRY_ASPHALT).place(scenario)
+        let streets = scenario.place(Composite::from(self));
+        let element = streets.network.as_ref().and_then(|network| network.elements().next().map(str::to_owned));
+        Road { streets, element: element.unwrap_or_default() }
     }
 }
 
@@ -56,11 +61,31 @@ impl Place for Paved {
     type Handle = Road;
 
     fn place(self, scenario: &mut Scenario) -> Road {
-        if let Some(problem) = self.road.problem() {
-            scenario.problem(format!("a road {problem}"));
+        scenario.say_friction(self.friction);
+        scenario.place(self.road)
+    }
+}
+
+impl Place for Composite {
+    type Handle = Streets;
+
+    fn place(self, scenario: &mut Scenario) -> Streets {
+        match self.build() {
+            Ok(network) => scenario.place(network),
+            Err(error) => {
+                scenario.problem(error.to_string());
+                Streets::new(None, scenario)
+            }
         }
-        scenario.roads.push(RoadSetup { friction: self.friction });
-        Road { centre: self.road.centre_line(), profile: self.road.profile, problems: scenario.problems.clone() }
+    }
+}
+
+/// A network that no test changes is best built once, in a `LazyLock`, and shared by all runs.
+impl Place for Arc<Network> {
+    type Handle = Streets;
+
+    fn place(self, scenario: &mut Scenario) -> Streets {
+        Streets::new(Some(self), scenario)
     }
 }
 
@@ -68,33 +93,90 @@ impl Road {
     /// The middle of a lane, `at` metres along the road, facing the way of its traffic. Lane 1 is the one
     /// beside the centre line that leads along the road, 2 the next to its right; -1, -2, ... lead back.
     pub fn on_lane(&self, lane: i32, at: f64) -> Pose {
-        let each_way = self.profile.each_way();
-        if lane == 0 || lane.abs() > each_way {
-            self.problem(format!("lane {lane} is asked for, the road has 1 to {each_way} and -1 to -{each_way}"));
-        }
-        lane_pose(&self.centre, &self.profile, lane, self.along(at))
+        self.streets.on_lane(&self.element, lane, at)
     }
 
     /// The middle of a sidewalk, `at` metres along the road, facing the road.
     pub fn on_sidewalk(&self, side: Side, at: f64) -> Pose {
-        sidewalk_pose(&self.centre, &self.profile, side, self.along(at))
+        self.streets.on_sidewalk(&self.element, side, at)
     }
 
     /// The line straight across the road, `at` metres along it.
     pub fn crossing(&self, at: f64) -> Line {
-        let here = self.centre.at(self.along(at));
+        self.streets.crossing(&self.element, at)
+    }
+
+    /// The middle of a lane from end to end, the way of its traffic.
+    pub fn path(&self, lane: i32) -> Path {
+        self.streets.path(&self.element, lane)
+    }
+
+    /// The network that it is.
+    pub fn streets(&self) -> &Streets {
+        &self.streets
+    }
+}
+
+impl Streets {
+    fn new(network: Option<Arc<Network>>, scenario: &mut Scenario) -> Self {
+        scenario.networks.push(network.clone());
+        Self { network, problems: scenario.problems.clone() }
+    }
+
+    /// The network itself; `None` where it cannot be as it is described, which is reported.
+    pub fn network(&self) -> Option<&Arc<Network>> {
+        self.network.as_ref()
+    }
+
+    /// The middle of a lane of a road, `at` metres along the road, facing the way of its traffic: [`Road::on_lane`].
+    pub fn on_lane(&self, road: &str, lane: i32, at: f64) -> Pose {
+        self.ask(|network| network.on_lane(road, lane, at)).unwrap_or(NOWHERE)
+    }
+
+    /// The middle of a sidewalk of a road, `at` metres along the road, facing the road.
+    pub fn on_sidewalk(&self, road: &str, side: Side, at: f64) -> Pose {
+        self.ask(|network| network.on_sidewalk(road, side, at)).unwrap_or(NOWHERE)
+    }
+
+    /// The line straight across a road, `at` metres along it.
+    pub fn crossing(&self, road: &str, at: f64) -> Line {
+        let here = self.ask(|network| network.on_centre_line(road, at)).unwrap_or(NOWHERE);
         Line { name: format!("crossing({at})"), point: here.position, direction: here.forward() }
     }
 
-    fn along(&self, at: f64) -> f64 {
-        let length = self.centre.length();
-        if !(0.0..=length).contains(&at) {
-            self.problem(format!("a place {at} m along the road is asked for, the road is {length} m long"));
-        }
-        at
+    /// The middle of a lane of a road from end to end, the way of its traffic.
+    pub fn path(&self, road: &str, lane: i32) -> Path {
+        self.ask(|network| Ok(network.path(&[network.lane_of(road, lane)?]))).unwrap_or_else(nowhere)
     }
 
-    fn problem(&self, message: String) {
-        self.problems.borrow_mut().push(message);
+    /// The shortest way from one place to another without a change of lanes. Places are roads, lanes, and metres along
+    /// the road.
+    pub fn way(&self, from: (&str, i32, f64), to: (&str, i32, f64)) -> Path {
+        self.ask(|network| {
+            let [start, end] = [from, to].map(|(road, lane, at)| {
+                let place = network.lane_of(road, lane)?;
+                Ok(network.project_onto(place, network.on_lane(road, lane, at)?.position).place())
+            });
+            let route = network.route(start?, end?, f64::from(u16::MAX));
+            let path = route.and_then(|route| network.path_along(&route));
+            path.ok_or_else(|| RoadError::NoWay { from: place_name(from), to: place_name(to) })
+        })
+        .unwrap_or_else(nowhere)
     }
+
+    fn ask<T>(&self, question: impl FnOnce(&Network) -> Result<T, RoadError>) -> Option<T> {
+        let answer = question(self.network.as_ref()?);
+        answer.map_err(|error| self.problems.borrow_mut().push(error.to_string())).ok()
+    }
+}
+
+/// Where everything is that a mistake leaves without a place.
+const NOWHERE: Pose = Pose { position: Vector2::new(0.0, 0.0), heading: 0.0 };
+
+fn nowhere() -> Path {
+    Path::straight(Vector2::zeros(), Vector2::x())
+}
+
+fn place_name((road, lane, at): (&str, i32, f64)) -> String {
+    format!("lane {lane} of `{road}`, {at} m along it")
 }

@@ -1,6 +1,6 @@
 //! The typed handles by which programs write streams of any type.
 
-use super::datum::{Datum, samples};
+use super::datum::{Datum, Sample, samples};
 use super::node::{Kind, Node, Source};
 use std::cell::RefCell;
 use std::fmt;
@@ -47,6 +47,16 @@ impl<T: Datum> Stream<T> {
     /// The stream that has this value at every tick.
     pub fn constant(value: T) -> Self {
         Self::new(Kind::Constant { value: samples(value), parameter: None }, [])
+    }
+
+    /// The stream of a node, which has to be one of values of this type.
+    pub(crate) fn of(node: Rc<Node>) -> Self {
+        Self { node, carries: PhantomData }
+    }
+
+    /// The stream that has a value at no tick: what an input reads that nothing is bound to.
+    pub fn absent() -> Self {
+        Self::new(Kind::Constant { value: vec![Sample::Absent; T::WIDTH], parameter: None }, [])
     }
 
     pub(crate) fn output(source: Source, name: String) -> Self {

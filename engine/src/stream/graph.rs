@@ -1,7 +1,7 @@
 //! The streams of a run laid out for evaluation: operands first, all values in one place, no allocation per tick.
 
 use super::datum::{Datum, Sample};
-use super::node::{Equation, Kind, Node, Source};
+use super::node::{Equation, Kind, Node};
 use super::order::{Fault, order};
 use paracosm_coverage::Shape;
 use std::collections::HashMap;
@@ -127,11 +127,11 @@ impl Graph {
         self.slots[&Rc::as_ptr(node)]
     }
 
-    /// Evaluates every stream for the tick whose world `outputs` shows.
-    pub fn tick(&mut self, clock: Clock, outputs: impl Fn(Source) -> Sample) {
+    /// Evaluates every stream for the tick at whose beginning the objects show these outputs.
+    pub fn tick(&mut self, clock: Clock, outputs: &[Sample]) {
         for operation in &mut self.operations {
             let (values, rest) = self.values.split_at_mut(operation.at);
-            let over = operation.evaluate(clock, values, &mut rest[..operation.width], &self.over, &outputs);
+            let over = operation.evaluate(clock, values, &mut rest[..operation.width], &self.over, outputs);
             self.over[operation.at] = over;
         }
         for &delay in &self.delays {
@@ -166,7 +166,7 @@ impl Operation {
         values: &[Sample],
         output: &mut [Sample],
         over: &[bool],
-        outputs: &impl Fn(Source) -> Sample,
+        outputs: &[Sample],
     ) -> bool {
         let Self { node, width, inputs: [left, right], memory, .. } = self;
         let width = *width;
@@ -174,7 +174,7 @@ impl Operation {
         let from = |at: usize| &values[at..at + width];
         match (&node.kind, memory) {
             (Kind::Output { source, .. }, _) => {
-                output[0] = outputs(*source);
+                copy(&outputs[source.0..][..width], output);
                 false
             }
             (Kind::Signal { shape, .. }, Memory::Numbers(numbers)) => {

@@ -77,4 +77,4 @@ pub(crate) use datum::{Sample, samples};
 pub(crate) use dot::dot;
 pub use forward::Forward;
 pub(crate) use graph::{Clock, Graph, Slot};
-pub(crate) use node::{Binary, Equation, Kind, Node, Source};
+pub(crate) use node::{Binary, Equation, Kind, Node, Source, Unary};

@@ -8,23 +8,10 @@ use std::cell::RefCell;
 use std::fmt;
 use std::rc::Rc;
 
-/// An output of an object in the world, as it stands at the beginning of a tick.
+/// An output of an object in the world, as it stands at the beginning of a tick: where it begins among the samples of all
+/// outputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Source {
-    CarPosition,
-    CarX,
-    CarY,
-    CarSpeed,
-    CarAcceleration,
-    CarTravelled,
-    CarClearance,
-    CarThrottle,
-    WalkerPosition(usize),
-    WalkerX(usize),
-    WalkerY(usize),
-    WalkerSpeed(usize),
-    WalkerRemaining(usize),
-}
+pub(crate) struct Source(pub usize);
 
 /// A function of one value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -9,12 +9,12 @@ use std::rc::Rc;
 
 /// The stream `x`, an output of the world.
 fn x() -> Stream<f64> {
-    Stream::output(Source::CarX, "x".into())
+    Stream::output(Source(0), "x".into())
 }
 
 /// The stream `y`, another one.
 fn y() -> Stream<f64> {
-    Stream::output(Source::CarY, "y".into())
+    Stream::output(Source(1), "y".into())
 }
 
 /// Runs `stream` over ticks at which `x` and `y` are these.
@@ -23,9 +23,8 @@ fn over<T: Datum>(stream: &Stream<T>, ticks: &[(Option<f64>, Option<f64>)]) -> V
     let slot = graph.slot(&stream.node);
     let mut values = Vec::new();
     for (tick, (x, y)) in ticks.iter().enumerate() {
-        let output = |source| if source == Source::CarX { *x } else { *y };
         let clock = Clock { tick, ticks: ticks.len() - 1 };
-        graph.tick(clock, |source| output(source).map_or(Sample::Absent, Sample::Number));
+        graph.tick(clock, &[x, y].map(|output| output.map_or(Sample::Absent, Sample::Number)));
         values.push(graph.value(slot));
     }
     values
@@ -127,7 +126,7 @@ fn an_effect_takes_place_at_the_ticks_that_have_a_value() {
     let effect = y().for_each(move |y| sink.borrow_mut().push(y));
     let mut graph = Graph::new([&effect.0], &[]).unwrap();
     for (tick, y) in [None, Some(7.0), Some(8.0)].into_iter().enumerate() {
-        graph.tick(Clock { tick, ticks: 2 }, |_| y.map_or(Sample::Absent, Sample::Number));
+        graph.tick(Clock { tick, ticks: 2 }, &[Sample::Absent, y.map_or(Sample::Absent, Sample::Number)]);
     }
     assert_eq!(*seen.borrow(), [7.0, 8.0]);
 }

@@ -1,24 +1,23 @@
-//! The bodies of a run and where they touch: the one module that speaks to rapier and parry.
+//! The bodies of a run and where they touch: the module that speaks to rapier and parry for them.
 //!
-//! Bodies follow poses that the vehicle model and the programs compute in 64 bits; rapier finds the contacts.
-//! Its pipeline takes longer than all else in a tick (BENCHMARKS.md), so it is asked only when a body is within
-//! [`REACH`] of the car: nothing is integrated there, so a tick that was left out leaves no gap.
+//! Bodies follow poses that the vehicle model and the programs compute in 64 bits; rapier finds the contacts, and moves
+//! those that are [`Physical`](crate::object::Physical). Its pipeline takes longer than all else in a tick
+//! (BENCHMARKS.md), so where nothing is physical it is asked only when a body is within [`REACH`] of the car: nothing is
+//! integrated then, so a tick that was left out leaves no gap.
 
+mod physical;
+
+use crate::object::{Body, BodyState, Outline, gap};
 use crate::scenario::Pose;
-use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
 use parry3d::query::{ShapeCastOptions, cast_shapes};
-use parry3d::shape::{Capsule, Cuboid};
+use physical::Physics;
 use rapier3d::prelude::{
-    ActiveCollisionTypes, ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
+    ActiveCollisionTypes, ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape,
 };
 use std::fmt;
 
-/// Radius in metres of a person as seen from above: the Euro NCAP adult dummy is 0.5 m wide.
-pub(crate) const WALKER_RADIUS: f64 = 0.25;
-/// Height in metres of that dummy, rounded.
-const WALKER_HEIGHT: f64 = 1.8;
-/// Height in metres of the car's floor above the road.
+/// Height in metres of the floor of what has wheels above the road.
 const FLOOR: f64 = 0.2;
 /// Clearance in metres below which rapier is asked for contacts. Bodies approach by some 0.3 m a tick at most
 /// (30 m/s at 10 ms), and overlap is noticed at the tick at which it is there.
@@ -46,87 +45,102 @@ impl fmt::Display for Face {
     }
 }
 
-/// A contact of the car with a walker.
+/// A contact of the car with another body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Contact {
-    pub walker: usize,
+    /// Its index among the bodies.
+    pub body: usize,
     pub face: Face,
 }
 
-/// Where a body was at this tick and at the one before.
-#[derive(Debug, Clone, Copy)]
-struct Body {
+/// A body as rapier knows it.
+#[derive(Debug, Clone)]
+struct Solid {
     handle: RigidBodyHandle,
     collider: ColliderHandle,
-    now: Pose,
-    before: Pose,
+    shape: SharedShape,
+    /// Height of the shape's middle above the ground, in metres.
     middle: f64,
+    /// Where it was a tick ago.
+    before: Pose,
 }
 
-/// The car and the walkers around it.
+/// The car and what is around it. The car is the first of the bodies.
 pub(crate) struct World {
     physics: PhysicsWorld,
-    outline: Cuboid,
-    /// Half of the car's length and width, in metres.
-    half_extent: Vector2<f64>,
-    car: Body,
-    walkers: Vec<Body>,
+    solids: Vec<Solid>,
+    /// Those that the physics moves.
+    pushed: Option<Physics>,
 }
 
 impl World {
-    pub fn new(vehicle: &Vehicle, car: Pose, walkers: impl Iterator<Item = Pose>) -> Self {
+    /// A world of these bodies, of which some are moved by the physics: their indices, and their masses in kg.
+    pub fn new(bodies: &[BodyState], masses: &[(usize, f64)]) -> Self {
         let mut physics = PhysicsWorld::default();
-        let half = [0.5 * vehicle.length, 0.5 * vehicle.width, 0.5 * (vehicle.height - FLOOR)].map(|x| x as f32);
-        let outline = Cuboid::new(half.into());
-        let middle = 0.5 * (vehicle.height + FLOOR);
-        let car = insert(&mut physics, ColliderBuilder::cuboid(half[0], half[1], half[2]), car, middle);
-        let (segment, radius) = (0.5 * WALKER_HEIGHT - WALKER_RADIUS, WALKER_RADIUS as f32);
-        let person = || ColliderBuilder::capsule_z(segment as f32, radius);
-        let walkers = walkers.map(|pose| insert(&mut physics, person(), pose, 0.5 * WALKER_HEIGHT)).collect();
-        let half_extent = 0.5 * Vector2::new(vehicle.length, vehicle.width);
-        Self { physics, outline, half_extent, car, walkers }
+        let solids: Vec<Solid> = bodies
+            .iter()
+            .enumerate()
+            .map(|(index, state)| {
+                let mass = masses.iter().find(|(at, _)| *at == index).map(|(_, mass)| *mass);
+                insert(&mut physics, state, mass)
+            })
+            .collect();
+        let pushed = (!masses.is_empty()).then(|| Physics::new(&mut physics, masses));
+        Self { physics, solids, pushed }
     }
 
-    /// Moves everything to where it is at the next tick.
-    pub fn advance(&mut self, car: Pose, walkers: impl Iterator<Item = Pose>) {
-        self.car.advance(car);
-        for (body, pose) in self.walkers.iter_mut().zip(walkers) {
-            body.advance(pose);
+    /// Moves what the physics moves on by a tick of `dt` seconds, over ground of this friction, under these forces; the
+    /// others have moved already.
+    pub fn advance(&mut self, bodies: &mut [BodyState], pushes: &[Vector2<f64>], friction: f64, dt: f64) {
+        if let Some(pushed) = &mut self.pushed {
+            pushed.step(&mut self.physics, &self.solids, bodies, pushes, friction, dt);
         }
     }
 
-    /// Metres between the car and the nearest walker; infinite without any. Where they touch or overlap it is
+    /// Remembers where everything is before it moves on.
+    pub fn begin_tick(&mut self, bodies: &[BodyState]) {
+        for (solid, state) in self.solids.iter_mut().zip(bodies) {
+            solid.before = state.pose;
+        }
+    }
+
+    /// Metres between the car and the nearest other body; infinite without any. Where they touch or overlap it is
     /// the contact that says more, and this says [`TOUCH`].
-    pub fn clearance(&self) -> f64 {
-        let gaps = self.walkers.iter().map(|walker| self.gap(walker));
-        gaps.fold(f64::INFINITY, f64::min)
+    pub fn clearance(&self, bodies: &[BodyState]) -> f64 {
+        let Some((car, others)) = bodies.split_first() else { return f64::INFINITY };
+        let mut nearest = f64::INFINITY;
+        for other in others {
+            let apart = (other.pose.position - car.pose.position).norm();
+            if apart - car.body.outline.reach() - other.body.outline.reach() < nearest {
+                nearest = nearest.min(distance(car, other));
+            }
+        }
+        nearest.max(TOUCH)
     }
 
-    /// Between the car's box and an upright person the distance is that of rectangle and circle seen from above.
-    fn gap(&self, walker: &Body) -> f64 {
-        let at = self.car.now.to_local(walker.now.position).abs();
-        let beyond = (at - self.half_extent).sup(&Vector2::zeros());
-        (beyond.norm() - WALKER_RADIUS).max(TOUCH)
-    }
-
-    /// The first walker that touches the car at this tick, and where it came upon it.
-    pub fn contact(&mut self) -> Option<Contact> {
-        if self.clearance() > REACH {
+    /// The first of the other bodies that touches the car at this tick, and where it came upon it.
+    pub fn contact(&mut self, bodies: &[BodyState]) -> Option<Contact> {
+        if self.clearance(bodies) > REACH {
             return None;
         }
-        self.place_all();
-        let walker = self.walkers.iter().position(|walker| {
-            let pair = self.physics.narrow_phase.contact_pair(self.car.collider, walker.collider);
+        self.show(bodies);
+        let car = self.solids.first()?;
+        let touches = |solid: &Solid| {
+            let pair = self.physics.narrow_phase.contact_pair(car.collider, solid.collider);
             pair.and_then(|pair| pair.find_deepest_contact()).is_some_and(|(_, contact)| contact.dist <= 0.0)
-        })?;
-        Some(Contact { walker, face: self.face(&self.walkers[walker]) })
+        };
+        let body = 1 + self.solids[1..].iter().position(touches)?;
+        Some(Contact { body, face: self.face(bodies, body) })
     }
 
     /// Shows rapier the present poses and lets it look for contacts.
-    fn place_all(&mut self) {
+    fn show(&mut self, bodies: &[BodyState]) {
         let physics = &mut self.physics;
-        for body in self.walkers.iter().chain([&self.car]) {
-            physics.bodies[body.handle].set_position(isometry(&body.now, body.middle), true);
+        for (solid, state) in self.solids.iter().zip(bodies) {
+            let body = &mut physics.bodies[solid.handle];
+            if body.is_kinematic() {
+                body.set_position(isometry(&state.pose, solid.middle), true);
+            }
         }
         let near = physics.integration_parameters.prediction_distance();
         physics.collision_pipeline.step(
@@ -141,31 +155,28 @@ impl World {
         );
     }
 
-    /// The side of the car that a walker came upon: where the two shapes first met on their way through the
+    /// The side of the car that a body came upon: where the two shapes first met on their way through the
     /// last tick. The deepest overlap does not tell: a car that took a person with its corner at 15 m/s
     /// overlaps more from the front than from the side.
-    fn face(&self, walker: &Body) -> Face {
+    fn face(&self, bodies: &[BodyState], other: usize) -> Face {
+        let (car, solid) = (&self.solids[0], &self.solids[other]);
         // Seen from the car, whose turning within one tick is left out.
-        let start = self.car.before.to_local(walker.before.position);
-        let end = self.car.now.to_local(walker.now.position);
-        let (from, motion) = (at_height(start, 0.0), at_height(end - start, 0.0));
-        let person = Capsule::new_z((0.5 * WALKER_HEIGHT - WALKER_RADIUS) as f32, WALKER_RADIUS as f32);
-        let options = ShapeCastOptions { max_time_of_impact: 1.0, ..ShapeCastOptions::default() };
-        let identity = parry3d::math::Pose::IDENTITY;
-        let person_at = parry3d::math::Pose::from_translation(from);
+        let start = car.before.to_local(solid.before.position);
+        let end = bodies[0].pose.to_local(bodies[other].pose.position);
+        let turned = Pose { position: start, heading: solid.before.heading - car.before.heading };
         let hit = cast_shapes(
-            &identity,
+            &parry3d::math::Pose::IDENTITY,
             at_height(Vector2::zeros(), 0.0),
-            &self.outline,
-            &person_at,
-            motion,
-            &person,
-            options,
+            &*car.shape,
+            &isometry(&turned, 0.0),
+            at_height(end - start, 0.0),
+            &*solid.shape,
+            ShapeCastOptions { max_time_of_impact: 1.0, ..ShapeCastOptions::default() },
         );
         let side = match hit {
             Ok(Some(hit)) => Vector2::new(f64::from(hit.normal1.x), f64::from(hit.normal1.y)),
-            // They overlapped already: the side that the person stands nearest to.
-            _ => start.component_div(&self.half_extent),
+            // They overlapped already: the side that the other stands nearest to.
+            _ => start.component_div(&bodies[0].body.outline.half_extent()),
         };
         match (side.x.abs() >= side.y.abs(), side.x > 0.0, side.y > 0.0) {
             (true, true, _) => Face::Front,
@@ -176,18 +187,52 @@ impl World {
     }
 }
 
-impl Body {
-    fn advance(&mut self, pose: Pose) {
-        self.before = self.now;
-        self.now = pose;
+/// Two bodies that cover the same ground at the start, if there are any: the least indices.
+pub(crate) fn overlapping(bodies: &[BodyState]) -> Option<(usize, usize)> {
+    let pairs = (0..bodies.len()).flat_map(|i| (i + 1..bodies.len()).map(move |j| (i, j)));
+    pairs.into_iter().find(|&(i, j)| {
+        let (a, b) = (&bodies[i], &bodies[j]);
+        let reach = a.body.outline.reach() + b.body.outline.reach();
+        (a.pose.position - b.pose.position).norm() <= reach && distance(a, b) <= 0.0
+    })
+}
+
+/// Metres between two bodies, seen from above.
+fn distance(a: &BodyState, b: &BodyState) -> f64 {
+    gap((&a.body.outline, &a.pose), (&b.body.outline, &b.pose))
+}
+
+/// The shape of a body, and the height of its middle above the ground: a box with a floor above it, a person upright, a
+/// ball.
+fn shape(body: &Body, lies: bool) -> (SharedShape, f64) {
+    match body.outline {
+        Outline::Rectangle { length, width } => {
+            let floor = if lies || body.height <= 2.0 * FLOOR { 0.0 } else { FLOOR };
+            let half = [0.5 * length, 0.5 * width, 0.5 * (body.height - floor)].map(|metres| metres as f32);
+            (SharedShape::cuboid(half[0], half[1], half[2]), 0.5 * (body.height + floor))
+        }
+        Outline::Disc { radius } if body.height > 2.0 * radius => {
+            (SharedShape::capsule_z((0.5 * body.height - radius) as f32, radius as f32), 0.5 * body.height)
+        }
+        Outline::Disc { radius } => (SharedShape::ball(radius as f32), radius),
     }
 }
 
-fn insert(physics: &mut PhysicsWorld, collider: ColliderBuilder, pose: Pose, middle: f64) -> Body {
-    let body = RigidBodyBuilder::kinematic_position_based().pose(isometry(&pose, middle));
-    let collider = collider.active_collision_types(ActiveCollisionTypes::all());
-    let (handle, collider) = physics.insert(body, collider);
-    Body { handle, collider, now: pose, before: pose, middle }
+fn insert(physics: &mut PhysicsWorld, state: &BodyState, mass: Option<f64>) -> Solid {
+    let (shape, middle) = shape(&state.body, mass.is_some());
+    let at = isometry(&state.pose, middle);
+    let body = match mass {
+        Some(_) => RigidBodyBuilder::dynamic(),
+        None => RigidBodyBuilder::kinematic_position_based(),
+    };
+    let collider = ColliderBuilder::new(shape.clone()).active_collision_types(ActiveCollisionTypes::all());
+    let collider = match mass {
+        // The friction between it and the ground is the ground's.
+        Some(mass) => collider.mass(mass as f32).friction(0.0),
+        None => collider,
+    };
+    let (handle, collider) = physics.insert(body.pose(at), collider);
+    Solid { handle, collider, shape, middle, before: state.pose }
 }
 
 fn isometry(pose: &Pose, middle: f64) -> parry3d::math::Pose {

@@ -1,0 +1,14 @@
+//! The objects that come with the engine: the car under test, people on foot, whatever moves along a path, and what
+//! stands beside the road.
+
+mod ego;
+mod fixture;
+mod mover;
+mod pedestrian;
+
+pub use ego::{AutonomousVehicle, Car};
+pub use fixture::Fixture;
+pub use mover::{Actor, Mover};
+pub use pedestrian::{Pedestrian, Walk, Walker};
+
+pub(crate) use ego::{Ego, EgoSetup};

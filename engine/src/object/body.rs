@@ -1,0 +1,157 @@
+//! What an object is to others: its outline on the ground, its height, and what it is taken for.
+
+use crate::scenario::Pose;
+use nalgebra::Vector2;
+use std::fmt;
+
+/// What a body is taken for: by sensors, drivers and pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Class {
+    /// A passenger car.
+    Car,
+    /// A lorry or a bus.
+    Truck,
+    /// A bicycle with its rider.
+    Bicycle,
+    /// A person on foot.
+    Pedestrian,
+    /// A house.
+    Building,
+    /// A tree.
+    Tree,
+    /// A sign or a lamp post.
+    Sign,
+    /// Anything else.
+    Prop,
+}
+
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Class::Car => "car",
+            Class::Truck => "truck",
+            Class::Bicycle => "bicycle",
+            Class::Pedestrian => "pedestrian",
+            Class::Building => "building",
+            Class::Tree => "tree",
+            Class::Sign => "sign",
+            Class::Prop => "prop",
+        })
+    }
+}
+
+/// What a body covers of the ground. Lengths in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outline {
+    /// A rectangle around the body's position, with its length along the heading.
+    Rectangle {
+        /// Along the heading.
+        length: f64,
+        /// Across it.
+        width: f64,
+    },
+    /// A disc around the body's position.
+    Disc {
+        /// Its radius.
+        radius: f64,
+    },
+}
+
+impl Outline {
+    /// Half of its length and half of its width, in metres.
+    pub fn half_extent(&self) -> Vector2<f64> {
+        match *self {
+            Outline::Rectangle { length, width } => 0.5 * Vector2::new(length, width),
+            Outline::Disc { radius } => Vector2::new(radius, radius),
+        }
+    }
+
+    /// The radius in metres of the least disc around the body's position that holds it.
+    pub fn reach(&self) -> f64 {
+        match self {
+            Outline::Rectangle { .. } => self.half_extent().norm(),
+            Outline::Disc { radius } => *radius,
+        }
+    }
+}
+
+/// A body: what it is, and how much room it takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// What it is taken for.
+    pub class: Class,
+    /// What it covers of the ground.
+    pub outline: Outline,
+    /// From the ground to its top, in metres.
+    pub height: f64,
+}
+
+impl Body {
+    /// A body with a rectangular outline: length, width and height in metres.
+    pub fn block(class: Class, length: f64, width: f64, height: f64) -> Self {
+        Self { class, outline: Outline::Rectangle { length, width }, height }
+    }
+
+    /// A body with a round outline: radius and height in metres.
+    pub fn disc(class: Class, radius: f64, height: f64) -> Self {
+        Self { class, outline: Outline::Disc { radius }, height }
+    }
+
+    /// A person of average build: the Euro NCAP adult dummy is 0.5 m wide and 1.8 m tall.
+    pub fn adult() -> Self {
+        Self::disc(Class::Pedestrian, 0.25, 1.8)
+    }
+
+    /// A child: the Euro NCAP child dummy is 0.3 m wide and 1.15 m tall.
+    pub fn child() -> Self {
+        Self::disc(Class::Pedestrian, 0.15, 1.15)
+    }
+
+    /// A passenger car of middle size.
+    pub fn car() -> Self {
+        Self::block(Class::Car, 4.5, 1.8, 1.45)
+    }
+
+    /// A lorry.
+    pub fn truck() -> Self {
+        Self::block(Class::Truck, 10.0, 2.5, 3.5)
+    }
+
+    /// A bicycle with its rider.
+    pub fn bicycle() -> Self {
+        Self::block(Class::Bicycle, 1.8, 0.6, 1.75)
+    }
+
+    /// What is wrong with its measures.
+    pub(crate) fn problem(&self) -> Option<String> {
+        let extent = self.outline.half_extent();
+        let sound = [extent.x, extent.y, self.height].iter().all(|metres| *metres > 0.0 && metres.is_finite());
+        (!sound).then(|| format!("{} m long, {} m wide and {} m tall", 2.0 * extent.x, 2.0 * extent.y, self.height))
+    }
+}
+
+/// A body where it stands at the beginning of a tick.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyState {
+    /// What it is.
+    pub body: Body,
+    /// Where its middle is, and where it faces.
+    pub pose: Pose,
+    /// How it moved over the last tick, in m/s over the ground.
+    pub velocity: Vector2<f64>,
+    /// How far its lowest point is above the ground, in metres. What is not physical stays on the ground.
+    pub altitude: f64,
+}
+
+impl BodyState {
+    /// A body at rest on the ground.
+    pub(crate) fn at_rest(body: Body, pose: Pose) -> Self {
+        Self { body, pose, velocity: Vector2::zeros(), altitude: 0.0 }
+    }
+
+    /// The pose that it takes within a tick of `dt` seconds.
+    pub(crate) fn move_to(&mut self, pose: Pose, dt: f64) {
+        self.velocity = (pose.position - self.pose.position) / dt;
+        self.pose = pose;
+    }
+}

@@ -1,0 +1,103 @@
+//! How far two bodies are from each other, seen from above: distances between rectangles and discs in 64 bits.
+
+use super::body::Outline;
+use crate::scenario::Pose;
+use nalgebra::Vector2;
+
+/// Metres between what two bodies cover of the ground; 0 where they touch or overlap.
+pub(crate) fn gap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> f64 {
+    match (a.0, b.0) {
+        (_, Outline::Disc { radius }) => (to_point(a, b.1.position) - radius).max(0.0),
+        (Outline::Disc { radius }, _) => (to_point(b, a.1.position) - radius).max(0.0),
+        (Outline::Rectangle { .. }, Outline::Rectangle { .. }) if overlap(a, b) => 0.0,
+        // Of two convex polygons that are apart, a corner of one is nearest to the other.
+        _ => {
+            let nearest = |from, to: (&Outline, &Pose)| {
+                corners(to.0, to.1).map(|corner| to_point(from, corner)).into_iter().fold(f64::INFINITY, f64::min)
+            };
+            nearest(a, b).min(nearest(b, a))
+        }
+    }
+}
+
+/// Metres from an outline to a point outside; 0 for one inside.
+fn to_point((outline, pose): (&Outline, &Pose), point: Vector2<f64>) -> f64 {
+    match outline {
+        Outline::Rectangle { .. } => {
+            let beyond = pose.to_local(point).abs() - outline.half_extent();
+            beyond.sup(&Vector2::zeros()).norm()
+        }
+        Outline::Disc { radius } => ((point - pose.position).norm() - radius).max(0.0),
+    }
+}
+
+fn corners(outline: &Outline, pose: &Pose) -> [Vector2<f64>; 4] {
+    let half = outline.half_extent();
+    let (ahead, left) = (pose.forward() * half.x, pose.left() * half.y);
+    [ahead + left, ahead - left, -ahead - left, -ahead + left].map(|offset| pose.position + offset)
+}
+
+/// Two rectangles are apart if and only if a side of one has the other wholly beyond it.
+fn overlap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> bool {
+    let apart = |(outline, pose): (&Outline, &Pose), other: (&Outline, &Pose)| {
+        let seen = corners(other.0, other.1).map(|corner| pose.to_local(corner));
+        let half = outline.half_extent();
+        (0..2).any(|axis| {
+            seen.iter().all(|corner| corner[axis] > half[axis]) || seen.iter().all(|corner| corner[axis] < -half[axis])
+        })
+    };
+    !apart(a, b) && !apart(b, a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn outline() -> impl Strategy<Value = Outline> {
+        prop_oneof![
+            (0.1..6.0, 0.1..6.0).prop_map(|(length, width)| Outline::Rectangle { length, width }),
+            (0.1..3.0).prop_map(|radius| Outline::Disc { radius }),
+        ]
+    }
+
+    fn pose() -> impl Strategy<Value = Pose> {
+        (-6.0..6.0, -6.0..6.0, -3.2..3.2).prop_map(|(x, y, heading)| Pose { position: Vector2::new(x, y), heading })
+    }
+
+    /// Points of an outline, close together: its rim and what is inside.
+    fn points(outline: &Outline, pose: &Pose) -> Vec<Vector2<f64>> {
+        let steps = 24;
+        let part = |i: usize| 2.0 * i as f64 / steps as f64 - 1.0;
+        let mut points = Vec::new();
+        for i in 0..=steps {
+            for j in 0..=steps {
+                let local = match outline {
+                    Outline::Rectangle { length, width } => Vector2::new(0.5 * length * part(i), 0.5 * width * part(j)),
+                    Outline::Disc { radius } => {
+                        let (sin, cos) = libm::sincos(std::f64::consts::PI * part(i));
+                        Vector2::new(cos, sin) * (0.5 * (part(j) + 1.0) * radius)
+                    }
+                };
+                points.push(pose.position + pose.forward() * local.x + pose.left() * local.y);
+            }
+        }
+        points
+    }
+
+    proptest! {
+        #[test]
+        fn the_gap_is_the_least_distance_of_any_two_points(
+            a in outline(), at in pose(), b in outline(), there in pose()
+        ) {
+            let gap = gap((&a, &at), (&b, &there));
+            let other_way = super::gap((&b, &there), (&a, &at));
+            prop_assert!((gap - other_way).abs() < 1e-12, "{} and {}", gap, other_way);
+            let (left, right) = (points(&a, &at), points(&b, &there));
+            let distances = left.iter().flat_map(|p| right.iter().map(move |q| (p - q).norm()));
+            let sampled = distances.fold(f64::INFINITY, f64::min);
+            prop_assert!(gap <= sampled + 1e-9, "{} > {}", gap, sampled);
+            prop_assert!(sampled <= gap + 0.6, "{} << {}", gap, sampled);
+        }
+    }
+}

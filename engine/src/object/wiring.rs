@@ -1,0 +1,182 @@
+//! How objects are wired: inputs that are bound to streams, outputs that streams are made of.
+
+use super::body::BodyState;
+use crate::stream::{Datum, Graph, Node, Sample, Slot, Source, Stream};
+use std::cell::{Cell, RefCell};
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::Range;
+use std::rc::Rc;
+
+/// All inputs and outputs of a world under construction, shared with the handles that bind them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Wiring {
+    inputs: Rc<RefCell<Vec<Bound>>>,
+    samples: Rc<Cell<usize>>,
+}
+
+/// An input and what it reads.
+#[derive(Debug, Clone)]
+struct Bound {
+    name: Rc<str>,
+    node: Rc<Node>,
+}
+
+/// An input of an object: it reads the stream that it is bound to last. A handle, cheap to clone.
+pub struct Input<T> {
+    index: usize,
+    name: Rc<str>,
+    wiring: Wiring,
+    carries: PhantomData<T>,
+}
+
+/// An output of an object: what the object shows by it is a stream.
+pub struct Output<T> {
+    at: usize,
+    name: Rc<str>,
+    carries: PhantomData<T>,
+}
+
+impl Wiring {
+    pub fn input<T: Datum>(&self, name: &str, stream: &Stream<T>) -> Input<T> {
+        let name: Rc<str> = name.into();
+        let mut inputs = self.inputs.borrow_mut();
+        inputs.push(Bound { name: name.clone(), node: stream.node.clone() });
+        Input { index: inputs.len() - 1, name, wiring: self.clone(), carries: PhantomData }
+    }
+
+    pub fn output<T: Datum>(&self, name: &str) -> Output<T> {
+        let at = self.samples.get();
+        self.samples.set(at + T::WIDTH);
+        Output { at, name: name.into(), carries: PhantomData }
+    }
+
+    /// Every input with its name and what it reads, in the order in which they were declared.
+    pub fn readers(&self) -> Vec<(String, Rc<Node>)> {
+        self.inputs.borrow().iter().map(|bound| (bound.name.to_string(), bound.node.clone())).collect()
+    }
+
+    /// Where the values of the inputs stand in a graph that has been laid out.
+    pub fn slots(&self, graph: &Graph) -> Vec<Slot> {
+        self.inputs.borrow().iter().map(|bound| graph.slot(&bound.node)).collect()
+    }
+
+    /// How many samples all outputs take.
+    pub fn samples(&self) -> usize {
+        self.samples.get()
+    }
+}
+
+impl<T: Datum> Input<T> {
+    /// Binds it to a stream, in the place of what it was bound to.
+    pub fn bind(&self, stream: impl Into<Stream<T>>) {
+        self.rebind(|_| stream.into());
+    }
+
+    /// Binds it to what `change` makes of the stream that it is bound to.
+    pub fn rebind(&self, change: impl FnOnce(Stream<T>) -> Stream<T>) {
+        let present = Stream::of(self.wiring.inputs.borrow()[self.index].node.clone());
+        let changed = change(present);
+        self.wiring.inputs.borrow_mut()[self.index].node = changed.node;
+    }
+}
+
+impl<T: Datum> Output<T> {
+    /// The stream of what is shown.
+    pub fn stream(&self) -> Stream<T> {
+        Stream::output(self.source(), self.name.to_string())
+    }
+
+    pub(crate) fn source(&self) -> Source {
+        Source(self.at)
+    }
+}
+
+impl<T> Clone for Input<T> {
+    fn clone(&self) -> Self {
+        Self { index: self.index, name: self.name.clone(), wiring: self.wiring.clone(), carries: PhantomData }
+    }
+}
+
+impl<T> Clone for Output<T> {
+    fn clone(&self) -> Self {
+        Self { at: self.at, name: self.name.clone(), carries: PhantomData }
+    }
+}
+
+impl<T> fmt::Debug for Input<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "input {}", self.name)
+    }
+}
+
+impl<T> fmt::Debug for Output<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "output {}", self.name)
+    }
+}
+
+/// Where objects show their outputs.
+#[derive(Debug)]
+pub struct Outputs<'a> {
+    pub(crate) samples: &'a mut [Sample],
+}
+
+impl Outputs<'_> {
+    /// Shows a value by an output for this tick.
+    pub fn set<T: Datum>(&mut self, output: &Output<T>, value: T) {
+        value.put(&mut self.samples[output.at..]);
+    }
+}
+
+/// What an object reads when it moves on by a tick.
+#[derive(Debug, Clone, Copy)]
+pub struct Tick<'a> {
+    pub(crate) dt: f64,
+    pub(crate) graph: &'a Graph,
+    pub(crate) inputs: &'a [Slot],
+    pub(crate) bodies: &'a [BodyState],
+    /// Those of the bodies that are the object's own.
+    pub(crate) own: (usize, usize),
+}
+
+impl Tick<'_> {
+    /// How long the tick is, in seconds.
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// What an input reads; `None` where its stream is absent.
+    pub fn get<T: Datum>(&self, input: &Input<T>) -> Option<T> {
+        self.graph.value(self.inputs[input.index])
+    }
+
+    /// The number that an input reads.
+    ///
+    /// # Errors
+    /// It is absent or NaN; the message names the input.
+    pub fn number(&self, input: &Input<f64>) -> Result<f64, String> {
+        let number = self.get(input).ok_or_else(|| format!("`{}` has no value", input.name))?;
+        if number.is_nan() { Err(format!("`{}` is not a number", input.name)) } else { Ok(number) }
+    }
+
+    /// The speed that an input reads: 0 where its stream is absent.
+    ///
+    /// # Errors
+    /// It is no finite number from 0 on; the message names the input.
+    pub fn speed(&self, input: &Input<f64>) -> Result<f64, String> {
+        let speed = self.get(input).unwrap_or(0.0);
+        if (0.0..f64::INFINITY).contains(&speed) {
+            Ok(speed)
+        } else {
+            Err(format!("`{}` is {speed}, expected a number from 0 on", input.name))
+        }
+    }
+
+    /// All bodies but the object's own as they stand at the beginning of the tick, the car under test first, the others
+    /// in the order in which they were placed.
+    pub fn others(&self) -> impl Iterator<Item = &BodyState> {
+        let Range { start, end } = self.own.0..self.own.1;
+        self.bodies[..start].iter().chain(&self.bodies[end..])
+    }
+}

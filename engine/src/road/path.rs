@@ -1,0 +1,92 @@
+//! Ways over a network as one line: what moves along a path needs no lanes.
+
+use super::curve::Curve;
+use super::lane::LaneId;
+use super::network::Network;
+use super::route::Route;
+use crate::scenario::Pose;
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// Curves one after the other, cheap to clone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Path {
+    /// Each with how many metres along the path it begins.
+    pieces: Arc<[(f64, Curve)]>,
+    length: f64,
+}
+
+impl Path {
+    /// The path along these curves, of which each is to begin where the one before it ends.
+    ///
+    /// # Panics
+    /// There are none.
+    pub fn new(curves: impl IntoIterator<Item = Curve>) -> Self {
+        let mut length = 0.0;
+        let begun = |curve: Curve| {
+            let from = length;
+            length += curve.length();
+            (from, curve)
+        };
+        let pieces: Arc<[_]> = curves.into_iter().map(begun).collect();
+        assert!(!pieces.is_empty(), "a path has at least one curve");
+        Self { pieces, length }
+    }
+
+    /// The straight path from one place to another. Where both are one, it faces along x.
+    pub fn straight(from: Vector2<f64>, to: Vector2<f64>) -> Self {
+        let way = to - from;
+        let start = Pose { position: from, heading: libm::atan2(way.y, way.x) };
+        Self::new([Curve::new(start, 0.0, way.norm())])
+    }
+
+    /// Its length in metres.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The pose `s` metres along it; before its start and beyond its end it goes on as it is.
+    pub fn at(&self, s: f64) -> Pose {
+        self.beside(s, 0.0)
+    }
+
+    /// The pose `offset` metres to the left of the one `s` metres along it.
+    pub fn beside(&self, s: f64, offset: f64) -> Pose {
+        let piece = self.pieces.partition_point(|(from, _)| *from <= s).max(1) - 1;
+        let (from, curve) = &self.pieces[piece];
+        Pose { position: curve.beside(s - from, offset), heading: curve.heading(s - from) }
+    }
+
+    /// The same path the other way.
+    pub fn reversed(&self) -> Self {
+        Self::new(self.pieces.iter().rev().map(|(_, curve)| curve.reversed()))
+    }
+
+    /// The path shifted to the left by these metres, for example from a lane to the shoulder beside it.
+    pub fn shifted(&self, left: f64) -> Self {
+        Self::new(self.pieces.iter().map(|(_, curve)| curve.offset(left)))
+    }
+}
+
+impl Network {
+    /// The path along the middles of lanes, of which each is to be a successor of the one before.
+    ///
+    /// # Panics
+    /// There are none, or they are of another network.
+    pub fn path(&self, lanes: &[LaneId]) -> Path {
+        Path::new(lanes.iter().map(|lane| self.lane(*lane).curve))
+    }
+
+    /// The path along a route, from its start to its end. None where the route changes lanes: that takes a while, and
+    /// how long is a driver's to say.
+    pub fn path_along(&self, route: &Route) -> Option<Path> {
+        let last = route.lanes.len() - 1;
+        let piece = |(i, lane): (usize, &LaneId)| {
+            let curve = self.lane(*lane).curve;
+            let from = if i == 0 { route.start } else { 0.0 };
+            let to = if i == last { route.end } else { curve.length() };
+            curve.piece(from, to)
+        };
+        (route.changes == 0).then(|| Path::new(route.lanes.iter().enumerate().map(piece)))
+    }
+}

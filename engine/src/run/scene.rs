@@ -1,0 +1,150 @@
+//! All that is in a world, as it moves from tick to tick.
+
+use crate::actor::Ego;
+use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick};
+use crate::scenario::{Pose, Scenario};
+use crate::stream::{Graph, Sample, Slot};
+use crate::vehicle::GRAVITY;
+use crate::world::{Contact, World, overlapping};
+use nalgebra::Vector2;
+
+/// The least that a contact is worth, in metres of missing braking distance.
+const LEAST_MISSING: f64 = 0.001;
+
+/// An object with its bodies: those from the first index on, before the second.
+struct Object {
+    name: String,
+    own: (usize, usize),
+    behaviour: Behaviour,
+}
+
+/// The car under test, the objects around it, and where they all are.
+pub(super) struct Scene {
+    pub ego: Ego,
+    objects: Vec<Object>,
+    /// The car's first, then those of the objects.
+    pub bodies: Vec<BodyState>,
+    /// What the objects show at this tick.
+    pub outputs: Vec<Sample>,
+    /// Where the values of their inputs stand.
+    inputs: Vec<Slot>,
+    friction: Slot,
+    world: World,
+    /// How the car touches another body.
+    pub contact: Option<Contact>,
+    /// What `car.clearance` shows at this tick.
+    clearance: f64,
+    /// Where the bodies of one object go within a tick.
+    poses: Vec<Pose>,
+    /// Where all bodies are at the end of a tick.
+    next: Vec<BodyState>,
+    pushes: Vec<Vector2<f64>>,
+}
+
+impl Scene {
+    /// What a program has built and laid out.
+    pub fn new(scenario: Scenario, graph: &Graph) -> Self {
+        let ego = Ego::new(&scenario.cars[0]);
+        let mut bodies = vec![ego.body()];
+        let mut masses = Vec::new();
+        let mut objects = Vec::new();
+        for ObjectSetup { name, bodies: own, behaviour } in scenario.objects {
+            let first = bodies.len();
+            if let Behaviour::Physical(mass, _) = &behaviour {
+                masses.push((first, *mass));
+            }
+            bodies.extend(own.iter().map(|(body, start)| BodyState::at_rest(*body, *start)));
+            objects.push(Object { name, own: (first, bodies.len()), behaviour });
+        }
+        let mut world = World::new(&bodies, &masses);
+        Self {
+            contact: world.contact(&bodies),
+            clearance: world.clearance(&bodies),
+            world,
+            ego,
+            inputs: scenario.wiring.slots(graph),
+            outputs: vec![Sample::Absent; scenario.wiring.samples()],
+            friction: graph.slot(&scenario.conditions.friction.node),
+            next: bodies.clone(),
+            poses: Vec::with_capacity(objects.iter().map(|object| object.own.1 - object.own.0).max().unwrap_or(0)),
+            pushes: Vec::with_capacity(masses.len()),
+            bodies,
+            objects,
+        }
+    }
+
+    /// What two bodies that overlap are called: for a world that cannot begin.
+    pub fn overlapping(&self) -> Option<String> {
+        let (a, b) = overlapping(&self.bodies)?;
+        let name = |body| {
+            let object = self.objects.iter().find(|object| (object.own.0..object.own.1).contains(&body));
+            object.map_or("car", |object| &object.name)
+        };
+        Some(format!("{} and {}", name(a), name(b)))
+    }
+
+    /// Shows the outputs of all objects as they stand.
+    pub fn show(&mut self) {
+        self.outputs.fill(Sample::Absent);
+        let mut outputs = Outputs { samples: &mut self.outputs };
+        self.ego.show(self.clearance, &mut outputs);
+        for object in &self.objects {
+            match &object.behaviour {
+                Behaviour::Geometric(behaviour) => behaviour.show(&mut outputs),
+                Behaviour::Physical(_, behaviour) => behaviour.show(&self.bodies[object.own.0], &mut outputs),
+            }
+        }
+    }
+
+    /// Moves everything on by a tick of `dt` seconds, by the streams as they have been evaluated.
+    ///
+    /// Inputs are checked where they enter: minima and maxima would swallow a NaN, and a road whose friction
+    /// is no number would pass for one that limits nothing.
+    pub fn step(&mut self, graph: &Graph, dt: f64) -> Result<(), String> {
+        let friction: f64 = graph.value(self.friction).unwrap_or(f64::NAN);
+        if !(0.0..f64::INFINITY).contains(&friction) {
+            return Err(format!("the friction of the road is {friction}, expected a number from 0 on"));
+        }
+        self.ego.step(friction, dt)?;
+        self.next[0].move_to(self.ego.pose(), dt);
+        self.next[0].velocity = self.ego.velocity();
+        self.pushes.clear();
+        for object in &mut self.objects {
+            let (first, end) = object.own;
+            let tick = Tick { dt, graph, inputs: &self.inputs, bodies: &self.bodies, own: object.own };
+            match &mut object.behaviour {
+                Behaviour::Geometric(behaviour) => {
+                    behaviour.step(&tick)?;
+                    self.poses.clear();
+                    self.poses.extend(self.bodies[first..end].iter().map(|body| body.pose));
+                    behaviour.poses(&mut self.poses);
+                    for (state, pose) in self.next[first..end].iter_mut().zip(&self.poses) {
+                        if !pose.is_finite() {
+                            return Err(format!("{} is nowhere: {:?}", object.name, pose.position));
+                        }
+                        state.move_to(*pose, dt);
+                    }
+                }
+                Behaviour::Physical(_, behaviour) => {
+                    self.pushes.push(behaviour.push(&self.bodies[first], &tick)?);
+                }
+            }
+        }
+        self.world.begin_tick(&self.bodies);
+        self.bodies.copy_from_slice(&self.next);
+        self.world.advance(&mut self.bodies, &self.pushes, friction, dt);
+        self.next.copy_from_slice(&self.bodies);
+        self.contact = self.world.contact(&self.bodies);
+        self.clearance = match self.contact {
+            None => self.world.clearance(&self.bodies),
+            Some(contact) => -self.missing_distance(contact, friction),
+        };
+        Ok(())
+    }
+
+    /// The braking distance that was missing at a contact.
+    fn missing_distance(&self, contact: Contact, friction: f64) -> f64 {
+        let closing = (self.bodies[0].velocity - self.bodies[contact.body].velocity).norm_squared();
+        (closing / (2.0 * friction * GRAVITY)).max(LEAST_MISSING)
+    }
+}

@@ -1,0 +1,61 @@
+//! Bodies that the physics moves: pushed by their programs and by what they run into, held by gravity and friction.
+
+use super::{Solid, isometry};
+use crate::object::BodyState;
+use crate::scenario::Pose;
+use crate::vehicle::GRAVITY;
+use nalgebra::Vector2;
+use rapier3d::prelude::{CoefficientCombineRule, ColliderBuilder, ColliderHandle, PhysicsWorld, SharedShape};
+
+/// What rapier integrates.
+pub(super) struct Physics {
+    /// Indices of the bodies that it moves.
+    moved: Vec<usize>,
+    ground: ColliderHandle,
+}
+
+impl Physics {
+    /// Of these bodies, with the ground that they lie on.
+    pub fn new(world: &mut PhysicsWorld, masses: &[(usize, f64)]) -> Self {
+        world.gravity = [0.0, 0.0, -GRAVITY as f32].into();
+        // What lies on it has none of its own.
+        let ground = ColliderBuilder::new(SharedShape::halfspace(parry3d::math::Vector::Z));
+        let ground = world.colliders.insert(ground.friction_combine_rule(CoefficientCombineRule::Max));
+        Self { moved: masses.iter().map(|(index, _)| *index).collect(), ground }
+    }
+
+    /// Moves its bodies on by `dt` seconds, of which `pushes` has one force for each.
+    pub fn step(
+        &mut self,
+        world: &mut PhysicsWorld,
+        solids: &[Solid],
+        bodies: &mut [BodyState],
+        pushes: &[Vector2<f64>],
+        friction: f64,
+        dt: f64,
+    ) {
+        world.integration_parameters.dt = dt as f32;
+        world.colliders[self.ground].set_friction(friction as f32);
+        for (solid, state) in solids.iter().zip(&*bodies) {
+            let body = &mut world.bodies[solid.handle];
+            if body.is_kinematic() {
+                body.set_next_kinematic_position(isometry(&state.pose, solid.middle));
+            }
+        }
+        for (&index, push) in self.moved.iter().zip(pushes) {
+            let body = &mut world.bodies[solids[index].handle];
+            body.reset_forces(true);
+            body.add_force([push.x as f32, push.y as f32, 0.0].into(), true);
+        }
+        world.step();
+        for &index in &self.moved {
+            let (solid, state) = (&solids[index], &mut bodies[index]);
+            let body = &world.bodies[solid.handle];
+            let (at, ahead) = (body.translation(), body.rotation() * parry3d::math::Vector::X);
+            let heading = libm::atan2(f64::from(ahead.y), f64::from(ahead.x));
+            let position = Vector2::new(f64::from(at.x), f64::from(at.y));
+            state.move_to(Pose { position, heading }, dt);
+            state.altitude = f64::from(at.z) - solid.middle;
+        }
+    }
+}

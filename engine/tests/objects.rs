@@ -1,0 +1,224 @@
+//! Objects as programs place them: people's own, those along paths, those that the physics moves, roads and weather.
+
+use nalgebra::Vector2;
+use paracosm_coverage::Values;
+use paracosm_engine::object::{Body, BodyState, Class, Input, Output, Outputs, Physical, Tick};
+use paracosm_engine::road::{CrossIntersection, Path, RoadSegment};
+use paracosm_engine::{
+    AutonomousVehicle, Car, Environment, Fixture, Mover, Outcome, Pedestrian, Place, Pose, Program, Road, Scenario,
+    Side, Stream, Temporal, always, driver, eventually, never, simulate,
+};
+use paracosm_oracles::Verdict;
+
+fn run(build: fn(&mut Scenario)) -> Outcome {
+    let program = Program { name: "objects", about: "objects", build };
+    let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
+    simulate(&program, &Values::default(), driver.as_mut())
+}
+
+fn refusal(build: fn(&mut Scenario)) -> String {
+    let program = Program { name: "objects", about: "objects", build };
+    program.declare().expect_err("it is refused").to_string()
+}
+
+/// The samples of a signal.
+fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
+    let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.error));
+    let column = trace.signals().iter().position(|signal| signal == name);
+    let column = column.unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals()));
+    trace.rows().map(|row| row[column]).collect()
+}
+
+/// A car that rolls along with 10 m/s for 5 s, from x = 10.
+fn rolling(s: &mut Scenario) -> (Road, Car) {
+    let road = s.place(RoadSegment::new(300.0).lanes(4));
+    s.duration(5.0);
+    let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+    (road, car)
+}
+
+#[test]
+fn an_actor_follows_its_path_at_the_speed_that_its_input_says_and_stops_at_its_end() {
+    let outcome = run(|s| {
+        let (road, car) = rolling(s);
+        let other = s.place(Mover::car(road.path(2)).starting(280.0).speed(car.speed() * 0.5));
+        s.require("there", eventually(other.arrived()));
+    });
+    assert_eq!(outcome.verdict, Verdict::Pass, "{:?}", outcome.robustness);
+    let (x, speed) = (signal(&outcome, "other.x"), signal(&outcome, "other.speed"));
+    assert!((x[0], *x.last().unwrap()) == (280.0, 300.0) && (x[100] - 285.0).abs() < 1e-9);
+    assert!((speed[100] - 5.0).abs() < 1e-9 && *speed.last().unwrap() == 0.0);
+}
+
+#[test]
+fn an_actor_that_changes_lanes_faces_where_it_goes() {
+    let outcome = run(|s| {
+        let (road, _) = rolling(s);
+        let offset = Stream::<()>::tick().scan(0.0, |offset: f64, ()| (offset + 0.01).min(3.5));
+        let other = s.place(Mover::car(road.path(2)).starting(50.0).speed(10.0).offset(offset));
+        s.require("beside", eventually(other.position().y().at_least(-1.75)));
+    });
+    assert_eq!(outcome.verdict, Verdict::Pass, "{:?}", outcome.robustness);
+    let y = signal(&outcome, "other.y");
+    assert!((y[0] + 5.25).abs() < 1e-9 && (y.last().unwrap() + 1.75).abs() < 1e-9);
+}
+
+#[test]
+fn the_car_collides_with_another_car_by_the_side_that_meets_it() {
+    let outcome = run(|s| {
+        let (road, car) = rolling(s);
+        s.place(Mover::truck(road.path(1)).starting(50.0).speed(2.0));
+        s.require("no-collision", never(car.collides()));
+    });
+    assert_eq!(outcome.verdict, Verdict::Fail);
+    // 40 m less the halves of both, at 8 m/s; what was missing is what stops 8 m/s.
+    let clearance = signal(&outcome, "car.clearance");
+    assert!((clearance[0] - (40.0 - 5.0 - 2.254)).abs() < 1e-9);
+    assert!((outcome.robustness[0].1.unwrap() + 64.0 / (2.0 * 0.8 * 9.80665)).abs() < 0.1);
+    let face = outcome.metrics.iter().find(|(name, _)| name == "contact_face").unwrap();
+    assert_eq!(face.1.to_string(), "front");
+}
+
+/// A ball that is kicked for half a second.
+struct Ball {
+    at: Pose,
+    kick: Stream<f64>,
+}
+
+struct Rolling {
+    kick: Input<f64>,
+    position: Output<Vector2<f64>>,
+}
+
+impl Physical for Rolling {
+    fn show(&self, body: &BodyState, outputs: &mut Outputs<'_>) {
+        outputs.set(&self.position, body.pose.position);
+    }
+
+    fn push(&mut self, _: &BodyState, tick: &Tick<'_>) -> Result<Vector2<f64>, String> {
+        Ok(Vector2::new(0.0, tick.number(&self.kick)?))
+    }
+}
+
+impl Place for Ball {
+    type Handle = Stream<Vector2<f64>>;
+
+    fn place(self, scenario: &mut Scenario) -> Self::Handle {
+        let mut draft = scenario.object("ball");
+        draft.body(Body::disc(Class::Prop, 0.2, 0.4), self.at);
+        let rolling = Rolling { kick: draft.input("kick", self.kick), position: draft.output("position") };
+        let position = rolling.position.stream();
+        draft.physical(0.5, rolling);
+        position
+    }
+}
+
+#[test]
+fn the_physics_moves_what_is_physical() {
+    let outcome = run(|s| {
+        let (road, car) = rolling(s);
+        let kick =
+            Stream::<()>::tick().scan(0.0, |time: f64, ()| time + 0.01).map(|time| if time < 0.5 { 4.0 } else { 0.0 });
+        let ball = s.place(Ball { at: road.on_sidewalk(Side::Right, 100.0), kick });
+        s.require("rolls", eventually((ball.y() + 8.0).named("way").at_least(5.0)));
+        s.require("no-collision", never(car.collides()));
+    });
+    assert_eq!(outcome.verdict, Verdict::Pass, "{:?} {:?}", outcome.robustness, outcome.error);
+    let way = signal(&outcome, "way");
+    assert!(way.windows(2).skip(1).all(|pair| pair[1] >= pair[0] - 1e-4), "a ball rolls on");
+}
+
+#[test]
+fn a_network_is_placed_and_spoken_of_by_its_elements() {
+    let outcome = run(|s| {
+        let arms = ["one", "two", "three", "four"].map(|arm| RoadSegment::new(100.0).named(format!("arm {arm}")));
+        let [one, two, three, four] = arms;
+        let crossing = CrossIntersection::new()
+            .connect("one", one, "one")
+            .connect("two", two, "one")
+            .connect("three", three, "one")
+            .connect("four", four, "one");
+        let streets = s.place(crossing);
+        let way = streets.way(("arm three", -1, 90.0), ("arm four", 1, 50.0));
+        s.duration(20.0);
+        s.place(AutonomousVehicle::at(streets.on_lane("arm one", -1, 50.0)));
+        let other = s.place(Mover::bicycle(way).speed(10.0));
+        s.require("turns", eventually(other.arrived()));
+        s.require("north", eventually(other.position().y().at_least(50.0)));
+    });
+    assert_eq!(outcome.verdict, Verdict::Pass, "{:?} {:?}", outcome.robustness, outcome.error);
+}
+
+#[test]
+fn conditions_are_streams_that_anything_can_read() {
+    let outcome = run(|s| {
+        rolling(s);
+        let falling = Stream::<()>::tick().scan(1.0, |light: f64, ()| light - 0.001);
+        let world = s.place(Environment::new().light(&falling).fog(0.2).friction(0.5));
+        s.require("dark", always((&world.light - &world.fog).named("sight").above(0.25)));
+    });
+    assert_eq!(outcome.verdict, Verdict::Pass, "{:?} {:?}", outcome.robustness, outcome.error);
+    assert!((signal(&outcome, "sight")[500] - 0.299).abs() < 1e-9);
+}
+
+#[test]
+fn a_statement_of_several_streams_keeps_its_robustness() {
+    let outcome = run(|s| {
+        let (_, car) = rolling(s);
+        let quick = car.speed().above(7.0) & !car.position().x().above(70.0);
+        s.require("quick", always(&quick));
+        s.require("still", never(Temporal::from(car.speed().below(4.0)).historically(0.0..=1.0)));
+    });
+    let robustness: Vec<f64> = outcome.robustness.iter().map(|(_, value)| value.unwrap()).collect();
+    assert!((robustness[0] - 3.0).abs() < 0.5 && (robustness[1] - 6.0).abs() < 0.5, "{robustness:?}");
+}
+
+#[test]
+fn mistakes_are_named() {
+    let twice = refusal(|s| {
+        rolling(s);
+        s.place(Environment::new().friction(0.3));
+        s.place(RoadSegment::new(10.0).friction(0.5));
+    });
+    assert!(twice.contains("the friction of the roads is said twice"), "{twice}");
+    assert!(twice.contains("1 cars under test on 2 roads"), "{twice}");
+    let beyond = refusal(|s| {
+        let (road, _) = rolling(s);
+        s.place(Mover::car(road.path(1)).starting(400.0));
+        s.place(Fixture::tree(road.on_lane(7, 10.0)));
+    });
+    assert!(beyond.contains("other starts 400 m along a path of 300 m"), "{beyond}");
+    assert!(beyond.contains("`road` has no lane 7; it has 1 to 2 and -1 to -2"), "{beyond}");
+    let flat = refusal(|s| {
+        let (road, _) = rolling(s);
+        s.place(Fixture::new("sheet", Body::block(Class::Prop, 1.0, 0.0, 1.0), road.on_lane(2, 10.0)));
+    });
+    assert!(flat.contains("sheet is 1 m long, 0 m wide and 1 m tall"), "{flat}");
+}
+
+#[test]
+fn an_input_that_makes_no_sense_ends_the_run_with_its_name() {
+    let outcome = run(|s| {
+        let (road, car) = rolling(s);
+        s.place(Mover::car(road.path(2)).starting(50.0).speed(car.speed() - 20.0));
+        s.require("some", eventually(car.speed().above(1.0)));
+    });
+    assert_eq!(outcome.verdict, Verdict::Error);
+    assert_eq!(outcome.error.unwrap(), "`other.speed` is -10, expected a number from 0 on at 0.000 s");
+}
+
+#[test]
+fn people_and_things_of_one_name_are_numbered() {
+    let outcome = run(|s| {
+        let (road, car) = rolling(s);
+        for at in [50.0, 60.0] {
+            s.place(Pedestrian::at(road.on_sidewalk(Side::Left, at)));
+        }
+        s.place(Pedestrian::child(road.on_sidewalk(Side::Left, 70.0)));
+        s.place(Mover::pedestrian(Path::straight(Vector2::new(0.0, 30.0), Vector2::new(9.0, 30.0))).speed(1.0));
+        s.require("some", eventually(car.speed().above(1.0)));
+    });
+    for name in ["pedestrian.x", "pedestrian-2.x", "child.x", "pedestrian-3.x"] {
+        assert_eq!(signal(&outcome, name).len(), 501);
+    }
+}
