@@ -71,7 +71,7 @@ fn heads(companions: &mut Companions, rules: &Rules, set: &[usize], end: usize, 
             if let Some(word) = missing.get_mut(begin / 64) {
                 *word &= u64::MAX << (begin % 64);
             }
-            if end % 64 > 0 {
+            if !end.is_multiple_of(64) {
                 *missing.last_mut().expect("there are members") &= !(u64::MAX << (end % 64));
             }
             let from = shown.partition_point(|(key, _)| *key < levels);
