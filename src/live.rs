@@ -60,7 +60,7 @@ impl LiveCoverage {
     }
 
     /// How many of the valid combinations of discrete values are covered, and how many there are; `None` where the
-    /// space has no discrete parameters.
+    /// space has no discrete parameters, or too many combinations of their values to keep count of.
     pub fn combinations(&self) -> Option<(u64, u64)> {
         self.combinations.as_ref().map(|counter| (counter.covered(), counter.valid()))
     }
@@ -86,7 +86,7 @@ mod tests {
             let mut live = LiveCoverage::new(&space, None).unwrap();
             points.iter().for_each(|point| live.add(point).unwrap());
             let said = live.dispersion().unwrap();
-            let tests = Tests { space, points, k: None };
+            let tests = Tests::new(space, points);
             let measured = tests.measure(&[Measure::Dispersion], None, None).unwrap();
             let exact = measured.continuous.unwrap().dispersion.unwrap().volume.lower;
             assert!(said.lower <= exact && exact <= said.upper, "{dims}: {exact} is not in {said:?}");
