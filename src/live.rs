@@ -76,6 +76,7 @@ impl LiveCoverage {
 mod tests {
     use super::*;
     use crate::{Measure, Tests};
+    use paracosm_coverage::{Domain, Parameter};
     use paracosm_generators::{Request, Strategy};
 
     #[test]
@@ -92,6 +93,18 @@ mod tests {
             assert!(said.lower <= exact && exact <= said.upper, "{dims}: {exact} is not in {said:?}");
             assert!(dims > 2 || said.is_exact());
         }
+    }
+
+    #[test]
+    fn too_many_combinations_to_keep_count_of_are_left_out() {
+        let levels = |count: i32| (0..count).map(|level| f64::from(level).into()).collect();
+        let space = |count| {
+            let choice = |name: &str| Parameter::new(name, Domain::Choice(levels(count)));
+            Space::new(["a", "b", "c"].map(choice).to_vec()).unwrap()
+        };
+        let known = |count| LiveCoverage::new(&space(count), Some(3)).unwrap().combinations();
+        assert_eq!(known(100), Some((0, 1_000_000)));
+        assert_eq!(known(900), None);
     }
 
     #[test]

@@ -127,8 +127,8 @@ impl Table {
         self.row("  of all combinations", &combinations.map_or("too many to count".into(), percent));
         self.missing(valid - covered, missing);
         for Strength { parameters, k, valid, covered, ratio, missing } in strengths {
-            let share = percent(*ratio);
-            self.row("  of a group", &format!("{k}-wise {covered} of {valid} ({share}): {}", parameters.join(", ")));
+            let (share, names) = (percent(*ratio), parameters.join(", "));
+            self.row("  of a group", &format!("{covered} of {valid} ({share}), {k}-wise among {names}"));
             self.missing(valid - covered, missing);
         }
     }

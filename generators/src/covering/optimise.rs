@@ -43,7 +43,7 @@ pub fn optimise(
     let mut all = rows.len();
     let mut parts: Vec<(Vec<Vec<usize>>, usize)> = vec![(Vec::new(), 0); tasks.len()];
     for (index, row) in rows.into_iter().enumerate() {
-        let own = tasks.iter().position(|task| task.rules.allows(&row)).expect("every row is of some kind");
+        let own = Task::of_row(&tasks, &row);
         parts[own].0.push(row);
         parts[own].1 += usize::from(index < kept);
     }

@@ -8,30 +8,29 @@ use paracosm_coverage::kwise::KwiseCounter;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// How much may be looked at, in choices of parameters for pairs of rows, for each family. Where that does not suffice
-/// for combinations of so many levels as the family asks for, the order is by combinations of fewer; with very many rows
-/// it stays as it is.
+/// How much may be looked at for each family of a task, in choices of parameters for pairs of rows. Where that does not
+/// suffice for combinations of so many levels as the family asks for, the order is by combinations of fewer; with very
+/// many rows it stays as it is.
 const MOST_LOOKS: usize = 20_000_000;
 
-/// What rows cover of all that the tasks ask for.
+/// What the rows of a task cover of all that it asks for.
 struct Counters(Vec<KwiseCounter>);
 
 impl Counters {
-    fn new(tasks: &[Task], rows: usize) -> Self {
-        let families = tasks.iter().flat_map(|task| task.families.iter().map(|family| (&task.rules, family)));
-        let counters = families.filter_map(|(rules, (members, most))| {
+    fn new(task: &Task, rows: usize) -> Self {
+        let counters = task.families.iter().filter_map(|(members, most)| {
             let heads = |strength: usize| (0..strength - 1).fold(1, |heads, i| heads * (members.len() - i) / (i + 1));
             let affordable = |&strength: &usize| {
                 let looks = heads(strength).checked_mul(rows * rows);
                 looks.is_some_and(|looks| looks <= MOST_LOOKS)
             };
             let strengths = (1..=*most).rev().filter(affordable);
-            strengths.map(|strength| KwiseCounter::among(rules, members, strength)).find_map(Result::ok)
+            strengths.map(|strength| KwiseCounter::among(&task.rules, members, strength)).find_map(Result::ok)
         });
         Self(counters.collect())
     }
 
-    /// How many combinations a row would add. Those of other kinds of tests violate what a task's rules say.
+    /// How many combinations a row would add.
     fn gain(&self, row: &[usize]) -> u64 {
         self.0.iter().map(|counter| counter.gain(row).expect("rows are tests of the space")).sum()
     }
@@ -43,24 +42,27 @@ impl Counters {
     }
 }
 
-/// Orders the rows from `kept` on.
+/// Orders the rows from `kept` on. A row is looked at for the task that it is of.
 pub(super) fn order(tasks: &[Task], rows: Vec<Vec<usize>>, kept: usize) -> Vec<Vec<usize>> {
-    let mut counters = Counters::new(tasks, rows.len());
-    if counters.0.is_empty() {
+    let own: Vec<usize> = rows.iter().map(|row| Task::of_row(tasks, row)).collect();
+    let mut sizes = vec![0; tasks.len()];
+    own.iter().for_each(|&task| sizes[task] += 1);
+    let mut counters: Vec<Counters> = tasks.iter().zip(sizes).map(|(task, rows)| Counters::new(task, rows)).collect();
+    if counters.iter().all(|counters| counters.0.is_empty()) {
         return rows;
     }
-    for row in &rows[..kept] {
-        counters.add(row);
+    for (row, &task) in rows[..kept].iter().zip(&own) {
+        counters[task].add(row);
     }
     let mut order: Vec<usize> = (0..kept).collect();
     let mut waiting: BinaryHeap<(u64, Reverse<usize>)> =
-        (kept..rows.len()).map(|index| (counters.gain(&rows[index]), Reverse(index))).collect();
+        (kept..rows.len()).map(|index| (counters[own[index]].gain(&rows[index]), Reverse(index))).collect();
     while let Some((_, Reverse(index))) = waiting.pop() {
-        let now = (counters.gain(&rows[index]), Reverse(index));
+        let now = (counters[own[index]].gain(&rows[index]), Reverse(index));
         if waiting.peek().is_some_and(|next| *next > now) {
             waiting.push(now);
         } else {
-            counters.add(&rows[index]);
+            counters[own[index]].add(&rows[index]);
             order.push(index);
         }
     }

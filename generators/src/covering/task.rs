@@ -42,6 +42,11 @@ impl<'a> Task<'a> {
         (tasks, invalid)
     }
 
+    /// Which of the tasks of one request a row is of.
+    pub(super) fn of_row(tasks: &[Self], row: &[usize]) -> usize {
+        tasks.iter().position(|task| task.rules.allows(row)).expect("every row is of some kind")
+    }
+
     /// The task of a kind. Groups that combine no more than all parameters do add nothing.
     fn of(request: &CoveringRequest, kind: &Kind) -> Self {
         let all: Vec<usize> = (0..request.rules.levels().len()).collect();
