@@ -54,7 +54,7 @@ impl Tests {
                 for column in columns.by_ref().take(parameter.coordinates()) {
                     let value = Value::parse(&record[*column]);
                     if is_open(&record[*column], parameter) {
-                        return Err(file.wrong(line, OPEN_CELL.to_owned(), Some(*column)));
+                        return Err(file.wrong(line, file.open_cell(), Some(*column)));
                     }
                     if parameter.levels().is_none() && value.number().is_none() {
                         return Err(file.wrong(line, format!("found `{value}`, expected a number"), Some(*column)));
@@ -106,9 +106,6 @@ impl Tests {
         Ok(Self { k: study.strength(), ..Self::new(study.space.clone(), points) })
     }
 }
-
-const OPEN_CELL: &str = "found an empty cell, expected a value; only `paracosm-cover generate --extend` completes tests that \
-                         are begun, where no parameter is continuous";
 
 /// Whether a cell says nothing of a parameter: it is empty, and the parameter does not take the empty word.
 fn is_open(text: &str, parameter: &Parameter) -> bool {
@@ -163,6 +160,14 @@ impl<'p> TestsFile<'p> {
         Tests::check_size(known, self.space.parameters().len())
             .map_err(|error| Error::content(self.path, line, error.to_string()))?;
         Ok(Some((line, record)))
+    }
+
+    /// What is wrong with an empty cell, and where one may be left to be filled.
+    fn open_cell(&self) -> String {
+        let is_mixed = self.space.dims() > 0 && self.space.discrete().next().is_some();
+        let mixed =
+            if is_mixed { "; tests to complete may be begun only where no parameter is continuous" } else { "" };
+        format!("found an empty cell, expected a value{mixed}")
     }
 
     fn wrong(&self, line: Option<usize>, message: String, column: Option<usize>) -> Error {
