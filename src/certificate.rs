@@ -143,7 +143,7 @@ impl Tests {
     ///
     /// # Errors
     /// There are not `k` parameters, or too many combinations of them to count; or neither of the two is among the
-    /// measures.
+    /// measures; or values are negative.
     pub fn certify(
         &self,
         measures: &[Measure],
@@ -151,8 +151,12 @@ impl Tests {
         limit: Option<Duration>,
         watch: &mut Watch,
     ) -> Result<(Coverage, Certificate), Error> {
+        if !self.demand.negatives.is_empty() {
+            let message = "a certificate knows no negative values (`~`): it counts every test for all it contains";
+            return Err(Error::Usage(message.into()));
+        }
         let rules = self.space.rules()?;
-        let keeping = self.keeping(&rules);
+        let keeping = self.keeping(&self.demand.kinds(&self.space)?);
         if keeping.points.len() < self.points.len() {
             let (coverage, certificate) = keeping.certify(measures, k, limit, watch)?;
             let violating = self.points.len() - keeping.points.len();

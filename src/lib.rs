@@ -44,7 +44,7 @@ pub mod cli;
 pub use campaign::{Campaign, simulate_trial};
 pub use error::Error;
 pub use estimate::{
-    Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Tests, Watch,
+    Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Strength, Tests, Watch,
 };
 pub use folder::Folder;
 pub use live::LiveCoverage;

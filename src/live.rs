@@ -60,7 +60,7 @@ impl LiveCoverage {
     }
 
     /// How many of the valid combinations of discrete values are covered, and how many there are; `None` where the
-    /// space has no discrete parameters.
+    /// space has no discrete parameters, or too many combinations of their values to keep count of.
     pub fn combinations(&self) -> Option<(u64, u64)> {
         self.combinations.as_ref().map(|counter| (counter.covered(), counter.valid()))
     }
@@ -76,6 +76,7 @@ impl LiveCoverage {
 mod tests {
     use super::*;
     use crate::{Measure, Tests};
+    use paracosm_coverage::{Domain, Parameter};
     use paracosm_generators::{Request, Strategy};
 
     #[test]
@@ -86,12 +87,24 @@ mod tests {
             let mut live = LiveCoverage::new(&space, None).unwrap();
             points.iter().for_each(|point| live.add(point).unwrap());
             let said = live.dispersion().unwrap();
-            let tests = Tests { space, points, k: None };
+            let tests = Tests::new(space, points);
             let measured = tests.measure(&[Measure::Dispersion], None, None).unwrap();
             let exact = measured.continuous.unwrap().dispersion.unwrap().volume.lower;
             assert!(said.lower <= exact && exact <= said.upper, "{dims}: {exact} is not in {said:?}");
             assert!(dims > 2 || said.is_exact());
         }
+    }
+
+    #[test]
+    fn too_many_combinations_to_keep_count_of_are_left_out() {
+        let levels = |count: i32| (0..count).map(|level| f64::from(level).into()).collect();
+        let space = |count| {
+            let choice = |name: &str| Parameter::new(name, Domain::Choice(levels(count)));
+            Space::new(["a", "b", "c"].map(choice).to_vec()).unwrap()
+        };
+        let known = |count| LiveCoverage::new(&space(count), Some(3)).unwrap().combinations();
+        assert_eq!(known(100), Some((0, 1_000_000)));
+        assert_eq!(known(900), None);
     }
 
     #[test]

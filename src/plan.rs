@@ -4,8 +4,8 @@
 //! numbers of two halves are only joined into one that claims no more than either.
 
 use crate::Error;
+use paracosm_coverage::demand::Demand;
 use paracosm_coverage::dispersion::is_at_most;
-use paracosm_coverage::rules::Rules;
 use paracosm_coverage::theory::{points, rows};
 use paracosm_coverage::{Deadline, PointSet, Space};
 use paracosm_generators::covering::{CoveringRequest, covering_array};
@@ -88,11 +88,19 @@ const MOST_ROWS_MADE: u64 = 20_000;
 const MOST_MEASURED: usize = 1 << 20;
 
 impl Plan {
-    /// The plan for a space. The measuring may take as long as `limit`, all together.
+    /// The plan for a space, of whose discrete parameters `demand` may ask for more than all combinations of k values. The
+    /// measuring may take as long as `limit`, all together.
     ///
     /// # Errors
     /// The space is empty, `k` is not in 1 to the number of discrete parameters, or epsilon or delta not in (0, 1).
-    pub fn of(space: &Space, k: Option<usize>, epsilon: f64, delta: f64, limit: Duration) -> Result<Self, Error> {
+    pub fn of(
+        space: &Space,
+        k: Option<usize>,
+        demand: &Demand,
+        epsilon: f64,
+        delta: f64,
+        limit: Duration,
+    ) -> Result<Self, Error> {
         for (name, share) in [("epsilon", epsilon), ("delta", delta)] {
             if !(share > 0.0 && share < 1.0) {
                 return Err(Error::Usage(format!("{name} is {share}, expected a number above 0 and below 1")));
@@ -111,18 +119,19 @@ impl Plan {
                 return Err(Error::Usage(message));
             }
         };
-        let rules = space.rules()?;
-        let rows = if levels.is_empty() { None } else { Some(rows_needed(&rules, k, delta)?) };
+        let (rules, kinds) = (space.rules()?, demand.kinds(space)?);
+        let request = CoveringRequest { kinds: &kinds, groups: &demand.groups, ..CoveringRequest::new(&rules, k) };
+        let rows = if levels.is_empty() { None } else { Some(rows_needed(&request, delta)?) };
         let points = if dims == 0 { None } else { Some(points_needed(dims, epsilon, delta, limit)?) };
         let tests = rows.as_ref().zip(points.as_ref()).map(|(rows, points)| joined(rows, points));
         Ok(Self { k: (!levels.is_empty()).then_some(k), epsilon, delta, rows, points, tests })
     }
 }
 
-/// How many rows cover discrete parameters k-wise.
-fn rows_needed(rules: &Rules, k: usize, delta: f64) -> Result<Vec<Need>, Error> {
+/// How many rows cover discrete parameters k-wise, and groups as they ask for.
+fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error> {
+    let &CoveringRequest { rules, k, .. } = request;
     let levels = rules.levels();
-    let every: Vec<usize> = (0..levels.len()).collect();
     let random = |name: &str, tests| Need {
         of: format!("random rows, {name}"),
         tests,
@@ -131,10 +140,10 @@ fn rows_needed(rules: &Rules, k: usize, delta: f64) -> Result<Vec<Need>, Error> 
     };
     let countable = |tests| (tests < u64::MAX).then_some(tests);
     // No row has two combinations of the same parameters.
-    let least = u64::try_from(rules.count(&every, k).largest).ok();
+    let least = u64::try_from(request.lower_bound().map_err(GeneratorError::from)?).ok();
     // An array of very many rows takes long to make.
     let array = match least {
-        Some(..=MOST_ROWS_MADE) => Some(covering_array(&CoveringRequest::new(rules, k)).map_err(GeneratorError::from)?),
+        Some(..=MOST_ROWS_MADE) => Some(covering_array(request).map_err(GeneratorError::from)?),
         _ => None,
     };
     let array = array.map(|array| array.rows.len() as u64);
@@ -145,8 +154,11 @@ fn rows_needed(rules: &Rules, k: usize, delta: f64) -> Result<Vec<Need>, Error> 
         Need { over: least.filter(|_| array.is_none()), ..need("ipog, the array of seed 0", array, Guarantee::Proved) },
         need("all combinations", all, Guarantee::Proved),
     ];
-    if rules.groups() > 0 {
-        // Under constraints combinations are not equally probable, which the bounds for random rows rest on.
+    let has_negatives = request.kinds.iter().any(|kind| kind.negative().is_some());
+    let asks_more = has_negatives || request.groups.iter().any(|(_, strength)| *strength > k);
+    if rules.groups() > 0 || asks_more {
+        // Under constraints combinations are not equally probable, which the bounds for random rows rest on; and they are
+        // about any k parameters, no more.
         return Ok(needs);
     }
     if levels.iter().all(|&v| v == 2) {

@@ -53,6 +53,9 @@ impl Tests {
                 let mut values = Vec::new();
                 for column in columns.by_ref().take(parameter.coordinates()) {
                     let value = Value::parse(&record[*column]);
+                    if is_open(&record[*column], parameter) {
+                        return Err(file.wrong(line, file.open_cell(), Some(*column)));
+                    }
                     if parameter.levels().is_none() && value.number().is_none() {
                         return Err(file.wrong(line, format!("found `{value}`, expected a number"), Some(*column)));
                     }
@@ -64,7 +67,7 @@ impl Tests {
             let point = file.space.encode(&test).map_err(|error| file.wrong(line, error.to_string(), None))?;
             points.push(point);
         }
-        Ok(Self { space: file.space, points, k: None })
+        Ok(Self::new(file.space, points))
     }
 
     /// Reads tests of a space without continuous parameters that may say nothing yet of some of the others: an empty
@@ -78,7 +81,7 @@ impl Tests {
         while let Some((line, record)) = file.next(rows.len())? {
             let level = |(coordinate, column): (Coordinate, &usize)| {
                 let text = &record[*column];
-                if text.is_empty() {
+                if is_open(text, coordinate.parameter) {
                     return Ok(None);
                 }
                 // What a constant of this choice would take, a coordinate of a signal does.
@@ -100,8 +103,14 @@ impl Tests {
     pub fn of_trials(study: &Study, trials: &[Trial]) -> Result<Self, Error> {
         let covering = trials.iter().filter(|trial| trial.covers());
         let points = covering.map(|trial| study.space.encode(&trial.test)).collect::<Result<_, _>>()?;
-        Ok(Self { space: study.space.clone(), points, k: study.strength() })
+        Ok(Self { k: study.strength(), ..Self::new(study.space.clone(), points) })
     }
+}
+
+/// Whether a cell says nothing of a parameter: it is empty, and the parameter does not take the empty word.
+fn is_open(text: &str, parameter: &Parameter) -> bool {
+    let takes_it = || parameter.levels().is_some_and(|levels| levels.contains(&Value::Word(String::new())));
+    text.is_empty() && !takes_it()
 }
 
 /// A CSV of tests, past its header.
@@ -151,6 +160,14 @@ impl<'p> TestsFile<'p> {
         Tests::check_size(known, self.space.parameters().len())
             .map_err(|error| Error::content(self.path, line, error.to_string()))?;
         Ok(Some((line, record)))
+    }
+
+    /// What is wrong with an empty cell, and where one may be left to be filled.
+    fn open_cell(&self) -> String {
+        let is_mixed = self.space.dims() > 0 && self.space.discrete().next().is_some();
+        let mixed =
+            if is_mixed { "; tests to complete may be begun only where no parameter is continuous" } else { "" };
+        format!("found an empty cell, expected a value{mixed}")
     }
 
     fn wrong(&self, line: Option<usize>, message: String, column: Option<usize>) -> Error {

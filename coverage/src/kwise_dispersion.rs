@@ -11,7 +11,7 @@
 //! of the blocks before, so that most are done as soon as they are begun, and the result does not depend on threads.
 
 use crate::dispersion::{LargestEmptyBox, larger_than};
-use crate::kwise::{KwiseError, advance, kwise_coverage, tuple};
+use crate::kwise::{KwiseCoverage, KwiseError, advance, kwise_coverage, tuple};
 use crate::rules::Rules;
 use crate::{Bracket, Deadline, Point, PointSet};
 use rayon::prelude::*;
@@ -31,6 +31,17 @@ pub struct KwiseDispersion {
     pub axes: Vec<usize>,
     /// The largest empty box over those axes; `None` where there is none among the k.
     pub witness: Option<LargestEmptyBox>,
+}
+
+impl KwiseDispersion {
+    /// That of tests without continuous parameters: nothing but whether they cover all combinations.
+    pub fn of_coverage(counted: KwiseCoverage) -> Self {
+        let (volume, fixed) = match counted.missing.into_iter().next() {
+            Some(missing) => (1.0, missing),
+            None => (0.0, Vec::new()),
+        };
+        Self { volume: Bracket::exact(volume), fixed, axes: Vec::new(), witness: None }
+    }
 }
 
 /// A choice of some of the parameters, with values for the discrete ones: the tests with those values, seen along the
@@ -96,12 +107,8 @@ pub fn kwise_dispersion(
     if dims == 0
         && let Ok(counted) = kwise_coverage(rules, k, tests.iter().map(|test| &test.discrete[..]))
     {
-        // Nothing but whether all combinations are covered: counting is faster than looking at one after the other.
-        let (volume, fixed) = match counted.missing.into_iter().next() {
-            Some(missing) => (1.0, missing),
-            None => (0.0, Vec::new()),
-        };
-        return Ok(KwiseDispersion { volume: Bracket::exact(volume), fixed, axes: Vec::new(), witness: None });
+        // Counting is faster than looking at one combination after the other.
+        return Ok(KwiseDispersion::of_coverage(counted));
     }
     let found = worst_of(projections(dims, rules, k)?, tests, deadline);
     // None, where the deadline came before anything: the least that can be said.

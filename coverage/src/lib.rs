@@ -10,13 +10,15 @@
 //! Where tests failed, [`suspects`] says which combinations of discrete values are behind it.
 //!
 //! Which tests make sense is said by constraints: [`constraint`] is their language, [`rules`] what follows from
-//! them, and [`pict`] reads spaces and constraints from the model files of PICT.
+//! them, and [`pict`] reads spaces and constraints from the model files of PICT. What tests are to cover beyond all
+//! combinations of k values is a [`demand`].
 //!
 //! The crate computes: it opens no file and runs no simulation. Numbers called exact are exact; what a time
 //! limit cut short comes back as a certified [`Bracket`].
 
 mod bracket;
 pub mod constraint;
+pub mod demand;
 pub mod dispersion;
 pub mod empty_boxes;
 pub mod extreme;

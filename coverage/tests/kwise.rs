@@ -3,7 +3,8 @@
 mod models;
 
 use models::{all_tests, keeps, models};
-use paracosm_coverage::kwise::{KwiseCounter, KwiseError, MISSING_LISTED, kwise_coverage};
+use paracosm_coverage::demand::Kind;
+use paracosm_coverage::kwise::{KwiseCounter, KwiseError, MISSING_LISTED, coverage_of_kinds, kwise_coverage};
 use paracosm_coverage::rules::{Clause, Rules};
 use paracosm_coverage::theory::rows::{proposition_3_2, random_family_size, union_bound};
 use proptest::prelude::*;
@@ -76,6 +77,97 @@ proptest! {
             prop_assert_eq!((counter.valid(), counter.covered()), (coverage.valid, coverage.covered));
         }
     }
+}
+
+/// A space with constraints, some of its values negative, groups with a strength each, and tests.
+type Demanding = (Vec<usize>, Vec<Vec<Clause>>, Vec<(usize, usize)>, Vec<usize>, usize, Vec<Vec<usize>>);
+
+fn demanding() -> impl Strategy<Value = Demanding> {
+    models().prop_flat_map(|(levels, constraints)| {
+        let test: Vec<_> = levels.iter().map(|&v| 0..v).collect();
+        let pairs: Vec<(usize, usize)> = (0..levels.len()).flat_map(|p| (0..levels[p]).map(move |l| (p, l))).collect();
+        let negatives = prop::sample::subsequence(pairs.clone(), 0..=pairs.len().min(4));
+        let all: Vec<usize> = (0..levels.len()).collect();
+        let group = prop::sample::subsequence(all, 1..=levels.len());
+        let group = group.prop_flat_map(|group| (Just(group.clone()), 1..=group.len()));
+        (Just(levels), Just(constraints), negatives, group, prop::collection::vec(test, 0..12)).prop_map(
+            |(levels, constraints, negatives, (group, k), tests)| (levels, constraints, negatives, group, k, tests),
+        )
+    })
+}
+
+/// What tests show of a group: of a test with a negative value only combinations with that value, of one with several
+/// nothing.
+fn shown<'a>(
+    tests: impl IntoIterator<Item = &'a Vec<usize>>,
+    negatives: &[(usize, usize)],
+    group: &[usize],
+    k: usize,
+) -> BTreeSet<Tuple> {
+    let mut shown = BTreeSet::new();
+    for test in tests {
+        let own = (0..test.len()).filter(|&p| negatives.contains(&(p, test[p]))).collect::<Vec<_>>();
+        let entries: Tuple = group.iter().map(|&p| (p, test[p])).collect();
+        let tuples = subsets(&entries, k).into_iter();
+        shown.extend(tuples.filter(|tuple| match own[..] {
+            [] => true,
+            [only] => tuple.iter().any(|(parameter, _)| *parameter == only),
+            _ => false,
+        }));
+    }
+    shown
+}
+
+proptest! {
+    #[test]
+    fn groups_and_negative_values_count_as_test_by_test(
+        (levels, constraints, negatives, group, k, tests) in demanding()
+    ) {
+        let kept = |test: &&Vec<usize>| constraints.iter().all(|constraint| keeps(constraint, test));
+        let few = |test: &&Vec<usize>| negatives.iter().filter(|(p, l)| test[*p] == *l).count() <= 1;
+        let every = all_tests(&levels);
+        let every: Vec<&Vec<usize>> = every.iter().filter(kept).filter(few).collect();
+        let Ok(kinds) = Kind::all(&levels, &constraints, &negatives) else {
+            prop_assert!(every.is_empty());
+            return Ok(());
+        };
+        let coverage = coverage_of_kinds(&kinds, &group, k, tests.iter().map(Vec::as_slice)).unwrap();
+        let valid = shown(every.iter().copied(), &negatives, &group, k);
+        let covered = shown(tests.iter().filter(kept), &negatives, &group, k);
+        prop_assert_eq!((coverage.valid, coverage.covered), (valid.len() as u64, covered.len() as u64));
+        let parameters = |tuple: &Tuple| tuple.iter().map(|(parameter, _)| *parameter).collect::<Vec<_>>();
+        let mut missing: Vec<Tuple> = valid.difference(&covered).cloned().collect();
+        missing.sort_by_key(|tuple| (parameters(tuple), tuple.clone()));
+        missing.truncate(MISSING_LISTED);
+        prop_assert_eq!(coverage.missing, missing);
+        let sound = |test: &&Vec<usize>| kept(test) && few(test);
+        let distinct: BTreeSet<_> = tests.iter().filter(sound).collect();
+        prop_assert_eq!(coverage.combinations, Some(distinct.len() as f64 / every.len() as f64));
+        let invalid: Vec<usize> = (0..tests.len()).filter(|&i| !sound(&&tests[i])).collect();
+        prop_assert_eq!(coverage.invalid, invalid);
+    }
+
+    #[test]
+    fn a_counter_of_a_group_knows_its_coverage((levels, constraints, _, group, k, tests) in demanding()) {
+        let Ok(rules) = Rules::new(&levels, &constraints) else { return Ok(()) };
+        let mut counter = KwiseCounter::among(&rules, &group, k).unwrap();
+        for (i, test) in tests.iter().enumerate() {
+            let gain = counter.gain(test).unwrap();
+            prop_assert_eq!(counter.add(test).unwrap(), gain);
+            let kept = tests[..=i].iter().filter(|test| constraints.iter().all(|constraint| keeps(constraint, test)));
+            prop_assert_eq!(counter.covered(), shown(kept, &[], &group, k).len() as u64);
+        }
+    }
+}
+
+#[test]
+fn more_than_64_mebibytes_are_not_kept() {
+    let kept = |levels: usize, k| KwiseCounter::new(&Rules::free(&[levels; 2]), k).map(|counter| counter.valid());
+    assert_eq!(kept(23_000, 2), Ok(529_000_000));
+    // A row of 33,000 bits lies in 517 words.
+    assert_eq!(kept(33_000, 2), Err(KwiseError::Memory { k: 2, mebibytes: (33_000u128 * 517).div_ceil(1 << 17) }));
+    assert_eq!(kept(33_000, 1), Ok(66_000));
+    assert!(kwise_coverage(&Rules::free(&[33_000; 2]), 2, std::iter::empty()).is_ok());
 }
 
 #[test]

@@ -49,7 +49,7 @@ fn a_model_is_read_with_its_sub_models_and_constraints() {
     let names: Vec<_> = model.space.parameters().iter().map(|parameter| parameter.name.as_str()).collect();
     assert_eq!(names, ["Type", "Size", "File system", "Other system", "Compression"]);
     assert_eq!(model.space.levels(), [4, 4, 3, 4, 2]);
-    assert_eq!(model.strengths, [(vec![0, 1, 4], 3)]);
+    assert_eq!(model.demand.groups, [(vec![0, 1, 4], 3)]);
     assert_eq!(
         constraints(&model),
         [
@@ -120,11 +120,12 @@ fn no_test_has_two_negative_values() {
         let few = negatives.iter().filter(|negative| **negative).count() <= 1;
         assert_eq!(allowed, few && (test[0] != (-1).into() || test[2] == "x".into()), "{test:?}");
     }
-    assert_eq!(model.notes.len(), 1);
+    assert_eq!(model.demand.negatives, [(0, 0), (1, 0), (3, 0), (3, 1)]);
+    assert_eq!(model.notes, [""; 0]);
     let all = read("A: ~1, 2\nB: ~x, y\nIF IsPositive() THEN [B] = \"q\" ELSE NOT IsNegative([B]);");
     let allowed: Vec<_> = tests(&all).into_iter().filter(|(_, allowed)| *allowed).map(|(test, _)| test).collect();
     assert_eq!(allowed, [[1.into(), "y".into()]]);
-    assert_eq!(all.notes[1], "line 3, column 28: `B` is never `q`");
+    assert_eq!(all.notes[0], "line 3, column 28: `B` is never `q`");
 }
 
 /// A comparison without regard to case, as PICT documents it, and what joins them.

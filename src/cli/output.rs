@@ -1,7 +1,7 @@
 //! How results are printed: as a table for people, as JSON for programs.
 
-use crate::coverage::{Bracket, Domain, Value};
-use crate::estimate::{Continuous, Coverage, Discrete, KEpsilon};
+use crate::coverage::{Bracket, Domain, Record, Value};
+use crate::estimate::{Continuous, Coverage, Discrete, KEpsilon, Strength};
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -122,14 +122,24 @@ impl Table {
     }
 
     fn discrete(&mut self, measured: &Discrete) {
-        let Discrete { k, covered, valid, ratio, missing, combinations } = measured;
+        let Discrete { k, covered, valid, ratio, missing, combinations, strengths } = measured;
         self.row(&format!("{k}-wise coverage"), &format!("{covered} of {valid} ({})", percent(*ratio)));
         self.row("  of all combinations", &combinations.map_or("too many to count".into(), percent));
-        for (i, tuple) in missing.iter().enumerate() {
+        self.missing(valid - covered, missing);
+        for Strength { parameters, k, valid, covered, ratio, missing } in strengths {
+            let (share, names) = (percent(*ratio), parameters.join(", "));
+            self.row("  of a group", &format!("{covered} of {valid} ({share}), {k}-wise among {names}"));
+            self.missing(valid - covered, missing);
+        }
+    }
+
+    /// So many combinations that no test contains, of which some are listed.
+    fn missing(&mut self, all: u64, listed: &[Record<Value>]) {
+        for (i, tuple) in listed.iter().enumerate() {
             let values: Vec<String> = tuple.iter().map(|(name, value)| format!("{name} {value}")).collect();
             self.row(if i == 0 { "  missing" } else { "" }, &values.join(", "));
         }
-        let unlisted = valid - covered - missing.len() as u64;
+        let unlisted = all - listed.len() as u64;
         if unlisted > 0 {
             self.row("", &format!("and {unlisted} more"));
         }

@@ -37,7 +37,7 @@ impl Case {
         let Self { strategy, dims, budget, seed } = *self;
         let space = Space::unit_cube(dims);
         let points = strategy.build(&Request { seed, ..Request::new(&space, budget) })?.ask(budget);
-        let tests = Tests { space, points, k: None };
+        let tests = Tests::new(space, points);
         let value = |&measure: &Measure| {
             // A measure that is not about k parameters must not stumble over a k that is too large.
             let k = k.min(dims);

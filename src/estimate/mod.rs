@@ -4,15 +4,15 @@ mod measure;
 mod report;
 
 pub use measure::Measure;
-pub use report::{Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst};
+pub use report::{Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Strength};
 
 use crate::Error;
+use paracosm_coverage::demand::{Demand, Kind};
 use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox, dispersion_watched};
 use paracosm_coverage::extreme::extreme_discrepancy;
 use paracosm_coverage::fill::fill;
-use paracosm_coverage::kwise::kwise_coverage;
+use paracosm_coverage::kwise::{KwiseCoverage, coverage_of_kinds};
 use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion, row_dispersion};
-use paracosm_coverage::rules::Rules;
 use paracosm_coverage::star::star_discrepancy;
 use paracosm_coverage::{Bracket, Coordinate, Deadline, Point, PointSet, Record, Space, Value, l2};
 use std::time::{Duration, Instant};
@@ -26,6 +26,9 @@ pub struct Tests {
     pub points: Vec<Point>,
     /// How many discrete parameters at a time they were made to cover, if that was said.
     pub k: Option<usize>,
+    /// What is asked of them beside all combinations of k values. Which values are negative matters to the combinations
+    /// of discrete values; to the continuous parameters all tests count.
+    pub demand: Demand,
 }
 
 /// What is told who watches a measurement: the measure at work, and its bracket by now.
@@ -40,6 +43,11 @@ pub(crate) struct Holes {
 }
 
 impl Tests {
+    /// Tests of which nothing more is known.
+    pub fn new(space: Space, points: Vec<Point>) -> Self {
+        Self { space, points, k: None, demand: Demand::default() }
+    }
+
     /// Measures how well the tests cover their space: `k` parameters at a time, where that matters (where nothing is
     /// said, as the tests were made to; else 2, or as many as there are), and all that takes long within a time limit.
     ///
@@ -78,7 +86,8 @@ impl Tests {
             return Err(Error::Usage(format!("k is {k}, expected 1 to {parameters}, the number of parameters")));
         }
         let rules = self.space.rules()?;
-        let keeping = self.keeping(&rules);
+        let kinds = self.demand.kinds(&self.space)?;
+        let keeping = self.keeping(&kinds);
         let violating = self.points.len() - keeping.points.len();
         if violating > 0 {
             let (coverage, holes) = keeping.measure_holes(measures, Some(k), limit, watch)?;
@@ -99,7 +108,7 @@ impl Tests {
             _ if !measures.contains(&Measure::KWise) => None,
             parameters => {
                 watch(Measure::KWise, None);
-                Some(Some(self.discrete(k.min(parameters), &rules)?))
+                Some(Some(self.discrete(k.min(parameters), &kinds)?))
             }
         };
         let counted = discrete.as_ref().and_then(Option::as_ref);
@@ -117,7 +126,14 @@ impl Tests {
         });
         let k_wise_dispersion = if measures.contains(&Measure::KWiseDispersion) {
             watch(Measure::KWiseDispersion, None);
-            let found = kwise_dispersion(self.space.dims(), &rules, &self.points, k, clock.next())?;
+            let found = match self.space.dims() {
+                // Which tests count for a combination is for their kinds to say.
+                0 if !self.demand.negatives.is_empty() => {
+                    let all: Vec<usize> = (0..levels.len()).collect();
+                    KwiseDispersion::of_coverage(self.counted(&all, k, &kinds)?)
+                }
+                dims => kwise_dispersion(dims, &rules, &self.points, k, clock.next())?,
+            };
             let worst = self.place(&found.fixed, &found.axes, found.witness.as_ref());
             let volume = found.volume;
             holes.k_wise = Some((k, found));
@@ -132,9 +148,10 @@ impl Tests {
     }
 
     /// The tests that keep the constraints.
-    pub(crate) fn keeping(&self, rules: &Rules) -> Self {
-        let points = self.points.iter().filter(|point| rules.allows(&point.discrete)).cloned().collect();
-        Self { space: self.space.clone(), points, k: self.k }
+    pub(crate) fn keeping(&self, kinds: &[Kind]) -> Self {
+        let keeps = |point: &&Point| kinds.iter().any(|kind| kind.rules().allows(&point.discrete));
+        let points = self.points.iter().filter(keeps).cloned().collect();
+        Self { space: self.space.clone(), points, k: self.k, demand: self.demand.clone() }
     }
 
     /// The place of a hole, as values.
@@ -192,18 +209,39 @@ impl Tests {
         Ok(coverage)
     }
 
-    fn discrete(&self, k: usize, rules: &Rules) -> Result<Discrete, Error> {
+    fn discrete(&self, k: usize, kinds: &[Kind]) -> Result<Discrete, Error> {
         let parameters: Vec<Coordinate> = self.space.discrete().collect();
-        let counted = kwise_coverage(rules, k, self.points.iter().map(|point| point.discrete.as_slice()))?;
-        let name = |&(parameter, level): &(usize, usize)| named_level(&parameters, parameter, level);
+        let named = |tuples: &[Vec<(usize, usize)>]| {
+            let name = |&(parameter, level): &(usize, usize)| named_level(&parameters, parameter, level);
+            tuples.iter().map(|tuple| tuple.iter().map(name).collect()).collect()
+        };
+        let of_group = |(members, k): &(Vec<usize>, usize)| {
+            let counted = self.counted(members, *k, kinds)?;
+            Ok(Strength {
+                parameters: members.iter().map(|&member| parameters[member].name()).collect(),
+                k: *k,
+                valid: counted.valid,
+                covered: counted.covered,
+                ratio: counted.ratio(),
+                missing: named(&counted.missing),
+            })
+        };
+        let all: Vec<usize> = (0..parameters.len()).collect();
+        let counted = self.counted(&all, k, kinds)?;
         Ok(Discrete {
             k,
             valid: counted.valid,
             covered: counted.covered,
             ratio: counted.ratio(),
-            missing: counted.missing.iter().map(|tuple| tuple.iter().map(name).collect()).collect(),
+            missing: named(&counted.missing),
             combinations: counted.combinations,
+            strengths: self.demand.groups.iter().map(of_group).collect::<Result<_, Error>>()?,
         })
+    }
+
+    /// What the tests cover of some discrete parameters.
+    fn counted(&self, parameters: &[usize], k: usize, kinds: &[Kind]) -> Result<KwiseCoverage, Error> {
+        Ok(coverage_of_kinds(kinds, parameters, k, self.points.iter().map(|point| point.discrete.as_slice()))?)
     }
 }
 
@@ -256,7 +294,7 @@ mod tests {
         // By way of values, as tests in a file would come: widths are powers of two, so that nothing is rounded.
         let values = points.iter().map(|point| scaled.encode(&scaled.decode(point)).unwrap()).collect();
         let measure = |space, points| {
-            let coverage = Tests { space, points, k: None }.measure(&Measure::ALL, None, None).unwrap();
+            let coverage = Tests::new(space, points).measure(&Measure::ALL, None, None).unwrap();
             let continuous = coverage.continuous.unwrap();
             let dispersion = continuous.dispersion.unwrap().volume;
             let hole = coverage.k_wise_dispersion.unwrap().volume;

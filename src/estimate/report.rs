@@ -107,6 +107,26 @@ pub struct Discrete {
     pub missing: Vec<Record<Value>>,
     /// The share of the valid combinations of all parameters that are tested; null where these are too many to count.
     pub combinations: Option<f64>,
+    /// The groups that were named, with a k of their own.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub strengths: Vec<Strength>,
+}
+
+/// How well tests cover a group of discrete parameters.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Strength {
+    /// The parameters.
+    pub parameters: Vec<String>,
+    /// How many of them are looked at together.
+    pub k: usize,
+    /// All combinations of values of k of them.
+    pub valid: u64,
+    /// Those that some test contains.
+    pub covered: u64,
+    /// covered / valid.
+    pub ratio: f64,
+    /// Some that no test contains, 20 at most.
+    pub missing: Vec<Record<Value>>,
 }
 
 /// Whether tests are (k, epsilon)-covering: any k discrete parameters show all valid combinations of their values, and

@@ -79,7 +79,7 @@ fn broken_files_of_tests_are_refused_with_the_line() {
         (b"", &["empty", "header"]),
         (b"a,b\n0.1,0.2\n0.3\n", &["line 3", "found 1 fields, expected 2"]),
         (b"a,b\n0.1,far\n", &["line 2", "`b`", "`far`", "number"]),
-        (b"a,b\n0.1,\n", &["line 2", "`b`", "``"]),
+        (b"a,b\n0.1,\n", &["line 2", "`b`", "an empty cell"]),
         (b"a,b\n0.1,1.2\n", &["line 2", "`b`", "1.2", "[0, 1]", "--space"]),
         (b"a,b\n0.1,-0.2\n", &["line 2", "-0.2"]),
         (b"a,b\n0.1,NaN\n", &["line 2", "NaN"]),

@@ -12,3 +12,4 @@ mod guilty;
 mod pedestrian_study;
 mod plan;
 mod signals;
+mod strength;

@@ -48,8 +48,12 @@ impl Bits {
     }
 }
 
-/// The number of combinations of levels of `k` parameters that the tests contain; no test comes twice.
+/// The number of combinations of levels of `k` parameters that the tests contain; no test comes twice. Any
+/// test contains the one combination of none.
 pub(super) fn covered(levels: &[usize], k: usize, tests: &[&[usize]]) -> u64 {
+    if k == 0 {
+        return u64::from(!tests.is_empty());
+    }
     let counting = Counting { parameters: levels.len(), tests, bits: Bits::new(levels, tests) };
     let all: Vec<usize> = (0..tests.len()).collect();
     if k == 1 {

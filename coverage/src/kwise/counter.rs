@@ -1,7 +1,10 @@
 //! k-wise coverage kept up to date while tests arrive.
 
-use super::{KwiseError, MOST_TUPLES, advance, check, valid};
+use super::{KwiseError, advance, check, valid};
 use crate::rules::Rules;
+
+/// How many words the bits of a counter may take: 64 mebibytes.
+const MOST_WORDS: u128 = 1 << 23;
 
 /// Which valid combinations of k levels the tests so far contain.
 ///
@@ -9,45 +12,65 @@ use crate::rules::Rules;
 #[derive(Debug, Clone)]
 pub struct KwiseCounter {
     rules: Rules,
+    /// The parameters that are counted, in ascending order, and their numbers of levels.
+    members: Vec<usize>,
+    levels: Vec<usize>,
     k: usize,
     valid: u64,
     covered: u64,
     tests: usize,
-    /// The first bit of each parameter's levels, and the end of the last.
+    /// The first bit of each member's levels, and the end of the last.
     first: Vec<usize>,
     seen: Vec<u64>,
 }
 
 impl KwiseCounter {
-    /// A counter that no test has reached yet.
+    /// A counter of the combinations of `k` parameters that no test has reached yet.
     ///
     /// # Errors
     /// `k` is 0 or more than there are parameters, a parameter has no level, or there are too many combinations:
-    /// more than 2^33 bits would be needed.
+    /// their bits would take more than 64 MiB.
     pub fn new(rules: &Rules, k: usize) -> Result<Self, KwiseError> {
-        let valid = valid(rules, k)?;
-        let levels = rules.levels();
+        let all: Vec<usize> = (0..rules.levels().len()).collect();
+        Self::among(rules, &all, k)
+    }
+
+    /// A counter of the combinations of `k` of some parameters, in ascending order.
+    ///
+    /// # Errors
+    /// As [`KwiseCounter::new`].
+    ///
+    /// # Panics
+    /// There is no such parameter.
+    pub fn among(rules: &Rules, parameters: &[usize], k: usize) -> Result<Self, KwiseError> {
+        if k == 0 {
+            return Err(KwiseError::Strength { k, parameters: parameters.len() });
+        }
+        let valid = valid(rules, parameters, k)?;
+        let members = parameters.to_vec();
+        let levels: Vec<usize> = members.iter().map(|&member| rules.levels()[member]).collect();
         let mut first = vec![0];
         first.extend(levels.iter().scan(0, |bits, levels| {
             *bits += levels;
             Some(*bits)
         }));
-        let mut counter = Self { rules: rules.clone(), k, valid, covered: 0, tests: 0, first, seen: Vec::new() };
+        let (rules, seen) = (rules.clone(), Vec::new());
+        let mut counter = Self { rules, members, levels, k, valid, covered: 0, tests: 0, first, seen };
         let mut words = 0u128;
         counter.each_head(|set, (begin, end)| {
-            let heads = set.iter().fold(1u128, |heads, &parameter| heads.saturating_mul(levels[parameter] as u128));
+            let heads = set.iter().fold(1u128, |heads, &place| heads.saturating_mul(counter.levels[place] as u128));
             words = words.saturating_add(heads.saturating_mul((end - begin) as u128));
         });
-        if words > MOST_TUPLES / 64 {
-            return Err(KwiseError::TooMany { k, found: words.saturating_mul(64) });
+        if words > MOST_WORDS {
+            return Err(KwiseError::Memory { k, mebibytes: words.div_ceil(1 << 17) });
         }
         counter.seen = vec![0; words as usize];
         Ok(counter)
     }
 
-    /// Calls for each choice of k - 1 parameters with a later one, and the words of the later ones' bits.
+    /// Calls for each choice of k - 1 members, by their places, with a later one, and the words of the later ones' bits.
     fn each_head(&self, mut call: impl FnMut(&[usize], (usize, usize))) {
-        let parameters = self.first.len() - 1;
+        let parameters = self.members.len();
         let mut set: Vec<usize> = (0..self.k - 1).collect();
         loop {
             let next = set.last().map_or(0, |last| last + 1);
@@ -62,11 +85,12 @@ impl KwiseCounter {
 
     /// Calls with the word of `seen` and the bits there for all combinations of a test.
     fn each_word(&self, test: &[usize], mut call: impl FnMut(usize, u64)) {
+        let test: Vec<usize> = self.members.iter().map(|&member| test[member]).collect();
         let mut bits = vec![0u64; self.first[test.len()].div_ceil(64)];
-        for (first, level) in self.first.iter().zip(test) {
+        for (first, level) in self.first.iter().zip(&test) {
             bits[(first + level) / 64] |= 1 << ((first + level) % 64);
         }
-        let levels = self.rules.levels();
+        let levels = &self.levels;
         let mut start = 0;
         self.each_head(|set, (begin, end)| {
             let words = end - begin;

@@ -10,18 +10,30 @@ struct Head {
     missing: Vec<u64>,
 }
 
-/// The first [`MISSING_LISTED`] valid combinations of `k` parameters that none of the valid tests contains.
-pub(super) fn first_missing(rules: &Rules, k: usize, tests: &[&[usize]]) -> Vec<Vec<(usize, usize)>> {
-    let parameters = rules.levels().len();
-    let order: Vec<usize> = (0..parameters).collect();
+/// The first [`MISSING_LISTED`] valid combinations of `k` of the members that none of the valid tests contains; the
+/// members are in ascending order.
+pub(super) fn first_missing(
+    rules: &Rules,
+    members: &[usize],
+    k: usize,
+    tests: &[&[usize]],
+) -> Vec<Vec<(usize, usize)>> {
+    if k == 0 {
+        return if tests.is_empty() { vec![Vec::new()] } else { Vec::new() };
+    }
+    // The bits of the members come first, so that those of the later ones are all after those of the earlier.
+    let others = (0..rules.levels().len()).filter(|parameter| members.binary_search(parameter).is_err());
+    let order: Vec<usize> = members.iter().copied().chain(others).collect();
     let mut companions = Companions::new(rules, &order);
+    let end: usize = members.iter().map(|&member| rules.levels()[member]).sum();
     let mut listed = Vec::new();
-    let mut set: Vec<usize> = (0..k - 1).collect();
+    let mut places: Vec<usize> = (0..k - 1).collect();
     loop {
-        let next = set.last().map_or(0, |last| last + 1);
-        let heads = if next < parameters { heads(&mut companions, rules, &set, tests) } else { Vec::new() };
+        let set: Vec<usize> = places.iter().map(|&place| members[place]).collect();
+        let next = places.last().map_or(0, |last| last + 1);
+        let heads = if next < members.len() { heads(&mut companions, rules, &set, end, tests) } else { Vec::new() };
         if !heads.is_empty() {
-            for last in next..parameters {
+            for &last in &members[next..] {
                 for head in &heads {
                     for level in 0..rules.levels()[last] {
                         let bit = companions.first(last) + level;
@@ -35,14 +47,15 @@ pub(super) fn first_missing(rules: &Rules, k: usize, tests: &[&[usize]]) -> Vec<
                 }
             }
         }
-        if !advance(&mut set, parameters) {
+        if !advance(&mut places, members.len()) {
             return listed;
         }
     }
 }
 
-/// The combinations of levels of some parameters that are missing with a level of a later parameter.
-fn heads(companions: &mut Companions, rules: &Rules, set: &[usize], tests: &[&[usize]]) -> Vec<Head> {
+/// The combinations of levels of some parameters that are missing with a level of a later parameter, whose bit is below
+/// the `end`.
+fn heads(companions: &mut Companions, rules: &Rules, set: &[usize], end: usize, tests: &[&[usize]]) -> Vec<Head> {
     let key = |test: &[usize]| set.iter().map(|&parameter| test[parameter]).collect::<Vec<_>>();
     let mut shown: Vec<(Vec<usize>, &[usize])> = tests.iter().map(|test| (key(test), *test)).collect();
     shown.sort_unstable();
@@ -53,16 +66,21 @@ fn heads(companions: &mut Companions, rules: &Rules, set: &[usize], tests: &[&[u
     loop {
         let fixed: Vec<(usize, usize)> = set.iter().copied().zip(levels.iter().copied()).collect();
         if let Some(valid) = companions.with(&fixed) {
-            let mut missing = valid.to_vec();
+            let mut missing = valid[..end.div_ceil(64)].to_vec();
             missing[..begin / 64].fill(0);
             if let Some(word) = missing.get_mut(begin / 64) {
                 *word &= u64::MAX << (begin % 64);
+            }
+            if !end.is_multiple_of(64) {
+                *missing.last_mut().expect("there are members") &= !(u64::MAX << (end % 64));
             }
             let from = shown.partition_point(|(key, _)| *key < levels);
             for (_, test) in shown[from..].iter().take_while(|(key, _)| *key == levels) {
                 for (parameter, level) in test.iter().enumerate() {
                     let bit = companions.first(parameter) + level;
-                    missing[bit / 64] &= !(1 << (bit % 64));
+                    if bit < end {
+                        missing[bit / 64] &= !(1 << (bit % 64));
+                    }
                 }
             }
             if missing.iter().any(|&word| word != 0) {

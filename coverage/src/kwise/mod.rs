@@ -4,7 +4,8 @@
 //! some test; tests that violate a constraint show nothing. The tests are parted by the levels of one parameter
 //! after the other; those that agree in k - 1 parameters show together so many combinations with one more as
 //! different levels of it, and these are counted a machine word at a time (`count`). The valid combinations are
-//! counted without being listed ([`Rules::count`]).
+//! counted without being listed ([`Rules::count`]). Where values are negative, each kind of tests has combinations of its
+//! own ([`demand`](crate::demand)), and their numbers are added up.
 
 mod count;
 mod counter;
@@ -12,7 +13,9 @@ mod missing;
 
 pub use counter::KwiseCounter;
 
+use crate::demand::Kind;
 use crate::rules::Rules;
+use std::cmp::Ordering;
 use thiserror::Error;
 
 /// How many missing combinations are listed at most.
@@ -41,7 +44,7 @@ pub struct KwiseCoverage {
 impl KwiseCoverage {
     /// The share of the combinations that some test contains, 1 for a k-wise covering family.
     pub fn ratio(&self) -> f64 {
-        self.covered as f64 / self.valid as f64
+        if self.valid == 0 { 1.0 } else { self.covered as f64 / self.valid as f64 }
     }
 }
 
@@ -66,6 +69,14 @@ pub enum KwiseError {
         k: usize,
         /// The number of combinations; `u128::MAX` stands for at least as many.
         found: u128,
+    },
+    /// More valid combinations than a counter keeps.
+    #[error("to keep count of the combinations of {k} parameters takes {mebibytes} MiB, more than 64")]
+    Memory {
+        /// The k asked for.
+        k: usize,
+        /// The memory needed.
+        mebibytes: u128,
     },
     /// A test with too many or too few levels.
     #[error("test {index} has {found} levels, expected {expected}")]
@@ -113,39 +124,95 @@ pub fn kwise_coverage<'a>(
     k: usize,
     tests: impl Iterator<Item = &'a [usize]>,
 ) -> Result<KwiseCoverage, KwiseError> {
-    let levels = rules.levels();
-    let valid = valid(rules, k)?;
-    let mut kept = Vec::new();
-    let mut invalid = Vec::new();
-    for (index, test) in tests.enumerate() {
-        check(levels, index, test)?;
-        if rules.allows(test) {
-            kept.push(test);
-        } else {
-            invalid.push(index);
-        }
-    }
-    kept.sort_unstable();
-    kept.dedup();
-
-    let covered = count::covered(levels, k, &kept);
-    let missing = if covered < valid { missing::first_missing(rules, k, &kept) } else { Vec::new() };
-    let combinations = rules.tests().map(|all| kept.len() as f64 / all);
-    Ok(KwiseCoverage { valid, covered, missing, combinations, invalid })
+    let all: Vec<usize> = (0..rules.levels().len()).collect();
+    coverage_of_kinds(&[Kind::of(rules)], &all, k, tests)
 }
 
-/// The number of valid combinations of k parameters, where it can be worked with.
-fn valid(rules: &Rules, k: usize) -> Result<u64, KwiseError> {
-    let levels = rules.levels();
-    let parameters = levels.len();
-    if k == 0 || k > parameters {
-        return Err(KwiseError::Strength { k, parameters });
+/// Counts the valid combinations of levels of `k` of some parameters that tests of several kinds contain. A combination
+/// counts where a test of its kind has it.
+///
+/// # Errors
+/// As [`kwise_coverage`].
+///
+/// # Panics
+/// There is no kind, the kinds are of different spaces, or the parameters are not some of them in ascending order.
+pub fn coverage_of_kinds<'a>(
+    kinds: &[Kind],
+    parameters: &[usize],
+    k: usize,
+    tests: impl Iterator<Item = &'a [usize]>,
+) -> Result<KwiseCoverage, KwiseError> {
+    if k == 0 {
+        return Err(KwiseError::Strength { k, parameters: parameters.len() });
     }
-    if let Some(parameter) = levels.iter().position(|&v| v == 0) {
+    let share = |kind: &Kind| {
+        let share = kind.share(parameters, k);
+        share.map(|(members, k)| valid(kind.rules(), &members, k).map(|valid| (members, k, valid))).transpose()
+    };
+    let shares = kinds.iter().map(share).collect::<Result<Vec<_>, _>>()?;
+    let mut kept: Vec<Vec<&[usize]>> = vec![Vec::new(); kinds.len()];
+    let mut invalid = Vec::new();
+    for (index, test) in tests.enumerate() {
+        check(kinds[0].rules().levels(), index, test)?;
+        match kinds.iter().position(|kind| kind.rules().allows(test)) {
+            Some(kind) => kept[kind].push(test),
+            None => invalid.push(index),
+        }
+    }
+    let mut coverage = KwiseCoverage { valid: 0, covered: 0, missing: Vec::new(), combinations: None, invalid };
+    let (mut shown, mut all) = (0, Some(0.0));
+    for ((kind, share), kept) in kinds.iter().zip(shares).zip(&mut kept) {
+        kept.sort_unstable();
+        kept.dedup();
+        shown += kept.len();
+        all = all.zip(kind.rules().tests()).map(|(all, tests)| all + tests);
+        let Some((members, k, valid)) = share else { continue };
+        let covered = covered(kind.rules().levels(), &members, k, kept);
+        coverage.valid += valid;
+        coverage.covered += covered;
+        if covered < valid {
+            let missing = missing::first_missing(kind.rules(), &members, k, kept);
+            coverage.missing.extend(missing.into_iter().map(|mut tuple| {
+                tuple.extend(kind.negative());
+                tuple.sort_unstable();
+                tuple
+            }));
+        }
+    }
+    coverage.missing.sort_by(|a, b| by_parameters(a, b));
+    coverage.missing.truncate(MISSING_LISTED);
+    coverage.combinations = all.map(|all| shown as f64 / all);
+    Ok(coverage)
+}
+
+/// Sets of parameters in lexicographic order, then levels.
+fn by_parameters(a: &[(usize, usize)], b: &[(usize, usize)]) -> Ordering {
+    let parameters = |tuple: &[(usize, usize)]| tuple.iter().map(|pair| pair.0).collect::<Vec<_>>();
+    parameters(a).cmp(&parameters(b)).then_with(|| a.cmp(b))
+}
+
+/// The number of combinations of levels of `k` of the members that the tests contain; no test comes twice.
+fn covered(levels: &[usize], members: &[usize], k: usize, tests: &[&[usize]]) -> u64 {
+    if members.len() == levels.len() {
+        return count::covered(levels, k, tests);
+    }
+    let levels: Vec<usize> = members.iter().map(|&member| levels[member]).collect();
+    let mut parts: Vec<Vec<usize>> =
+        tests.iter().map(|test| members.iter().map(|&member| test[member]).collect()).collect();
+    parts.sort_unstable();
+    parts.dedup();
+    count::covered(&levels, k, &parts.iter().map(Vec::as_slice).collect::<Vec<_>>())
+}
+
+/// The number of valid combinations of k of some parameters, where it can be worked with.
+fn valid(rules: &Rules, parameters: &[usize], k: usize) -> Result<u64, KwiseError> {
+    if k > parameters.len() {
+        return Err(KwiseError::Strength { k, parameters: parameters.len() });
+    }
+    if let Some(parameter) = rules.levels().iter().position(|&v| v == 0) {
         return Err(KwiseError::NoLevel(parameter));
     }
-    let all: Vec<usize> = (0..parameters).collect();
-    let found = rules.count(&all, k).valid;
+    let found = rules.count(parameters, k).valid;
     if found > MOST_TUPLES {
         return Err(KwiseError::TooMany { k, found });
     }

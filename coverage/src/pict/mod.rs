@@ -16,7 +16,8 @@
 //!     [Speed] <= [Limit];
 //! "#)?;
 //! assert_eq!(model.space.levels(), [3, 2, 4, 5]);
-//! assert_eq!(model.strengths, [(vec![0, 1, 2], 3)]);
+//! assert_eq!(model.demand.groups, [(vec![0, 1, 2], 3)]);
+//! assert_eq!(model.demand.negatives, [(2, 0), (3, 0)]);
 //! // The third one is about the negative values.
 //! assert_eq!(model.space.constraints().len(), 3);
 //! assert_eq!(model.space.constraints()[2].text(), "Speed == -1 implies Limit != -1");
@@ -32,8 +33,8 @@
 //! - `IF .. THEN .. ELSE`, `AND`, `OR`, `NOT`, `IN {..}`, `LIKE` with `*` and `?`, `IsNegative(P)` and `IsPositive(P)`
 //!   (without a name: some parameter, and all of them) become constraints of the space in the language of
 //!   [`constraint`](crate::constraint), where words that differ in case are listed one by one.
-//! - Negative values (`~`) lose their sign, and constraints see to it that no test has two of them. PICT also covers
-//!   combinations of values without the sign by tests that have none with it; this is not done.
+//! - Negative values (`~`) lose their sign. Constraints see to it that no test has two of them, and which they are is part
+//!   of the [`demand`](crate::demand): combinations of other values count only in tests that have none.
 //! - `{A, B, C} @ 3` asks for all combinations of three of these parameters beside what is asked of all. PICT also
 //!   keeps the number of different rows of a sub-model small; this is not done.
 //! - `<P>` stands for the values of a parameter above, if there is one of that name. Where a line has no colon, the name
@@ -50,6 +51,7 @@ mod terms;
 mod tokens;
 
 use crate::constraint::Expression;
+use crate::demand::Demand;
 use crate::space::position;
 use crate::{Domain, Parameter, Space, SpaceError};
 use parameters::{Declared, Parameters, sub_model};
@@ -60,8 +62,8 @@ use thiserror::Error;
 pub struct Model {
     /// The parameters, all of them discrete, and the constraints.
     pub space: Space,
-    /// The sub-models: positions of parameters, in ascending order, and the strength at which they are to be covered.
-    pub strengths: Vec<(Vec<usize>, usize)>,
+    /// The sub-models, as groups, and the negative values.
+    pub demand: Demand,
     /// What was read otherwise than its author may expect, for people.
     pub notes: Vec<String>,
 }
@@ -125,7 +127,7 @@ enum Line {
 
 fn read(text: &str) -> Result<Model, Fault> {
     let mut parameters = Parameters::default();
-    let mut strengths = Vec::new();
+    let mut groups = Vec::new();
     let mut sub_models = false;
     let mut statements = text.len();
     let mut offset = 0;
@@ -142,7 +144,7 @@ fn read(text: &str) -> Result<Model, Fault> {
                 sub_models = true;
                 let (set, order) = sub_model(line.trim_end(), offset, &parameters.declared)?;
                 match order {
-                    Some(order) => strengths.push((set, order)),
+                    Some(order) => groups.push((set, order)),
                     None => parameters.notes.push(format!(
                         "line {}: a sub-model without an order is covered as all parameters are",
                         position(text, offset).0
@@ -173,7 +175,7 @@ fn read(text: &str) -> Result<Model, Fault> {
         SpaceError::Constraint { index, error, .. } => fail(offsets[index], error.message),
         error => fail(0, error.to_string()),
     })?;
-    Ok(Model { space, strengths, notes })
+    Ok(Model { space, demand: Demand { groups, negatives: negatives(&declared) }, notes })
 }
 
 /// What a line is, by how it begins. A colon before the first bracket makes it a parameter, whatever it begins with.
@@ -201,6 +203,15 @@ fn indent(line: &str) -> usize {
 fn parameter(declared: &Declared) -> Parameter {
     let levels = declared.values.iter().map(|listed| listed.value.clone()).collect();
     Parameter::new(declared.name.clone(), Domain::Choice(levels))
+}
+
+/// The negative values, as positions of parameters and levels.
+fn negatives(declared: &[Declared]) -> Vec<(usize, usize)> {
+    let of = |(position, parameter): (usize, &Declared)| {
+        let levels = parameter.values.iter().enumerate().filter(|(_, listed)| listed.negative);
+        levels.map(|(level, _)| (position, level)).collect::<Vec<_>>()
+    };
+    declared.iter().enumerate().flat_map(of).collect()
 }
 
 /// That no test has two negative values, said of each parameter and those after it.

@@ -179,12 +179,6 @@ impl Parameters {
                 self.notes.push(format!("{what}: {}", found.join(", ")));
             }
         }
-        if self.declared.iter().any(Declared::has_negatives) {
-            self.notes.push(
-                "no test has two negative values (`~`); combinations of other values may be covered by a test that has one"
-                    .to_owned(),
-            );
-        }
         (self.declared, self.notes)
     }
 }

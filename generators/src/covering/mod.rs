@@ -26,20 +26,23 @@ mod orthogonal;
 mod rows;
 mod search;
 mod symmetric;
+mod task;
 
 pub use error::CoveringError;
 pub use optimise::optimise;
 
-use front::Family;
-use grow::Growth;
-use paracosm_coverage::rules::{Companions, Rules};
-use rows::{Columns, OPEN, Rows};
+use paracosm_coverage::demand::Kind;
+use paracosm_coverage::rules::Rules;
+use task::Task;
 
 /// What a covering array has to cover.
 #[derive(Debug, Clone)]
 pub struct CoveringRequest<'a> {
     /// The parameters and the constraints on them.
     pub rules: &'a Rules,
+    /// The kinds of tests, where negative values set them apart: what is covered by tests of one kind is not by those of
+    /// another. None where all tests are of one.
+    pub kinds: &'a [Kind],
     /// Of how many parameters all valid combinations are covered.
     pub k: usize,
     /// Parameters among which combinations of more are covered: their positions, and of how many.
@@ -53,7 +56,7 @@ pub struct CoveringRequest<'a> {
 impl<'a> CoveringRequest<'a> {
     /// All valid combinations of `k` parameters, from nothing.
     pub fn new(rules: &'a Rules, k: usize) -> Self {
-        Self { rules, k, groups: &[], existing: &[], seed: 0 }
+        Self { rules, kinds: &[], k, groups: &[], existing: &[], seed: 0 }
     }
 }
 
@@ -68,7 +71,7 @@ pub struct CoveringArray {
     /// The positions of existing tests that violate a constraint and so are not among the rows.
     pub invalid: Vec<usize>,
     /// A number of tests below which nothing covers as much: the largest number of valid combinations that some
-    /// parameters have among themselves.
+    /// parameters have among themselves, any k or those of a group. Those of several kinds of tests are added up.
     pub lower_bound: u64,
 }
 
@@ -79,47 +82,31 @@ pub struct CoveringArray {
 /// or one twice, an existing test is none of this space, or the array would be too large.
 pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, CoveringError> {
     request.check()?;
-    let lower_bound = request.lower_bound();
+    let (tasks, invalid) = Task::all(request);
+    let lower_bound = bound(&tasks);
     if lower_bound > CoveringError::MOST_ROWS {
         return Err(CoveringError::TooLarge { rows: lower_bound });
     }
-    let columns = Columns::new(request.rules);
-    let families = request.families(&columns);
-    let mut companions = Companions::new(request.rules, &columns.order);
-    let (rows, invalid) = existing(request, &columns);
-    let kept = rows.len();
-    let growth = Growth { columns: &columns, families: &families, seed: request.seed };
-    let mut rows = grown(&growth, rows, &mut companions);
-    fill::fill(&columns, &mut rows);
-    let rows = (0..rows.len()).map(|index| columns.test(rows.row(index))).collect();
-    let rows = optimise::polish(request, rows, kept, kept.max(lower_bound as usize));
-    let rows = order::order(request.rules, request.k, rows, kept);
+    let parts = tasks.iter().map(|task| (task.rows(), task.existing.len()));
+    let (rows, kept) = joined(&tasks, parts.collect());
     Ok(CoveringArray { rows, kept, invalid, lower_bound: lower_bound as u64 })
 }
 
-/// With so many rows, only one way to begin is tried.
-const MANY_ROWS: usize = 500;
+/// The number of tests that all tasks need at least: no test is of two kinds.
+fn bound(tasks: &[Task]) -> u128 {
+    tasks.iter().map(Task::lower_bound).fold(0, u128::saturating_add)
+}
 
-/// Grows all columns, after existing rows or from an orthogonal array of the first columns.
-fn grown(growth: &Growth, existing: Rows, companions: &mut Companions) -> Rows {
-    let mut bases = Vec::new();
-    if existing.len() == 0 && growth.families.len() == 1 {
-        bases = orthogonal::bases(growth.columns, growth.families[0].strength);
+/// The rows of all tasks, in order, from those of each with the number of its existing ones, which come first.
+fn joined(tasks: &[Task], parts: Vec<(Vec<Vec<usize>>, usize)>) -> (Vec<Vec<usize>>, usize) {
+    let (mut rows, mut new) = (Vec::new(), Vec::new());
+    for (mut part, kept) in parts {
+        new.append(&mut part.split_off(kept));
+        rows.append(&mut part);
     }
-    // With many rows the widest serves best.
-    if let Some(base) = bases.pop_if(|base| base.rows.len() > MANY_ROWS) {
-        let mut rows = base.rows;
-        growth.grow(&mut rows, companions, base.columns);
-        return rows;
-    }
-    let plain = orthogonal::Base { rows: existing, columns: 0 };
-    let begun = std::iter::once(plain).chain(bases);
-    let grown = begun.map(|base| {
-        let mut rows = base.rows;
-        growth.grow(&mut rows, companions, base.columns);
-        rows
-    });
-    grown.min_by_key(Rows::len).expect("there is one way to begin")
+    let kept = rows.len();
+    rows.append(&mut new);
+    (order::order(tasks, rows, kept), kept)
 }
 
 impl CoveringRequest<'_> {
@@ -155,36 +142,13 @@ impl CoveringRequest<'_> {
         Ok(())
     }
 
-    fn lower_bound(&self) -> u128 {
-        let all: Vec<usize> = (0..self.rules.levels().len()).collect();
-        let groups = self.groups.iter().map(|(members, strength)| self.rules.count(members, *strength).largest);
-        groups.fold(self.rules.count(&all, self.k).largest, u128::max)
+    /// The number of tests below which nothing covers as much, as [`CoveringArray::lower_bound`] says it, without an
+    /// array; what exceeds `u128` saturates.
+    ///
+    /// # Errors
+    /// As [`covering_array`], but for the size.
+    pub fn lower_bound(&self) -> Result<u128, CoveringError> {
+        self.check()?;
+        Ok(bound(&Task::all(self).0))
     }
-
-    /// What is to be covered, in columns; groups that combine no more than all parameters do add nothing.
-    fn families(&self, columns: &Columns) -> Vec<Family> {
-        let mut families = vec![Family { members: (0..columns.len()).collect(), strength: self.k }];
-        for (members, strength) in self.groups.iter().filter(|(_, strength)| *strength > self.k) {
-            let mut members: Vec<usize> = members.iter().map(|&parameter| columns.column(parameter)).collect();
-            members.sort_unstable();
-            families.push(Family { members, strength: *strength });
-        }
-        families
-    }
-}
-
-/// The existing tests that can be completed, and the positions of the others.
-fn existing(request: &CoveringRequest, columns: &Columns) -> (Rows, Vec<usize>) {
-    let mut rows = Rows::new(columns.len());
-    let mut invalid = Vec::new();
-    for (index, test) in request.existing.iter().enumerate() {
-        let level = |&parameter: &usize| test[parameter].map_or(OPEN, |level| level as u32);
-        let row: Vec<u32> = columns.order.iter().map(level).collect();
-        if (0..request.rules.groups()).all(|group| columns.holds(group, &row)) {
-            rows.push(&row);
-        } else {
-            invalid.push(index);
-        }
-    }
-    (rows, invalid)
 }

@@ -1,9 +1,9 @@
 //! Making an array smaller for as long as there is time.
 
-use super::order::order;
 use super::search::{Cells, Search};
 use super::symmetric::{Symmetric, symmetric_searches};
-use super::{CoveringArray, CoveringRequest};
+use super::task::Task;
+use super::{CoveringArray, CoveringRequest, joined};
 use crate::seeded::mix;
 use paracosm_coverage::Deadline;
 use std::sync::Mutex;
@@ -38,20 +38,49 @@ pub fn optimise(
     deadline: Deadline,
     progress: &(dyn Fn(usize) + Sync),
 ) -> CoveringArray {
-    let Some(cells) = request.cells().filter(|_| array.rows.len() < 1 << 16) else { return array };
-    let goal = (array.lower_bound as usize).max(array.kept);
+    let (tasks, _) = Task::all(request);
     let CoveringArray { rows, kept, invalid, lower_bound } = array;
+    let mut all = rows.len();
+    let mut parts: Vec<(Vec<Vec<usize>>, usize)> = vec![(Vec::new(), 0); tasks.len()];
+    for (index, row) in rows.into_iter().enumerate() {
+        let own = Task::of_row(&tasks, &row);
+        parts[own].0.push(row);
+        parts[own].1 += usize::from(index < kept);
+    }
+    for (i, (task, (rows, kept))) in tasks.iter().zip(&mut parts).enumerate() {
+        let others = all - rows.len();
+        let share = deadline.part(1.0 / (tasks.len() - i) as f64);
+        *rows = smaller(task, std::mem::take(rows), *kept, share, &|size| progress(others + size));
+        all = others + rows.len();
+    }
+    let (rows, kept) = joined(&tasks, parts);
+    CoveringArray { rows, kept, invalid, lower_bound }
+}
+
+/// Shrinks the rows of one kind of tests.
+fn smaller(
+    task: &Task,
+    rows: Vec<Vec<usize>>,
+    kept: usize,
+    deadline: Deadline,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Vec<Vec<usize>> {
+    let goal = (task.lower_bound() as usize).max(kept);
+    if rows.len() <= goal {
+        return rows;
+    }
+    let Some(cells) = task.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
     let best = Best { rows: Mutex::new(rows), goal, deadline, progress };
     let all_cells: usize = cells.iter().map(Cells::len).sum();
     let chains = rayon::current_num_threads().min((CELLS_AT_ONCE / all_cells).max(1));
     let mut symmetric = if kept == 0 && cells.len() == 1 && all_cells <= CELLS_OF_SYMMETRIC {
-        symmetric_searches(request)
+        symmetric_searches(task)
     } else {
         Vec::new()
     };
     let rows_search = |chain: usize| {
-        let seed = mix(request.seed ^ mix(chain as u64));
-        best.search_rows(|rows| Search::new(request.rules, cells.clone(), rows, kept, seed));
+        let seed = mix(task.seed ^ mix(chain as u64));
+        best.search_rows(|rows| Search::new(&task.rules, cells.clone(), rows, kept, seed));
     };
     // Threads of their own: on a single core, too, the searches share the time.
     thread::scope(|scope| {
@@ -61,9 +90,7 @@ pub fn optimise(
         }
         best.search_symmetric(&mut symmetric);
     });
-    let rows = best.rows.into_inner().expect("no search panics");
-    let rows = order(request.rules, request.k, rows, kept);
-    CoveringArray { rows, kept, invalid, lower_bound }
+    best.rows.into_inner().expect("no search panics")
 }
 
 /// The smallest array so far, which all searches share.
@@ -134,8 +161,8 @@ impl Best<'_> {
 
 /// Shrinks rows with a short search by the rules of [`optimise`], the same on every machine. The work is bounded;
 /// arrays for which it would not suffice stay as they are.
-pub(super) fn polish(request: &CoveringRequest, rows: Vec<Vec<usize>>, kept: usize, goal: usize) -> Vec<Vec<usize>> {
-    let Some(cells) = request.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
+pub(super) fn polish(task: &Task, rows: Vec<Vec<usize>>, kept: usize, goal: usize) -> Vec<Vec<usize>> {
+    let Some(cells) = task.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
     let start: usize = cells.iter().map(|cells| cells.in_row() * rows.len()).sum();
     let changed: usize = cells.iter().map(|cells| 2 * cells.in_row() * cells.strength() / cells.members()).sum();
     let step = changed + rows.len() / 2 + STEP_WORK;
@@ -143,7 +170,7 @@ pub(super) fn polish(request: &CoveringRequest, rows: Vec<Vec<usize>>, kept: usi
     if steps == 0 {
         return rows;
     }
-    let mut search = Search::new(request.rules, cells, &rows, kept, request.seed);
+    let mut search = Search::new(&task.rules, cells, &rows, kept, task.seed);
     let mut best = rows;
     for _ in 0..steps {
         while search.missing() == 0 {
@@ -157,20 +184,4 @@ pub(super) fn polish(request: &CoveringRequest, rows: Vec<Vec<usize>>, kept: usi
         search.steps(1);
     }
     if search.missing() == 0 && search.len() < best.len() { search.rows() } else { best }
-}
-
-impl CoveringRequest<'_> {
-    /// What is to be covered, numbered; none where there is too much of it.
-    fn cells(&self) -> Option<Vec<Cells>> {
-        let levels = self.rules.levels();
-        let all: Vec<usize> = (0..levels.len()).collect();
-        let groups = self.groups.iter().filter(|(_, strength)| *strength > self.k);
-        let families = std::iter::once((&all, self.k)).chain(groups.map(|(members, strength)| (members, *strength)));
-        let numbered = families.map(|(members, strength)| {
-            let mut members = members.clone();
-            members.sort_unstable();
-            Cells::new(levels, &members, strength)
-        });
-        numbered.collect()
-    }
 }

@@ -3,38 +3,66 @@
 //! Next comes always the row that covers most of what is left. What a row would cover only falls, so rows are
 //! looked at anew only while they lead (Minoux, *Accelerated greedy algorithms*, 1978).
 
+use super::task::Task;
 use paracosm_coverage::kwise::KwiseCounter;
-use paracosm_coverage::rules::Rules;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// How much may be looked at, in choices of parameters for pairs of rows. Where that does not suffice for
-/// combinations of k levels, the order is by combinations of fewer; with very many rows it stays as it is.
+/// How much may be looked at for each family of a task, in choices of parameters for pairs of rows. Where that does not
+/// suffice for combinations of so many levels as the family asks for, the order is by combinations of fewer; with very
+/// many rows it stays as it is.
 const MOST_LOOKS: usize = 20_000_000;
 
-/// Orders the rows from `kept` on.
-pub(super) fn order(rules: &Rules, k: usize, rows: Vec<Vec<usize>>, kept: usize) -> Vec<Vec<usize>> {
-    let parameters = rules.levels().len();
-    let heads = |strength: usize| (0..strength - 1).fold(1, |heads, i| heads * (parameters - i) / (i + 1));
-    let affordable = |&strength: &usize| {
-        let looks = heads(strength).checked_mul(rows.len() * rows.len());
-        looks.is_some_and(|looks| looks <= MOST_LOOKS)
-    };
-    let counter = (1..=k).rev().find(affordable).map(|strength| KwiseCounter::new(rules, strength));
-    let Some(Ok(mut counter)) = counter else { return rows };
-    let gain = |counter: &KwiseCounter, row: &[usize]| counter.gain(row).expect("rows are tests of the space");
-    for row in &rows[..kept] {
-        counter.add(row).expect("rows are tests of the space");
+/// What the rows of a task cover of all that it asks for.
+struct Counters(Vec<KwiseCounter>);
+
+impl Counters {
+    fn new(task: &Task, rows: usize) -> Self {
+        let counters = task.families.iter().filter_map(|(members, most)| {
+            let heads = |strength: usize| (0..strength - 1).fold(1, |heads, i| heads * (members.len() - i) / (i + 1));
+            let affordable = |&strength: &usize| {
+                let looks = heads(strength).checked_mul(rows * rows);
+                looks.is_some_and(|looks| looks <= MOST_LOOKS)
+            };
+            let strengths = (1..=*most).rev().filter(affordable);
+            strengths.map(|strength| KwiseCounter::among(&task.rules, members, strength)).find_map(Result::ok)
+        });
+        Self(counters.collect())
+    }
+
+    /// How many combinations a row would add.
+    fn gain(&self, row: &[usize]) -> u64 {
+        self.0.iter().map(|counter| counter.gain(row).expect("rows are tests of the space")).sum()
+    }
+
+    fn add(&mut self, row: &[usize]) {
+        for counter in &mut self.0 {
+            counter.add(row).expect("rows are tests of the space");
+        }
+    }
+}
+
+/// Orders the rows from `kept` on. A row is looked at for the task that it is of.
+pub(super) fn order(tasks: &[Task], rows: Vec<Vec<usize>>, kept: usize) -> Vec<Vec<usize>> {
+    let own: Vec<usize> = rows.iter().map(|row| Task::of_row(tasks, row)).collect();
+    let mut sizes = vec![0; tasks.len()];
+    own.iter().for_each(|&task| sizes[task] += 1);
+    let mut counters: Vec<Counters> = tasks.iter().zip(sizes).map(|(task, rows)| Counters::new(task, rows)).collect();
+    if counters.iter().all(|counters| counters.0.is_empty()) {
+        return rows;
+    }
+    for (row, &task) in rows[..kept].iter().zip(&own) {
+        counters[task].add(row);
     }
     let mut order: Vec<usize> = (0..kept).collect();
     let mut waiting: BinaryHeap<(u64, Reverse<usize>)> =
-        (kept..rows.len()).map(|index| (gain(&counter, &rows[index]), Reverse(index))).collect();
+        (kept..rows.len()).map(|index| (counters[own[index]].gain(&rows[index]), Reverse(index))).collect();
     while let Some((_, Reverse(index))) = waiting.pop() {
-        let now = (gain(&counter, &rows[index]), Reverse(index));
+        let now = (counters[own[index]].gain(&rows[index]), Reverse(index));
         if waiting.peek().is_some_and(|next| *next > now) {
             waiting.push(now);
         } else {
-            counter.add(&rows[index]).expect("rows are tests of the space");
+            counters[own[index]].add(&rows[index]);
             order.push(index);
         }
     }

@@ -8,9 +8,9 @@
 //! finds arrays that it would not find row by row. Rows of a single level, with few images, are added where they
 //! come cheaper than a starter.
 
-use super::CoveringRequest;
 use super::field::Field;
 use super::search::{Cells, Orbits, Search};
+use super::task::Task;
 use crate::seeded::mix;
 use paracosm_coverage::rules::Rules;
 use std::collections::BTreeSet;
@@ -35,16 +35,17 @@ pub(super) struct Symmetric {
 }
 
 /// A search for each group of permutations that suits the model; none where parameters differ.
-pub(super) fn symmetric_searches(request: &CoveringRequest) -> Vec<Symmetric> {
-    let levels = request.rules.levels();
+pub(super) fn symmetric_searches(task: &Task) -> Vec<Symmetric> {
+    let levels = task.rules.levels();
     let v = levels[0];
-    let combinations = (0..request.k).fold(1usize, |product, _| product.saturating_mul(v));
-    let uniform = levels.iter().all(|&levels| levels == v) && request.rules.groups() == 0;
-    if !uniform || request.k < 2 || v < 2 || combinations > MOST_COMBINATIONS {
+    let [(_, strength)] = task.families[..] else { return Vec::new() };
+    let combinations = (0..strength).fold(1usize, |product, _| product.saturating_mul(v));
+    let uniform = levels.iter().all(|&levels| levels == v) && task.rules.groups() == 0;
+    if !uniform || strength < 2 || v < 2 || combinations > MOST_COMBINATIONS {
         return Vec::new();
     }
     let groups = groups(v).into_iter().enumerate();
-    groups.map(|(i, group)| Symmetric::new(request, group, mix(request.seed ^ mix(i as u64)))).collect()
+    groups.map(|(i, group)| Symmetric::new(task, strength, group, mix(task.seed ^ mix(i as u64)))).collect()
 }
 
 /// Groups of permutations of `v` levels: the shifts of all levels or of all but one or two, and the affine maps
@@ -89,8 +90,8 @@ fn orbits(group: &Group, v: usize, t: usize) -> Orbits {
 }
 
 impl Symmetric {
-    fn new(request: &CoveringRequest, group: Group, seed: u64) -> Self {
-        let levels = request.rules.levels();
+    fn new(task: &Task, strength: usize, group: Group, seed: u64) -> Self {
+        let levels = task.rules.levels();
         let mut constant = Vec::new();
         let mut constants = 0;
         let mut seen = BTreeSet::new();
@@ -102,7 +103,7 @@ impl Symmetric {
             }
             seen.extend(orbit);
         }
-        Self { group, rules: request.rules.clone(), strength: request.k, constant, constants, seed, search: None }
+        Self { group, rules: task.rules.clone(), strength, constant, constants, seed, search: None }
     }
 
     /// Drops starters, or begins with as many, that the array is smaller than `size`; false if that is impossible.

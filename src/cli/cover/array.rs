@@ -1,9 +1,10 @@
 //! The covering array behind generated tests, with what one wants to know of it: how large it is, and how small one can
 //! be at all.
 
-use super::time_limit;
+use super::{strength, time_limit};
 use crate::Error;
 use crate::cli::Verbosity;
+use crate::coverage::demand::Demand;
 use crate::coverage::{Deadline, Space};
 use crate::generators::GeneratorError;
 use crate::generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
@@ -11,34 +12,33 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::time::Duration;
 
 /// The options that a covering array is made by.
-pub(super) struct ArrayOptions<'a> {
+pub(super) struct ArrayOptions {
     pub k: Option<usize>,
     pub seed: Option<u64>,
-    /// Groups of more than k parameters: NAME,NAME,..=K.
-    pub strengths: &'a [String],
     /// Seconds for making it smaller.
     pub optimise: Option<f64>,
 }
 
-impl ArrayOptions<'_> {
+impl ArrayOptions {
     /// The rows of a covering array of a space with discrete parameters, after those of existing tests, which may leave
     /// some levels open.
     pub fn rows(
         &self,
         space: &Space,
-        mut groups: Vec<(Vec<usize>, usize)>,
+        demand: &Demand,
         mut existing: Vec<Vec<Option<usize>>>,
         verbosity: Verbosity,
     ) -> Result<Vec<Vec<usize>>, Error> {
-        for text in self.strengths {
-            groups.push(group(text, space)?);
-        }
-        let rules = space.rules()?;
+        let (rules, kinds) = (space.rules()?, demand.kinds(space)?);
         let k = self.k.unwrap_or(space.levels().len().min(2));
+        for note in strength::pointless(k, &demand.groups, space) {
+            verbosity.note(note);
+        }
         existing.sort_unstable();
         existing.dedup();
         let request = CoveringRequest {
-            groups: &groups,
+            kinds: &kinds,
+            groups: &demand.groups,
             existing: &existing,
             seed: self.seed.unwrap_or(0),
             ..CoveringRequest::new(&rules, k)
@@ -62,7 +62,16 @@ impl ArrayOptions<'_> {
             true => "proved to be the fewest".to_owned(),
             false => format!("at least {lower_bound} are needed: proved"),
         };
-        verbosity.note(format_args!("a {k}-wise covering array of {} rows{kept}; {bound}", rows.len()));
+        let groups = strength::beside(k, &demand.groups, space);
+        verbosity.note(format_args!("a {k}-wise covering array{groups} of {} rows{kept}; {bound}", rows.len()));
+        let has_negative =
+            |row: &&Vec<usize>| demand.negatives.iter().any(|&(parameter, level)| row[parameter] == level);
+        let negative = rows.iter().filter(has_negative).count();
+        if negative > 0 {
+            let verb = if negative == 1 { "row has" } else { "rows have" };
+            let message = "a negative value (`~`), and cover only combinations with it";
+            verbosity.note(format_args!("{negative} of the {verb} {message}"));
+        }
         Ok(rows)
     }
 }
@@ -77,28 +86,4 @@ fn smaller(request: &CoveringRequest, array: CoveringArray, limit: Duration, ver
     let array = optimise(request, array, Deadline::after(limit), &watch);
     bar.finish_and_clear();
     array
-}
-
-/// A group as `--strength` takes it.
-fn group(text: &str, space: &Space) -> Result<(Vec<usize>, usize), Error> {
-    let wrong = |why: String| Error::Usage(format!("--strength {text}: {why}"));
-    let (names, k) = text.rsplit_once('=').ok_or_else(|| wrong("expected NAME,NAME,..=K".into()))?;
-    let k: usize = k.trim().parse().map_err(|_| wrong(format!("found `{k}`, expected a number of parameters")))?;
-    let discrete: Vec<String> = space.discrete().map(|coordinate| coordinate.name()).collect();
-    let position = |name: &str| {
-        let found = discrete.iter().position(|other| other == name.trim());
-        found.ok_or_else(|| match space.parameter(name.trim()) {
-            Err(error) => wrong(error.to_string()),
-            Ok(_) => wrong(format!("parameter `{name}` is continuous or varies over time")),
-        })
-    };
-    let mut members = names.split(',').map(position).collect::<Result<Vec<_>, _>>()?;
-    members.sort_unstable();
-    if let Some(twice) = members.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(wrong(format!("parameter `{}` is named twice", discrete[twice[0]])));
-    }
-    if k == 0 || k > members.len() {
-        return Err(wrong(format!("found {k}, expected 1 to {}, the number of its parameters", members.len())));
-    }
-    Ok((members, k))
 }

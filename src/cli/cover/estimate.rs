@@ -1,7 +1,7 @@
 //! `paracosm-cover estimate`: how well tests cover their space.
 
 use super::space_file::SpaceFile;
-use super::{certificate, time_limit};
+use super::{certificate, strength, time_limit};
 use crate::cli::output::{Format, Table, json, short_bracket};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::{Bracket, Parameter, Space};
@@ -17,6 +17,7 @@ Examples:
   paracosm-cover estimate                            the campaign in paracosm-out/
   paracosm-cover estimate points.csv                 columns in [0,1], one row a test
   paracosm-cover estimate tests.csv --space SPACE.toml --k 2
+  paracosm-cover estimate tests.csv --space SPACE.toml --strength lanes,weather,surface=3
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
   paracosm-cover estimate tests.csv --certificate proof.json
 
@@ -35,6 +36,9 @@ pub(super) struct Options {
     /// How many parameters are looked at together [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
+    /// A group of discrete parameters of which K are looked at together, beside k of all
+    #[arg(long, value_name = "NAME,NAME,..=K")]
+    strength: Vec<String>,
     /// What to measure, of dispersion, star, extreme, fill, l2_star, centered, wraparound, mixture, k-wise,
     /// k-wise-dispersion [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
@@ -70,12 +74,17 @@ impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let limit = time_limit("--time-limit", self.time_limit)?;
         self.certificate.as_deref().map_or(Ok(()), certificate::is_new)?;
-        let (tests, source) = match &self.strategy {
+        let (mut tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read(verbosity)?,
         };
         let asked = |measure: &Measure| self.measures.is_empty() || self.measures.contains(measure);
         let measures: Vec<Measure> = Measure::ALL.into_iter().filter(asked).collect();
+        if !self.strength.is_empty() && !measures.contains(&Measure::KWise) {
+            let message = "--strength is about the measure k-wise, which is not among --measures";
+            return Err(Error::Usage(message.into()).into());
+        }
+        tests.demand.groups.extend(strength::groups(&self.strength, &tests.space)?);
         if verbosity.verbose {
             let names: Vec<&str> = measures.iter().map(|measure| measure.name()).collect();
             verbosity.note(format_args!("measuring {} of {} tests", names.join(", "), tests.points.len()));
@@ -107,7 +116,9 @@ impl Options {
     fn read(&self, verbosity: Verbosity) -> Result<(Tests, String), Error> {
         let path = self.tests.clone().unwrap_or_else(|| "paracosm-out".into());
         let space = self.space.as_deref().map(|path| SpaceFile::read(path, verbosity)).transpose()?;
-        Ok((Tests::read(&path, space.map(|file| file.space))?, path.display().to_string()))
+        let (space, demand) = space.map(|file| (file.space, file.demand)).unzip();
+        let tests = Tests { demand: demand.unwrap_or_default(), ..Tests::read(&path, space)? };
+        Ok((tests, path.display().to_string()))
     }
 
     fn generated(&self, name: &str) -> Result<Tests, Error> {
@@ -118,7 +129,7 @@ impl Options {
         let space = Space::unit_cube(dims);
         let request = Request { seed: self.seed, skip: self.skip, ..Request::new(&space, budget) };
         let points = name.parse::<Strategy>()?.build(&request)?.ask(budget);
-        Ok(Tests { space, points, k: None })
+        Ok(Tests::new(space, points))
     }
 }
 

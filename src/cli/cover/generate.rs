@@ -2,9 +2,11 @@
 
 use super::array::ArrayOptions;
 use super::space_file::SpaceFile;
+use super::strength;
 use crate::cli::output::digits;
 use crate::cli::sampling::Sampling;
 use crate::cli::{Failure, Verbosity};
+use crate::coverage::demand::Demand;
 use crate::coverage::kwise_dispersion::row_dispersion;
 use crate::coverage::theory::rows::random_family_size;
 use crate::coverage::{Deadline, Point, Space};
@@ -59,16 +61,16 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
-        let (space, groups) = match (&self.space, self.dims) {
+        let (space, mut demand) = match (&self.space, self.dims) {
             (Some(path), _) => {
-                let SpaceFile { space, groups } = SpaceFile::read(path, verbosity)?;
-                (Some(space), groups)
+                let SpaceFile { space, demand } = SpaceFile::read(path, verbosity)?;
+                (Some(space), demand)
             }
             (None, Some(dims)) => {
                 Tests::check_size(1, dims)?;
-                (Some(Space::unit_cube(dims)), Vec::new())
+                (Some(Space::unit_cube(dims)), Demand::default())
             }
-            (None, None) => (None, Vec::new()),
+            (None, None) => (None, Demand::default()),
         };
         let (space, existing, existing_rows) = match (space, &self.extend) {
             // Rows of a covering array may be begun and left for us to complete.
@@ -87,6 +89,7 @@ impl Options {
             (Some(space), None) => (space, Vec::new(), Vec::new()),
             (None, None) => return Err(Error::Usage("expected --space, --dims or --extend".into()).into()),
         };
+        demand.groups.extend(strength::groups(&self.strength, &space)?);
         let strategy = match &self.strategy {
             Some(name) => name.parse::<Strategy>().map_err(Error::from)?,
             None if self.extend.is_some() => Strategy::Greedy,
@@ -99,17 +102,12 @@ impl Options {
             || self.sampling.epsilon.is_some()
             || request.aim.is_some();
         let uses_array = request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && has_rows;
-        let options = ArrayOptions {
-            k: self.sampling.k,
-            seed: self.sampling.seed,
-            strengths: &self.strength,
-            optimise: self.optimise,
-        };
+        let options = ArrayOptions { k: self.sampling.k, seed: self.sampling.seed, optimise: self.optimise };
         // What is wrong with the rest is said before an array is made, which may take long.
         let any_row = [vec![0; space.levels().len()]];
         strategy.build(&Request { rows: Some(&any_row), ..request }).map_err(Error::from)?;
         let rows = match uses_array && request.aim != Some(Aim::KwiseDispersion) {
-            true => Some(options.rows(&space, groups, existing_rows, verbosity)?),
+            true => Some(options.rows(&space, &demand, existing_rows, verbosity)?),
             false if !self.strength.is_empty() || self.optimise.is_some() => {
                 let message = "--strength and --optimise are about the rows of a covering array, and there are none";
                 return Err(Error::Usage(message.into()).into());
@@ -120,6 +118,10 @@ impl Options {
         if let DiscreteFamily::Random { delta } = request.discrete
             && !space.levels().is_empty()
         {
+            if demand != Demand::default() {
+                let message = "random rows promise nothing of sub-models and negative values (`~`); use ipog";
+                return Err(Error::Usage(message.into()).into());
+            }
             verbosity.note(promise(&space.levels(), self.sampling.k, delta, self.budget));
         }
         let most = match self.budget {
@@ -137,7 +139,7 @@ impl Options {
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
         verbosity.note(format_args!("{written} tests{by}{}", after.unwrap_or_default()));
         if self.sampling.epsilon.is_some() {
-            verbosity.note(reached(&Tests { space, points, k: self.sampling.k })?);
+            verbosity.note(reached(&Tests { k: self.sampling.k, ..Tests::new(space, points) })?);
         }
         Ok(())
     }
@@ -176,7 +178,7 @@ fn promise(levels: &[usize], k: Option<usize>, delta: f64, budget: Option<usize>
 
 /// What the tests are good for, measured.
 fn reached(tests: &Tests) -> Result<String, Error> {
-    let Tests { space, points, k } = tests;
+    let Tests { space, points, k, .. } = tests;
     if space.dims() == 0 {
         return Ok("nothing continuous to measure".to_owned());
     }

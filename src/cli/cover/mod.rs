@@ -7,6 +7,7 @@ mod estimate;
 mod generate;
 mod plan;
 mod space_file;
+mod strength;
 
 use super::{Failure, Verbosity};
 use crate::Error;

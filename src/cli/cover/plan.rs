@@ -1,10 +1,11 @@
 //! `paracosm-cover plan`: how many tests each guarantee asks for.
 
 use super::space_file::SpaceFile;
-use super::time_limit;
+use super::{strength, time_limit};
 use crate::cli::output::{Format, Table, json};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::Space;
+use crate::coverage::demand::Demand;
 use crate::{Guarantee, Need, Plan, Tests};
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
@@ -30,6 +31,9 @@ pub(super) struct Options {
     /// How many discrete parameters are covered together [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
+    /// A group of discrete parameters of which K are covered together, more than of all
+    #[arg(long, value_name = "NAME,NAME,..=K")]
+    strength: Vec<String>,
     /// The largest volume of a box without a test, as a share of the continuous parameters' space
     #[arg(long, value_name = "E", default_value_t = 0.1)]
     epsilon: f64,
@@ -46,29 +50,38 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
-        let space = match (&self.space, self.dims.unwrap_or(0)) {
-            (Some(path), _) => SpaceFile::read(path, verbosity)?.space,
+        let SpaceFile { space, mut demand } = match (&self.space, self.dims.unwrap_or(0)) {
+            (Some(path), _) => SpaceFile::read(path, verbosity)?,
             (None, dims) => {
                 Tests::check_size(1, dims)?;
-                Space::unit_cube(dims)
+                SpaceFile { space: Space::unit_cube(dims), demand: Demand::default() }
             }
         };
-        let plan = Plan::of(&space, self.k, self.epsilon, self.delta, time_limit("--time-limit", self.time_limit)?)?;
+        demand.groups.extend(strength::groups(&self.strength, &space)?);
+        let limit = time_limit("--time-limit", self.time_limit)?;
+        let plan = Plan::of(&space, self.k, &demand, self.epsilon, self.delta, limit)?;
+        for note in plan.k.iter().flat_map(|&k| strength::pointless(k, &demand.groups, &space)) {
+            verbosity.note(note);
+        }
         if space.dims() > 3 {
             verbosity.note("above three dimensions the a-priori bounds are useless: rely on what was measured");
         }
         print(&match Format::or_fitting(self.format) {
             Format::Json => json(&plan),
-            Format::Table => table(&plan, space.dims()),
+            Format::Table => {
+                let groups = plan.k.map(|k| strength::beside(k, &demand.groups, &space));
+                table(&plan, groups.as_deref().unwrap_or_default(), space.dims())
+            }
         })
     }
 }
 
-fn table(plan: &Plan, dims: usize) -> String {
+/// The plan for people, with the groups of parameters in words.
+fn table(plan: &Plan, groups: &str, dims: usize) -> String {
     let mut table = Table::default();
     let Plan { k, epsilon, delta, rows, points, tests } = plan;
     if let (Some(rows), Some(k)) = (rows, k) {
-        table.heading(&format!("rows that cover the discrete parameters {k}-wise, delta {delta}"));
+        table.heading(&format!("rows that cover the discrete parameters {k}-wise{groups}, delta {delta}"));
         needs(&mut table, rows);
     }
     if let Some(points) = points {

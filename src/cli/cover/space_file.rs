@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::cli::Verbosity;
+use crate::coverage::demand::Demand;
 use crate::coverage::pict::Model;
 use crate::coverage::{Space, SpaceError};
 use std::ffi::OsStr;
@@ -14,8 +15,8 @@ const PICT: [&str; 3] = ["pict", "txt", "model"];
 /// What a file says of a space.
 pub(super) struct SpaceFile {
     pub space: Space,
-    /// Groups of discrete parameters, by position, and how many of them are to be covered together.
-    pub groups: Vec<(Vec<usize>, usize)>,
+    /// What a model asks for beside all combinations of k values.
+    pub demand: Demand,
 }
 
 impl SpaceFile {
@@ -33,7 +34,7 @@ impl SpaceFile {
                 verbosity.note(format_args!("{}: {note}", path.display()));
             }
             check(path, &model.space)?;
-            return Ok(Self { space: model.space, groups: model.strengths });
+            return Ok(Self { space: model.space, demand: model.demand });
         }
         let space = Space::from_toml(&text).map_err(|error| match error {
             SpaceError::Syntax { message, at: Some((line, column)) } => {
@@ -42,7 +43,7 @@ impl SpaceFile {
             error => Error::content(path, None, error.to_string()),
         })?;
         check(path, &space)?;
-        Ok(Self { space, groups: Vec::new() })
+        Ok(Self { space, demand: Demand::default() })
     }
 }
 

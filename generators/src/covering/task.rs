@@ -1,0 +1,123 @@
+//! What tests of one kind have to cover, and the array that does it.
+
+use super::front::Family;
+use super::grow::Growth;
+use super::optimise::polish;
+use super::rows::{Columns, OPEN, Rows};
+use super::search::Cells;
+use super::{CoveringRequest, fill, orthogonal};
+use paracosm_coverage::demand::Kind;
+use paracosm_coverage::rules::{Companions, Rules};
+
+/// With so many rows, only one way to begin is tried.
+const MANY_ROWS: usize = 500;
+
+/// The part of a request that tests of one kind answer.
+#[derive(Debug)]
+pub(super) struct Task<'a> {
+    pub(super) rules: Rules,
+    /// Parameters in ascending order, and of how many of them all valid combinations are covered.
+    pub(super) families: Vec<(Vec<usize>, usize)>,
+    /// The existing tests of this kind, which can be completed.
+    pub(super) existing: Vec<&'a [Option<usize>]>,
+    pub(super) seed: u64,
+}
+
+impl<'a> Task<'a> {
+    /// The tasks of a request, and the positions of existing tests that are of no kind.
+    pub(super) fn all(request: &CoveringRequest<'a>) -> (Vec<Self>, Vec<usize>) {
+        let whole = [Kind::of(request.rules)];
+        let kinds = if request.kinds.is_empty() { &whole } else { request.kinds };
+        let mut tasks: Vec<Self> = kinds.iter().map(|kind| Self::of(request, kind)).collect();
+        let mut invalid = Vec::new();
+        for (index, test) in request.existing.iter().enumerate() {
+            let fits = |task: &&mut Self| {
+                (0..task.rules.groups()).all(|group| task.rules.holds(group, |parameter| test[parameter]))
+            };
+            match tasks.iter_mut().find(fits) {
+                Some(task) => task.existing.push(test),
+                None => invalid.push(index),
+            }
+        }
+        (tasks, invalid)
+    }
+
+    /// Which of the tasks of one request a row is of.
+    pub(super) fn of_row(tasks: &[Self], row: &[usize]) -> usize {
+        tasks.iter().position(|task| task.rules.allows(row)).expect("every row is of some kind")
+    }
+
+    /// The task of a kind. Groups that combine no more than all parameters do add nothing.
+    fn of(request: &CoveringRequest, kind: &Kind) -> Self {
+        let all: Vec<usize> = (0..request.rules.levels().len()).collect();
+        let groups = request.groups.iter().filter(|(_, strength)| *strength > request.k);
+        let asked = std::iter::once((&all, request.k)).chain(groups.map(|(members, strength)| (members, *strength)));
+        let shares = asked.filter_map(|(members, strength)| kind.share(members, strength));
+        let families = shares.map(|(mut members, strength)| match kind.negative() {
+            // The negative value with nothing beside it: that value itself.
+            Some((own, _)) if strength == 0 => (vec![own], 1),
+            _ => {
+                members.sort_unstable();
+                (members, strength)
+            }
+        });
+        let (rules, families) = (kind.rules().clone(), families.collect());
+        Self { rules, families, existing: Vec::new(), seed: request.seed }
+    }
+
+    /// The largest number of valid combinations that some parameters have among themselves.
+    pub(super) fn lower_bound(&self) -> u128 {
+        self.families.iter().map(|(members, strength)| self.rules.count(members, *strength).largest).fold(0, u128::max)
+    }
+
+    /// What is to be covered, numbered; none where there is too much of it.
+    pub(super) fn cells(&self) -> Option<Vec<Cells>> {
+        let numbered = |(members, strength): &(Vec<usize>, usize)| Cells::new(self.rules.levels(), members, *strength);
+        self.families.iter().map(numbered).collect()
+    }
+
+    /// Rows that cover everything, the existing ones first.
+    pub(super) fn rows(&self) -> Vec<Vec<usize>> {
+        let columns = Columns::new(&self.rules);
+        let families = self.families.iter().map(|(members, strength)| {
+            let mut members: Vec<usize> = members.iter().map(|&parameter| columns.column(parameter)).collect();
+            members.sort_unstable();
+            Family { members, strength: *strength }
+        });
+        let families: Vec<Family> = families.collect();
+        let mut companions = Companions::new(&self.rules, &columns.order);
+        let mut rows = Rows::new(columns.len());
+        for test in &self.existing {
+            let level = |&parameter: &usize| test[parameter].map_or(OPEN, |level| level as u32);
+            rows.push(&columns.order.iter().map(level).collect::<Vec<u32>>());
+        }
+        let growth = Growth { columns: &columns, families: &families, seed: self.seed };
+        let mut rows = grown(&growth, rows, &mut companions);
+        fill::fill(&columns, &mut rows);
+        let rows = (0..rows.len()).map(|index| columns.test(rows.row(index))).collect();
+        let kept = self.existing.len();
+        polish(self, rows, kept, kept.max(self.lower_bound() as usize))
+    }
+}
+
+/// Grows all columns, after existing rows or from an orthogonal array of the first columns.
+fn grown(growth: &Growth, existing: Rows, companions: &mut Companions) -> Rows {
+    let mut bases = Vec::new();
+    if existing.len() == 0 && growth.families.len() == 1 {
+        bases = orthogonal::bases(growth.columns, growth.families[0].strength);
+    }
+    // With many rows the widest serves best.
+    if let Some(base) = bases.pop_if(|base| base.rows.len() > MANY_ROWS) {
+        let mut rows = base.rows;
+        growth.grow(&mut rows, companions, base.columns);
+        return rows;
+    }
+    let plain = orthogonal::Base { rows: existing, columns: 0 };
+    let begun = std::iter::once(plain).chain(bases);
+    let grown = begun.map(|base| {
+        let mut rows = base.rows;
+        growth.grow(&mut rows, companions, base.columns);
+        rows
+    });
+    grown.min_by_key(Rows::len).expect("there is one way to begin")
+}
