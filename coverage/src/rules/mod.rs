@@ -8,6 +8,7 @@
 
 mod clause;
 mod companions;
+mod compile;
 mod conflict;
 mod count;
 mod diagram;
