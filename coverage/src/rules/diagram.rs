@@ -65,15 +65,32 @@ impl Diagram {
         &self.segments[self.nodes[node].segment as usize]
     }
 
-    /// The children of a node with the classes that lead there, of those halves that have the fixed class.
-    fn branches(&self, node: usize, fixed: &[Option<usize>]) -> impl Iterator<Item = (usize, Range<usize>)> {
+    /// Calls with the children of a node and the classes that lead there, of those halves that have the fixed class.
+    #[inline(always)]
+    fn each_branch(&self, node: usize, fixed: &[Option<usize>], mut call: impl FnMut(usize, Range<usize>)) {
         let (Node { low, high, .. }, segment) = (self.nodes[node], self.segment(node));
         let fixed = fixed[self.order[segment.turn]];
-        let halves = [(low, segment.begin..segment.middle), (high, segment.middle..segment.end)];
-        halves
-            .into_iter()
-            .filter(move |(child, half)| *child != NONE && fixed.is_none_or(|class| half.contains(&class)))
-            .map(|(child, half)| (child as usize, half))
+        if low != NONE && fixed.is_none_or(|class| class < segment.middle) {
+            call(low as usize, segment.begin..segment.middle);
+        }
+        if high != NONE && fixed.is_none_or(|class| class >= segment.middle) {
+            call(high as usize, segment.middle..segment.end);
+        }
+    }
+
+    /// Whether a path has these classes, one for each member.
+    pub(super) fn has(&self, class: impl Fn(usize) -> usize) -> bool {
+        let mut node = 0;
+        while node + 1 < self.nodes.len() {
+            let segment = self.segment(node);
+            let lower = class(self.order[segment.turn]) < segment.middle;
+            let child = if lower { self.nodes[node].low } else { self.nodes[node].high };
+            if child == NONE {
+                return false;
+            }
+            node = child as usize;
+        }
+        true
     }
 
     /// Whether a path has the fixed classes.
@@ -85,7 +102,11 @@ impl Diagram {
             if node == end {
                 return true;
             }
-            stack.extend(self.branches(node, fixed).map(|(child, _)| child).filter(|&child| seen.insert(child)));
+            self.each_branch(node, fixed, |child, _| {
+                if seen.insert(child) {
+                    stack.push(child);
+                }
+            });
         }
         false
     }
@@ -99,9 +120,9 @@ impl Diagram {
         let mut reached = Vec::new();
         while let Some(node) = leads.next(reached.last().map_or(0, |last| last + 1)).filter(|&node| node < end) {
             reached.push(node);
-            for (child, _) in self.branches(node, fixed) {
+            self.each_branch(node, fixed, |child, _| {
                 leads.insert(child);
-            }
+            });
         }
         let mut supported: Vec<Vec<bool>> = vec![Vec::new(); self.order.len()];
         for (&place, &classes) in self.order.iter().zip(&self.classes) {
@@ -116,14 +137,16 @@ impl Diagram {
         for &node in reached.iter().rev() {
             let turn = self.segment(node).turn;
             let mut ends = false;
-            for (child, half) in self.branches(node, fixed).filter(|&(child, _)| leads.contains(child)) {
-                ends = true;
-                let next = self.segment(child).turn;
-                if next > turn {
-                    supported[self.order[turn]][half].fill(true);
-                    skip(turn + 1..next);
+            self.each_branch(node, fixed, |child, half| {
+                if leads.contains(child) {
+                    ends = true;
+                    let next = self.segment(child).turn;
+                    if next > turn {
+                        supported[self.order[turn]][half].fill(true);
+                        skip(turn + 1..next);
+                    }
                 }
-            }
+            });
             if !ends {
                 leads.remove(node);
             }
@@ -155,11 +178,14 @@ impl Diagram {
         let mut below = vec![1.0; self.nodes.len()];
         for node in (0..self.nodes.len() - 1).rev() {
             let turn = self.segment(node).turn;
-            let paths = |(child, half): (usize, Range<usize>)| match self.segment(child).turn {
-                next if next > turn => levels(turn, half) * all(turn + 1..next) * below[child],
-                _ => below[child],
-            };
-            below[node] = self.branches(node, &nothing).map(paths).sum();
+            let mut paths = 0.0;
+            self.each_branch(node, &nothing, |child, half| {
+                paths += match self.segment(child).turn {
+                    next if next > turn => levels(turn, half) * all(turn + 1..next) * below[child],
+                    _ => below[child],
+                };
+            });
+            below[node] = paths;
         }
         all(0..self.segment(0).turn) * below[0]
     }
