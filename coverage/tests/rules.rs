@@ -180,13 +180,13 @@ const RELATIONS: [fn(usize, usize) -> bool; 8] = [
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
     fn comparisons_of_many_levels_are_decided_as_by_trying_every_test(
-        levels in prop::collection::vec(1..=28usize, 3..=3),
+        levels in prop::collection::vec(1..=32usize, 3..=3),
         compared in prop::collection::vec((0..3usize, 1..3usize, 0..RELATIONS.len()), 1..=4),
-        condition in prop::option::of((0..3usize, 1..3usize, 0..28usize, any::<u32>())),
+        condition in prop::option::of((0..3usize, 1..3usize, 0..32usize, any::<u32>())),
         fixed in prop::option::of((0..3usize, any::<usize>())),
     ) {
         // Each constraint as clauses and as what it says of a test.
@@ -276,7 +276,7 @@ fn all_different(parameters: usize, levels: usize) -> Vec<Vec<Clause>> {
 
 #[test]
 fn three_different_ones_of_many_levels_are_told_apart_with_a_diagram_and_without() {
-    for levels in [100, 600] {
+    for levels in [100, 1000] {
         let rules = Rules::new(&[levels; 3], &all_different(3, levels)).unwrap();
         let pairs = (levels * (levels - 1)) as u128;
         assert_eq!(rules.count(&[0, 1, 2], 2), TupleCount { valid: 3 * pairs, largest: pairs });

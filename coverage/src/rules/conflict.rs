@@ -18,7 +18,7 @@ const STEPS: usize = 100_000;
 
 /// How many steps the solver takes before diagrams have a try, and for how many of its steps these count.
 const BRIEF: u64 = 1 << 14;
-const DIAGRAM: u64 = 1 << 17;
+const DIAGRAM: u64 = 1 << 16;
 
 /// Constraints that no test keeps together.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]

@@ -11,7 +11,7 @@ use batsat::{Callbacks, Lit, Solver, SolverInterface, lbool};
 use std::cell::Cell;
 
 /// How many steps a search may take whose answer can be done without: some seconds.
-pub(super) const PATIENCE: u64 = 1 << 21;
+pub(super) const PATIENCE: u64 = 1 << 19;
 
 /// A search was given up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
