@@ -174,7 +174,7 @@ fn read(text: &str) -> Result<Model, Fault> {
     let space = space.or_else(|error| match error {
         SpaceError::Constraint { index, error, .. } => {
             fail(read.get(index).map_or(0, |statement| statement.span.start), error.message)
-        },
+        }
         error => fail(0, error.to_string()),
     })?;
     let in_a_line = |span: Range<usize>| text[span].split_whitespace().collect::<Vec<_>>().join(" ");

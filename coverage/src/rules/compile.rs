@@ -7,9 +7,12 @@
 use super::diagram::{NONE, Segment};
 use super::group::ClassClause;
 use std::collections::HashMap;
+use std::ops::RangeInclusive;
 
-/// The number of nodes, those dropped on the way among them, with which a diagram is not given up.
-const MOST_NODES: usize = 1 << 20;
+/// The numbers of nodes, those dropped on the way among them, between which the most lies with which a diagram is
+/// not given up. It is the square of the number of classes: a question passes through the nodes once, where a
+/// search is asked for each class, and passes through the classes for it.
+const MOST_NODES: RangeInclusive<usize> = 1 << 17..=1 << 20;
 
 /// The longest path: as deep goes the recursion.
 const LONGEST: usize = 1 << 12;
@@ -45,8 +48,16 @@ pub(super) fn nodes(
         *next += classes.saturating_sub(1) as u32;
         Some(first)
     });
-    let mut table =
-        Table { first: first.collect(), nodes: Vec::new(), number: HashMap::new(), joined: HashMap::new(), steps: 0 };
+    let all: usize = classes.iter().sum();
+    let most_nodes = (all * all).clamp(*MOST_NODES.start(), *MOST_NODES.end());
+    let mut table = Table {
+        first: first.collect(),
+        most_nodes,
+        nodes: Vec::new(),
+        number: HashMap::new(),
+        joined: HashMap::new(),
+        steps: 0,
+    };
     let mut with_first: Vec<Vec<u32>> = vec![Vec::new(); classes.len()];
     for clause in clauses {
         let mut literals: Vec<(usize, &[bool])> =
@@ -67,6 +78,7 @@ pub(super) fn nodes(
 struct Table {
     /// The first segment of each member.
     first: Vec<u32>,
+    most_nodes: usize,
     nodes: Vec<Node>,
     number: HashMap<Node, u32>,
     /// What pairs of nodes have been joined to.
@@ -127,12 +139,13 @@ impl Table {
                     return Some(known);
                 }
                 self.steps += 1;
-                if self.nodes.len() > MOST_NODES || self.steps > 4 * MOST_NODES {
+                if self.nodes.len() > self.most_nodes || self.steps > 4 * self.most_nodes {
                     return None;
                 }
                 let (left, right) = (self.nodes[a as usize], self.nodes[b as usize]);
                 let segment = left.segment.min(right.segment);
-                let children = |of: u32, node: Node| if node.segment == segment { (node.low, node.high) } else { (of, of) };
+                let children =
+                    |of: u32, node: Node| if node.segment == segment { (node.low, node.high) } else { (of, of) };
                 let ((a_low, a_high), (b_low, b_high)) = (children(a, left), children(b, right));
                 let low = self.join(a_low, b_low)?;
                 let high = self.join(a_high, b_high)?;
