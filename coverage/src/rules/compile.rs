@@ -7,12 +7,9 @@
 use super::diagram::{NONE, Segment};
 use super::group::ClassClause;
 use std::collections::HashMap;
-use std::ops::RangeInclusive;
 
-/// The numbers of nodes, those dropped on the way among them, between which the most lies with which a diagram is
-/// not given up. It is the square of the number of classes: a question passes through the nodes once, where a
-/// search is asked for each class, and passes through the classes for it.
-const MOST_NODES: RangeInclusive<usize> = 1 << 17..=1 << 20;
+/// The number of nodes, those dropped on the way among them, with which a diagram is not given up.
+const MOST_NODES: usize = 1 << 20;
 
 /// The longest path: as deep goes the recursion.
 const LONGEST: usize = 1 << 12;
@@ -48,16 +45,8 @@ pub(super) fn nodes(
         *next += classes.saturating_sub(1) as u32;
         Some(first)
     });
-    let all: usize = classes.iter().sum();
-    let most_nodes = (all * all).clamp(*MOST_NODES.start(), *MOST_NODES.end());
-    let mut table = Table {
-        first: first.collect(),
-        most_nodes,
-        nodes: Vec::new(),
-        number: HashMap::new(),
-        joined: HashMap::new(),
-        steps: 0,
-    };
+    let mut table =
+        Table { first: first.collect(), nodes: Vec::new(), number: HashMap::new(), joined: HashMap::new(), steps: 0 };
     let mut with_first: Vec<Vec<u32>> = vec![Vec::new(); classes.len()];
     for clause in clauses {
         let mut literals: Vec<(usize, &[bool])> =
@@ -78,7 +67,6 @@ pub(super) fn nodes(
 struct Table {
     /// The first segment of each member.
     first: Vec<u32>,
-    most_nodes: usize,
     nodes: Vec<Node>,
     number: HashMap<Node, u32>,
     /// What pairs of nodes have been joined to.
@@ -139,7 +127,7 @@ impl Table {
                     return Some(known);
                 }
                 self.steps += 1;
-                if self.nodes.len() > self.most_nodes || self.steps > 4 * self.most_nodes {
+                if self.nodes.len() > MOST_NODES || self.steps > 4 * MOST_NODES {
                     return None;
                 }
                 let (left, right) = (self.nodes[a as usize], self.nodes[b as usize]);
