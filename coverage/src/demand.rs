@@ -7,7 +7,7 @@
 //! this one, and no kind helps another: the first has to show all combinations of k values that are not negative, each
 //! other kind, where one of the k is its negative value already, all combinations of k - 1 values of the other parameters.
 
-use crate::rules::{Clause, Conflict, Literal, Rules};
+use crate::rules::{Clause, Literal, Rules, RulesError};
 use crate::{Space, SpaceError};
 
 /// What tests are to cover beside all combinations of any k values.
@@ -33,10 +33,7 @@ impl Demand {
         if self.negatives.is_empty() {
             return Ok(vec![Kind::of(&rules)]);
         }
-        Kind::all(rules.levels(), &space.clauses(), &self.negatives).map_err(|conflict| {
-            let texts = conflict.constraints.iter().map(|&index| space.constraints()[index].text().to_owned());
-            SpaceError::Conflict(texts.collect())
-        })
+        Kind::all(rules.levels(), &space.clauses(), &self.negatives).map_err(|error| space.explain(error))
     }
 }
 
@@ -57,7 +54,7 @@ impl Kind {
     /// are negative: those without one first, then one for each pair in order. Kinds without tests are left out.
     ///
     /// # Errors
-    /// There is no kind with tests.
+    /// There is no kind with tests, or whether one has any cannot be decided.
     ///
     /// # Panics
     /// There is no such parameter or level.
@@ -65,7 +62,7 @@ impl Kind {
         levels: &[usize],
         constraints: &[Vec<Clause>],
         negatives: &[(usize, usize)],
-    ) -> Result<Vec<Self>, Conflict> {
+    ) -> Result<Vec<Self>, RulesError> {
         let kind = |negative: Option<(usize, usize)>| {
             let stays = |parameter: usize, level: usize| match negative {
                 Some((own, only)) if own == parameter => level == only,
@@ -79,14 +76,19 @@ impl Kind {
             let all: Vec<Vec<Clause>> = constraints.iter().cloned().chain(signs).collect();
             Rules::new(levels, &all).map(|rules| Self { rules, negative })
         };
-        let without = kind(None);
-        let conflict = without.as_ref().err().cloned();
-        let kinds: Vec<Self> =
-            without.into_iter().chain(negatives.iter().filter_map(|&negative| kind(Some(negative)).ok())).collect();
+        let mut kinds = Vec::new();
+        let mut conflict = None;
+        for negative in std::iter::once(None).chain(negatives.iter().copied().map(Some)) {
+            match kind(negative) {
+                Ok(kind) => kinds.push(kind),
+                Err(RulesError::Conflict(found)) => conflict = conflict.or(Some(found)),
+                Err(undecided) => return Err(undecided),
+            }
+        }
         match conflict {
             Some(mut conflict) if kinds.is_empty() => {
                 conflict.constraints.retain(|&index| index < constraints.len());
-                Err(conflict)
+                Err(RulesError::Conflict(conflict))
             }
             _ => Ok(kinds),
         }

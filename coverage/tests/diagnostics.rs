@@ -121,6 +121,13 @@ fn the_place_of_an_error_is_given_in_the_lines_of_the_file() {
 }
 
 #[test]
+fn the_lines_of_constraints_are_known() {
+    let toml = "# A comment.\nconstraints = ['lanes == 2',\n\n  \"\"\"\nlanes\n== 2\"\"\", 'lanes != 4']\n";
+    assert_eq!(Space::constraint_lines(toml), [2, 4, 6]);
+    assert!(Space::constraint_lines("[[parameter]]\nname = \"lanes\"\n").is_empty());
+}
+
+#[test]
 fn an_error_of_a_space_made_by_a_program_names_the_constraint() {
     let error = drive().with_constraints(["lanes == 2", "lanes == 3"]).unwrap_err();
     assert!(matches!(&error, SpaceError::Constraint { index: 1, .. }), "{error:?}");

@@ -314,3 +314,11 @@ fn a_value_that_no_test_has_is_noted() {
     );
     assert!(tests(&model).iter().all(|(_, allowed)| *allowed));
 }
+
+#[test]
+fn statements_are_kept_with_the_lines_where_they_begin() {
+    let model = read("A: ~-1, 2\nB: ~-1, 2\n# [A] = 2;\nIF [A] = 2\n\n  THEN [B] = 2;  [B] < 9;\n(\n[A] < 9);");
+    let statements = [(4, "IF [A] = 2 THEN [B] = 2;"), (6, "[B] < 9;"), (7, "( [A] < 9);")];
+    assert_eq!(model.statements, statements.map(|(line, statement)| (line, statement.to_owned())));
+    assert_eq!(model.space.constraints().len(), 4);
+}

@@ -3,7 +3,7 @@
 mod models;
 
 use models::{all_tests, keeps, models};
-use paracosm_coverage::rules::{Clause, Literal, Rules, TupleCount};
+use paracosm_coverage::rules::{Clause, Conflict, Literal, Rules, RulesError, TupleCount};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
@@ -23,8 +23,9 @@ proptest! {
         let kept: Vec<Vec<usize>> =
             every.iter().filter(|test| constraints.iter().all(|c| keeps(c, test))).cloned().collect();
         match Rules::new(&levels, &constraints) {
-            Err(conflict) => {
-                prop_assert!(kept.is_empty());
+            Err(error) => {
+                let RulesError::Conflict(conflict) = error else { panic!("{error}") };
+                prop_assert!(kept.is_empty() && conflict.smallest);
                 let holds = |set: &[usize]| every.iter().any(|test| set.iter().all(|&c| keeps(&constraints[c], test)));
                 prop_assert!(!holds(&conflict.constraints));
                 for set in choices(constraints.len()).filter(|set| set.len() < conflict.constraints.len()) {
@@ -143,8 +144,8 @@ fn a_conflict_among_many_constraints_is_named() {
     constraints.insert(17, only(3, 0));
     constraints.insert(200, vec![Clause { literals: vec![literal(3, &[1]), literal(50, &[1])] }]);
     constraints.insert(250, only(50, 0));
-    let conflict = Rules::new(&[2; 100], &constraints).unwrap_err();
-    assert_eq!(conflict.constraints, [17, 200, 250]);
+    let conflict = Conflict { constraints: vec![17, 200, 250], smallest: true };
+    assert_eq!(Rules::new(&[2; 100], &constraints).unwrap_err(), RulesError::Conflict(conflict));
 }
 
 #[test]
@@ -154,4 +155,160 @@ fn levels_that_no_constraint_tells_apart_cost_nothing() {
     let rules = Rules::new(&[10_000, 10_000, 10_000], &[constraint]).unwrap();
     assert_eq!(rules.count(&[0, 1, 2], 2).valid, 300_000_000 - 5000 * 9999);
     assert_eq!(rules.tests(), Some(1e12 - 5000.0 * 9999.0 * 1e4));
+}
+
+/// A clause for each level of `a`: with which levels of `b` it goes.
+fn related(a: usize, b: usize, levels: &[usize], holds: impl Fn(usize, usize) -> bool) -> Vec<Clause> {
+    let clause = |level: usize| {
+        let others: Vec<usize> = (0..levels[a]).filter(|&other| other != level).collect();
+        let partners: Vec<usize> = (0..levels[b]).filter(|&partner| holds(level, partner)).collect();
+        Clause { literals: vec![literal(a, &others), literal(b, &partners)] }
+    };
+    (0..levels[a]).map(clause).collect()
+}
+
+/// Relations by which two levels can be compared, some of them with a distance.
+const RELATIONS: [fn(usize, usize) -> bool; 8] = [
+    |a, b| a < b,
+    |a, b| a <= b,
+    |a, b| a == b,
+    |a, b| a != b,
+    |a, b| a + 7 < b,
+    |a, b| a.abs_diff(b) <= 3,
+    |a, b| a.abs_diff(b) > 5,
+    |a, b| a + b < 30,
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn comparisons_of_many_levels_are_decided_as_by_trying_every_test(
+        levels in prop::collection::vec(1..=32usize, 3..=3),
+        compared in prop::collection::vec((0..3usize, 1..3usize, 0..RELATIONS.len()), 1..=4),
+        condition in prop::option::of((0..3usize, 1..3usize, 0..32usize, any::<u32>())),
+        fixed in prop::option::of((0..3usize, any::<usize>())),
+    ) {
+        // Each constraint as clauses and as what it says of a test.
+        type Says = Box<dyn Fn(&[usize]) -> bool>;
+        let mut constraints: Vec<(Vec<Clause>, Says)> = Vec::new();
+        for (a, step, relation) in compared {
+            let (b, relation) = ((a + step) % 3, RELATIONS[relation]);
+            let says = move |test: &[usize]| relation(test[a], test[b]);
+            constraints.push((related(a, b, &levels, relation), Box::new(says)));
+        }
+        if let Some((a, step, above, bits)) = condition {
+            let b = (a + step) % 3;
+            let low: Vec<usize> = (0..levels[a].min(above + 1)).collect();
+            let among: Vec<usize> = (0..levels[b]).filter(|level| bits >> level & 1 == 1).collect();
+            let clause = Clause { literals: vec![literal(a, &low), literal(b, &among)] };
+            let says = move |test: &[usize]| test[a] <= above || bits >> test[b] & 1 == 1;
+            constraints.push((vec![clause], Box::new(says)));
+        }
+        let every = all_tests(&levels);
+        let kept: Vec<&Vec<usize>> =
+            every.iter().filter(|test| constraints.iter().all(|(_, says)| says(test))).collect();
+        let clauses: Vec<Vec<Clause>> = constraints.iter().map(|(clauses, _)| clauses.clone()).collect();
+        let rules = match Rules::new(&levels, &clauses) {
+            Ok(rules) => rules,
+            Err(error) => {
+                let RulesError::Conflict(conflict) = error else { panic!("{error}") };
+                prop_assert!(kept.is_empty() && conflict.smallest);
+                let holds = |set: &[usize]| every.iter().any(|test| set.iter().all(|&c| constraints[c].1(test)));
+                prop_assert!(!holds(&conflict.constraints));
+                for set in choices(constraints.len()).filter(|set| set.len() < conflict.constraints.len()) {
+                    prop_assert!(holds(&set));
+                }
+                return Ok(());
+            }
+        };
+        prop_assert_eq!(rules.tests(), Some(kept.len() as f64));
+        for test in &every {
+            prop_assert_eq!(rules.allows(test), kept.binary_search(&test).is_ok());
+        }
+        let pairs = [[0, 1], [0, 2], [1, 2]].map(|set| {
+            (set, kept.iter().map(|test| set.map(|parameter| test[parameter])).collect::<BTreeSet<_>>())
+        });
+        for (set, valid) in &pairs {
+            for a in 0..levels[set[0]] {
+                for b in 0..levels[set[1]] {
+                    prop_assert_eq!(rules.is_valid(&[(set[0], a), (set[1], b)]), valid.contains(&[a, b]));
+                }
+            }
+        }
+        let sizes = pairs.each_ref().map(|(_, valid)| valid.len() as u128);
+        let (valid, largest) = (sizes.iter().sum(), *sizes.iter().max().unwrap());
+        prop_assert_eq!(rules.count(&[0, 1, 2], 2), TupleCount { valid, largest });
+        let fixed = fixed.map(|(parameter, level)| (parameter, level % levels[parameter]));
+        let fits = |test: &&&Vec<usize>| fixed.is_none_or(|(parameter, level)| test[parameter] == level);
+        for group in 0..rules.groups() {
+            if fixed.is_none_or(|(parameter, _)| rules.group_of(parameter) == Some(group)) {
+                let with = |other| fixed.filter(|pair| pair.0 == other).map(|pair| pair.1);
+                for (&member, supported) in rules.members(group).iter().zip(rules.supported(group, with)) {
+                    for (level, supported) in supported.into_iter().enumerate() {
+                        prop_assert_eq!(supported, kept.iter().filter(fits).any(|test| test[member] == level));
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn three_parameters_of_a_thousand_levels_each_can_be_compared() {
+    let levels = [1000; 3];
+    let ascending = [related(0, 1, &levels, |a, b| a < b), related(1, 2, &levels, |b, c| b < c)];
+    let rules = Rules::new(&levels, &ascending).unwrap();
+    let pairs = 999 * 998 / 2;
+    assert_eq!(rules.count(&[0, 1, 2], 2), TupleCount { valid: 3 * pairs, largest: pairs });
+    assert_eq!(rules.tests(), Some(1000.0 * 999.0 * 998.0 / 6.0));
+    assert!(rules.is_valid(&[(0, 0), (2, 2)]) && !rules.is_valid(&[(0, 0), (2, 1)]));
+    // What others imply makes it no harder.
+    let implied = [ascending.as_slice(), &[related(0, 2, &levels, |a, c| a < c)]].concat();
+    assert_eq!(Rules::new(&levels, &implied).unwrap().tests(), rules.tests());
+}
+
+/// That any two of so many parameters differ.
+fn all_different(parameters: usize, levels: usize) -> Vec<Vec<Clause>> {
+    let pairs = (1..parameters).flat_map(|b| (0..b).map(move |a| (a, b)));
+    pairs.map(|(a, b)| related(a, b, &vec![levels; parameters], |a, b| a != b)).collect()
+}
+
+#[test]
+fn three_different_ones_of_many_levels_are_told_apart_with_a_diagram_and_without() {
+    for levels in [100, 1000] {
+        let rules = Rules::new(&[levels; 3], &all_different(3, levels)).unwrap();
+        let pairs = (levels * (levels - 1)) as u128;
+        assert_eq!(rules.count(&[0, 1, 2], 2), TupleCount { valid: 3 * pairs, largest: pairs });
+        let tests = (levels * (levels - 1) * (levels - 2)) as f64;
+        assert_eq!(rules.tests(), (levels == 100).then_some(tests));
+        assert!(rules.allows(&[5, 7, 6]) && !rules.allows(&[5, 7, 5]));
+    }
+}
+
+#[test]
+fn nine_parameters_cannot_have_eight_levels_and_all_differ() {
+    let mut constraints = all_different(9, 8);
+    let all: Vec<usize> = (0..constraints.len()).collect();
+    let conflict = |constraints: &[usize]| Conflict { constraints: constraints.to_vec(), smallest: true };
+    assert_eq!(Rules::new(&[8; 9], &constraints).unwrap_err(), RulesError::Conflict(conflict(&all)));
+    constraints.push(vec![Clause { literals: vec![literal(0, &[1, 2, 3])] }]);
+    assert_eq!(Rules::new(&[8; 9], &constraints).unwrap_err(), RulesError::Conflict(conflict(&all)));
+}
+
+#[test]
+fn a_conflict_that_may_not_be_the_smallest_says_so() {
+    let mut constraints = all_different(13, 12);
+    constraints.push(vec![Clause { literals: vec![literal(0, &[1, 2, 3])] }]);
+    let RulesError::Conflict(conflict) = Rules::new(&[12; 13], &constraints).unwrap_err() else { panic!("decided") };
+    assert!(!conflict.smallest);
+    // All have to differ, or there is a test.
+    assert!((0..constraints.len() - 1).all(|constraint| conflict.constraints.contains(&constraint)));
+    assert!(conflict.to_string().ends_with("(a conflicting set, perhaps not the smallest)"), "{conflict}");
+}
+
+#[test]
+fn what_takes_too_long_to_decide_is_refused() {
+    let error = Rules::new(&[24; 25], &all_different(25, 24)).unwrap_err();
+    assert_eq!(error, RulesError::Undecided((0..25).collect()));
 }

@@ -152,8 +152,21 @@ fn constraints_that_no_test_keeps_are_named() {
     );
     fs::write(dir.path().join("SPACE.toml"), space).unwrap();
     let output = cover(dir.path(), &["generate", "--space", "SPACE.toml"]);
-    refused(&output, &["no test keeps these constraints together", "`wet == 'no'`", "`sky in ['clear', 'rain']`"]);
+    let line = 1 + discrete_space().lines().position(|line| line.starts_with("constraints")).unwrap();
+    let named = ["wet == 'no'", "sky in ['clear', 'rain']"].map(|text| format!("\n  SPACE.toml:{line}: {text}"));
+    refused(&output, &["SPACE.toml: no test keeps these constraints together:\n", &named[0], &named[1]]);
     assert!(!stderr(&output).contains("lanes"), "only those in conflict are named");
+}
+
+#[test]
+fn statements_of_a_model_that_no_test_keeps_are_named_with_their_lines() {
+    let dir = tempfile::tempdir().unwrap();
+    let model = "a: 1, 2\nb: ~-1, 3\nc: ~-1, ~-2, 4\n\nIF [a] = 1\n  THEN [b] = -1;\n[a] <> 2; [c] < 0;\n[b] < 9;\n";
+    fs::write(dir.path().join("m.pict"), model).unwrap();
+    let output = cover(dir.path(), &["generate", "--space", "m.pict"]);
+    let named = "m.pict: no test keeps these constraints together:\n  m.pict:5: IF [a] = 1 THEN [b] = -1;\n  \
+                 m.pict:7: [a] <> 2;\n  m.pict:7: [c] < 0;\n  b == -1 implies c == 4";
+    refused(&output, &[named]);
 }
 
 #[test]

@@ -55,6 +55,8 @@ use crate::demand::Demand;
 use crate::space::position;
 use crate::{Domain, Parameter, Space, SpaceError};
 use parameters::{Declared, Parameters, sub_model};
+use statements::Statement;
+use std::ops::Range;
 use thiserror::Error;
 
 /// What a model file holds.
@@ -64,6 +66,9 @@ pub struct Model {
     pub space: Space,
     /// The sub-models, as groups, and the negative values.
     pub demand: Demand,
+    /// The line, from 1, at which a statement of the file begins, and the statement in one line: one for each of the
+    /// space's constraints but the last ones, which are about negative values.
+    pub statements: Vec<(usize, String)>,
     /// What was read otherwise than its author may expect, for people.
     pub notes: Vec<String>,
 }
@@ -162,20 +167,22 @@ fn read(text: &str) -> Result<Model, Fault> {
         return fail(statements, "found no parameters, expected a line like `Weather: clear, rain, fog`");
     }
     let (declared, mut notes) = parameters.finish();
-    let constraints = statements::read(text, statements, &declared, &mut notes)?;
-    let (mut offsets, mut texts): (Vec<usize>, Vec<String>) =
-        constraints.into_iter().map(|(offset, expression)| (offset, expression.to_string())).unzip();
-    for expression in one_negative(&declared) {
-        offsets.push(0);
-        texts.push(expression.to_string());
-    }
+    let read = statements::read(text, statements, &declared, &mut notes)?;
+    let signs = one_negative(&declared);
+    let texts = read.iter().map(|statement| &statement.expression).chain(&signs).map(Expression::to_string);
+    let texts: Vec<String> = texts.collect();
     let space = declared.iter().map(parameter).collect();
     let space = Space::new(space).and_then(|space| space.with_constraints(texts));
     let space = space.or_else(|error| match error {
-        SpaceError::Constraint { index, error, .. } => fail(offsets[index], error.message),
+        SpaceError::Constraint { index, error, .. } => {
+            fail(read.get(index).map_or(0, |statement| statement.span.start), error.message)
+        }
         error => fail(0, error.to_string()),
     })?;
-    Ok(Model { space, demand: Demand { groups, negatives: negatives(&declared) }, notes })
+    let in_a_line = |span: Range<usize>| text[span].split_whitespace().collect::<Vec<_>>().join(" ");
+    let statements = read.into_iter().map(|Statement { span, .. }| (position(text, span.start).0, in_a_line(span)));
+    let demand = Demand { groups, negatives: negatives(&declared) };
+    Ok(Model { space, statements: statements.collect(), demand, notes })
 }
 
 /// What a line is, by how it begins. A colon before the first bracket makes it a parameter, whatever it begins with.

@@ -8,6 +8,7 @@ use crate::Value;
 use crate::constraint::{Expression, Relation};
 use crate::names::{did_you_mean, nearest};
 use crate::space::position;
+use std::ops::Range;
 
 /// How deep parentheses and `NOT` may be nested.
 const DEEPEST: usize = 48;
@@ -24,17 +25,26 @@ const RELATIONS: [(&str, Relation); 6] = [
     (">=", Relation::GreaterOrEqual),
 ];
 
-/// Reads the constraints that stand from `start` on, each with its offset.
+/// A constraint and where it stands in the file.
+pub(super) struct Statement {
+    pub(super) span: Range<usize>,
+    pub(super) expression: Expression,
+}
+
+/// Reads the constraints that stand from `start` on.
 pub(super) fn read(
     text: &str,
     start: usize,
     declared: &[Declared],
     notes: &mut Vec<String>,
-) -> Result<Vec<(usize, Expression)>, Fault> {
+) -> Result<Vec<Statement>, Fault> {
     let mut reader = Reader { text, tokens: tokens(text, start), next: 0, depth: 0, declared, notes };
     let mut statements = Vec::new();
     while *reader.peek() != Token::End {
-        statements.push((reader.offset(), reader.statement()?));
+        let begin = reader.offset();
+        let expression = reader.statement()?;
+        // The last sign was a semicolon.
+        statements.push(Statement { span: begin..reader.tokens[reader.next - 1].1 + 1, expression });
     }
     Ok(statements)
 }

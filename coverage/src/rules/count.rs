@@ -87,7 +87,7 @@ fn count_heads(
     fixed: &mut [Option<usize>],
     counts: &mut Counts,
 ) {
-    if heads.len() == k {
+    if heads.len() == k || places.is_empty() {
         return;
     }
     let mut with = vec![0u128; fixed.len()];

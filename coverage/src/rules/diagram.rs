@@ -1,49 +1,38 @@
 //! Decision diagrams of groups of parameters: every path from the root is a way to keep the clauses.
 //!
-//! The diagram is compiled from the root down. What the parameters so far leave to those that follow is only
-//! which of the clauses between both are kept already; nodes with the same such clauses are one (Bergman, Cire,
-//! van Hoeve, Hooker, *Decision Diagrams for Optimization*, 2016). Then nodes without a path to the end go, and
-//! nodes with the same children become one.
+//! A node halves a segment of a member's classes, so that classes with the same child share a branch and so do
+//! nodes that differ in few classes: a comparison of two members of n classes has some n log n nodes, where a
+//! table has n squared entries. Nodes with the same children are one, and what does not matter is not asked
+//! (Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE Transactions on Computers 35, 1986).
 
+use super::compile::{self, Node};
 use super::group::ClassClause;
-use std::collections::HashMap;
-
-/// The largest number of edges of a diagram that is not given up; a pass over as many takes some 0.1 ms.
-const MOST_EDGES: usize = 1 << 16;
-
-/// The same for two members, whose diagram is a table that a solver could only look through cell by cell.
-const MOST_EDGES_OF_TWO: usize = 1 << 22;
+use std::ops::Range;
 
 /// No child.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
-/// The nodes at which the same member is chosen.
+/// Consecutive classes of a member; a node decides in which half the class is.
 #[derive(Debug)]
-struct Layer {
-    /// The member.
-    place: usize,
-    classes: usize,
-    /// For each node and class, the node of the next layer.
-    children: Vec<u32>,
+pub(super) struct Segment {
+    /// Where the member stands in the order of the diagram.
+    pub(super) turn: usize,
+    pub(super) begin: usize,
+    pub(super) middle: usize,
+    pub(super) end: usize,
 }
 
-impl Layer {
-    fn nodes(&self) -> usize {
-        self.children.len() / self.classes
-    }
-
-    /// The children of a node with their classes, of the fixed class if there is one.
-    fn edges(&self, node: usize, fixed: Option<usize>) -> impl Iterator<Item = (usize, usize)> {
-        let classes = fixed.map_or(0..self.classes, |class| class..class + 1);
-        let children = classes.map(move |class| (class, self.children[node * self.classes + class]));
-        children.filter(|&(_, child)| child != NONE).map(|(class, child)| (class, child as usize))
-    }
-}
-
-/// A reduced decision diagram; the root is node 0 of the first layer, the end node 0 after the last.
+/// A reduced decision diagram.
 #[derive(Debug)]
 pub(super) struct Diagram {
-    layers: Vec<Layer>,
+    /// The members in the order in which they are decided, and how many classes each has.
+    order: Vec<usize>,
+    classes: Vec<usize>,
+    /// The segments in the order in which they are decided, and one after the last member.
+    segments: Vec<Segment>,
+    /// The nodes in the order of their segments: the root is the first, the end the last. None
+    /// where nothing keeps the clauses.
+    nodes: Vec<Node>,
 }
 
 impl Diagram {
@@ -57,148 +46,160 @@ impl Diagram {
         for (i, &place) in order.iter().enumerate() {
             turn[place] = i;
         }
-        let last: Vec<usize> =
-            places.iter().map(|places| places.iter().map(|&p| turn[p]).max().expect("no clause is empty")).collect();
-
-        let mut layers = Vec::new();
-        let mut edges = 0;
-        let mut states = vec![vec![0u64; clauses.len().div_ceil(64)]];
-        for (i, &place) in order.iter().enumerate() {
-            let touched: Vec<(usize, &[bool])> = (0..clauses.len())
-                .filter_map(|c| {
-                    let literal = places[c].iter().position(|&p| p == place)?;
-                    Some((c, clauses[c].literals[literal].holds.as_slice()))
-                })
-                .collect();
-            let classes = sizes[place].len();
-            edges += states.len() * classes;
-            if edges > if members.len() == 2 { MOST_EDGES_OF_TWO } else { MOST_EDGES } {
-                return None;
-            }
-            let mut number: HashMap<Vec<u64>, u32> = HashMap::new();
-            let mut next: Vec<Vec<u64>> = Vec::new();
-            let mut children = Vec::with_capacity(states.len() * classes);
-            for state in &states {
-                for class in 0..classes {
-                    let Some(state) = follow(state, class, &touched, |clause| last[clause] == i) else {
-                        children.push(NONE);
-                        continue;
-                    };
-                    children.push(*number.entry(state).or_insert_with_key(|state| {
-                        next.push(state.clone());
-                        next.len() as u32 - 1
-                    }));
-                }
-            }
-            layers.push(Layer { place, classes, children });
-            states = next;
+        let classes: Vec<usize> = order.iter().map(|&place| sizes[place].len()).collect();
+        let mut segments = Vec::new();
+        for (turn, &classes) in classes.iter().enumerate() {
+            divide(turn, 0..classes, &mut segments);
         }
-        let mut diagram = Self { layers };
-        diagram.reduce(states.len());
-        Some(diagram)
-    }
-
-    /// Drops nodes without a path to the end and merges nodes with the same children.
-    fn reduce(&mut self, ends: usize) {
-        let mut kept: Vec<u32> = (0..ends as u32).collect();
-        for layer in self.layers.iter_mut().rev() {
-            let mut number: HashMap<Vec<u32>, u32> = HashMap::new();
-            let mut children = Vec::new();
-            let renumbered = layer.children.chunks_exact(layer.classes).map(|node| {
-                let node: Vec<u32> = node.iter().map(|&c| if c == NONE { NONE } else { kept[c as usize] }).collect();
-                if node.iter().all(|&child| child == NONE) {
-                    return NONE;
-                }
-                *number.entry(node).or_insert_with_key(|node| {
-                    children.extend_from_slice(node);
-                    (children.len() / layer.classes) as u32 - 1
-                })
-            });
-            kept = renumbered.collect();
-            layer.children = children;
-        }
+        segments.push(Segment { turn: order.len(), begin: 0, middle: 0, end: 0 });
+        let nodes = compile::nodes(&segments, &classes, clauses, |parameter| turn[place(parameter)])?;
+        Some(Self { order, classes, segments, nodes })
     }
 
     /// Whether there is no path at all.
     pub(super) fn is_empty(&self) -> bool {
-        self.layers.first().is_some_and(|layer| layer.children.is_empty())
+        self.nodes.is_empty()
     }
 
-    /// The nodes of each layer that paths of the fixed classes reach.
-    fn reached(&self, fixed: &[Option<usize>]) -> Vec<Vec<bool>> {
-        let mut reached: Vec<Vec<bool>> = self.layers.iter().map(|layer| vec![false; layer.nodes()]).collect();
-        reached.push(vec![false]);
-        reached[0][0] = true;
-        for (i, layer) in self.layers.iter().enumerate() {
-            let (here, below) = reached.split_at_mut(i + 1);
-            for node in (0..layer.nodes()).filter(|&node| here[i][node]) {
-                for (_, child) in layer.edges(node, fixed[layer.place]) {
-                    below[0][child] = true;
-                }
-            }
+    fn segment(&self, node: usize) -> &Segment {
+        &self.segments[self.nodes[node].segment as usize]
+    }
+
+    /// Calls with the children of a node and the classes that lead there, of those halves that have the fixed class.
+    #[inline(always)]
+    fn each_branch(&self, node: usize, fixed: &[Option<usize>], mut call: impl FnMut(usize, Range<usize>)) {
+        let (Node { low, high, .. }, segment) = (self.nodes[node], self.segment(node));
+        let fixed = fixed[self.order[segment.turn]];
+        if low != NONE && fixed.is_none_or(|class| class < segment.middle) {
+            call(low as usize, segment.begin..segment.middle);
         }
-        reached
+        if high != NONE && fixed.is_none_or(|class| class >= segment.middle) {
+            call(high as usize, segment.middle..segment.end);
+        }
+    }
+
+    /// Whether a path has these classes, one for each member.
+    pub(super) fn has(&self, class: impl Fn(usize) -> usize) -> bool {
+        let mut node = 0;
+        while node + 1 < self.nodes.len() {
+            let segment = self.segment(node);
+            let lower = class(self.order[segment.turn]) < segment.middle;
+            let child = if lower { self.nodes[node].low } else { self.nodes[node].high };
+            if child == NONE {
+                return false;
+            }
+            node = child as usize;
+        }
+        true
     }
 
     /// Whether a path has the fixed classes.
     pub(super) fn holds(&self, fixed: &[Option<usize>]) -> bool {
-        self.reached(fixed)[self.layers.len()][0]
+        let end = self.nodes.len() - 1;
+        let mut seen = Bits::new(self.nodes.len());
+        let mut stack = vec![0];
+        while let Some(node) = stack.pop() {
+            if node == end {
+                return true;
+            }
+            self.each_branch(node, fixed, |child, _| {
+                if seen.insert(child) {
+                    stack.push(child);
+                }
+            });
+        }
+        false
     }
 
     /// For each member and class, whether a path has it with the fixed ones.
     pub(super) fn supported(&self, fixed: &[Option<usize>]) -> Vec<Vec<bool>> {
-        let reached = self.reached(fixed);
-        let mut supported = vec![Vec::new(); self.layers.len()];
-        let mut ends = vec![true];
-        for (layer, reached) in self.layers.iter().zip(&reached).rev() {
-            let mut classes = vec![false; layer.classes];
-            let mut leads = vec![false; layer.nodes()];
-            for node in (0..layer.nodes()).filter(|&node| reached[node]) {
-                for (class, _) in layer.edges(node, fixed[layer.place]).filter(|&(_, child)| ends[child]) {
-                    classes[class] = true;
-                    leads[node] = true;
+        let end = self.nodes.len() - 1;
+        // The nodes that paths reach; then, from the end up, those of them that lead to the end.
+        let mut leads = Bits::new(self.nodes.len());
+        leads.insert(0);
+        let mut reached = Vec::new();
+        while let Some(node) = leads.next(reached.last().map_or(0, |last| last + 1)).filter(|&node| node < end) {
+            reached.push(node);
+            self.each_branch(node, fixed, |child, _| {
+                leads.insert(child);
+            });
+        }
+        let mut supported: Vec<Vec<bool>> = vec![Vec::new(); self.order.len()];
+        for (&place, &classes) in self.order.iter().zip(&self.classes) {
+            supported[place] = vec![false; classes];
+        }
+        // Where the runs of members begin and end that some path does not ask.
+        let mut unasked = vec![0isize; self.order.len() + 1];
+        let mut skip = |turns: Range<usize>| {
+            unasked[turns.start] += 1;
+            unasked[turns.end] -= 1;
+        };
+        for &node in reached.iter().rev() {
+            let turn = self.segment(node).turn;
+            let mut ends = false;
+            self.each_branch(node, fixed, |child, half| {
+                if leads.contains(child) {
+                    ends = true;
+                    let next = self.segment(child).turn;
+                    if next > turn {
+                        supported[self.order[turn]][half].fill(true);
+                        skip(turn + 1..next);
+                    }
                 }
+            });
+            if !ends {
+                leads.remove(node);
             }
-            supported[layer.place] = classes;
-            ends = leads;
+        }
+        if leads.contains(0) {
+            skip(0..self.segment(0).turn);
+        }
+        let mut depth = 0;
+        for (&place, change) in self.order.iter().zip(unasked) {
+            depth += change;
+            let some = depth > 0 || supported[place].contains(&true);
+            match fixed[place] {
+                Some(class) => {
+                    supported[place].fill(false);
+                    supported[place][class] = some;
+                }
+                None if depth > 0 => supported[place].fill(true),
+                None => {}
+            }
         }
         supported
     }
 
     /// The number of paths, each as many times as its classes have levels.
     pub(super) fn tests(&self, sizes: &[Vec<usize>]) -> f64 {
-        let mut below = vec![1.0];
-        for layer in self.layers.iter().rev() {
-            let paths = |node: usize| {
-                layer.edges(node, None).map(|(class, child)| sizes[layer.place][class] as f64 * below[child]).sum()
-            };
-            below = (0..layer.nodes()).map(paths).collect();
+        let levels = |turn: usize, classes: Range<usize>| sizes[self.order[turn]][classes].iter().sum::<usize>() as f64;
+        let all = |turns: Range<usize>| turns.map(|turn| levels(turn, 0..self.classes[turn])).product::<f64>();
+        let nothing = vec![None; self.order.len()];
+        let mut below = vec![1.0; self.nodes.len()];
+        for node in (0..self.nodes.len() - 1).rev() {
+            let turn = self.segment(node).turn;
+            let mut paths = 0.0;
+            self.each_branch(node, &nothing, |child, half| {
+                paths += match self.segment(child).turn {
+                    next if next > turn => levels(turn, half) * all(turn + 1..next) * below[child],
+                    _ => below[child],
+                };
+            });
+            below[node] = paths;
         }
-        below[0]
+        all(0..self.segment(0).turn) * below[0]
     }
 }
 
-/// The clauses kept after a choice, less those that no later member has; none if one of these is not kept.
-fn follow(
-    state: &[u64],
-    class: usize,
-    touched: &[(usize, &[bool])],
-    is_last: impl Fn(usize) -> bool,
-) -> Option<Vec<u64>> {
-    let mut state = state.to_vec();
-    for &(clause, holds) in touched {
-        let (word, bit) = (clause / 64, 1 << (clause % 64));
-        let kept = holds[class] || state[word] & bit != 0;
-        if is_last(clause) {
-            if !kept {
-                return None;
-            }
-            state[word] &= !bit;
-        } else if kept {
-            state[word] |= bit;
-        }
+/// Appends the segments of a member's classes, each before its halves: the lower half comes next, the upper half
+/// after so many as the lower one has classes.
+fn divide(turn: usize, classes: Range<usize>, segments: &mut Vec<Segment>) {
+    if classes.len() > 1 {
+        let middle = classes.start + classes.len() / 2;
+        segments.push(Segment { turn, begin: classes.start, middle, end: classes.end });
+        divide(turn, classes.start..middle, segments);
+        divide(turn, middle..classes.end, segments);
     }
-    Some(state)
 }
 
 /// An order of the members in which few clauses have members on both sides: next comes always the member that
@@ -220,4 +221,38 @@ fn order(members: usize, clauses: &[Vec<usize>]) -> Vec<usize> {
         order.push(next);
     }
     order
+}
+
+/// A set of numbers, a bit each.
+struct Bits(Vec<u64>);
+
+impl Bits {
+    fn new(numbers: usize) -> Self {
+        Self(vec![0; numbers.div_ceil(64)])
+    }
+
+    fn contains(&self, number: usize) -> bool {
+        self.0[number / 64] >> (number % 64) & 1 == 1
+    }
+
+    /// Whether the number is new.
+    fn insert(&mut self, number: usize) -> bool {
+        let new = !self.contains(number);
+        self.0[number / 64] |= 1 << (number % 64);
+        new
+    }
+
+    fn remove(&mut self, number: usize) {
+        self.0[number / 64] &= !(1 << (number % 64));
+    }
+
+    /// The first number from this one on.
+    fn next(&self, from: usize) -> Option<usize> {
+        let first = self.0.get(from / 64)? & u64::MAX << (from % 64);
+        if first != 0 {
+            return Some(from / 64 * 64 + first.trailing_zeros() as usize);
+        }
+        let word = (from / 64 + 1..self.0.len()).find(|&word| self.0[word] != 0)?;
+        Some(word * 64 + self.0[word].trailing_zeros() as usize)
+    }
 }

@@ -5,6 +5,7 @@
 
 use super::clause::Clause;
 use super::diagram::Diagram;
+use super::encoding::Undecided;
 use super::search::Search;
 
 /// A literal over classes.
@@ -54,6 +55,9 @@ impl Model {
                 classes[level] = part[classes[level]].unwrap_or(classes[level]);
             }
         }
+        for (classes, sizes) in class_of.iter_mut().zip(&mut sizes) {
+            number_by_first_levels(classes, sizes);
+        }
         let mut model = Self { class_of, sizes, clauses: Vec::new() };
         model.clauses = model.over_classes(clauses);
         model
@@ -74,6 +78,13 @@ impl Model {
             (!always).then_some(ClassClause { literals })
         };
         clauses.into_iter().filter_map(over_classes).collect()
+    }
+
+    /// The sizes of the classes of parameters that clauses join, and these clauses.
+    pub(super) fn of(&self, members: &[usize]) -> (Vec<Vec<usize>>, Vec<ClassClause>) {
+        let inside = |literal: &ClassLiteral| members.binary_search(&literal.parameter).is_ok();
+        let clauses = self.clauses.iter().filter(|clause| clause.literals.first().is_some_and(inside));
+        (members.iter().map(|&member| self.sizes[member].clone()).collect(), clauses.cloned().collect())
     }
 
     /// The sets of parameters that clauses join, each in ascending order, by their first parameters.
@@ -104,6 +115,20 @@ impl Model {
     }
 }
 
+/// Numbers classes in the order of their first levels, so that what is near by level is near by class.
+fn number_by_first_levels(class_of: &mut [usize], sizes: &mut [usize]) {
+    let mut number = vec![None; sizes.len()];
+    let mut numbered = Vec::with_capacity(sizes.len());
+    for class in class_of {
+        let old = *class;
+        *class = *number[old].get_or_insert_with(|| {
+            numbered.push(sizes[old]);
+            numbered.len() - 1
+        });
+    }
+    sizes[..numbered.len()].copy_from_slice(&numbered);
+}
+
 /// How questions about a group are answered.
 #[derive(Debug)]
 enum Engine {
@@ -126,28 +151,28 @@ pub(super) struct Group {
 
 impl Group {
     /// The group of these parameters; none if its clauses cannot be kept together.
-    pub(super) fn new(model: &Model, members: Vec<usize>) -> Option<Self> {
+    ///
+    /// # Errors
+    /// Whether they can takes too long to find out.
+    pub(super) fn new(model: &Model, members: Vec<usize>) -> Result<Option<Self>, Undecided> {
         let place = |parameter: usize| members.binary_search(&parameter).ok();
-        let clauses: Vec<ClassClause> = model
-            .clauses
-            .iter()
-            .filter(|clause| clause.literals.first().is_some_and(|literal| place(literal.parameter).is_some()))
-            .cloned()
-            .collect();
+        let (sizes, clauses) = model.of(&members);
         let mut clauses_of = vec![Vec::new(); members.len()];
         for (index, clause) in clauses.iter().enumerate() {
             for place in clause.literals.iter().filter_map(|literal| place(literal.parameter)) {
                 clauses_of[place].push(index);
             }
         }
-        let sizes: Vec<Vec<usize>> = members.iter().map(|&member| model.sizes[member].clone()).collect();
         let engine = match Diagram::new(&members, &sizes, &clauses) {
-            Some(diagram) if diagram.is_empty() => return None,
+            Some(diagram) if diagram.is_empty() => return Ok(None),
             Some(diagram) => Engine::Diagram(diagram),
-            None => Engine::Search(Box::new(Search::new(&members, &sizes, &clauses)?)),
+            None => match Search::new(&members, &sizes, &clauses)? {
+                Some(search) => Engine::Search(Box::new(search)),
+                None => return Ok(None),
+            },
         };
         let class_of = members.iter().map(|&member| model.class_of[member].clone()).collect();
-        Some(Self { members, class_of, sizes, clauses, clauses_of, engine })
+        Ok(Some(Self { members, class_of, sizes, clauses, clauses_of, engine }))
     }
 
     pub(super) fn members(&self) -> &[usize] {
@@ -167,7 +192,10 @@ impl Group {
     }
 
     pub(super) fn allows(&self, test: &[usize]) -> bool {
-        (0..self.clauses.len()).all(|clause| self.keeps(clause, test))
+        match &self.engine {
+            Engine::Diagram(diagram) => diagram.has(|place| self.class_of[place][test[self.members[place]]]),
+            Engine::Search(_) => (0..self.clauses.len()).all(|clause| self.keeps(clause, test)),
+        }
     }
 
     /// Whether a test keeps the clauses with a member.
@@ -182,13 +210,10 @@ impl Group {
     }
 
     pub(super) fn holds(&self, fixed: impl Fn(usize) -> Option<usize>) -> bool {
-        self.holds_classes(&self.classes(fixed))
-    }
-
-    fn holds_classes(&self, fixed: &[Option<usize>]) -> bool {
+        let fixed = self.classes(fixed);
         match &self.engine {
-            Engine::Diagram(diagram) => diagram.holds(fixed),
-            Engine::Search(search) => search.holds(fixed),
+            Engine::Diagram(diagram) => diagram.holds(&fixed),
+            Engine::Search(search) => search.holds(&fixed),
         }
     }
 
@@ -212,21 +237,14 @@ impl Group {
             .collect()
     }
 
-    /// Which levels of one member go with the fixed ones.
+    /// Which levels of one member go with the fixed ones; no more is searched for than that.
     pub(super) fn supported_at(&self, parameter: usize, fixed: impl Fn(usize) -> Option<usize>) -> Vec<bool> {
         let place = self.place(parameter).expect("the parameter is a member");
-        if let Engine::Diagram(_) = self.engine {
-            return self.supported(fixed).swap_remove(place);
-        }
-        // Each answer may cost a search, so no more is asked than has to be known.
-        let mut classes = self.classes(&fixed);
-        let level = fixed(parameter);
-        let supported = (0..self.sizes[place].len()).map(|class| {
-            let wanted = level.is_none_or(|level| self.class_of[place][level] == class);
-            classes[place] = Some(class);
-            wanted && self.holds_classes(&classes)
-        });
-        let supported: Vec<bool> = supported.collect();
+        let (classes, level) = (self.classes(&fixed), fixed(parameter));
+        let supported = match &self.engine {
+            Engine::Diagram(diagram) => diagram.supported(&classes).swap_remove(place),
+            Engine::Search(search) => search.supported_at(place, &classes),
+        };
         let levels = self.class_of[place].iter().enumerate();
         levels.map(|(other, &class)| supported[class] && level.is_none_or(|level| level == other)).collect()
     }

@@ -4,10 +4,12 @@
 //! all combinations that the constraints exclude together, as resolution does, explodes; so nothing is derived
 //! up front. The parameters fall apart into groups that no constraint joins, and each group is compiled into a
 //! decision diagram on which every question takes one pass. Where a diagram would grow beyond bounds,
-//! a satisfiability solver answers instead; it is slower, and as exact.
+//! a satisfiability solver answers instead; it is slower, and as exact. Whether there is a test at all, and which
+//! levels tests have, it has to find out within bounds too, or there are no rules.
 
 mod clause;
 mod companions;
+mod compile;
 mod conflict;
 mod count;
 mod diagram;
@@ -20,8 +22,21 @@ pub use companions::Companions;
 pub use conflict::Conflict;
 pub use count::TupleCount;
 
+use encoding::Undecided;
 use group::{Group, Model};
 use std::sync::Arc;
+use thiserror::Error;
+
+/// Why there are no rules.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum RulesError {
+    /// No test keeps all constraints.
+    #[error(transparent)]
+    Conflict(#[from] Conflict),
+    /// Which levels some parameters can have was not found out within bounds.
+    #[error("what the constraints allow of the parameters {0:?} was not found out within the bounds of the search")]
+    Undecided(Vec<usize>),
+}
 
 /// The discrete parameters of a space, and the constraints on them.
 #[derive(Debug, Clone)]
@@ -35,17 +50,28 @@ impl Rules {
     /// Parameters with so many levels each, and constraints; a constraint is the conjunction of its clauses.
     ///
     /// # Errors
-    /// No test keeps all constraints.
+    /// No test keeps all constraints, or whether any does, and at which levels, takes too long to find out. How
+    /// long is counted in steps: the same constraints have the same outcome on every machine.
     ///
     /// # Panics
     /// A literal names a parameter or a level that does not exist.
-    pub fn new(levels: &[usize], constraints: &[Vec<Clause>]) -> Result<Self, Conflict> {
+    pub fn new(levels: &[usize], constraints: &[Vec<Clause>]) -> Result<Self, RulesError> {
         let model = Model::new(levels, constraints.iter().flatten());
-        let groups: Option<Vec<Group>> =
-            model.groups().into_iter().map(|members| Group::new(&model, members)).collect();
-        let Some(groups) = groups.filter(|_| model.clauses.iter().all(|clause| !clause.literals.is_empty())) else {
-            return Err(Conflict::smallest(levels, constraints));
-        };
+        let mut kept = model.clauses.iter().all(|clause| !clause.literals.is_empty());
+        let (mut groups, mut undecided) = (Vec::new(), None);
+        for members in model.groups() {
+            match Group::new(&model, members.clone()) {
+                Ok(Some(group)) => groups.push(group),
+                Ok(None) => kept = false,
+                Err(Undecided) => undecided = undecided.or(Some(members)),
+            }
+        }
+        if !kept {
+            return Err(Conflict::smallest(levels, constraints).into());
+        }
+        if let Some(members) = undecided {
+            return Err(RulesError::Undecided(members));
+        }
         let mut group_of = vec![None; levels.len()];
         for (index, group) in groups.iter().enumerate() {
             for &member in group.members() {

@@ -19,7 +19,7 @@ pub use value::{Value, Values};
 
 use crate::constraint::{Constraint, ConstraintError};
 use crate::names::{did_you_mean, nearest};
-use crate::rules::{Clause, Rules};
+use crate::rules::{Clause, Conflict, Rules, RulesError};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -122,8 +122,19 @@ pub enum SpaceError {
         error: ConstraintError,
     },
     /// Constraints that no test keeps together.
-    #[error("no test keeps {} together: {}", if .0.len() == 1 { "this constraint" } else { "these constraints" }, quoted(.0))]
-    Conflict(Vec<String>),
+    #[error("{}", kept_by_none(.constraints, *.smallest))]
+    Conflict {
+        /// Their positions in the list of constraints, from 0, in ascending order, and how they were written.
+        constraints: Vec<(usize, String)>,
+        /// Whether it is known that no conflict has fewer constraints.
+        smallest: bool,
+    },
+    /// Constraints on the parameters of these names that are too entangled.
+    #[error(
+        "what the constraints allow of {} was not found out within the bounds of the search; leave out some of the \
+         constraints on these parameters, or give them fewer values", quoted(.0)
+    )]
+    Undecided(Vec<String>),
     /// A text that is no space.
     #[error("{message}")]
     Syntax {
@@ -257,12 +268,24 @@ impl Space {
     /// What the constraints allow of the discrete parameters.
     ///
     /// # Errors
-    /// No test keeps all constraints: the error names as few as possible that cannot be kept together.
+    /// No test keeps all constraints: the error names as few as possible that cannot be kept together. Or the
+    /// constraints are too entangled to find out whether a test does, or at which levels.
     pub fn rules(&self) -> Result<Rules, SpaceError> {
-        Rules::new(&self.levels(), &self.clauses()).map_err(|conflict| {
-            let texts = conflict.constraints.iter().map(|&index| self.constraints[index].text().to_owned());
-            SpaceError::Conflict(texts.collect())
-        })
+        Rules::new(&self.levels(), &self.clauses()).map_err(|error| self.explain(error))
+    }
+
+    /// Why there are no rules, with the constraints and parameters by their names.
+    pub(crate) fn explain(&self, error: RulesError) -> SpaceError {
+        match error {
+            RulesError::Conflict(Conflict { constraints, smallest }) => {
+                let written = |index: usize| (index, self.constraints[index].text().to_owned());
+                SpaceError::Conflict { constraints: constraints.into_iter().map(written).collect(), smallest }
+            }
+            RulesError::Undecided(parameters) => {
+                let names: Vec<String> = self.discrete().map(|coordinate| coordinate.name()).collect();
+                SpaceError::Undecided(parameters.into_iter().map(|parameter| names[parameter].clone()).collect())
+            }
+        }
     }
 
     /// The values at these coordinates.
@@ -324,6 +347,14 @@ impl Space {
 
 fn quoted(texts: &[String]) -> String {
     texts.iter().map(|text| format!("`{text}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// That no test keeps these constraints, each in a line of its own.
+fn kept_by_none(constraints: &[(usize, String)], smallest: bool) -> String {
+    let these = if constraints.len() == 1 { "this constraint" } else { "these constraints together" };
+    let caveat = if smallest { "" } else { Conflict::CAVEAT };
+    let lines: String = constraints.iter().map(|(_, text)| format!("\n  {text}")).collect();
+    format!("no test keeps {these}{caveat}:{lines}")
 }
 
 impl TryFrom<Declaration> for Space {

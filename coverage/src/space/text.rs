@@ -52,11 +52,17 @@ impl Space {
         })?;
         Self::try_from(declaration).map_err(|error| match error {
             SpaceError::Constraint { index, error, .. } => {
-                let at = constraint_span(text, index).map(|span| position(text, within(text, span, error.offset)));
+                let span = constraint_spans(text).into_iter().nth(index);
+                let at = span.map(|span| position(text, within(text, span, error.offset)));
                 SpaceError::Syntax { message: error.message, at }
             }
             error => error,
         })
+    }
+
+    /// The line, from 1, at which each constraint of a SPACE.toml begins; none at all where the text is no TOML.
+    pub fn constraint_lines(text: &str) -> Vec<usize> {
+        constraint_spans(text).into_iter().map(|span| position(text, span.start).0).collect()
     }
 
     /// Writes a SPACE.toml that [`Space::from_toml`] reads back as the same space.
@@ -65,13 +71,15 @@ impl Space {
     }
 }
 
-/// Where the constraint of that index stands in the file, with its quotes.
-fn constraint_span(text: &str, index: usize) -> Option<Range<usize>> {
+/// Where the constraints stand in the file, with their quotes.
+fn constraint_spans(text: &str) -> Vec<Range<usize>> {
     #[derive(Deserialize)]
     struct Constraints {
+        #[serde(default)]
         constraints: Vec<Spanned<String>>,
     }
-    toml::from_str::<Constraints>(text).ok()?.constraints.get(index).map(Spanned::span)
+    let found = toml::from_str::<Constraints>(text).map_or(Vec::new(), |found| found.constraints);
+    found.iter().map(Spanned::span).collect()
 }
 
 /// The offset in the file of the byte that is at `offset` in the string that spans there; the start of the string where

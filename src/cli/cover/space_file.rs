@@ -33,7 +33,7 @@ impl SpaceFile {
             for note in &model.notes {
                 verbosity.note(format_args!("{}: {note}", path.display()));
             }
-            check(path, &model.space)?;
+            check(path, &model.space, &model.statements)?;
             return Ok(Self { space: model.space, demand: model.demand });
         }
         let space = Space::from_toml(&text).map_err(|error| match error {
@@ -42,12 +42,23 @@ impl SpaceFile {
             }
             error => Error::content(path, None, error.to_string()),
         })?;
-        check(path, &space)?;
+        let texts = space.constraints().iter().map(|constraint| constraint.text().to_owned());
+        let written: Vec<(usize, String)> = Space::constraint_lines(&text).into_iter().zip(texts).collect();
+        check(path, &space, &written)?;
         Ok(Self { space, demand: Demand::default() })
     }
 }
 
-/// Checks that some test keeps all constraints.
-fn check(path: &Path, space: &Space) -> Result<(), Error> {
-    space.rules().map(drop).map_err(|error| Error::content(path, None, error.to_string()))
+/// Checks that some test keeps all constraints; the first of them stand written in the file, each from a line on.
+fn check(path: &Path, space: &Space, written: &[(usize, String)]) -> Result<(), Error> {
+    let located = |(index, text): (usize, String)| match written.get(index) {
+        Some((line, statement)) => (index, format!("{}:{line}: {statement}", path.display())),
+        None => (index, text),
+    };
+    space.rules().map(drop).map_err(|mut error| {
+        if let SpaceError::Conflict { constraints, .. } = &mut error {
+            *constraints = std::mem::take(constraints).into_iter().map(located).collect();
+        }
+        Error::content(path, None, error.to_string())
+    })
 }
