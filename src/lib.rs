@@ -25,6 +25,7 @@ pub mod compare;
 mod error;
 mod estimate;
 mod executor;
+mod extension;
 mod folder;
 mod json;
 mod live;
@@ -46,6 +47,7 @@ pub use error::Error;
 pub use estimate::{
     Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Tests, Watch,
 };
+pub use extension::Extension;
 pub use folder::Folder;
 pub use live::LiveCoverage;
 pub use plan::{Guarantee, Need, Plan};
