@@ -176,7 +176,7 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
     let there: serde_json::Value =
         serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
     let here = serde_json::to_value(study).expect("a study is always JSON");
-    let keys = here.as_object().into_iter().chain(there.as_object()).flatten().map(|(key, _)| key);
+    let keys = there.as_object().into_iter().chain(here.as_object()).flatten().map(|(key, _)| key);
     // The same tests may be read from another file.
     let same = |key: &str| match key {
         "extends" => here[key]["hash"] == there[key]["hash"],

@@ -54,7 +54,7 @@ pub use plan::{Guarantee, Need, Plan};
 pub use plot::{Axis, FailureMap, Picture};
 pub use study::{DriverChoice, RequirementText, Study};
 pub use summary::{Summary, Worst};
-pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation};
+pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
 pub use trace_file::write_trace;
 pub use trial::Trial;
 

@@ -60,9 +60,10 @@ pub(super) struct Options {
     /// Continue the campaign in the folder
     #[arg(long)]
     resume: bool,
-    /// Find the combinations of discrete values behind the failures with a few more tests, into located.json
-    #[arg(long)]
-    locate: bool,
+    /// Find the combinations of discrete values behind the failures with at most N further tests, into located.json
+    /// [default: 200]
+    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "200")]
+    locate: Option<usize>,
     /// Exit with status 1 if a test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
@@ -74,7 +75,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
         let study = self.study()?;
-        if self.locate && study.space.levels().is_empty() {
+        if self.locate.is_some() && study.space.levels().is_empty() {
             let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
             return Err(Error::Usage(message.into()).into());
         }
@@ -108,19 +109,25 @@ impl Options {
             return Err(cut_short(&error, &self.out, trials.len()));
         }
         if trials.len() < study.budget {
-            let why = match self.sampling.epsilon {
-                Some(epsilon) => format!("no row has an empty box above {epsilon} after"),
-                None => "the strategy has no more tests for these parameters than".to_owned(),
-            };
             let beside = study.extends.as_ref().map(|known| format!(" beside the {} in {}", known.tests, known.name));
             let beside = beside.unwrap_or_default();
-            verbosity.note(format_args!("{why} {}{beside}, fewer than the budget", trials.len()));
+            verbosity.note(match (self.sampling.epsilon, trials.len()) {
+                (_, 0) => format!("nothing is missing{beside}: no test was run"),
+                (Some(epsilon), ran) => {
+                    format!("no row has an empty box above {epsilon} after {ran} tests{beside}, fewer than the budget")
+                }
+                (None, ran) => {
+                    format!(
+                        "the strategy has no more tests for these parameters than {ran}{beside}, fewer than the budget"
+                    )
+                }
+            });
         }
         progress.bar.set_message("measuring coverage");
         let coverage = self.write_results(&folder, &study, &trials, verbosity);
         progress.bar.finish_and_clear();
         let coverage = coverage?;
-        let guilt = Guilt::of(&study, &trials, self.locate.then_some(&folder))?;
+        let guilt = Guilt::of(&study, &trials, &folder, self.locate)?;
         let report = Report {
             study: &study,
             trials: &trials,
@@ -356,7 +363,7 @@ impl Report<'_> {
             }
         }
         if let Some(known) = &study.extends {
-            table.row("extends", &format!("{} tests of {}, which count as covered", known.tests, known.name));
+            table.row("extends", &format!("{} tests of {}; the coverage counts them", known.tests, known.name));
         }
         table.coverage(self.coverage);
         self.guilt.show(&mut table);
