@@ -1,6 +1,6 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
-use super::output::{Format, Table, digits, json, percent, shell_word, short_bracket, value_words};
+use super::output::{Format, Table, digits, json, percent, plural, shell_word, short_bracket, value_words};
 use super::sampling::Sampling;
 use super::suspects::Guilt;
 use super::{Failure, Found, Verbosity, complain, print};
@@ -114,7 +114,8 @@ impl Options {
             verbosity.note(match (self.sampling.epsilon, trials.len()) {
                 (_, 0) => format!("nothing is missing{beside}: no test was run"),
                 (Some(epsilon), ran) => {
-                    format!("no row has an empty box above {epsilon} after {ran} tests{beside}, fewer than the budget")
+                    let ran = plural(ran, "test");
+                    format!("no row has an empty box above {epsilon} after {ran}{beside}, fewer than the budget")
                 }
                 (None, ran) => {
                     format!(
@@ -363,7 +364,10 @@ impl Report<'_> {
             }
         }
         if let Some(known) = &study.extends {
-            table.row("extends", &format!("{} tests of {}; the coverage counts them", known.tests, known.name));
+            table.row(
+                "extends",
+                &format!("{} of {}, which the coverage counts", plural(known.tests, "test"), known.name),
+            );
         }
         table.coverage(self.coverage);
         self.guilt.show(&mut table);

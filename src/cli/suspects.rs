@@ -1,6 +1,6 @@
 //! Suspect and located combinations of discrete values, in a campaign's summary.
 
-use super::output::{Table, digits, json};
+use super::output::{Table, digits, json, plural};
 use crate::coverage::{Value, Values};
 use crate::oracles::Verdict;
 use crate::{Campaign, Conclusion, Error, Folder, Located, Location, Study, Suspects, Trial, Unexplained};
@@ -14,7 +14,8 @@ const LOCATED_SHOWN: usize = 10;
 /// What is known of the combinations behind a campaign's failures.
 pub(super) struct Guilt {
     suspects: Option<Suspects>,
-    located: Option<Located>,
+    /// What was located, if that was asked for: none where there was nothing to tell apart.
+    located: Option<Option<Located>>,
 }
 
 impl Guilt {
@@ -25,7 +26,7 @@ impl Guilt {
             return Ok(Self { suspects: None, located: None });
         }
         let suspects = Suspects::of(study, trials)?;
-        let located = further.map(|limit| locate(study, trials, folder, limit)).transpose()?.flatten();
+        let located = further.map(|limit| locate(study, trials, folder, limit)).transpose()?;
         Ok(Self { suspects, located })
     }
 
@@ -34,7 +35,7 @@ impl Guilt {
         if let Some(suspects) = &self.suspects {
             summary["suspects"] = serde_json::json!(suspects);
         }
-        if let Some(located) = &self.located {
+        if let Some(Some(located)) = &self.located {
             summary["located"] = serde_json::json!(located);
         }
     }
@@ -44,8 +45,10 @@ impl Guilt {
         if let Some(suspects) = &self.suspects {
             show_suspects(suspects, table);
         }
-        if let Some(located) = &self.located {
-            show_located(located, table);
+        match &self.located {
+            Some(Some(located)) => show_located(located, table),
+            Some(None) => table.row("located", "nothing: that takes a test that fails and one that passes"),
+            None => (),
         }
     }
 }
@@ -103,7 +106,7 @@ fn show_located(located: &Located, table: &mut Table) {
     let more = lines.len().saturating_sub(LOCATED_SHOWN);
     let lines = lines.into_iter().take(LOCATED_SHOWN).chain((more > 0).then(|| format!("and {more} more")));
     rows("located", lines, "nothing", table);
-    table.row("  further tests", &format!("{}, at most {}", located.ran, located.limit));
+    table.row("  further tests", &format!("{} run, of at most {}", located.ran, located.limit));
     // Failures that are unexplained for the same reason share a line.
     let mut reasons: Vec<(String, Vec<usize>)> = Vec::new();
     for Unexplained { failing, why } in &located.unexplained {
@@ -117,7 +120,12 @@ fn show_located(located: &Located, table: &mut Table) {
         let more = reasons.len().saturating_sub(SHOWN);
         let lines =
             reasons.iter().take(SHOWN).map(|(reason, failures)| format!("{}: {reason}", list("test", failures)));
-        rows("  unexplained", lines.chain((more > 0).then(|| format!("and {more} more reasons"))), "", table);
+        rows(
+            "  unexplained",
+            lines.chain((more > 0).then(|| format!("and {}", plural(more, "more reason")))),
+            "",
+            table,
+        );
     }
 }
 
@@ -181,8 +189,4 @@ fn list(what: &str, indices: &[usize]) -> String {
     let shown: Vec<String> = indices.iter().take(SHOWN).map(ToString::to_string).collect();
     let more = if indices.len() > SHOWN { format!(" and {} more", indices.len() - SHOWN) } else { String::new() };
     format!("{what}{} {}{more}", if indices.len() == 1 { "" } else { "s" }, shown.join(", "))
-}
-
-fn plural(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

@@ -129,12 +129,12 @@ impl Located {
             let known = findings.take(failing);
             let location = search.location(failing, known)?;
             let is_over = location.0.conclusion == Conclusion::LimitReached;
-            findings.add(failing, location);
-            findings.review(&search);
+            if findings.add(failing, location, &search) {
+                search.forbid(findings.guilty());
+            }
             if is_over {
                 break;
             }
-            search.forbid(findings.guilty());
         }
         let unexplained = findings.unexplained();
         let locations = findings.locations.into_iter().map(|(location, _)| location).collect();
@@ -178,26 +178,25 @@ impl Findings<'_> {
         position.map(|position| self.locations.remove(position).0)
     }
 
-    fn add(&mut self, failing: usize, location: (Location, Pairs)) {
-        if location.0.conclusion == Conclusion::Guilty {
-            // With one combination less to lead astray, another search may find more.
+    /// Adds a location, and takes back what its tests have refuted; whether other combinations are guilty now.
+    fn add<R>(&mut self, failing: usize, location: (Location, Pairs), search: &Search<R>) -> bool {
+        let mut is_other = location.0.conclusion == Conclusion::Guilty;
+        for (earlier, values) in &mut self.locations {
+            if earlier.conclusion == Conclusion::Guilty
+                && let Some(refuted) = search.refuted(values)
+            {
+                is_other = true;
+                earlier.conclusion = refuted;
+                earlier.explains.clear();
+            }
+        }
+        if is_other {
+            // With other combinations kept out of the way, another search may find more.
             self.tried.clear();
         }
         self.tried.insert(failing);
         self.locations.push(location);
-    }
-
-    /// Takes back what tests have refuted since.
-    fn review<R>(&mut self, search: &Search<R>) {
-        for (location, values) in &mut self.locations {
-            if location.conclusion == Conclusion::Guilty
-                && let Some(refuted) = search.refuted(values)
-            {
-                self.tried.clear();
-                location.conclusion = refuted;
-                location.explains.clear();
-            }
-        }
+        is_other
     }
 
     fn unexplained(&self) -> Vec<Unexplained> {

@@ -95,11 +95,11 @@ impl<'r> Locator<'r> {
         Self::cautious(rules, failing, passing, |_, _| true)
     }
 
-    /// [`Locator::new`], with values changed only to those of the passing test and to levels that are `safe`, if any
-    /// other level would do.
+    /// [`Locator::new`], with values changed only to those of the passing test and to levels that are `safe`: `safe` is
+    /// asked with a parameter and a level of it. What constraints force is not asked about.
     ///
-    /// Where several combinations are guilty, a value may be part of one and the level it is changed to of another. What
-    /// has no safe level to be changed to is not held to be guilty.
+    /// Where several combinations are guilty, a value may be part of one and the level it is changed to of another. A
+    /// value that has no safe level to be changed to is kept, and not held to be guilty.
     ///
     /// # Errors
     /// As `new`.
