@@ -4,6 +4,7 @@ use super::output::{Table, digits, json, plural};
 use crate::coverage::{Value, Values};
 use crate::oracles::Verdict;
 use crate::{Campaign, Conclusion, Error, Folder, Located, Location, Study, Suspects, Trial, Unexplained};
+use std::cmp::Reverse;
 
 /// How many suspects a table shows.
 const SHOWN: usize = 5;
@@ -102,9 +103,11 @@ fn show_suspects(suspects: &Suspects, table: &mut Table) {
 
 fn show_located(located: &Located, table: &mut Table) {
     let guilty = |location: &&Location| location.conclusion == Conclusion::Guilty;
-    let lines: Vec<String> = located.locations.iter().filter(guilty).map(in_words).collect();
-    let more = lines.len().saturating_sub(LOCATED_SHOWN);
-    let lines = lines.into_iter().take(LOCATED_SHOWN).chain((more > 0).then(|| format!("and {more} more")));
+    let mut found: Vec<&Location> = located.locations.iter().filter(guilty).collect();
+    found.sort_by_key(|location| Reverse(location.explains.len()));
+    let more = found.len().saturating_sub(LOCATED_SHOWN);
+    let lines =
+        found.into_iter().take(LOCATED_SHOWN).map(in_words).chain((more > 0).then(|| format!("and {more} more")));
     rows("located", lines, "nothing", table);
     table.row("  further tests", &format!("{} run, of at most {}", located.ran, located.limit));
     // Failures that are unexplained for the same reason share a line.

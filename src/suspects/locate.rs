@@ -8,8 +8,7 @@
 //! located that are not the cause. Unless they explain all failures, they are therefore put into passing tests. One that
 //! still passes refutes them, and is a start from which they cannot be all that is found. What was found guilty is kept
 //! out of all later tests, as if a constraint forbade it. So it goes on from failure to failure, until each has a guilty
-//! combination or none can be found for it. No test is run twice, those of the campaign included, and what a later test
-//! refutes is guilty no longer.
+//! combination or none can be found for it. No test is run twice, those of the campaign included.
 
 use super::Evidence;
 use super::search::{Pairs, Search};
@@ -128,12 +127,12 @@ impl Located {
         while let Some(failing) = findings.next() {
             let known = findings.take(failing);
             let location = search.location(failing, known)?;
-            let is_over = location.0.conclusion == Conclusion::LimitReached;
-            if findings.add(failing, location, &search) {
-                search.forbid(findings.guilty());
-            }
-            if is_over {
-                break;
+            let conclusion = location.0.conclusion.clone();
+            findings.add(failing, location);
+            match conclusion {
+                Conclusion::Guilty => search.forbid(findings.guilty()),
+                Conclusion::LimitReached => break,
+                _ => (),
             }
         }
         let unexplained = findings.unexplained();
@@ -145,7 +144,7 @@ impl Located {
 /// The locations so far, each with the values to which it came: the located ones or, without a result, all of its test.
 struct Findings<'e> {
     evidence: &'e Evidence<'e>,
-    /// The failing tests that were looked into since a combination was found guilty, or found not to be.
+    /// The failing tests that were looked into since a combination was found guilty.
     tried: BTreeSet<usize>,
     locations: Vec<(Location, Pairs)>,
 }
@@ -178,25 +177,13 @@ impl Findings<'_> {
         position.map(|position| self.locations.remove(position).0)
     }
 
-    /// Adds a location, and takes back what its tests have refuted; whether other combinations are guilty now.
-    fn add<R>(&mut self, failing: usize, location: (Location, Pairs), search: &Search<R>) -> bool {
-        let mut is_other = location.0.conclusion == Conclusion::Guilty;
-        for (earlier, values) in &mut self.locations {
-            if earlier.conclusion == Conclusion::Guilty
-                && let Some(refuted) = search.refuted(values)
-            {
-                is_other = true;
-                earlier.conclusion = refuted;
-                earlier.explains.clear();
-            }
-        }
-        if is_other {
-            // With other combinations kept out of the way, another search may find more.
+    fn add(&mut self, failing: usize, location: (Location, Pairs)) {
+        if location.0.conclusion == Conclusion::Guilty {
+            // With one combination less to lead it astray, another search may find more.
             self.tried.clear();
         }
         self.tried.insert(failing);
         self.locations.push(location);
-        is_other
     }
 
     fn unexplained(&self) -> Vec<Unexplained> {
