@@ -178,7 +178,7 @@ impl<'p> TestsFile<'p> {
             let mut values = Vec::new();
             for column in columns.by_ref().take(parameter.coordinates()) {
                 if record[*column].is_empty() {
-                    return Err(self.wrong(line, "found nothing, expected a value".to_owned(), Some(*column)));
+                    return Err(self.wrong(line, "found ``, expected a value".to_owned(), Some(*column)));
                 }
                 let value = Value::parse(&record[*column]);
                 if parameter.levels().is_none() && value.number().is_none() {
