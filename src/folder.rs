@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 
 const STUDY: &str = "campaign.json";
 const TRIALS: &str = "trials.jsonl";
+/// The tests that the study counts as done.
+const EXTENDED: &str = "extended.csv";
 /// What is derived from the trials at the end of a campaign.
 const DERIVED: [&str; 5] = ["trials.csv", "coverage.json", "failure-map.svg", "failure-map.png", "located.json"];
 
@@ -33,7 +35,7 @@ impl Folder {
             return Err(Error::Usage(format!("{} is a file, expected a folder to write to", path.display())));
         }
         fs::create_dir_all(path).map_err(Error::file("create", path))?;
-        let ours = [STUDY, TRIALS].into_iter().chain(DERIVED);
+        let ours = [STUDY, TRIALS, EXTENDED].into_iter().chain(DERIVED);
         if let Some(name) = ours.into_iter().find(|name| path.join(name).exists()) {
             return Err(Error::Usage(format!(
                 "{} holds a campaign already ({name}): continue it with --resume, or write elsewhere with --out",
@@ -43,6 +45,7 @@ impl Folder {
         let mut text = serde_json::to_string_pretty(study).expect("a study is always JSON");
         text.push('\n');
         write_whole(&path.join(STUDY), text.as_bytes())?;
+        keep_extended(path, study)?;
         Self::open_log(path)
     }
 
@@ -53,13 +56,14 @@ impl Folder {
     /// The folder holds another campaign, or a log that is broken before its end.
     pub fn resume(path: &Path, study: &Study) -> Result<(Self, Vec<Trial>), Error> {
         if !path.join(STUDY).exists() {
-            if let Some(name) = [TRIALS].into_iter().chain(DERIVED).find(|name| path.join(name).exists()) {
+            if let Some(name) = [TRIALS, EXTENDED].into_iter().chain(DERIVED).find(|name| path.join(name).exists()) {
                 let message = format!("{} has {name} but no {STUDY}, so it cannot be continued", path.display());
                 return Err(Error::Usage(message));
             }
             return Self::create(path, study).map(|folder| (folder, Vec::new()));
         }
         same_study(path, study)?;
+        keep_extended(path, study)?;
         let mut folder = Self::open_log(path)?;
         let text = folder.read_log()?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
@@ -84,6 +88,15 @@ impl Folder {
         let text = fs::read_to_string(&log).map_err(Error::file("read", &log))?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
         Ok((study, parse_trials(&log, &text[..whole])?))
+    }
+
+    /// Reads the tests that the study of this folder counts as done, if there are any.
+    ///
+    /// # Errors
+    /// Their file is not there, broken, or holds others.
+    pub fn read_extended(path: &Path, study: &mut Study) -> Result<(), Error> {
+        let Study { extends, space, .. } = study;
+        extends.as_mut().map_or(Ok(()), |extension| extension.restore(&path.join(EXTENDED), space))
     }
 
     fn open_log(path: &Path) -> Result<Self, Error> {
@@ -143,7 +156,16 @@ impl Folder {
 
     /// Whether a file of that name in a campaign's folder is the campaign's own, not to be written by anybody else.
     pub(crate) fn owns(name: &OsStr) -> bool {
-        [STUDY, TRIALS].into_iter().chain(DERIVED).any(|ours| ours == name)
+        [STUDY, TRIALS, EXTENDED].into_iter().chain(DERIVED).any(|ours| ours == name)
+    }
+}
+
+/// Keeps the tests that the study counts as done, if they are not kept yet.
+fn keep_extended(path: &Path, study: &Study) -> Result<(), Error> {
+    let file = path.join(EXTENDED);
+    match &study.extends {
+        Some(extension) if !file.exists() => write_whole(&file, &extension.csv(&study.space)?),
+        _ => Ok(()),
     }
 }
 
@@ -154,8 +176,13 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
     let there: serde_json::Value =
         serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
     let here = serde_json::to_value(study).expect("a study is always JSON");
-    let keys = here.as_object().into_iter().chain(there.as_object()).flatten().map(|(key, _)| key);
-    match keys.into_iter().find(|key| here.get(key) != there.get(key)) {
+    let keys = there.as_object().into_iter().chain(here.as_object()).flatten().map(|(key, _)| key);
+    // The same tests may be read from another file.
+    let same = |key: &str| match key {
+        "extends" => here[key]["hash"] == there[key]["hash"],
+        key => here.get(key) == there.get(key),
+    };
+    match keys.into_iter().find(|key| !same(key)) {
         None => Ok(()),
         Some(key) => {
             let show = |study: &serde_json::Value| study.get(key).map_or("nothing".into(), ToString::to_string);

@@ -25,6 +25,7 @@ pub mod compare;
 mod error;
 mod estimate;
 mod executor;
+mod extension;
 mod folder;
 mod json;
 mod live;
@@ -46,13 +47,14 @@ pub use error::Error;
 pub use estimate::{
     Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Strength, Tests, Watch,
 };
+pub use extension::Extension;
 pub use folder::Folder;
 pub use live::LiveCoverage;
 pub use plan::{Guarantee, Need, Plan};
 pub use plot::{Axis, FailureMap, Picture};
 pub use study::{DriverChoice, RequirementText, Study};
 pub use summary::{Summary, Worst};
-pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation};
+pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
 pub use trace_file::write_trace;
 pub use trial::Trial;
 

@@ -1,12 +1,13 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
-use crate::{Error, Trial};
-use paracosm_coverage::{Domain, Parameter, Record, Shape, Space, Value, Values, did_you_mean, nearest};
+use crate::{Error, Extension, Trial};
+use paracosm_coverage::{Domain, Parameter, Point, Record, Shape, Space, Value, Values, did_you_mean, nearest};
 use paracosm_engine::driver::{self, Driver};
 use paracosm_engine::{DEFAULT_DT, Declaration, Declared, Program, Test};
 use paracosm_generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 
 /// The version of the files that this software writes.
 const FORMAT: u32 = 1;
@@ -42,6 +43,9 @@ pub struct Study {
     pub budget: usize,
     dt: f64,
     duration: f64,
+    /// The tests that count as done.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub extends: Option<Extension>,
     /// A program that is not in the catalogue.
     #[serde(skip)]
     program: Option<Program>,
@@ -114,6 +118,7 @@ impl Study {
             budget: 500,
             dt: DEFAULT_DT,
             duration,
+            extends: None,
             program: Some(program),
         })
     }
@@ -238,6 +243,25 @@ impl Study {
         Ok(self)
     }
 
+    /// Counts the tests in a CSV as done, so that those of the study complete them. To be called when all parameters are
+    /// opened, fixed and varied.
+    ///
+    /// # Errors
+    /// The file cannot be read, does not hold tests of the open parameters, or has other values for fixed ones: the error
+    /// says in which line and why.
+    pub fn extend(mut self, path: &Path) -> Result<Self, Error> {
+        self.extends = Some(Extension::read(path, &self.space, &self.fixed)?);
+        Ok(self)
+    }
+
+    /// The tests that count as done.
+    ///
+    /// # Errors
+    /// The study was read from a file, which only says which tests they are.
+    pub(crate) fn existing(&self) -> Result<Vec<Point>, Error> {
+        self.extends.as_ref().map_or(Ok(Vec::new()), |extension| extension.points(&self.space))
+    }
+
     /// How many ticks a test takes, unless a contact ends it.
     pub fn ticks(&self) -> usize {
         (self.duration / self.dt).round() as usize
@@ -261,6 +285,10 @@ impl Study {
 
     /// Replaces the open parameters that match, keeping the order in which the scenario declares them.
     fn rebuild(&mut self, matches: impl Fn(&Parameter) -> bool, with: Option<Parameter>) -> Result<(), Error> {
+        if self.extends.is_some() {
+            let message = "open, fix and vary parameters before tests of them are counted as done";
+            return Err(Error::Usage(message.into()));
+        }
         let declared = self.program()?.declare()?.parameters;
         let kept = self.space.parameters().iter().filter(|parameter| !matches(parameter)).cloned();
         let mut open: Vec<Parameter> = kept.chain(with).collect();
@@ -297,8 +325,9 @@ impl Study {
     /// A generator of the study's tests.
     ///
     /// # Errors
-    /// The strategy cannot do what is asked of it.
+    /// The strategy cannot do what is asked of it, or the tests to extend have not been read.
     pub fn generator(&self) -> Result<Box<dyn Generator>, Error> {
+        let existing = self.existing()?;
         let request = Request {
             space: &self.space,
             budget: self.budget,
@@ -310,7 +339,7 @@ impl Study {
             groups: &[],
             rows: None,
             aim: self.measure.as_deref().map(str::parse).transpose()?,
-            existing: &[],
+            existing: &existing,
         };
         Ok(self.strategy.parse::<Strategy>()?.build(&request)?)
     }

@@ -2,7 +2,7 @@
 
 use crate::estimate::Tests;
 use crate::{Error, Folder, Study, Trial};
-use paracosm_coverage::{Coordinate, Parameter, Space, Value, Values, nearest};
+use paracosm_coverage::{Coordinate, Parameter, Point, Space, Value, Values, nearest};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -28,7 +28,8 @@ impl Tests {
     /// Reads the tests in a file or in the folder of a campaign.
     ///
     /// Without a space the columns of a file are coordinates in `[0,1]`, all continuous; with one, columns that are
-    /// no parameters of it are passed over. Of a campaign, broken and impossible tests are left out.
+    /// no parameters of it are passed over. Of a campaign, broken and impossible tests are left out, and those that it
+    /// counts as done come first.
     ///
     /// # Errors
     /// The file cannot be read, or does not hold tests of the space: the error says in which line and why.
@@ -41,31 +42,14 @@ impl Tests {
                 );
                 return Err(Error::Usage(message));
             }
-            let (study, trials) = Folder::read(path)?;
+            let (mut study, trials) = Folder::read(path)?;
+            Folder::read_extended(path, &mut study)?;
             return Self::of_trials(&study, &trials);
         }
         let mut file = TestsFile::open(path, space)?;
         let mut points = Vec::new();
         while let Some((line, record)) = file.next(points.len())? {
-            let mut test = Values::default();
-            let mut columns = file.columns.iter();
-            for parameter in file.space.parameters() {
-                let mut values = Vec::new();
-                for column in columns.by_ref().take(parameter.coordinates()) {
-                    let value = Value::parse(&record[*column]);
-                    if is_open(&record[*column], parameter) {
-                        return Err(file.wrong(line, file.open_cell(), Some(*column)));
-                    }
-                    if parameter.levels().is_none() && value.number().is_none() {
-                        return Err(file.wrong(line, format!("found `{value}`, expected a number"), Some(*column)));
-                    }
-                    values.push(value);
-                }
-                let value = if parameter.signal.is_some() { values.into_iter().collect() } else { values.remove(0) };
-                test.set(parameter.name.clone(), value);
-            }
-            let point = file.space.encode(&test).map_err(|error| file.wrong(line, error.to_string(), None))?;
-            points.push(point);
+            points.push(file.test(line, &record)?.1);
         }
         Ok(Self::new(file.space, points))
     }
@@ -96,13 +80,15 @@ impl Tests {
     }
 
     /// The tests of a campaign that say anything of where they are: not those with the verdict `error` or
-    /// `invalid`.
+    /// `invalid`. Those that the study counts as done come first.
     ///
     /// # Errors
-    /// A test is not of the space.
+    /// A test is not of the space, or those that are done have not been read.
     pub fn of_trials(study: &Study, trials: &[Trial]) -> Result<Self, Error> {
-        let covering = trials.iter().filter(|trial| trial.covers());
-        let points = covering.map(|trial| study.space.encode(&trial.test)).collect::<Result<_, _>>()?;
+        let mut points = study.existing()?;
+        for trial in trials.iter().filter(|trial| trial.covers()) {
+            points.push(study.space.encode(&trial.test)?);
+        }
         Ok(Self { k: study.strength(), ..Self::new(study.space.clone(), points) })
     }
 }
@@ -111,6 +97,34 @@ impl Tests {
 fn is_open(text: &str, parameter: &Parameter) -> bool {
     let takes_it = || parameter.levels().is_some_and(|levels| levels.contains(&Value::Word(String::new())));
     text.is_empty() && !takes_it()
+}
+
+/// Reads the values of tests of a space. Where a column is called as one of the fixed parameters, which are none of the
+/// space, its values have to be the fixed ones.
+///
+/// # Errors
+/// As [`Tests::read`], or a column differs from what is fixed.
+pub(crate) fn read_values(path: &Path, space: &Space, fixed: &Values) -> Result<Vec<Values>, Error> {
+    if path.is_dir() {
+        let tests = path.join("trials.csv");
+        let message =
+            format!("{} is a folder, expected a CSV; a campaign has its tests in {}", path.display(), tests.display());
+        return Err(Error::Usage(message));
+    }
+    let mut file = TestsFile::open(path, Some(space.clone()))?;
+    let fixed: Vec<(usize, &str, &Value)> = file.columns_of(fixed);
+    let mut tests = Vec::new();
+    while let Some((line, record)) = file.next(tests.len())? {
+        for &(column, name, value) in &fixed {
+            let found = Value::parse(&record[column]);
+            if found != *value {
+                let message = format!("found {found}, but `{name}` is fixed at {value}; --open {name} lets it vary");
+                return Err(file.wrong(line, message, Some(column)));
+            }
+        }
+        tests.push(file.test(line, &record)?.0);
+    }
+    Ok(tests)
 }
 
 /// A CSV of tests, past its header.
@@ -168,6 +182,41 @@ impl<'p> TestsFile<'p> {
         let mixed =
             if is_mixed { "; tests to complete may be begun only where no parameter is continuous" } else { "" };
         format!("found an empty cell, expected a value{mixed}")
+    }
+
+    /// The test in a line.
+    fn test(&self, line: Option<usize>, record: &csv::StringRecord) -> Result<(Values, Point), Error> {
+        let mut test = Values::default();
+        let mut columns = self.columns.iter();
+        for parameter in self.space.parameters() {
+            let mut values = Vec::new();
+            for column in columns.by_ref().take(parameter.coordinates()) {
+                if is_open(&record[*column], parameter) {
+                    return Err(self.wrong(line, self.open_cell(), Some(*column)));
+                }
+                let value = Value::parse(&record[*column]);
+                if parameter.levels().is_none() && value.number().is_none() {
+                    return Err(self.wrong(line, format!("found `{value}`, expected a number"), Some(*column)));
+                }
+                values.push(value);
+            }
+            let value = if parameter.signal.is_some() { values.into_iter().collect() } else { values.remove(0) };
+            test.set(parameter.name.clone(), value);
+        }
+        let point = self.space.encode(&test).map_err(|error| self.wrong(line, error.to_string(), None))?;
+        Ok((test, point))
+    }
+
+    /// The columns that are called as these, with the name and the value, or as one of a list of values.
+    fn columns_of<'v>(&self, values: &'v Values) -> Vec<(usize, &'v str, &'v Value)> {
+        let mut columns = Vec::new();
+        for (name, value) in values.iter() {
+            for (i, scalar) in value.scalars().iter().enumerate() {
+                let called = if matches!(value, Value::List(_)) { format!("{name}[{i}]") } else { name.to_owned() };
+                columns.extend(self.header.iter().position(|column| column == called).map(|c| (c, name, scalar)));
+            }
+        }
+        columns
     }
 
     fn wrong(&self, line: Option<usize>, message: String, column: Option<usize>) -> Error {

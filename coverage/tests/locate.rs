@@ -83,6 +83,28 @@ proptest! {
     }
 
     #[test]
+    fn a_cautious_search_changes_values_to_none_that_are_unsafe_and_finds_the_guilty_that_can_be_changed(
+        (levels, failing, passing, guilty, _) in cases(),
+        bits in any::<u64>(),
+    ) {
+        let rules = Rules::free(&levels);
+        let is_safe = |parameter: usize, level: usize| bits.rotate_left((5 * parameter + level) as u32) & 1 == 1;
+        let mut locator = Locator::cautious(&rules, &failing, &passing, is_safe).unwrap();
+        while let Some(test) = locator.question().map(<[usize]>::to_vec) {
+            for (parameter, &level) in test.iter().enumerate() {
+                let known = level == failing[parameter] || level == passing[parameter];
+                prop_assert!(known || is_safe(parameter, level));
+            }
+            locator.tell(contains(&test, &guilty));
+        }
+        let can_change = |&(parameter, level): &(usize, usize)| {
+            passing[parameter] != level || (0..levels[parameter]).any(|other| other != level && is_safe(parameter, other))
+        };
+        let found: Values = guilty.into_iter().filter(can_change).collect();
+        prop_assert_eq!(locator.located().unwrap().values, found);
+    }
+
+    #[test]
     fn of_several_guilty_combinations_one_is_found_or_known_tests_refute_it(
         levels in prop::collection::vec(2..=3usize, 2..=5),
         chosen in prop::collection::vec((1..32usize, any::<prop::sample::Index>()), 2..=3),
@@ -147,6 +169,21 @@ proptest! {
             prop_assert!(found || !hidden || !located.undivided.is_empty());
         }
         prop_assert!(located.undivided.iter().all(|value| located.values.contains(value)));
+        // Put into another test, they leave as much of it as one by one the constraints allow.
+        for other in passing.iter().take(5) {
+            let both = located.put_into(&rules, other);
+            prop_assert!(valid.contains(&both) && contains(&both, &located.values));
+            let mut kept = located.values.clone();
+            for (parameter, &level) in other.iter().enumerate() {
+                if kept.iter().all(|value| value.0 != parameter) {
+                    let fits = |level: usize| {
+                        valid.iter().any(|test| contains(test, &kept) && test[parameter] == level)
+                    };
+                    prop_assert_eq!(both[parameter] == level, fits(level));
+                    kept.push((parameter, both[parameter]));
+                }
+            }
+        }
     }
 }
 

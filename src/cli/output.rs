@@ -174,6 +174,11 @@ pub(super) fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
+/// How many there are of something.
+pub(super) fn plural(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Five significant digits: enough to compare, few enough to read. Very small and large numbers get an exponent.
 pub(super) fn digits(number: f64) -> String {
     let scientific = format!("{number:.4e}");

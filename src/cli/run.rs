@@ -1,10 +1,11 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
-use super::output::{Format, Table, digits, json, percent, shell_word, short_bracket, value_words};
+use super::output::{Format, Table, digits, json, percent, plural, shell_word, short_bracket, value_words};
 use super::sampling::Sampling;
 use super::suspects::Guilt;
 use super::{Failure, Found, Verbosity, complain, print};
 use crate::coverage::{Domain, Shape, Value};
+use crate::generators::Strategy;
 use crate::oracles::Verdict;
 use crate::{
     Campaign, Coverage, Error, FailureMap, Folder, LiveCoverage, Measure, Picture, Study, Summary, Tests, Trial,
@@ -27,9 +28,9 @@ pub(super) struct Options {
     /// The world to test in; `paracosm-fuzz list` shows them all
     #[arg(default_value = "pedestrian-crossing")]
     scenario: String,
-    /// How tests are chosen; `paracosm-fuzz list` shows all strategies
-    #[arg(long, value_name = "S", default_value = "halton")]
-    strategy: String,
+    /// How tests are chosen; `paracosm-fuzz list` shows all strategies [default: halton; greedy with --extend]
+    #[arg(long, value_name = "S")]
+    strategy: Option<String>,
     /// How many tests to run
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
@@ -46,6 +47,10 @@ pub(super) struct Options {
     /// The system under test
     #[arg(long, value_name = "NAME", default_value = "aeb")]
     driver: String,
+    /// Count the tests in this file as done: run only tests that complete them, and measure the coverage of all together.
+    /// Its columns are the open parameters
+    #[arg(long, value_name = "TESTS.csv")]
+    extend: Option<PathBuf>,
     /// How many tests run at a time; results do not depend on it [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
@@ -55,9 +60,10 @@ pub(super) struct Options {
     /// Continue the campaign in the folder
     #[arg(long)]
     resume: bool,
-    /// Find the combinations of discrete values behind the failures with a few more tests, into located.json
-    #[arg(long)]
-    locate: bool,
+    /// Find the combinations of discrete values behind the failures with at most N further tests, into located.json
+    /// [default: 200]
+    #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "200")]
+    locate: Option<usize>,
     /// Exit with status 1 if a test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
@@ -69,7 +75,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
         let study = self.study()?;
-        if self.locate && study.space.levels().is_empty() {
+        if self.locate.is_some() && study.space.levels().is_empty() {
             let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
             return Err(Error::Usage(message.into()).into());
         }
@@ -82,7 +88,7 @@ impl Options {
         } else {
             (Folder::create(&self.out, &study)?, Vec::new())
         };
-        let mut progress = Progress::new(&study, verbosity, known.len());
+        let mut progress = Progress::new(&study, verbosity, known.len())?;
         let mut trials = known.clone();
         trials.iter().for_each(|trial| progress.count(&study, trial));
         let interrupted = Arc::new(AtomicBool::new(false));
@@ -103,17 +109,26 @@ impl Options {
             return Err(cut_short(&error, &self.out, trials.len()));
         }
         if trials.len() < study.budget {
-            let why = match self.sampling.epsilon {
-                Some(epsilon) => format!("no row has an empty box above {epsilon} after"),
-                None => "the strategy has no more tests for these parameters than".to_owned(),
-            };
-            verbosity.note(format_args!("{why} {}, fewer than the budget", trials.len()));
+            let beside = study.extends.as_ref().map(|known| format!(" beside the {} in {}", known.tests, known.name));
+            let beside = beside.unwrap_or_default();
+            verbosity.note(match (self.sampling.epsilon, trials.len()) {
+                (_, 0) => format!("nothing is missing{beside}: no test was run"),
+                (Some(epsilon), ran) => {
+                    let ran = plural(ran, "test");
+                    format!("no row has an empty box above {epsilon} after {ran}{beside}, fewer than the budget")
+                }
+                (None, ran) => {
+                    format!(
+                        "the strategy has no more tests for these parameters than {ran}{beside}, fewer than the budget"
+                    )
+                }
+            });
         }
         progress.bar.set_message("measuring coverage");
         let coverage = self.write_results(&folder, &study, &trials, verbosity);
         progress.bar.finish_and_clear();
         let coverage = coverage?;
-        let guilt = Guilt::of(&study, &trials, self.locate.then_some(&folder))?;
+        let guilt = Guilt::of(&study, &trials, &folder, self.locate)?;
         let report = Report {
             study: &study,
             trials: &trials,
@@ -156,7 +171,7 @@ impl Options {
         let sampling = &self.sampling;
         let mut study = Study::of(&self.scenario)?
             .driver(&self.driver, &driver_settings)?
-            .strategy(&self.strategy)?
+            .strategy(self.strategy())?
             .k(sampling.k)
             .epsilon(sampling.epsilon)
             .budget(self.budget)?
@@ -165,7 +180,7 @@ impl Options {
         if let Some(family) = &sampling.discrete {
             study = study.discrete(family)?;
         }
-        if let Some(measure) = sampling.measure(&self.strategy) {
+        if let Some(measure) = sampling.measure(self.strategy()) {
             study = study.measure(measure)?;
         }
         for text in &self.open {
@@ -189,7 +204,15 @@ impl Options {
             }
             study = study.set(name, value.clone())?;
         }
-        Ok(study)
+        match &self.extend {
+            Some(path) => study.extend(path),
+            None => Ok(study),
+        }
+    }
+
+    fn strategy(&self) -> &str {
+        let default = if self.extend.is_some() { Strategy::Greedy } else { Strategy::Halton };
+        self.strategy.as_deref().unwrap_or(default.name())
     }
 
     fn write_results(
@@ -253,7 +276,7 @@ struct Progress {
 }
 
 impl Progress {
-    fn new(study: &Study, verbosity: Verbosity, known: usize) -> Self {
+    fn new(study: &Study, verbosity: Verbosity, known: usize) -> Result<Self, Error> {
         let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(study.budget as u64) };
         let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {rate} tests/s  {eta} left  {msg}";
         let style = ProgressStyle::with_template(template).expect("the template is one");
@@ -263,8 +286,11 @@ impl Progress {
         let bar = bar.with_style(style).with_position(known as u64);
         // The rate is that of this session, not of what was there before.
         bar.reset_eta();
-        let coverage = LiveCoverage::new(&study.space, study.strength()).ok();
-        Self { bar, summary: Summary::default(), coverage, verbose: verbosity.verbose }
+        let mut coverage = LiveCoverage::new(&study.space, study.strength()).ok();
+        if let Some(coverage) = coverage.as_mut().filter(|_| !bar.is_hidden()) {
+            study.existing()?.iter().try_for_each(|test| coverage.add(test))?;
+        }
+        Ok(Self { bar, summary: Summary::default(), coverage, verbose: verbosity.verbose })
     }
 
     fn count(&mut self, study: &Study, trial: &Trial) {
@@ -337,6 +363,12 @@ impl Report<'_> {
                 table.row(&verdict.to_string(), &format!("{count:<6}{share}"));
             }
         }
+        if let Some(known) = &study.extends {
+            table.row(
+                "extends",
+                &format!("{} of {}, which the coverage counts", plural(known.tests, "test"), known.name),
+            );
+        }
         table.coverage(self.coverage);
         self.guilt.show(&mut table);
         table.row("written to", &self.out.display().to_string());
@@ -360,6 +392,9 @@ impl Report<'_> {
         });
         let mut summary = json!({"tests": self.summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
             "coverage": self.coverage, "out": self.out, "worst": worst});
+        if let Some(known) = &self.study.extends {
+            summary["extends"] = json!(known);
+        }
         self.guilt.add_to(&mut summary);
         summary
     }

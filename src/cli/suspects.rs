@@ -1,28 +1,33 @@
 //! Suspect and located combinations of discrete values, in a campaign's summary.
 
-use super::output::{Table, digits, json};
+use super::output::{Table, digits, json, plural};
 use crate::coverage::{Value, Values};
 use crate::oracles::Verdict;
-use crate::{Campaign, Conclusion, Error, Folder, Located, Location, Study, Suspects, Trial};
+use crate::{Campaign, Conclusion, Error, Folder, Located, Location, Study, Suspects, Trial, Unexplained};
+use std::cmp::Reverse;
 
 /// How many suspects a table shows.
 const SHOWN: usize = 5;
 
+/// How many located combinations a table shows.
+const LOCATED_SHOWN: usize = 10;
+
 /// What is known of the combinations behind a campaign's failures.
 pub(super) struct Guilt {
     suspects: Option<Suspects>,
-    located: Option<Located>,
+    /// What was located, if that was asked for: none where there was nothing to tell apart.
+    located: Option<Option<Located>>,
 }
 
 impl Guilt {
-    /// Finds the suspects and, if that was asked for, locates the guilty: with further tests, written to
-    /// `located.json` in the folder.
-    pub fn of(study: &Study, trials: &[Trial], folder: Option<&Folder>) -> Result<Self, Error> {
+    /// Finds the suspects and, if a number of further tests is given, locates the guilty with at most so many; what
+    /// came of it is written to `located.json` in the folder.
+    pub fn of(study: &Study, trials: &[Trial], folder: &Folder, further: Option<usize>) -> Result<Self, Error> {
         if study.space.levels().is_empty() {
             return Ok(Self { suspects: None, located: None });
         }
         let suspects = Suspects::of(study, trials)?;
-        let located = folder.map(|folder| locate(study, trials, folder)).transpose()?.flatten();
+        let located = further.map(|limit| locate(study, trials, folder, limit)).transpose()?;
         Ok(Self { suspects, located })
     }
 
@@ -31,7 +36,7 @@ impl Guilt {
         if let Some(suspects) = &self.suspects {
             summary["suspects"] = serde_json::json!(suspects);
         }
-        if let Some(located) = &self.located {
+        if let Some(Some(located)) = &self.located {
             summary["located"] = serde_json::json!(located);
         }
     }
@@ -41,22 +46,18 @@ impl Guilt {
         if let Some(suspects) = &self.suspects {
             show_suspects(suspects, table);
         }
-        if let Some(located) = &self.located {
-            for (i, location) in located.locations.iter().enumerate() {
-                table.row(if i == 0 { "located" } else { "" }, &in_words(location));
-            }
-            let unexplained = located.unexplained.len();
-            if unexplained > 0 {
-                table.row("  unexplained", &plural(unexplained, "failure"));
-            }
+        match &self.located {
+            Some(Some(located)) => show_located(located, table),
+            Some(None) => table.row("located", "nothing: that takes a test that fails and one that passes"),
+            None => (),
         }
     }
 }
 
-fn locate(study: &Study, trials: &[Trial], folder: &Folder) -> Result<Option<Located>, Error> {
+fn locate(study: &Study, trials: &[Trial], folder: &Folder, limit: usize) -> Result<Option<Located>, Error> {
     let campaign = Campaign::new(study)?;
     let mut next = trials.len();
-    let located = Located::of(study, trials, |test| {
+    let located = Located::of(study, trials, limit, |test| {
         let mut verdict = Verdict::Error;
         campaign.run_tests(std::slice::from_ref(test), next, |trial| {
             verdict = trial.verdict;
@@ -100,36 +101,84 @@ fn show_suspects(suspects: &Suspects, table: &mut Table) {
     }
 }
 
+fn show_located(located: &Located, table: &mut Table) {
+    let guilty = |location: &&Location| location.conclusion == Conclusion::Guilty;
+    let mut found: Vec<&Location> = located.locations.iter().filter(guilty).collect();
+    found.sort_by_key(|location| Reverse(location.explains.len()));
+    let more = found.len().saturating_sub(LOCATED_SHOWN);
+    let lines =
+        found.into_iter().take(LOCATED_SHOWN).map(in_words).chain((more > 0).then(|| format!("and {more} more")));
+    rows("located", lines, "nothing", table);
+    table.row("  further tests", &format!("{} run, of at most {}", located.ran, located.limit));
+    // Failures that are unexplained for the same reason share a line.
+    let mut reasons: Vec<(String, Vec<usize>)> = Vec::new();
+    for Unexplained { failing, why } in &located.unexplained {
+        let reason = reason(located, *failing, why);
+        match reasons.iter_mut().find(|(known, _)| *known == reason) {
+            Some((_, failures)) => failures.push(*failing),
+            None => reasons.push((reason, vec![*failing])),
+        }
+    }
+    if !reasons.is_empty() {
+        let more = reasons.len().saturating_sub(SHOWN);
+        let lines =
+            reasons.iter().take(SHOWN).map(|(reason, failures)| format!("{}: {reason}", list("test", failures)));
+        rows(
+            "  unexplained",
+            lines.chain((more > 0).then(|| format!("and {}", plural(more, "more reason")))),
+            "",
+            table,
+        );
+    }
+}
+
+/// Rows under one label; a word where there are none.
+fn rows(label: &str, lines: impl Iterator<Item = String>, none: &str, table: &mut Table) {
+    let mut lines = lines.peekable();
+    if lines.peek().is_none() {
+        table.row(label, none);
+    }
+    for (i, line) in lines.enumerate() {
+        table.row(if i == 0 { label } else { "" }, &line);
+    }
+}
+
+/// A guilty combination, with what it explains and what it took.
 fn in_words(location: &Location) -> String {
-    let Location { failing, conclusion, values, undivided, starting, restarts, bound, tests } = location;
-    let values = names(values);
-    let mut text = match conclusion {
-        Conclusion::Guilty => values,
-        Conclusion::Refuted(passed) => {
-            format!(
-                "{values} makes test {failing} fail, but {} with these values passed: they are no cause by themselves",
-                list("test", passed)
-            )
-        }
-        Conclusion::NoStart(passed) => {
-            let them = list("test", passed);
-            format!("nothing: test {failing} fails with the discrete values of {them} too, which passed")
-        }
-        Conclusion::NoPassingTest => format!("nothing: no test with other discrete values than test {failing} passed"),
-        Conclusion::Undecided(verdict) => format!("nothing: a test on the way from test {failing} ended {verdict}"),
-    };
+    let Location { values, undivided, explains, starting, confirming, restarts, bound, tests, .. } = location;
+    let mut text = format!("{}: behind {}", names(values), plural(explains.len(), "failure"));
     if undivided.iter().next().is_some() {
         text.push_str(&format!("; constraints keep {} from being told apart", names(undivided)));
     }
-    let mut ran = plural(tests.len() - starting, "test");
+    let mut ran = plural(tests.len() - starting - confirming, "test");
     match bound {
-        Some(bound) => ran.push_str(&format!(", at most {bound}")),
+        Some(bound) => ran.push_str(&format!(" of at most {bound}")),
         None if *restarts > 0 => ran.push_str(", no bound where several combinations are guilty"),
-        None if location.values.iter().next().is_some() => ran.push_str(", no bound under these constraints"),
-        None => (),
+        None => ran.push_str(", no bound under these constraints"),
     }
-    let start = if *starting > 0 { format!(" and {starting} to start from") } else { String::new() };
-    format!("{text} ({ran}{start})")
+    let others = [(*starting, "to start from"), (*confirming, "to confirm")];
+    let others = others.into_iter().filter(|(tests, _)| *tests > 0);
+    let others: String = others.map(|(tests, what)| format!(", {tests} {what}")).collect();
+    format!("{text} ({ran}{others})")
+}
+
+/// Why a failure has no guilty combination.
+fn reason(located: &Located, failing: usize, why: &Conclusion) -> String {
+    match why {
+        Conclusion::Refuted { trials, further } => {
+            let of_it = located.locations.iter().rev().find(|location| location.failing == failing);
+            let values = of_it.map(|location| names(&location.values)).unwrap_or_default();
+            let passed = plural(trials.len() + further, "test");
+            format!(
+                "{values} make the difference, but {passed} with these values passed: they are no cause by themselves"
+            )
+        }
+        Conclusion::NoStart(_) => "the discrete values of passing tests fail here, too".to_owned(),
+        Conclusion::NoPassingTest => "all passing tests have the same discrete values".to_owned(),
+        Conclusion::Undecided(verdict) => format!("a test on the way ended {verdict}"),
+        Conclusion::LimitReached => "no further tests were left; --locate=N allows more".to_owned(),
+        Conclusion::Guilty => unreachable!("what is guilty explains"),
+    }
 }
 
 /// Values with their parameters.
@@ -143,8 +192,4 @@ fn list(what: &str, indices: &[usize]) -> String {
     let shown: Vec<String> = indices.iter().take(SHOWN).map(ToString::to_string).collect();
     let more = if indices.len() > SHOWN { format!(" and {} more", indices.len() - SHOWN) } else { String::new() };
     format!("{what}{} {}{more}", if indices.len() == 1 { "" } else { "s" }, shown.join(", "))
-}
-
-fn plural(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

@@ -3,8 +3,9 @@
 //! Only tests that failed or passed are evidence; what broke, was impossible or decided nothing is left out.
 
 mod locate;
+mod search;
 
-pub use locate::{Conclusion, Located, Location, TestOfLocation};
+pub use locate::{Conclusion, Located, Location, TestOfLocation, Unexplained};
 
 use crate::estimate::named_level;
 use crate::{Error, Study, Trial};
@@ -128,5 +129,7 @@ impl<'a> Evidence<'a> {
     }
 }
 
+#[cfg(test)]
+mod planted;
 #[cfg(test)]
 mod tests;

@@ -38,7 +38,7 @@ fn values(named: &[(&str, f64)]) -> Values {
 }
 
 fn locate(study: &Study, trials: &[Trial], verdict: impl Fn(&Values) -> Verdict) -> Located {
-    Located::of(study, trials, |test| Ok(verdict(test))).unwrap().unwrap()
+    Located::of(study, trials, 200, |test| Ok(verdict(test))).unwrap().unwrap()
 }
 
 #[test]
@@ -86,14 +86,55 @@ fn what_broke_or_decided_nothing_is_no_evidence() {
 }
 
 #[test]
-fn a_test_on_the_way_that_decides_nothing_ends_the_search_without_a_claim() {
+fn a_test_on_the_way_that_decides_nothing_ends_its_search_without_a_claim() {
     let study = discrete_study();
     let verdict = |test: &Values| fail_if(number(test, "lanes") == 6.0 && number(test, "speed") == 3.0);
-    let located = locate(&study, &trials(&study, verdict), |_| Verdict::Inconclusive);
-    let [location] = &located.locations[..] else { panic!("one search, found {located:?}") };
-    assert_eq!(location.conclusion, Conclusion::Undecided(Verdict::Inconclusive));
-    assert_eq!((location.tests.len(), location.values.iter().count(), location.bound), (1, 0, None));
-    assert_eq!(located.unexplained.len(), 6);
+    // Of every five tests, three are still to be run.
+    let trials: Vec<Trial> = trials(&study, verdict).into_iter().filter(|trial| trial.index % 5 < 2).collect();
+    let failing: Vec<usize> = trials.iter().filter(|trial| trial.is_failure()).map(|trial| trial.index).collect();
+    assert!(failing.len() > 1);
+    let located = locate(&study, &trials, |_| Verdict::Inconclusive);
+    let undecided = Conclusion::Undecided(Verdict::Inconclusive);
+    assert!(located.unexplained.iter().map(|unexplained| unexplained.failing).eq(failing));
+    assert!(located.unexplained.iter().all(|unexplained| unexplained.why == undecided));
+    for location in &located.locations {
+        assert_eq!((&location.conclusion, location.values.iter().count(), location.bound), (&undecided, 0, None));
+        assert!(location.tests.len() <= 1);
+    }
+}
+
+#[test]
+fn a_failure_that_cannot_be_explained_does_not_keep_the_others_from_it() {
+    let study = mixed_study();
+    let fast = |test: &Values| number(test, "lanes") == 4.0 && number(test, "speed") > 7.0;
+    let slippery = |test: &Values| number(test, "lanes") == 6.0 && number(test, "friction") == 0.3;
+    let verdict = |test: &Values| fail_if(fast(test) || slippery(test));
+    let trials = trials(&study, verdict);
+    let located = locate(&study, &trials, verdict);
+    let guilty: Vec<_> = located.locations.iter().filter(|found| found.conclusion == Conclusion::Guilty).collect();
+    assert_eq!(guilty.len(), 1);
+    assert_eq!(guilty[0].values, values(&[("friction", 0.3), ("lanes", 6.0)]));
+    let explained = trials.iter().filter(|trial| slippery(&trial.test)).map(|trial| trial.index);
+    assert!(guilty[0].explains.iter().copied().eq(explained));
+    let left = trials.iter().filter(|trial| fast(&trial.test)).map(|trial| trial.index);
+    assert!(located.unexplained.iter().map(|unexplained| unexplained.failing).eq(left));
+    assert!(located.unexplained.iter().all(|left| matches!(left.why, Conclusion::Refuted { .. })), "{located:?}");
+}
+
+#[test]
+fn no_more_tests_are_run_than_there_may_be() {
+    let study = mixed_study();
+    let verdict = |test: &Values| fail_if(number(test, "lanes") == 4.0 && number(test, "friction") == 0.3);
+    let trials = trials(&study, verdict);
+    let mut ran = 0;
+    let count = |test: &Values| {
+        ran += 1;
+        Ok(verdict(test))
+    };
+    let located = Located::of(&study, &trials, 2, count).unwrap().unwrap();
+    assert_eq!((ran, located.ran, located.limit), (2, 2, 2));
+    assert!(located.unexplained.iter().all(|unexplained| unexplained.why == Conclusion::LimitReached));
+    assert_eq!(located.unexplained.len(), trials.iter().filter(|trial| trial.is_failure()).count());
 }
 
 /// The lanes, the friction and any speed.
@@ -129,6 +170,6 @@ fn failures_that_depend_on_continuous_values_are_not_blamed_on_discrete_ones() {
     let located = locate(&study, &trials, both);
     let location = &located.locations[0];
     assert_eq!(location.values, values(&[("lanes", 4.0)]));
-    let Conclusion::Refuted(passed) = &location.conclusion else { panic!("found {location:?}") };
+    let Conclusion::Refuted { trials: passed, .. } = &location.conclusion else { panic!("found {location:?}") };
     assert!(passed.iter().all(|&trial| number(&trials[trial].test, "lanes") == 4.0 && !trials[trial].is_failure()));
 }

@@ -2,6 +2,7 @@
 
 use crate::common::{fuzz, golden, refused, stdout, succeeds};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -9,23 +10,25 @@ use std::path::Path;
 #[path = "../../examples/lanes.rs"]
 mod lanes;
 
-const ALL: &[&str] = &[
-    "--open",
-    "speed=1,3,5,7",
-    "--open",
-    "distance=10,20,30,40",
-    "--open",
-    "lanes=2,4,6",
-    "--discrete",
-    "cross",
-    "--budget",
-    "48",
-];
+/// Parameters with 48 combinations, of which 16 have all pairs of values.
+const OPEN: &[&str] = &["--open", "speed=1,3,5,7", "--open", "distance=10,20,30,40", "--open", "lanes=2,4,6"];
+
+/// A campaign; what it prints.
+fn run(dir: &Path, more: &[&str]) -> Value {
+    let printed = stdout(&succeeds(fuzz(dir, &[OPEN, &["--format", "json"], more].concat())));
+    serde_json::from_str(&printed).unwrap()
+}
 
 /// A campaign over all 48 combinations; what it prints.
 fn campaign(dir: &Path, more: &[&str]) -> Value {
-    let printed = stdout(&succeeds(fuzz(dir, &[ALL, &["--format", "json"], more].concat())));
-    serde_json::from_str(&printed).unwrap()
+    run(dir, &[&["--discrete", "cross", "--budget", "48"], more].concat())
+}
+
+/// What was found guilty, as text.
+fn guilty(summary: &Value) -> BTreeSet<String> {
+    let locations = summary["located"]["locations"].as_array().unwrap().iter();
+    let guilty = locations.filter(|location| location["conclusion"] == "guilty");
+    guilty.map(|location| location["values"].to_string()).collect()
 }
 
 fn trials(dir: &Path) -> Vec<Value> {
@@ -51,16 +54,34 @@ fn located_combinations_explain_all_failures_of_all_combinations() {
         let guilty = locations.iter().any(|location| has(&trial["test"], &location["values"]));
         assert_eq!(trial["verdict"] == "fail", guilty, "{trial}");
     }
-    // The tests on the way went as the campaign's tests of the same values.
-    for test in locations.iter().flat_map(|location| location["tests"].as_array().unwrap()) {
-        let same = trials.iter().find(|trial| trial["test"] == test["test"]).unwrap();
-        assert_eq!(same["verdict"], test["verdict"]);
-    }
+    assert_eq!(located["ran"], 0, "all tests are in the campaign");
     // Each suspect is in failing tests only.
     for suspect in summary["suspects"]["ranked"].as_array().unwrap() {
         let with = trials.iter().filter(|trial| has(&trial["test"], &suspect["values"]));
         let verdicts: Vec<&Value> = with.map(|trial| &trial["verdict"]).collect();
         assert!(verdicts.len() as u64 == suspect["failures"] && verdicts.iter().all(|verdict| *verdict == "fail"));
+    }
+}
+
+#[test]
+fn a_covering_array_and_a_few_more_tests_find_what_all_tests_find() {
+    let dir = tempfile::tempdir().unwrap();
+    let all = campaign(dir.path(), &["--locate", "--out", "all"]);
+    let few = run(dir.path(), &["--locate", "--out", "few"]);
+    assert_eq!(guilty(&all), guilty(&few));
+    assert_eq!(few["located"]["unexplained"], serde_json::json!([]));
+    let further: Vec<&Value> = few["located"]["locations"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|location| location["tests"].as_array().unwrap())
+        .collect();
+    assert!(few["tests"] == 16 && few["located"]["ran"] == further.len() && further.len() <= 12, "{few}");
+    // The further tests went as those of the same values among all.
+    let trials = trials(&dir.path().join("all"));
+    for test in further {
+        let same = trials.iter().find(|trial| trial["test"] == test["test"]).unwrap();
+        assert_eq!(same["verdict"], test["verdict"]);
     }
 }
 
@@ -79,14 +100,31 @@ fn locating_leaves_the_log_of_the_campaign_as_it_is() {
     assert_eq!(read("plain", "located.json"), read("located", "located.json"));
 }
 
+/// The part of the table that is about suspects and the guilty.
+fn table(dir: &Path, arguments: &[&str]) -> String {
+    let table = stdout(&succeeds(fuzz(dir, &[arguments, &["--format", "table"]].concat())));
+    let about =
+        table.lines().skip_while(|line| !line.contains("suspects")).take_while(|line| !line.contains("written"));
+    about.map(|line| format!("{line}\n")).collect()
+}
+
 #[test]
 fn the_table_names_suspects_and_the_guilty() {
     let dir = tempfile::tempdir().unwrap();
-    let output = succeeds(fuzz(dir.path(), &[ALL, &["--locate", "--format", "table"]].concat()));
-    let table = stdout(&output);
-    let about =
-        table.lines().skip_while(|line| !line.contains("suspects")).take_while(|line| !line.contains("written"));
-    golden("guilty.txt", &about.map(|line| format!("{line}\n")).collect::<String>());
+    golden("guilty.txt", &table(dir.path(), &[OPEN, &["--locate"]].concat()));
+}
+
+#[test]
+fn the_table_says_which_failures_are_unexplained_and_why() {
+    let dir = tempfile::tempdir().unwrap();
+    // Any speed: how fast the pedestrian walks matters, and is no discrete value.
+    let open = ["--open", "distance=10,20,30,40", "--open", "lanes", "--open", "friction=0.3,0.8", "--budget", "60"];
+    golden("unexplained.txt", &table(dir.path(), &[&open[..], &["--locate=25"]].concat()));
+    let none = stdout(&succeeds(fuzz(
+        dir.path(),
+        &["--open", "distance=10,20", "--set", "speed=0.5", "--locate", "--format", "table", "--out", "none"],
+    )));
+    assert!(none.contains("located               nothing: that takes a test that fails"), "{none}");
 }
 
 #[test]

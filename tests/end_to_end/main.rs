@@ -7,6 +7,7 @@ mod commands;
 mod common;
 mod comparison;
 mod covering;
+mod extend;
 mod generate;
 mod guilty;
 mod pedestrian_study;

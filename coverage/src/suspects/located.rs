@@ -1,6 +1,8 @@
 //! What a search for the guilty ends with, held against all other tests.
 
 use super::JudgedTest;
+use super::partial::Partial;
+use crate::rules::Rules;
 
 /// A combination whose values are all needed for a failing test to fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,6 +35,19 @@ pub enum Standing {
 }
 
 impl Located {
+    /// A valid test that has these values and otherwise, as far as constraints allow, the levels of another test. Where
+    /// that one passes, a pass of this one refutes the values, and a failure speaks for them.
+    ///
+    /// # Panics
+    /// The values were not located under these rules, or the other test has too few levels.
+    pub fn put_into(&self, rules: &Rules, other: &[usize]) -> Vec<usize> {
+        let mut partial = Partial::new(rules);
+        for &(parameter, level) in &self.values {
+            assert!(partial.choose(parameter, level), "the witness has all of the values");
+        }
+        partial.complete(other)
+    }
+
     /// Whether other tests agree with it.
     ///
     /// # Panics

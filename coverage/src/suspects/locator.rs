@@ -74,8 +74,8 @@ pub struct Locator<'r> {
     rules: &'r Rules,
     /// The failing test whose values are in question.
     accused: Vec<usize>,
-    /// The levels that values are changed to, if it may be.
-    others: Vec<usize>,
+    /// The levels that values may be changed to, those of the passing test first.
+    others: Vec<Vec<usize>>,
     /// The last test that failed.
     failing: Vec<usize>,
     roles: Vec<Role>,
@@ -92,6 +92,23 @@ impl<'r> Locator<'r> {
     /// # Errors
     /// One of them is none of this space or violates a constraint, or they are the same.
     pub fn new(rules: &'r Rules, failing: &[usize], passing: &[usize]) -> Result<Self, LocateError> {
+        Self::cautious(rules, failing, passing, |_, _| true)
+    }
+
+    /// [`Locator::new`], with values changed only to those of the passing test and to levels that are `safe`: `safe` is
+    /// asked with a parameter and a level of it. What constraints force is not asked about.
+    ///
+    /// Where several combinations are guilty, a value may be part of one and the level it is changed to of another. A
+    /// value that has no safe level to be changed to is kept, and not held to be guilty.
+    ///
+    /// # Errors
+    /// As `new`.
+    pub fn cautious(
+        rules: &'r Rules,
+        failing: &[usize],
+        passing: &[usize],
+        safe: impl Fn(usize, usize) -> bool,
+    ) -> Result<Self, LocateError> {
         for (index, (name, test)) in [("failing", failing), ("passing", passing)].into_iter().enumerate() {
             check(rules.levels(), index, test)?;
             if !rules.allows(test) {
@@ -105,7 +122,12 @@ impl<'r> Locator<'r> {
         let mut locator = Self {
             rules,
             accused: failing.to_vec(),
-            others: passing.to_vec(),
+            others: (0..passing.len())
+                .map(|parameter| {
+                    let safe = (0..rules.levels()[parameter]).filter(|&level| safe(parameter, level));
+                    std::iter::once(passing[parameter]).chain(safe).collect()
+                })
+                .collect(),
             failing: failing.to_vec(),
             roles: failing.iter().zip(passing).map(role).collect(),
             undivided: Vec::new(),
@@ -191,7 +213,7 @@ impl<'r> Locator<'r> {
     /// A test that keeps the guilty values and changes all waiting ones that can be changed; none if none can be.
     fn without_waiting(&self) -> Option<Question> {
         let mut partial = self.keeping(&[Role::Guilty]);
-        let change = |&value: &usize| partial.choose_other(value, self.accused[value], self.others[value]);
+        let change = |&value: &usize| partial.choose_other(value, self.accused[value], &self.others[value]);
         let (changed, kept): (Vec<usize>, Vec<usize>) = self.with(Role::Waiting).into_iter().partition(change);
         // What cannot be changed is completed as it is: it has no other level.
         (!changed.is_empty()).then(|| Question { test: partial.complete(&self.failing), changed, kept })
@@ -233,9 +255,9 @@ impl<'r> Locator<'r> {
         kept.iter().for_each(|&value| self.keep(&mut partial, value));
         let half = (order.len() + kept.len()) / 2;
         for &value in order {
-            let (level, other) = (self.accused[value], self.others[value]);
+            let level = self.accused[value];
             let change = if changed.len() < half {
-                partial.choose_other(value, level, other)
+                partial.choose_other(value, level, &self.others[value])
             } else {
                 !partial.choose(value, level)
             };

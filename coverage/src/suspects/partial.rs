@@ -26,17 +26,16 @@ impl<'r> Partial<'r> {
         fits
     }
 
-    /// Chooses a level other than this one, `preferred` if it may be.
-    pub fn choose_other(&mut self, parameter: usize, than: usize, preferred: usize) -> bool {
-        let levels = std::iter::once(preferred).chain(0..self.rules.levels()[parameter]);
-        levels.into_iter().any(|level| level != than && self.choose(parameter, level))
+    /// Chooses a level other than this one, the first of these that may be.
+    pub fn choose_other(&mut self, parameter: usize, than: usize, levels: &[usize]) -> bool {
+        levels.iter().any(|&level| level != than && self.choose(parameter, level))
     }
 
     /// The test, every parameter without a level at the preferred one or, if that may not be, at the first that may.
     pub fn complete(mut self, preferred: &[usize]) -> Vec<usize> {
         for (parameter, &level) in preferred.iter().enumerate() {
             if self.levels[parameter].is_none() && !self.choose(parameter, level) {
-                self.choose_other(parameter, level, level);
+                (0..self.rules.levels()[parameter]).any(|level| self.choose(parameter, level));
             }
         }
         self.levels.into_iter().map(|level| level.expect("what is chosen can be completed")).collect()

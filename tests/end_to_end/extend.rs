@@ -1,0 +1,135 @@
+//! Campaigns that count the tests of a file as done.
+
+use crate::common::{cover, fuzz, golden, refused, stderr, stdout, succeeds};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+/// Parameters of which 16 tests have all pairs of values.
+const OPEN: &[&str] = &["--open", "speed=1,3,5,7", "--open", "distance=10,20,30,40", "--open", "lanes=2,4,6"];
+
+const OLD: &str = "speed,distance,lanes\n1,10,2\n3,10,6\n5,10,4\n1,20,6\n3,20,2\n7,20,4\n1,30,4\n";
+
+fn extended(dir: &Path, more: &[&str]) -> std::process::Output {
+    fuzz(dir, &[OPEN, &["--extend", "old.csv", "--out", "out"], more].concat())
+}
+
+fn read(dir: &Path, name: &str) -> String {
+    fs::read_to_string(dir.join("out").join(name)).unwrap()
+}
+
+#[test]
+fn a_campaign_runs_what_the_file_lacks_and_counts_both() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("old.csv"), OLD).unwrap();
+    let output = succeeds(extended(dir.path(), &["--format", "json", "--jobs", "2"]));
+    assert!(stderr(&output).contains("than 9 beside the 7 in old.csv"), "{}", stderr(&output));
+    let summary: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!((&summary["tests"], &summary["coverage"]["tests"]), (&Value::from(9), &Value::from(16)));
+    assert_eq!(summary["coverage"]["discrete"]["ratio"], 1.0);
+    for line in read(dir.path(), "trials.csv").lines().skip(1) {
+        let test = line.split(',').skip(1).take(3).collect::<Vec<_>>().join(",");
+        assert!(!OLD.lines().any(|old| old == test), "{test} is there already");
+    }
+    let study: Value = serde_json::from_str(&read(dir.path(), "campaign.json")).unwrap();
+    assert_eq!((&study["extends"]["name"], &study["extends"]["tests"]), (&Value::from("old.csv"), &Value::from(7)));
+    assert_eq!(study["extends"]["hash"].as_str().unwrap().len(), 32);
+
+    // The folder stands on its own: the file may go.
+    fs::remove_file(dir.path().join("old.csv")).unwrap();
+    let estimate = ["estimate", "out", "--time-limit", "5", "--format", "json"];
+    assert_eq!(stdout(&succeeds(cover(dir.path(), &estimate))), read(dir.path(), "coverage.json"));
+    fs::remove_file(dir.path().join("out/extended.csv")).unwrap();
+    succeeds(fuzz(dir.path(), &["replay", "out", "3"]));
+    refused(&cover(dir.path(), &estimate), &["cannot read out/extended.csv"]);
+    fs::write(dir.path().join("out/extended.csv"), OLD.replace("7,20,4\n", "")).unwrap();
+    refused(&cover(dir.path(), &estimate), &["out/extended.csv", "found 6 tests", "expected the 7"]);
+}
+
+#[test]
+fn the_table_says_what_was_counted() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("old.csv"), OLD).unwrap();
+    let table = stdout(&succeeds(extended(dir.path(), &["--format", "table"])));
+    let head: String = table.lines().take_while(|line| !line.contains("suspects")).map(|l| format!("{l}\n")).collect();
+    golden("extended.txt", &head);
+    fs::write(dir.path().join("all.csv"), OLD.to_owned() + &tests_of(dir.path())).unwrap();
+    let nothing = fuzz(dir.path(), &[OPEN, &["--extend", "all.csv", "--out", "none", "--format", "table"]].concat());
+    assert!(stderr(&succeeds(nothing)).contains("nothing is missing beside the 16 in all.csv: no test was run"));
+}
+
+/// The tests of the campaign, without a header.
+fn tests_of(dir: &Path) -> String {
+    let table = read(dir, "trials.csv");
+    let test = |line: &str| line.split(',').skip(1).take(3).collect::<Vec<_>>().join(",") + "\n";
+    table.lines().skip(1).map(test).collect()
+}
+
+#[test]
+fn a_campaign_goes_on_with_the_same_tests_in_whatever_file_and_with_no_others() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("old.csv"), OLD).unwrap();
+    succeeds(extended(dir.path(), &[]));
+    let whole = read(dir.path(), "trials.jsonl");
+    let log = dir.path().join("out/trials.jsonl");
+    fs::write(&log, &whole[..whole.len() / 2]).unwrap();
+    // Other columns, in another order, and what is no parameter.
+    let columns = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        format!("{} , note,{},{}\n", cells[2], cells[0], cells[1])
+    };
+    fs::write(dir.path().join("moved.csv"), OLD.lines().map(columns).collect::<String>()).unwrap();
+    let resume = |file: &str| fuzz(dir.path(), &[OPEN, &["--extend", file, "--out", "out", "--resume"]].concat());
+    succeeds(resume("moved.csv"));
+    assert_eq!(read(dir.path(), "trials.jsonl"), whole);
+
+    fs::write(dir.path().join("old.csv"), OLD.to_owned() + "1,10,4\n").unwrap();
+    refused(&resume("old.csv"), &["different campaign", "`extends`", "\"tests\":7", "\"tests\":8", "old.csv"]);
+    let without = fuzz(dir.path(), &[OPEN, &["--strategy", "greedy", "--out", "out", "--resume"]].concat());
+    refused(&without, &["different campaign", "`extends`", "this command's is nothing"]);
+    assert_eq!(read(dir.path(), "trials.jsonl"), whole);
+}
+
+#[test]
+fn continuous_tests_are_extended_where_they_leave_the_largest_holes() {
+    let dir = tempfile::tempdir().unwrap();
+    let half: String = (0..200).map(|i| format!("{},{}\n", 0.6 + f64::from(i % 14) / 3.0, 6 + i / 4)).collect();
+    fs::write(dir.path().join("old.csv"), format!("speed,distance\n{half}")).unwrap();
+    let arguments = ["--extend", "old.csv", "--budget", "20", "--format", "json", "--out"];
+    let summary = stdout(&succeeds(fuzz(dir.path(), &[&arguments[..], &["out"]].concat())));
+    let coverage = &serde_json::from_str::<Value>(&summary).unwrap()["coverage"];
+    assert_eq!(coverage["tests"], 220);
+    let dispersion = coverage["continuous"]["dispersion"]["upper"].as_f64().unwrap();
+    assert!(dispersion < 0.1, "{dispersion}: half of the space was empty");
+    let speeds = tests_of(dir.path()).lines().filter(|line| line.split(',').next().unwrap() > "5").count();
+    assert!(speeds > 10, "most go where nothing is, {speeds} did");
+    refused(
+        &fuzz(dir.path(), &[&arguments[..], &["no", "--strategy", "halton"]].concat()),
+        &["`halton` does not look at existing tests", "use greedy"],
+    );
+}
+
+#[test]
+fn tests_of_other_parameters_are_refused_with_their_place() {
+    let dir = tempfile::tempdir().unwrap();
+    let cases: [(&str, &[&str]); 5] = [
+        (&OLD.replace("distance", "distanc"), &["old.csv, line 1", "`distance`", "is it `distanc`?"]),
+        (&OLD.replace("3,20,2", "3,25,2"), &["old.csv, line 6", "`distance`", "found 25", "10, 20, 30, 40"]),
+        (&OLD.replace("3,20,2", "3,,2"), &["old.csv, line 6", "`distance`", "found ``, expected a value"]),
+        (
+            "speed,distance,lanes,friction\n1,10,2,0.8\n3,10,2,0.5\n",
+            &["old.csv, line 3", "found 0.5, but `friction` is fixed at 0.8", "--open friction"],
+        ),
+        ("", &["old.csv", "empty"]),
+    ];
+    for (text, says) in cases {
+        fs::write(dir.path().join("old.csv"), text).unwrap();
+        refused(&extended(dir.path(), &[]), says);
+    }
+    fs::write(dir.path().join("old.csv"), OLD).unwrap();
+    let fixed = ["--open", "speed=1,3,5,7", "--open", "distance=10,20,30,40", "--extend", "old.csv", "--out", "out"];
+    refused(&fuzz(dir.path(), &fixed), &["old.csv, line 3", "found 6, but `lanes` is fixed at 2", "--open lanes"]);
+    fs::create_dir(dir.path().join("folder")).unwrap();
+    refused(&fuzz(dir.path(), &["--extend", "folder"]), &["folder is a folder", "folder/trials.csv"]);
+    assert!(!dir.path().join("out").exists() && !dir.path().join("paracosm-out").exists());
+}
