@@ -29,6 +29,7 @@
 //! speeds in m/s, times in s.
 
 pub mod driver;
+pub mod kinematic;
 mod observation;
 mod outcome;
 mod program;

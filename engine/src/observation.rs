@@ -17,6 +17,14 @@ pub struct Briefing {
 pub struct Other {
     /// Its middle as seen from the car's middle, in metres: x ahead, y to the left.
     pub position: Vector2<f64>,
+    /// Its velocity over the ground in the same directions, in m/s.
+    pub velocity: Vector2<f64>,
+    /// Where it points, in radians counter-clockwise from the car's heading.
+    pub heading: f64,
+    /// Its extent along its heading, in metres.
+    pub length: f64,
+    /// Its extent across its heading, in metres.
+    pub width: f64,
     /// Half of its extent as seen from above, in metres.
     pub radius: f64,
 }

@@ -11,6 +11,7 @@ use crate::driver::Driver;
 use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Metric, Outcome};
 use crate::program::{Program, ProgramError, Test};
+use crate::road::wrapped;
 use crate::scenario::{CarSetup, Pose, WalkerSetup};
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::{GRAVITY, Motion};
@@ -262,10 +263,15 @@ impl Run {
 
     fn observe(&mut self) {
         let pose = self.car_pose();
-        let others = self
-            .walkers
-            .iter()
-            .map(|walker| Other { position: pose.to_local(walker.pose.position), radius: WALKER_RADIUS });
+        let ahead = pose.forward();
+        let others = self.walkers.iter().map(|walker| Other {
+            position: pose.to_local(walker.pose.position),
+            velocity: Vector2::new(ahead.dot(&walker.velocity), ahead.perp(&walker.velocity)),
+            heading: wrapped(walker.pose.heading - pose.heading),
+            length: 2.0 * WALKER_RADIUS,
+            width: 2.0 * WALKER_RADIUS,
+            radius: WALKER_RADIUS,
+        });
         self.observation.others.clear();
         self.observation.others.extend(others);
         self.observation.time = self.time();

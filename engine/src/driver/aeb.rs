@@ -22,7 +22,7 @@
 
 use super::cruise::{Cruise, PERIOD};
 use super::perception::{Perception, Sensor, Track};
-use super::{Driver, Kind, Setting, Settings};
+use super::{Driver, Kind, Setting, Settings, setting, whole};
 use crate::observation::{Briefing, Control, Observation};
 
 pub(super) const KIND: Kind = Kind {
@@ -46,20 +46,6 @@ const SETTINGS: [Setting; 12] = [
     setting("margin", 0.3, "m", (0.0, 5.0), "room it wants beside the car"),
     whole("seed", 1.0, (0.0, 4294967295.0), "of the noise, which is the same in every test"),
 ];
-
-const fn setting(
-    name: &'static str,
-    default: f64,
-    unit: &'static str,
-    range: (f64, f64),
-    about: &'static str,
-) -> Setting {
-    Setting { name, default, unit, range, whole: false, about }
-}
-
-const fn whole(name: &'static str, default: f64, range: (f64, f64), about: &'static str) -> Setting {
-    Setting { name, default, unit: "", range, whole: true, about }
-}
 
 /// Speed in m/s at which it imagines the slow or standing car to go on when it judges whether the way is clear.
 const CREEP: f64 = 3.0;
