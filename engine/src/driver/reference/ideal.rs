@@ -12,7 +12,8 @@
 //! braking spares those behind, and what cannot be avoided is sometimes hit slower.
 //!
 //! In a simulated car it knows the truth, but not the future: at each question, without delay, it expects that the
-//! other goes on as it does, looks some seconds ahead, wants some room on all sides, and does what the best profile does first.
+//! other goes on as it does, looks some seconds ahead, wants some room on all sides, or none if there is none to be had, and does
+//! what the best profile does first. What it did not foresee it may collide with.
 
 use super::super::{Kind, Setting, setting};
 use super::adapter::Reference;
@@ -112,9 +113,8 @@ impl Ideal {
         (profile, ended)
     }
 
-    /// What is to be expected if the other goes on as it does, with the margin as a part of it.
-    fn expected(&self, s: &Situation) -> Encounter {
-        let margin = self.margin;
+    /// What is to be expected if the other goes on as it does, with the margin in metres as a part of it.
+    fn expected(&self, s: &Situation, margin: f64) -> Encounter {
         let forward = s.other_speed.max(0.0);
         let other = Course {
             gap: s.gap - margin,
@@ -137,7 +137,10 @@ impl BrakingModel for Ideal {
         if !s.is_ahead() {
             return 0.0;
         }
-        let (mut profile, _) = self.best(&self.expected(s));
+        let (mut profile, ended) = self.best(&self.expected(s, self.margin));
+        if ended.collision.is_some() {
+            profile = self.best(&self.expected(s, 0.0)).0;
+        }
         profile.brake(s, dt)
     }
 }

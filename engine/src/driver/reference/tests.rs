@@ -224,6 +224,15 @@ fn ideal_brakes_no_harder_than_it_must_and_not_at_all_where_it_gets_through() {
 }
 
 #[test]
+fn ideal_slips_through_with_less_room_than_it_wants_where_braking_would_not_help() {
+    // It has passed after 1.1 s, 0.02 s before the other is in its path; braking with 1 g it would not be behind by then.
+    let narrow = Situation { gap: 2.0, lateral: 3.5, approach: 1.7 / 1.12, ..AHEAD };
+    assert_eq!(Ideal::default().brake(&narrow, DT), 0.0);
+    let hopeless = Situation { approach: 1.7 / 1.0, ..narrow };
+    assert!(Ideal::default().brake(&hopeless, DT) > 0.0);
+}
+
+#[test]
 fn ideal_passes_one_and_stops_for_the_next() {
     let passes = CutIn { speed: 15.0, other_speed: 3.0, gap: 1.0, lateral_speed: 1.8 };
     let mut encounter = Encounter { duration: 5.0, ..passes.encounter() };
