@@ -22,6 +22,8 @@ pub use single_track::SingleTrack;
 
 use crate::scenario::Pose;
 use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 /// Standard gravity in m/s².
 pub const GRAVITY: f64 = 9.80665;
@@ -84,7 +86,8 @@ pub trait Dynamics: Send {
 }
 
 /// Which model moves a car.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Model {
     /// [`SingleTrack`].
     #[default]
@@ -105,6 +108,14 @@ impl Model {
         }
     }
 
+    /// The model of that name.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn find(name: &str) -> Result<Self, UnknownModel> {
+        Self::ALL.into_iter().find(|model| model.name() == name).ok_or_else(|| UnknownModel(name.to_owned()))
+    }
+
     /// A car of this model whose middle has the pose `start`, going straight ahead at `speed` m/s.
     pub fn build(self, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
         match self {
@@ -113,6 +124,11 @@ impl Model {
         }
     }
 }
+
+/// No model of a car has that name.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("no vehicle is called `{0}`, expected `single-track` or `jointed`")]
+pub struct UnknownModel(String);
 
 impl Pedals {
     /// The same within their range.

@@ -202,12 +202,7 @@ impl Corner {
 impl Chassis {
     /// How a body stands and moves.
     pub fn from(body: &RigidBody) -> Self {
-        Self {
-            frame: *body.position(),
-            centre: body.center_of_mass(),
-            velocity: body.linvel(),
-            turning: body.angvel(),
-        }
+        Self { frame: *body.position(), centre: body.center_of_mass(), velocity: body.linvel(), turning: body.angvel() }
     }
 
     /// The velocity of its point at a place.
