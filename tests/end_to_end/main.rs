@@ -11,4 +11,5 @@ mod generate;
 mod guilty;
 mod pedestrian_study;
 mod plan;
+mod reference_drivers;
 mod signals;

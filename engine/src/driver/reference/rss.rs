@@ -2,12 +2,12 @@
 //!
 //! A situation is dangerous when neither the distance along the road nor that across it is safe, even if both road users
 //! do their worst in the response time rho. Along the road, the car under test speeds up with `a` during rho and then
-//! brakes with at least `b_min`, while the other brakes with at most `b_max` at once (the paper's Lemma 2):
+//! brakes with at least `b_min`, while the other brakes with at most `b_max` at once:
 //!
 //! `d = v rho + a rho² / 2 + (v + rho a)² / (2 b_min) - v_f² / (2 b_max)`, or 0 if that is negative.
 //!
 //! Across it, each moves towards the other, speeds up sideways with `a_lat` during rho and then brakes sideways with at least
-//! `b_lat`; what remains must be mu (Lemma 4). The proper response to danger is, after rho, to brake with at least `b_min`
+//! `b_lat`; what remains must be mu. The proper response to danger is, after rho, to brake with at least `b_min`
 //! until the distance is safe again.
 //!
 //! Our reading: the car under test keeps its speed during rho and answers with exactly `b_min`, at once and never sideways; it
