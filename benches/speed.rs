@@ -9,8 +9,11 @@ use divan::{Bencher, black_box};
 use nalgebra::Vector2;
 use paracosm::Study;
 use paracosm::coverage::Space;
+use paracosm::engine::driver::reference;
+use paracosm::engine::kinematic::CutIn;
 use paracosm::engine::road::{Network, Place, grid_city};
-use paracosm::engine::{AutonomousVehicle, DEFAULT_DT, Program, RoadSegment, Run, Scenario, Stream, driver, simulate};
+use paracosm::engine::vehicle::Model;
+use paracosm::engine::{AutonomousVehicle, Program, RoadSegment, Run, Scenario, Setup, Stream, driver, simulate};
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
 
@@ -29,9 +32,23 @@ fn tests(bencher: Bencher, driver: &str) {
     let mut driver = driver::find(driver).unwrap().build(&[]).unwrap();
     bencher.counter(ItemsCount::new(TESTS)).bench_local(|| {
         for test in &tests {
-            black_box(simulate(&program, test, driver.as_mut()).trace.map(|trace| trace.hash()));
+            black_box(simulate(&program, test, Model::SingleTrack, driver.as_mut()).trace.map(|trace| trace.hash()));
         }
     });
+}
+
+/// Cut-ins of UN R157 in the plain kinematic world, each with a reference driver.
+#[divan::bench(args = reference::ALL.map(|(name, _)| name), sample_count = 20)]
+fn cut_ins(bencher: Bencher, driver: &str) {
+    const CUT_INS: usize = 30_000;
+    let (_, drive) = reference::ALL.into_iter().find(|(name, _)| *name == driver).unwrap();
+    let points = Strategy::Halton.build(&Request::new(&Space::unit_cube(4), 3 * CUT_INS)).unwrap().ask(3 * CUT_INS);
+    let valid = points.into_iter().filter_map(|point| CutIn::from_unit(point.continuous.try_into().unwrap()));
+    let encounters: Vec<_> = valid.map(|cut_in| cut_in.encounter()).take(CUT_INS).collect();
+    assert_eq!(encounters.len(), CUT_INS);
+    bencher
+        .counter(ItemsCount::new(CUT_INS))
+        .bench_local(|| encounters.iter().filter(|encounter| drive(encounter).collision.is_some()).count());
 }
 
 /// Nodes of streams evaluated in each tick of a run of 1,000 ticks: arithmetic, a comparison, a closure, and what
@@ -57,7 +74,7 @@ fn stream_nodes(bencher: Bencher) {
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
     bencher
         .counter(ItemsCount::new(CHAINS * NODES * 1000))
-        .with_inputs(|| Run::new(&program, &test, DEFAULT_DT, 0.1).unwrap())
+        .with_inputs(|| Run::new(&program, &test, Setup::asking_every(0.1)).unwrap())
         .bench_local_values(|mut run| black_box(run.drive(driver.as_mut())));
 }
 

@@ -118,7 +118,7 @@ pub fn simulate_trial(
     test: &Values,
 ) -> (Trial, Option<Trace>) {
     let values = study.complete(test);
-    let run = AssertUnwindSafe(|| simulate(program, Test::new(&values, &study.space), driver));
+    let run = AssertUnwindSafe(|| simulate(program, Test::new(&values, &study.space), study.vehicle, driver));
     let mut outcome = catch_unwind(run).unwrap_or_else(|panic| {
         let message = panic.downcast_ref::<String>().map(String::as_str);
         let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");

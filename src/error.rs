@@ -2,7 +2,7 @@
 //! where, what was expected.
 
 use paracosm_coverage::{PointSetError, SpaceError, kwise::KwiseError};
-use paracosm_engine::{ProgramError, driver::DriverError};
+use paracosm_engine::{ProgramError, driver::DriverError, vehicle::UnknownModel};
 use paracosm_generators::GeneratorError;
 use paracosm_scenarios::UnknownScenario;
 use std::fmt;
@@ -18,6 +18,9 @@ pub enum Error {
     /// A scenario that cannot be run.
     #[error(transparent)]
     Program(#[from] ProgramError),
+    /// No such model of the car.
+    #[error(transparent)]
+    Vehicle(#[from] UnknownModel),
     /// No such driver or setting.
     #[error("{0}; `paracosm-fuzz list` shows them all")]
     Driver(#[from] DriverError),

@@ -3,7 +3,8 @@
 use crate::{Error, Extension, Trial};
 use paracosm_coverage::{Domain, Parameter, Point, Record, Shape, Space, Value, Values, did_you_mean, nearest};
 use paracosm_engine::driver::{self, Driver};
-use paracosm_engine::{DEFAULT_DT, Declaration, Declared, Program, Test};
+use paracosm_engine::vehicle::Model;
+use paracosm_engine::{Declaration, Declared, Program, Test};
 use paracosm_generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
@@ -21,7 +22,8 @@ pub struct Study {
     target: String,
     /// The scenario's name.
     pub scenario: String,
-    vehicle: String,
+    /// Which model moves the car.
+    pub vehicle: Model,
     /// The open parameters: what the tests vary.
     pub space: Space,
     /// The values of all others.
@@ -88,7 +90,7 @@ impl Study {
     /// # Errors
     /// The program cannot be run.
     pub fn new(program: Program) -> Result<Self, Error> {
-        let Declaration { parameters, requirements, duration } = program.declare()?;
+        let Declaration { parameters, requirements, duration, dt } = program.declare()?;
         let (open, closed): (Vec<_>, Vec<_>) = parameters.into_iter().partition(|declared| declared.open);
         let fixed = closed.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal()));
         let requirements = requirements.into_iter().map(|requirement| RequirementText {
@@ -103,7 +105,7 @@ impl Study {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             target: env!("PARACOSM_TARGET").to_owned(),
             scenario: program.name.to_owned(),
-            vehicle: "single-track".to_owned(),
+            vehicle: Model::default(),
             space: Space::new(open.into_iter().map(|declared| declared.parameter).collect())?,
             fixed: fixed.collect(),
             requirements: requirements.collect(),
@@ -116,7 +118,7 @@ impl Study {
             skip: None,
             seed: None,
             budget: 500,
-            dt: DEFAULT_DT,
+            dt,
             duration,
             extends: None,
             program: Some(program),
@@ -129,6 +131,15 @@ impl Study {
     /// There is no such driver or setting, or a value is out of range.
     pub fn driver(mut self, name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
         self.driver = DriverChoice::new(name, changes)?;
+        Ok(self)
+    }
+
+    /// Lets this model move the car: `single-track` or `jointed`.
+    ///
+    /// # Errors
+    /// There is no such model.
+    pub fn vehicle(mut self, name: &str) -> Result<Self, Error> {
+        self.vehicle = Model::find(name)?;
         Ok(self)
     }
 

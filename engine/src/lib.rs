@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario};
-//! use paracosm_engine::{driver, eventually, simulate};
+//! use paracosm_engine::{driver, eventually, simulate, vehicle::Model};
 //!
 //! fn empty_road(s: &mut Scenario) {
 //!     let speed = s.interval("speed", 5.0..=20.0).unit("m/s");
@@ -20,7 +20,7 @@
 //! let program = Program { name: "empty-road", about: "a car alone", build: empty_road };
 //! let test = program.declare()?.nominal();
 //! let mut driver = driver::find("cruise")?.build(&[])?;
-//! let outcome = simulate(&program, &test, driver.as_mut());
+//! let outcome = simulate(&program, &test, Model::SingleTrack, driver.as_mut());
 //! assert_eq!(outcome.verdict, paracosm_oracles::Verdict::Pass);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -30,6 +30,7 @@
 
 mod actor;
 pub mod driver;
+pub mod kinematic;
 pub mod object;
 mod observation;
 mod outcome;
@@ -42,12 +43,12 @@ pub mod vehicle;
 mod world;
 
 pub use actor::{Actor, AutonomousVehicle, Car, Fixture, Mover, Pedestrian, Walk, Walker};
-pub use observation::{Briefing, Control, Observation, Other};
+pub use observation::{Ahead, Briefing, Control, Observation, Other, Way};
 pub use outcome::{Metric, Outcome};
 pub use paracosm_coverage::Shape;
 pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use road::RoadSegment;
-pub use run::{DEFAULT_DT, Run, Step, simulate};
+pub use run::{DEFAULT_DT, Run, Setup, Step, simulate};
 pub use scenario::{
     Conditions, Draft, Environment, Line, Param, Paved, Place, Pose, Road, Scenario, Side, Streets, Temporal, always,
     eventually, never,

@@ -45,6 +45,8 @@ pub struct Declaration {
     pub requirements: Vec<Requirement>,
     /// How long a run takes unless a contact ends it, in seconds.
     pub duration: f64,
+    /// How long a tick is, in seconds.
+    pub dt: f64,
 }
 
 /// The values that a test gives to all parameters of a program, and how those vary that do.
@@ -121,7 +123,7 @@ impl Program {
         Space::new(parameters.iter().map(|declared| declared.parameter.clone()).collect())
             .map_err(|source| ProgramError::Parameters { program: self.name, source })?;
         let requirements = scenario.requirements.borrow().iter().map(|stated| stated.requirement.clone()).collect();
-        Ok(Declaration { parameters, requirements, duration: scenario.duration })
+        Ok(Declaration { parameters, requirements, duration: scenario.duration, dt: scenario.dt })
     }
 
     /// Checks that the program can build its world for this test.
@@ -161,6 +163,12 @@ impl Program {
         }
         if !(scenario.duration > 0.0 && scenario.duration.is_finite()) {
             problems.push(format!("a run takes {} s, expected a positive number", scenario.duration));
+        }
+        if !(scenario.dt > 0.0 && scenario.dt <= scenario.duration) {
+            problems.push(format!(
+                "a tick takes {} s, expected a positive number up to the run's {}",
+                scenario.dt, scenario.duration
+            ));
         }
         let requirements = scenario.requirements.borrow();
         for (i, stated) in requirements.iter().enumerate() {

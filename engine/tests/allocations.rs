@@ -1,7 +1,7 @@
 //! Once a run has begun, its streams allocate nothing.
 
 use paracosm_coverage::Shape;
-use paracosm_engine::{AutonomousVehicle, Control, DEFAULT_DT, Program, RoadSegment, Run, Scenario, Step, Stream};
+use paracosm_engine::{AutonomousVehicle, Control, Program, RoadSegment, Run, Scenario, Setup, Step, Stream};
 use paracosm_engine::{eventually, never};
 
 /// Every combinator there is.
@@ -32,11 +32,11 @@ fn everything(s: &mut Scenario) {
 fn no_tick_allocates() {
     let program = Program { name: "everything", about: "every combinator", build: everything };
     let test = program.declare().unwrap().nominal();
-    let mut run = Run::new(&program, &test, DEFAULT_DT, 0.05).unwrap();
+    let mut run = Run::new(&program, &test, Setup::asking_every(0.05)).unwrap();
     let mut go = |questions: usize| {
         for _ in 0..questions {
             assert!(matches!(run.advance(), Step::Need(_)), "the run ended early");
-            run.supply(Control { throttle: 0.0 });
+            run.supply(Control::default());
         }
     };
     // The first question is asked at the first tick.

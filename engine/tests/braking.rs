@@ -2,7 +2,7 @@
 
 use paracosm_engine::driver::Driver;
 use paracosm_engine::{
-    AutonomousVehicle, Briefing, Control, Observation, Outcome, Program, RoadSegment, Run, Scenario, eventually,
+    AutonomousVehicle, Briefing, Control, Observation, Outcome, Program, RoadSegment, Run, Scenario, Setup, eventually,
 };
 
 /// Puts on the brakes and keeps them on.
@@ -16,7 +16,7 @@ impl Driver for FullBrakes {
     fn reset(&mut self, _: &Briefing) {}
 
     fn step(&mut self, _: &Observation) -> Control {
-        Control { throttle: -1.0 }
+        Control { throttle: -1.0, steering: 0.0 }
     }
 }
 
@@ -33,7 +33,7 @@ const PROGRAM: Program = Program { name: "brakes", about: "a car that stops", bu
 fn outcome(friction: f64, dt: f64, driver: &mut dyn Driver) -> Outcome {
     let mut test = PROGRAM.declare().unwrap().nominal();
     test.set("friction", friction);
-    Run::new(&PROGRAM, &test, dt, driver.period()).unwrap().drive(driver)
+    Run::new(&PROGRAM, &test, Setup { dt: Some(dt), ..Setup::asking_every(driver.period()) }).unwrap().drive(driver)
 }
 
 fn stopping_distance(friction: f64, dt: f64) -> f64 {
@@ -63,7 +63,7 @@ fn a_control_out_of_range_ends_the_run_with_an_error_that_says_so() {
         }
         fn reset(&mut self, _: &Briefing) {}
         fn step(&mut self, observation: &Observation) -> Control {
-            Control { throttle: if observation.time < 1.0 { 0.0 } else { self.0 } }
+            Control { throttle: if observation.time < 1.0 { 0.0 } else { self.0 }, steering: 0.0 }
         }
     }
     for throttle in [1.5, f64::NAN] {
@@ -78,8 +78,10 @@ fn a_control_out_of_range_ends_the_run_with_an_error_that_says_so() {
 fn a_test_with_other_parameters_than_the_program_asks_for_is_named() {
     let mut test = PROGRAM.declare().unwrap().nominal();
     test.set("fog", 1.0);
-    let Err(error) = Run::new(&PROGRAM, &test, 0.01, 0.05) else { panic!("it was accepted") };
+    let Err(error) = Run::new(&PROGRAM, &test, Setup::asking_every(0.05)) else { panic!("it was accepted") };
     assert!(error.to_string().contains("fog"), "{error}");
-    let Err(error) = Run::new(&PROGRAM, &Default::default(), 0.01, 0.05) else { panic!("it was accepted") };
+    let Err(error) = Run::new(&PROGRAM, &Default::default(), Setup::asking_every(0.05)) else {
+        panic!("it was accepted")
+    };
     assert!(error.to_string().contains("friction"), "{error}");
 }

@@ -4,6 +4,7 @@ use nalgebra::Vector2;
 use paracosm_coverage::Values;
 use paracosm_engine::object::{Body, BodyState, Class, Input, Output, Outputs, Physical, Tick};
 use paracosm_engine::road::{CrossIntersection, Path, RoadSegment};
+use paracosm_engine::vehicle::Model;
 use paracosm_engine::{
     AutonomousVehicle, Car, Environment, Fixture, Mover, Outcome, Pedestrian, Place, Pose, Program, Road, Scenario,
     Side, Stream, Temporal, always, driver, eventually, never, simulate,
@@ -13,7 +14,7 @@ use paracosm_oracles::Verdict;
 fn run(build: fn(&mut Scenario)) -> Outcome {
     let program = Program { name: "objects", about: "objects", build };
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
-    simulate(&program, &Values::default(), driver.as_mut())
+    simulate(&program, &Values::default(), Model::SingleTrack, driver.as_mut())
 }
 
 fn refusal(build: fn(&mut Scenario)) -> String {

@@ -1,6 +1,7 @@
 //! Streams as scenarios use them: feedback, cycles, signals, and the graph as a picture.
 
 use paracosm_coverage::{Domain, Parameter, Shape, Space, Value, Values};
+use paracosm_engine::vehicle::Model;
 use paracosm_engine::{AutonomousVehicle, Car, Pedestrian, Program, RoadSegment, Scenario, Side, Stream, Test};
 use paracosm_engine::{driver, eventually, never, simulate};
 use std::cell::RefCell;
@@ -25,7 +26,7 @@ thread_local! {
 fn run<'a>(build: fn(&mut Scenario), test: impl Into<Test<'a>>) -> Result<Vec<f64>, String> {
     let program = Program { name: "streams", about: "streams", build };
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
-    let outcome = simulate(&program, test, driver.as_mut());
+    let outcome = simulate(&program, test, Model::SingleTrack, driver.as_mut());
     outcome.error.map_or_else(|| Ok(SEEN.take()), Err)
 }
 
@@ -217,7 +218,7 @@ fn a_comparison_of_two_streams_is_worth_their_difference() {
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
     let mut test = Values::default();
     test.set("limit", [12.0, 11.0]);
-    let outcome = simulate(&program, &test, driver.as_mut());
+    let outcome = simulate(&program, &test, Model::SingleTrack, driver.as_mut());
     assert!((outcome.robustness[0].1.unwrap() - 1.0).abs() < 1e-9, "{:?}", outcome.robustness);
 }
 

@@ -60,7 +60,7 @@ fn table() -> Result<String, Failure> {
         writeln!(text, "  {:<22}{}", kind.name, kind.about)?;
         for setting in kind.settings {
             let value = format!("{} {}", digits(setting.default), setting.unit);
-            writeln!(text, "    {:<20}{value:<12}{}", setting.name, setting.about)?;
+            writeln!(text, "    {:<21}{value:<14}{}", setting.name, setting.about)?;
         }
     }
     text.push_str("\nParameters: --open NAME[=LO..HI], --set NAME=VALUE. Settings: --set driver.NAME=VALUE.\n");

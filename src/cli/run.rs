@@ -153,11 +153,13 @@ impl Options {
     fn study(&self) -> Result<Study, Error> {
         let mut driver_settings = Vec::new();
         let mut fixed = Vec::new();
+        let mut vehicle = None;
         for text in &self.set {
-            let (name, value) = text
-                .split_once('=')
-                .ok_or_else(|| Error::Usage(format!("--set {text}: expected NAME=VALUE, or driver.NAME=VALUE")))?;
+            let (name, value) = text.split_once('=').ok_or_else(|| {
+                Error::Usage(format!("--set {text}: expected NAME=VALUE, driver.NAME=VALUE or vehicle=MODEL"))
+            })?;
             match name.strip_prefix("driver.") {
+                None if name == "vehicle" => vehicle = Some(value),
                 None if value.contains(',') => fixed.push((name, value.split(',').map(Value::parse).collect())),
                 None => fixed.push((name, Value::parse(value))),
                 Some(setting) => {
@@ -177,6 +179,9 @@ impl Options {
             .budget(self.budget)?
             .seed(sampling.seed)
             .skip(sampling.skip);
+        if let Some(model) = vehicle {
+            study = study.vehicle(model)?;
+        }
         if let Some(family) = &sampling.discrete {
             study = study.discrete(family)?;
         }

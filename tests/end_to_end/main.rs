@@ -12,5 +12,6 @@ mod generate;
 mod guilty;
 mod pedestrian_study;
 mod plan;
+mod reference_drivers;
 mod signals;
 mod strength;

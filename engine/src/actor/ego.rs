@@ -1,17 +1,21 @@
 //! The car under test: as programs place it and read it, and as it moves.
 
+use super::quantity::{Asked, Quantity};
 use crate::object::{Body, BodyState, Class, Output, Outputs};
-use crate::observation::{Briefing, Control};
+use crate::observation::{Ahead, Briefing, Control, Way};
+use crate::road::{Network, Path, wrapped};
 use crate::scenario::{Line, Place, Pose, Scenario};
 use crate::stream::Stream;
-use crate::vehicle::{Motion, Vehicle};
+use crate::vehicle::{Dynamics, Model, Pedals, Vehicle};
 use nalgebra::Vector2;
+use std::rc::Rc;
 
 /// The car that the system under test drives, not placed yet: a [`Vehicle::BMW_320I`].
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct AutonomousVehicle {
     vehicle: Vehicle,
-    start: Pose,
+    way: Path,
+    start: f64,
     speed: f64,
 }
 
@@ -28,11 +32,14 @@ struct Shown {
     position: Output<Vector2<f64>>,
     x: Output<f64>,
     y: Output<f64>,
+    heading: Output<f64>,
     speed: Output<f64>,
     acceleration: Output<f64>,
     throttle: Output<f64>,
+    steering: Output<f64>,
     travelled: Output<f64>,
     clearance: Output<f64>,
+    asked: Rc<Asked>,
 }
 
 /// The placed car: its outputs.
@@ -43,24 +50,48 @@ pub struct Car {
 }
 
 /// The car in motion.
-#[derive(Debug)]
 pub(crate) struct Ego {
     car: AutonomousVehicle,
     shown: Shown,
-    pub motion: Motion,
+    pub dynamics: Box<dyn Dynamics>,
     pub control: Control,
+    /// Metres along its way.
+    at: f64,
+    /// How its acceleration ahead changed over the last tick, in m/s³.
+    pub(super) jerk: f64,
 }
 
 impl AutonomousVehicle {
-    /// A car that stands at `start`, which is where its middle is.
+    /// A car that stands at `start`, which is where its middle is, and is to go straight on.
     pub fn at(start: Pose) -> Self {
-        Self { vehicle: Vehicle::BMW_320I, start, speed: 0.0 }
+        Self::along(Path::straight(start.position, start.position + start.forward()))
+    }
+
+    /// A car that stands at the beginning of a path, which is the way that it is to go.
+    pub fn along(way: Path) -> Self {
+        Self { vehicle: Vehicle::BMW_320I, way, start: 0.0, speed: 0.0 }
+    }
+
+    /// How many metres along its way its middle is at first.
+    pub fn starting(mut self, at: f64) -> Self {
+        self.start = at;
+        self
     }
 
     /// The speed in m/s at which it starts, and which its driver is told to keep.
     pub fn speed(mut self, speed: f64) -> Self {
         self.speed = speed;
         self
+    }
+
+    /// What it is made of, instead of a [`Vehicle::BMW_320I`].
+    pub fn vehicle(mut self, vehicle: Vehicle) -> Self {
+        self.vehicle = vehicle;
+        self
+    }
+
+    fn start(&self) -> Pose {
+        self.way.at(self.start)
     }
 }
 
@@ -69,6 +100,7 @@ impl Place for AutonomousVehicle {
 
     fn place(self, scenario: &mut Scenario) -> Car {
         let (speed, most) = (self.speed, self.vehicle.max_speed);
+        let asked = Rc::new(Asked::new(scenario.wiring.clone()));
         let mut draft = scenario.object("car");
         if !(0.0..=most).contains(&speed) {
             draft.problem(&format!("has the speed {speed} m/s, expected 0 to {most}"));
@@ -77,14 +109,18 @@ impl Place for AutonomousVehicle {
             position: draft.output("position"),
             x: draft.signal("x"),
             y: draft.signal("y"),
+            heading: draft.signal("heading"),
             speed: draft.signal("speed"),
             acceleration: draft.signal("acceleration"),
             throttle: draft.signal("throttle"),
+            steering: draft.signal("steering"),
             travelled: draft.signal("travelled"),
             clearance: draft.signal("clearance"),
+            asked,
         };
+        let vehicle = self.vehicle;
         scenario.cars.push(EgoSetup { car: self, shown: shown.clone() });
-        Car { vehicle: self.vehicle, shown }
+        Car { vehicle, shown }
     }
 }
 
@@ -94,9 +130,19 @@ impl Car {
         self.shown.position.stream()
     }
 
+    /// Where it points, in radians in (-π, π], counter-clockwise from x.
+    pub fn heading(&self) -> Stream<f64> {
+        self.shown.heading.stream()
+    }
+
     /// Its speed in m/s.
     pub fn speed(&self) -> Stream<f64> {
         self.shown.speed.stream()
+    }
+
+    /// Its acceleration ahead in m/s², over the last tick.
+    pub fn acceleration(&self) -> Stream<f64> {
+        self.shown.acceleration.stream()
     }
 
     /// The length of the way it has come, in metres.
@@ -119,12 +165,73 @@ impl Car {
     pub fn gap_along(&self, line: &Line) -> Stream<f64> {
         self.position().distance_to(line) - 0.5 * self.vehicle.length
     }
+
+    /// Its acceleration to the left in m/s².
+    pub fn lateral_acceleration(&self) -> Stream<f64> {
+        self.asked(Quantity::LateralAcceleration)
+    }
+
+    /// How fast it turns to the left, in rad/s.
+    pub fn yaw_rate(&self) -> Stream<f64> {
+        self.asked(Quantity::YawRate)
+    }
+
+    /// How its acceleration ahead changes, in m/s³.
+    pub fn jerk(&self) -> Stream<f64> {
+        self.asked(Quantity::Jerk)
+    }
+
+    /// The greatest slip ratio of its wheels, either way: 0 where all roll, 1 where one is locked or spins on the spot.
+    pub fn wheel_slip(&self) -> Stream<f64> {
+        self.asked(Quantity::WheelSlip)
+    }
+
+    /// The greatest slip angle of its wheels, to either side, in radians.
+    pub fn slip_angle(&self) -> Stream<f64> {
+        self.asked(Quantity::SlipAngle)
+    }
+
+    /// How many of its wheels touch the road.
+    pub fn wheels_on_road(&self) -> Stream<f64> {
+        self.asked(Quantity::WheelsOnRoad)
+    }
+
+    /// Seconds until it meets another body if both keep their velocities, the least over all of them; infinite if none.
+    pub fn time_to_collision(&self) -> Stream<f64> {
+        self.asked(Quantity::TimeToCollision)
+    }
+
+    /// Seconds that it takes at its speed to where the nearest body straight ahead is now; infinite without any.
+    pub fn headway(&self) -> Stream<f64> {
+        self.asked(Quantity::Headway)
+    }
+
+    /// Metres of its lane that are left beside it, on the side where fewer are; negative where it is over the edge.
+    pub fn lane_margin(&self) -> Stream<f64> {
+        self.asked(Quantity::LaneMargin)
+    }
+
+    /// How far it is to the left of the way that it is to go, in metres.
+    pub fn way_offset(&self) -> Stream<f64> {
+        self.asked(Quantity::WayOffset)
+    }
+
+    /// Metres to the end of the way that it is to go.
+    pub fn remaining(&self) -> Stream<f64> {
+        self.asked(Quantity::Remaining)
+    }
+
+    fn asked(&self, quantity: Quantity) -> Stream<f64> {
+        self.shown.asked.stream(quantity)
+    }
 }
 
 impl Ego {
-    pub fn new(setup: &EgoSetup) -> Self {
-        let motion = Motion { speed: setup.car.speed, ..Motion::default() };
-        Self { car: setup.car, shown: setup.shown.clone(), motion, control: Control::default() }
+    /// The car as a model moves it.
+    pub fn new(setup: &EgoSetup, model: Model) -> Self {
+        let EgoSetup { car, shown } = setup.clone();
+        let dynamics = model.build(&car.vehicle, car.start(), car.speed);
+        Self { at: car.start, car, shown, dynamics, control: Control::default(), jerk: 0.0 }
     }
 
     /// What its driver has to know beforehand.
@@ -132,45 +239,80 @@ impl Ego {
         Briefing { cruise_speed: self.car.speed, vehicle: self.car.vehicle }
     }
 
-    /// Its body where it starts.
+    /// Its body where it is.
     pub fn body(&self) -> BodyState {
         let Vehicle { length, width, height, .. } = self.car.vehicle;
-        let velocity = self.car.start.forward() * self.motion.speed;
         let body = Body::block(Class::Car, length, width, height);
-        BodyState { velocity, ..BodyState::at_rest(body, self.car.start) }
+        BodyState { velocity: self.velocity(), ..BodyState::at_rest(body, self.pose()) }
     }
 
     pub fn pose(&self) -> Pose {
-        let start = self.car.start;
-        Pose { position: start.position + start.forward() * self.motion.travelled, ..start }
+        self.dynamics.state().pose()
     }
 
     /// Its velocity over the ground in m/s.
     pub fn velocity(&self) -> Vector2<f64> {
-        self.car.start.forward() * self.motion.speed
+        self.pose().turn_to_plane(self.dynamics.state().velocity)
     }
 
-    /// Shows its outputs; `clearance` as [`Car::clearance`] says.
-    pub fn show(&self, clearance: f64, outputs: &mut Outputs<'_>) {
-        let position = self.pose().position;
-        outputs.set(&self.shown.position, position);
-        outputs.set(&self.shown.x, position.x);
-        outputs.set(&self.shown.y, position.y);
-        outputs.set(&self.shown.speed, self.motion.speed);
-        outputs.set(&self.shown.acceleration, self.motion.acceleration);
+    /// How far it is to the left of its way, in metres.
+    pub fn way_offset(&self) -> f64 {
+        self.car.way.at(self.at).to_local(self.pose().position).y
+    }
+
+    /// Metres to the end of its way.
+    pub fn remaining(&self) -> f64 {
+        self.car.way.length() - self.at
+    }
+
+    /// Where it is as seen from where it began.
+    pub fn odometry(&self) -> Pose {
+        self.car.start().relative(&self.pose())
+    }
+
+    /// Its way as it sees it.
+    pub fn way(&self) -> Way {
+        let (pose, here) = (self.pose(), self.car.way.at(self.at));
+        let ahead = std::array::from_fn(|i| {
+            let s = self.at + Way::SPACING * (i + 1) as f64;
+            Ahead { position: pose.to_local(self.car.way.at(s).position), curvature: self.car.way.curvature(s) }
+        });
+        let offset = here.to_local(pose.position).y;
+        Way { offset, heading: wrapped(pose.heading - here.heading), ahead }
+    }
+
+    /// Shows its outputs; `clearance` as [`Car::clearance`] says, and the car as the first of the bodies.
+    pub fn show(&self, clearance: f64, bodies: &[BodyState], network: &Network, outputs: &mut Outputs<'_>) {
+        let state = self.dynamics.state();
+        outputs.set(&self.shown.position, state.position);
+        outputs.set(&self.shown.x, state.position.x);
+        outputs.set(&self.shown.y, state.position.y);
+        outputs.set(&self.shown.heading, wrapped(state.heading));
+        outputs.set(&self.shown.speed, state.speed());
+        outputs.set(&self.shown.acceleration, state.acceleration.x);
         outputs.set(&self.shown.throttle, self.control.throttle);
-        outputs.set(&self.shown.travelled, self.motion.travelled);
+        outputs.set(&self.shown.steering, self.control.steering);
+        outputs.set(&self.shown.travelled, state.travelled);
         outputs.set(&self.shown.clearance, clearance);
+        self.shown.asked.show(self, bodies, network, outputs);
     }
 
     /// Moves on by a tick over ground of this friction.
     pub fn step(&mut self, friction: f64, dt: f64) -> Result<(), String> {
-        let throttle = self.control.throttle;
-        if !(-1.0..=1.0).contains(&throttle) {
-            return Err(format!("the driver's throttle is {throttle}, expected -1 to 1"));
+        let Control { throttle, steering } = self.control;
+        for (what, value) in [("throttle", throttle), ("steering", steering)] {
+            if !(-1.0..=1.0).contains(&value) {
+                return Err(format!("the driver's {what} is {value}, expected -1 to 1"));
+            }
         }
-        let demand = self.car.vehicle.acceleration(throttle, self.motion.speed, friction);
-        self.motion = self.motion.after(demand, dt);
+        let before = self.dynamics.state().acceleration.x;
+        self.dynamics.step(Pedals { throttle, steering }, friction, dt);
+        let state = self.dynamics.state();
+        if !state.is_finite() {
+            return Err(format!("the state of the car is no number: {state:?}"));
+        }
+        self.jerk = (state.acceleration.x - before) / dt;
+        self.at = self.car.way.nearest(state.position, self.at);
         Ok(())
     }
 }

@@ -5,6 +5,7 @@ mod ego;
 mod fixture;
 mod mover;
 mod pedestrian;
+mod quantity;
 
 pub use ego::{AutonomousVehicle, Car};
 pub use fixture::Fixture;

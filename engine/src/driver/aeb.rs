@@ -22,7 +22,7 @@
 
 use super::cruise::{Cruise, PERIOD};
 use super::perception::{Perception, Sensor, Track};
-use super::{Driver, Kind, Setting, Settings};
+use super::{Driver, Kind, Setting, Settings, setting, whole};
 use crate::observation::{Briefing, Control, Observation};
 
 pub(super) const KIND: Kind = Kind {
@@ -46,20 +46,6 @@ const SETTINGS: [Setting; 12] = [
     setting("margin", 0.3, "m", (0.0, 5.0), "room it wants beside the car"),
     whole("seed", 1.0, (0.0, 4294967295.0), "of the noise, which is the same in every test"),
 ];
-
-const fn setting(
-    name: &'static str,
-    default: f64,
-    unit: &'static str,
-    range: (f64, f64),
-    about: &'static str,
-) -> Setting {
-    Setting { name, default, unit, range, whole: false, about }
-}
-
-const fn whole(name: &'static str, default: f64, range: (f64, f64), about: &'static str) -> Setting {
-    Setting { name, default, unit: "", range, whole: true, about }
-}
 
 /// Speed in m/s at which it imagines the slow or standing car to go on when it judges whether the way is clear.
 const CREEP: f64 = 3.0;
@@ -112,8 +98,8 @@ impl Aeb {
 
     /// Seconds until the paths of the car at this speed and of the body meet, if both go on as they do.
     fn time_to_collision(&self, track: &Track, speed: f64) -> Option<f64> {
-        let side = self.half_width + track.radius + self.margin;
-        let end = self.half_length + track.radius;
+        let side = self.half_width + track.half_extent.y + self.margin;
+        let end = self.half_length + track.half_extent.x;
         let beside = while_between(track.position.y, track.velocity.y, -side, side)?;
         let along = while_between(track.position.x, track.velocity.x - speed, -end, end)?;
         let meeting = beside.0.max(along.0);
@@ -161,8 +147,8 @@ impl Driver for Aeb {
         let wanted = if self.braking { self.deceleration } else { 0.0 };
         self.brake = wanted.clamp(self.brake - change, self.brake + change);
         if self.brake > 0.0 {
-            return self.cruise.control(-self.brake);
+            return self.cruise.control(-self.brake, observation);
         }
-        self.cruise.control(self.cruise.acceleration(observation.speed))
+        self.cruise.control(self.cruise.acceleration(observation), observation)
     }
 }

@@ -1,12 +1,12 @@
-//! The driver `cruise`: keeps its speed and never brakes for anything. What it hits, any driver that did nothing
-//! would hit; and holding the speed is a part of every other driver.
+//! The driver `cruise`: keeps its speed and its way, and never brakes for anything in it. What it hits, any driver that
+//! did nothing would hit; and holding speed and way is a part of every other driver.
 
 use super::{Driver, Kind, Settings};
-use crate::observation::{Briefing, Control, Observation};
+use crate::observation::{Briefing, Control, Observation, Way};
 
 pub(super) const KIND: Kind = Kind {
     name: "cruise",
-    about: "keeps its speed and never brakes",
+    about: "keeps its speed and its way, and never brakes for others",
     settings: &[],
     make: |_: &Settings| Box::new(Cruise::default()),
 };
@@ -14,27 +14,59 @@ pub(super) const KIND: Kind = Kind {
 /// Strongest acceleration and deceleration in m/s² of a comfortable speed control (ISO 15622 lets an adaptive
 /// cruise control accelerate by up to 2.0 m/s² at high speed).
 const COMFORT: f64 = 2.0;
+/// Strongest acceleration in m/s² to the side at which it goes through bends.
+const SIDEWAYS: f64 = 2.0;
 /// Seconds between two questions: 20 Hz, a usual rate of driver assistance.
 pub(super) const PERIOD: f64 = 0.05;
 /// Acceleration per m/s of missing speed, in 1/s.
 const GAIN: f64 = 1.0;
+/// How far ahead it looks to steer: seconds at its speed, and the least and the greatest number of metres.
+const LOOK_AHEAD: (f64, f64, f64) = (0.6, 5.0, 20.0);
+/// Share of the wheels' full turn below which it leaves them straight.
+const STEADY: f64 = 1e-9;
 
-/// A speed controller.
+/// A controller of speed and way.
 #[derive(Debug, Default)]
 pub(super) struct Cruise {
     set_speed: f64,
     max_acceleration: f64,
+    wheelbase: f64,
+    max_steering_angle: f64,
+    /// From the middle of the car back to its rear axle, in metres.
+    rear_axle: f64,
 }
 
 impl Cruise {
-    /// The acceleration in m/s² that brings the car to its set speed.
-    pub fn acceleration(&self, speed: f64) -> f64 {
-        (GAIN * (self.set_speed - speed)).clamp(-COMFORT, COMFORT)
+    /// The acceleration in m/s² that brings the car to its set speed, and to that of the bends ahead when it is there.
+    pub fn acceleration(&self, observation: &Observation) -> f64 {
+        let speed = observation.speed;
+        let keep = (GAIN * (self.set_speed - speed)).clamp(-COMFORT, COMFORT);
+        let bends = observation.way.ahead.iter().enumerate().filter(|(_, point)| point.curvature != 0.0);
+        let slower = bends.map(|(i, point)| {
+            let allowed = (SIDEWAYS / point.curvature.abs()).sqrt();
+            // At the bend it holds that speed, before it brakes towards it.
+            let hold = GAIN * (allowed - speed);
+            let way = Way::SPACING * i as f64;
+            if way > 0.0 { ((allowed * allowed - speed * speed) / (2.0 * way)).max(hold) } else { hold }
+        });
+        slower.fold(keep, f64::min).max(-2.0 * COMFORT)
     }
 
-    /// The control that asks the car for an acceleration in m/s².
-    pub fn control(&self, acceleration: f64) -> Control {
-        Control { throttle: (acceleration / self.max_acceleration).clamp(-1.0, 1.0) }
+    /// The control that asks the car for an acceleration in m/s² and steers it along its way.
+    pub fn control(&self, acceleration: f64, observation: &Observation) -> Control {
+        let throttle = (acceleration / self.max_acceleration).clamp(-1.0, 1.0);
+        Control { throttle, steering: self.steering(observation) }
+    }
+
+    /// Pure pursuit (Coulter 1992): the wheels are turned to the arc on which the rear axle comes to a point of the way
+    /// ahead.
+    fn steering(&self, observation: &Observation) -> f64 {
+        let (seconds, least, most) = LOOK_AHEAD;
+        let target = observation.way.at((seconds * observation.speed).clamp(least, most)).position;
+        let (x, y) = (target.x + self.rear_axle, target.y);
+        let angle = libm::atan2(2.0 * self.wheelbase * y, x * x + y * y);
+        let steering = (angle / self.max_steering_angle).clamp(-1.0, 1.0);
+        if steering.abs() < STEADY { 0.0 } else { steering }
     }
 }
 
@@ -44,10 +76,17 @@ impl Driver for Cruise {
     }
 
     fn reset(&mut self, briefing: &Briefing) {
-        *self = Self { set_speed: briefing.cruise_speed, max_acceleration: briefing.vehicle.max_acceleration };
+        let vehicle = &briefing.vehicle;
+        *self = Self {
+            set_speed: briefing.cruise_speed,
+            max_acceleration: vehicle.max_acceleration,
+            wheelbase: vehicle.wheelbase,
+            max_steering_angle: vehicle.max_steering_angle,
+            rear_axle: 0.5 * vehicle.wheelbase,
+        };
     }
 
     fn step(&mut self, observation: &Observation) -> Control {
-        self.control(self.acceleration(observation.speed))
+        self.control(self.acceleration(observation), observation)
     }
 }

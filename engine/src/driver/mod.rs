@@ -6,6 +6,7 @@
 mod aeb;
 mod cruise;
 mod perception;
+pub mod reference;
 
 use crate::observation::{Briefing, Control, Observation};
 use paracosm_coverage::{did_you_mean, nearest};
@@ -38,6 +39,22 @@ pub struct Setting {
     pub whole: bool,
     /// What it means.
     pub about: &'static str,
+}
+
+/// A setting that can have any value in its range.
+const fn setting(
+    name: &'static str,
+    default: f64,
+    unit: &'static str,
+    range: (f64, f64),
+    about: &'static str,
+) -> Setting {
+    Setting { name, default, unit, range, whole: false, about }
+}
+
+/// A setting that counts something.
+const fn whole(name: &'static str, default: f64, range: (f64, f64), about: &'static str) -> Setting {
+    Setting { name, default, unit: "", range, whole: true, about }
 }
 
 /// The values of a driver's settings.
@@ -104,7 +121,15 @@ pub enum DriverError {
 }
 
 /// Every kind of driver there is.
-pub const ALL: [&Kind; 2] = [&aeb::KIND, &cruise::KIND];
+pub const ALL: [&Kind; 7] = [
+    &aeb::KIND,
+    &cruise::KIND,
+    &reference::CC,
+    &reference::RSS,
+    &reference::FSM,
+    &reference::REG157,
+    &reference::IDEAL,
+];
 
 /// The kind of driver of that name.
 ///

@@ -2,8 +2,8 @@
 //!
 //! Each frame shows the middle of every body in range and in the field of view, with noise, and reaches the
 //! driver only after the latency of the sensor's processing; that holds for every frame, so that the driver
-//! lives in the past all the time and not only until the first detection. Positions are kept in the frame of
-//! the road, which the car knows from its own odometry; a straight line through the last few of them by least
+//! lives in the past all the time and not only until the first detection. Positions are kept as seen from where
+//! the car began, which it knows from its own odometry; a straight line through the last few of them by least
 //! squares gives position and velocity now.
 
 use crate::observation::Observation;
@@ -43,11 +43,11 @@ pub(super) struct Track {
     pub position: Vector2<f64>,
     /// Metres per second over the ground.
     pub velocity: Vector2<f64>,
-    /// Metres.
-    pub radius: f64,
+    /// Half of its extent along the car and across it, in metres.
+    pub half_extent: Vector2<f64>,
 }
 
-/// A position that was seen: along and across the road.
+/// A position that was seen, from where the car began.
 #[derive(Debug, Clone, Copy)]
 struct Detection {
     time: f64,
@@ -84,7 +84,8 @@ impl Perception {
             // Drawn for every frame, so that what is out of sight does not shift the noise of what is seen later.
             let noise = gaussian(&mut self.random) * self.sensor.noise;
             if from_sensor.norm() <= self.sensor.range && bearing <= half_angle {
-                let position = body.position + Vector2::new(observation.travelled, 0.0) + noise;
+                let odometry = observation.odometry;
+                let position = odometry.position + odometry.turn_to_plane(body.position + noise);
                 seen.push_back(Detection { time: observation.time, position });
             }
             while seen.front().is_some_and(|detection| detection.time < oldest) {
@@ -107,8 +108,9 @@ impl Perception {
             let count = seen.iter().take_while(|detection| detection.time <= known).count();
             let fitted = seen.iter().take(count).skip(count.saturating_sub(self.sensor.samples));
             let (position, velocity) = fit(fitted, observation.time)?;
-            let position = position - Vector2::new(observation.travelled, 0.0);
-            Some(Track { position, velocity, radius: body.radius })
+            let odometry = observation.odometry;
+            let (position, velocity) = (odometry.to_local(position), odometry.turn_to_local(velocity));
+            Some(Track { position, velocity, half_extent: body.half_extent() })
         })
     }
 }

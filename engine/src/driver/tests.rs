@@ -1,9 +1,28 @@
 use super::*;
+use crate::object::{Class, Outline};
 use crate::observation::Other;
+use crate::scenario::Pose;
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
 
 const SPEED: f64 = 15.0;
+
+/// Where a car is that has come this far straight on.
+fn odometry(travelled: f64) -> Pose {
+    Pose { position: Vector2::new(travelled, 0.0), heading: 0.0 }
+}
+
+/// Somebody at a place, of whom `aeb` is not told how they move.
+fn person(x: f64, y: f64) -> Other {
+    let velocity = Vector2::zeros();
+    Other {
+        class: Class::Prop,
+        position: Vector2::new(x, y),
+        velocity,
+        heading: 0.0,
+        outline: Outline::Disc { radius: 0.25 },
+    }
+}
 
 /// Drives at constant speed past whatever `others` shows at each time; the throttle at every question.
 fn drive(changes: &[(&str, f64)], others: impl Fn(f64) -> Option<(f64, f64)>, seconds: f64) -> Vec<(f64, f64)> {
@@ -14,9 +33,16 @@ fn drive(changes: &[(&str, f64)], others: impl Fn(f64) -> Option<(f64, f64)>, se
     let at = |i: usize| i as f64 * 0.05;
     (0..steps)
         .map(|i| {
-            let others = others(at(i)).map(|(x, y)| Other { position: Vector2::new(x, y), radius: 0.25 });
+            let others = others(at(i)).map(|(x, y)| person(x, y));
             let others = others.into_iter().collect();
-            let observation = Observation { time: at(i), speed: SPEED, travelled: SPEED * at(i), others };
+            let observation = Observation {
+                time: at(i),
+                speed: SPEED,
+                travelled: SPEED * at(i),
+                odometry: odometry(SPEED * at(i)),
+                others,
+                ..Observation::default()
+            };
             (at(i), driver.step(&observation).throttle)
         })
         .collect()
@@ -85,8 +111,17 @@ fn a_driver_that_was_reset_does_the_same_again() {
         (0..80)
             .map(|i| {
                 let time = f64::from(i) * 0.05;
-                let others = vec![Other { position: Vector2::new(50.0 - SPEED * time, 1.2), radius: 0.25 }];
-                driver.step(&Observation { time, speed: SPEED, travelled: SPEED * time, others }).throttle
+                let others = vec![person(50.0 - SPEED * time, 1.2)];
+                driver
+                    .step(&Observation {
+                        time,
+                        speed: SPEED,
+                        travelled: SPEED * time,
+                        odometry: odometry(SPEED * time),
+                        others,
+                        ..Observation::default()
+                    })
+                    .throttle
             })
             .collect::<Vec<_>>()
     });

@@ -66,6 +66,19 @@ impl Outline {
         }
     }
 
+    /// The halves, in metres, of the rectangle along the axes that encloses a body with this outline and this heading.
+    pub fn enclosing(&self, heading: f64) -> Vector2<f64> {
+        let half = self.half_extent();
+        match self {
+            Outline::Disc { .. } => half,
+            Outline::Rectangle { .. } => {
+                let (sin, cos) = libm::sincos(heading);
+                let (sin, cos) = (sin.abs(), cos.abs());
+                Vector2::new(cos * half.x + sin * half.y, sin * half.x + cos * half.y)
+            }
+        }
+    }
+
     /// The radius in metres of the least disc around the body's position that holds it.
     pub fn reach(&self) -> f64 {
         match self {

@@ -45,16 +45,51 @@ impl Path {
         self.length
     }
 
-    /// The pose `s` metres along it; before its start and beyond its end it goes on as it is.
+    /// The pose `s` metres along it; before its start and beyond its end it goes on straight.
     pub fn at(&self, s: f64) -> Pose {
         self.beside(s, 0.0)
     }
 
     /// The pose `offset` metres to the left of the one `s` metres along it.
     pub fn beside(&self, s: f64, offset: f64) -> Pose {
-        let piece = self.pieces.partition_point(|(from, _)| *from <= s).max(1) - 1;
-        let (from, curve) = &self.pieces[piece];
-        Pose { position: curve.beside(s - from, offset), heading: curve.heading(s - from) }
+        // Beyond both ends it goes on straight.
+        let inside = s.clamp(0.0, self.length);
+        let (from, curve) = &self.pieces[self.piece(inside)];
+        let at = inside - from;
+        let ahead = curve.at(at).forward() * (s - inside);
+        Pose { position: curve.beside(at, offset) + ahead, heading: curve.heading(at) }
+    }
+
+    /// How the path bends `s` metres along it, in 1/m, positive to the left.
+    pub fn curvature(&self, s: f64) -> f64 {
+        self.pieces[self.piece(s)].1.curvature()
+    }
+
+    /// How many metres along the path the point lies that is nearest to `position`, among those near the point `s` metres
+    /// along it: on the curve that `s` is on and those beside it. A path may cross itself; who goes along it does not
+    /// jump from one branch to the other. Before its start and beyond its end the path goes on straight.
+    pub fn nearest(&self, position: Vector2<f64>, s: f64) -> f64 {
+        let here = self.piece(s);
+        let mut best = (f64::INFINITY, s);
+        for piece in here.saturating_sub(1)..(here + 2).min(self.pieces.len()) {
+            let (from, curve) = &self.pieces[piece];
+            let at = curve.nearest(position);
+            let distance = (curve.point(at) - position).norm_squared();
+            if distance < best.0 {
+                best = (distance, from + at);
+            }
+        }
+        let [start, end] = [0.0, self.length].map(|end| (self.at(end), end));
+        if best.1 >= self.length {
+            best.1 += end.0.to_local(position).x.max(0.0);
+        } else if best.1 <= 0.0 {
+            best.1 += start.0.to_local(position).x.min(0.0);
+        }
+        best.1
+    }
+
+    fn piece(&self, s: f64) -> usize {
+        self.pieces.partition_point(|(from, _)| *from <= s).max(1) - 1
     }
 
     /// The same path the other way.

@@ -14,14 +14,26 @@ use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Metric, Outcome};
 use crate::program::{Program, ProgramError, Test};
-use crate::road::Network;
+use crate::road::{Network, wrapped};
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
+use crate::vehicle::Model;
 use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
 use scene::Scene;
 use std::sync::Arc;
 
 /// The tick in seconds where nothing else is asked for.
 pub const DEFAULT_DT: f64 = 0.01;
+
+/// What of a run is not the program's to say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setup {
+    /// Seconds between two questions to the driver.
+    pub period: f64,
+    /// The tick in seconds, if it is not the program's own.
+    pub dt: Option<f64>,
+    /// Which model moves the car under test.
+    pub model: Model,
+}
 
 /// What a run wants next.
 #[derive(Debug)]
@@ -57,21 +69,20 @@ pub struct Run {
     observation: Observation,
     /// What two bodies that overlap at the start are called.
     overlapping: Option<String>,
-    network: Arc<Network>,
 }
 
 impl Run {
-    /// The run of a program on a test, for a driver that is asked every `period` seconds. Period and duration are
-    /// rounded to whole ticks of `dt` seconds.
+    /// The run of a program on a test. The driver's period and the duration are rounded to whole ticks.
     ///
     /// # Errors
     /// The program cannot build its world with these values.
     ///
     /// # Panics
-    /// `dt` or `period` is no positive number of seconds.
-    pub fn new<'a>(program: &Program, test: impl Into<Test<'a>>, dt: f64, period: f64) -> Result<Self, ProgramError> {
-        assert!(dt > 0.0 && dt.is_finite() && period > 0.0, "a tick and a period are positive numbers of seconds");
+    /// The tick or the period is no positive number of seconds.
+    pub fn new<'a>(program: &Program, test: impl Into<Test<'a>>, setup: Setup) -> Result<Self, ProgramError> {
         let mut scenario = program.built(Some(test.into()))?;
+        let (dt, period) = (setup.dt.unwrap_or(scenario.dt), setup.period);
+        assert!(dt > 0.0 && dt.is_finite() && period > 0.0, "a tick and a period are positive numbers of seconds");
         let graph = std::mem::take(&mut scenario.graph);
         let premise = scenario.premise.as_ref().map(|event| graph.slot(&event.node));
         let signals = std::mem::take(&mut scenario.signals);
@@ -89,8 +100,7 @@ impl Run {
             requirements.push(stated.requirement);
         }
         let ticks = ticks(scenario.duration, dt);
-        let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
-        let scene = Scene::new(scenario, &graph);
+        let scene = Scene::new(scenario, &graph, setup.model);
         let mut trace = Trace::new(dt, names);
         trace.reserve(ticks + 1);
         Ok(Self {
@@ -109,7 +119,6 @@ impl Run {
             observation: Observation::default(),
             overlapping: scene.overlapping(),
             scene,
-            network,
         })
     }
 
@@ -177,7 +186,7 @@ impl Run {
 
     /// The roads.
     pub fn network(&self) -> &Arc<Network> {
-        &self.network
+        &self.scene.network
     }
 
     /// Seconds since it began.
@@ -214,14 +223,19 @@ impl Run {
     fn observe(&mut self) {
         let (car, others) = self.scene.bodies.split_first().expect("the car is the first body");
         let others = others.iter().map(|other| Other {
+            class: other.body.class,
             position: car.pose.to_local(other.pose.position),
-            radius: other.body.outline.reach(),
+            velocity: car.pose.turn_to_local(other.velocity),
+            heading: wrapped(other.pose.heading - car.pose.heading),
+            outline: other.body.outline,
         });
         self.observation.others.clear();
         self.observation.others.extend(others);
         self.observation.time = self.time();
-        self.observation.speed = self.scene.ego.motion.speed;
-        self.observation.travelled = self.scene.ego.motion.travelled;
+        self.observation.speed = self.scene.ego.dynamics.state().speed();
+        self.observation.travelled = self.scene.ego.dynamics.state().travelled;
+        self.observation.odometry = self.scene.ego.odometry();
+        self.observation.way = self.scene.ego.way();
     }
 
     fn judged(&mut self) -> Outcome {
@@ -244,9 +258,9 @@ impl Run {
         } else {
             Verdict::Pass
         };
-        let impact_speed = if contact.is_some() { ego.motion.speed } else { 0.0 };
+        let impact_speed = if contact.is_some() { ego.dynamics.state().speed() } else { 0.0 };
         let metrics = [
-            ("travelled", Metric::Number(ego.motion.travelled)),
+            ("travelled", Metric::Number(ego.dynamics.state().travelled)),
             ("impact_speed", Metric::Number(impact_speed)),
             ("contact_face", Metric::Word(contact.map(|contact| contact.face.to_string()))),
             ("triggered", Metric::Flag(self.triggered)),
@@ -271,9 +285,16 @@ pub(crate) fn ticks(duration: f64, dt: f64) -> usize {
     (duration / dt).round() as usize
 }
 
-/// Runs a test to its end with a driver; a world that cannot be built is an outcome too.
-pub fn simulate<'a>(program: &Program, test: impl Into<Test<'a>>, driver: &mut dyn Driver) -> Outcome {
-    let mut run = match Run::new(program, test, DEFAULT_DT, driver.period()) {
+impl Setup {
+    /// For a driver that is asked every `period` seconds: the program's tick, the model `single-track`.
+    pub fn asking_every(period: f64) -> Self {
+        Self { period, dt: None, model: Model::default() }
+    }
+}
+
+/// Runs a test to its end with a driver, in a car that this model moves; a world that cannot be built is an outcome too.
+pub fn simulate<'a>(program: &Program, test: impl Into<Test<'a>>, model: Model, driver: &mut dyn Driver) -> Outcome {
+    let mut run = match Run::new(program, test, Setup { model, ..Setup::asking_every(driver.period()) }) {
         Ok(run) => run,
         Err(error @ ProgramError::World { .. }) => return Outcome::broken(Verdict::Invalid, error.to_string()),
         Err(error) => return Outcome::broken(Verdict::Error, error.to_string()),

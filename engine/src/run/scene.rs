@@ -2,11 +2,13 @@
 
 use crate::actor::Ego;
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick};
+use crate::road::Network;
 use crate::scenario::{Pose, Scenario};
 use crate::stream::{Graph, Sample, Slot};
-use crate::vehicle::GRAVITY;
+use crate::vehicle::{GRAVITY, Model};
 use crate::world::{Contact, World, overlapping};
 use nalgebra::Vector2;
+use std::sync::Arc;
 
 /// The least that a contact is worth, in metres of missing braking distance.
 const LEAST_MISSING: f64 = 0.001;
@@ -21,6 +23,7 @@ struct Object {
 /// The car under test, the objects around it, and where they all are.
 pub(super) struct Scene {
     pub ego: Ego,
+    pub network: Arc<Network>,
     objects: Vec<Object>,
     /// The car's first, then those of the objects.
     pub bodies: Vec<BodyState>,
@@ -42,9 +45,10 @@ pub(super) struct Scene {
 }
 
 impl Scene {
-    /// What a program has built and laid out.
-    pub fn new(scenario: Scenario, graph: &Graph) -> Self {
-        let ego = Ego::new(&scenario.cars[0]);
+    /// What a program has built and laid out, with a car that this model moves.
+    pub fn new(mut scenario: Scenario, graph: &Graph, model: Model) -> Self {
+        let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
+        let ego = Ego::new(&scenario.cars[0], model);
         let mut bodies = vec![ego.body()];
         let mut masses = Vec::new();
         let mut objects = Vec::new();
@@ -62,6 +66,7 @@ impl Scene {
             clearance: world.clearance(&bodies),
             world,
             ego,
+            network,
             inputs: scenario.wiring.slots(graph),
             outputs: vec![Sample::Absent; scenario.wiring.samples()],
             friction: graph.slot(&scenario.conditions.friction.node),
@@ -87,7 +92,7 @@ impl Scene {
     pub fn show(&mut self) {
         self.outputs.fill(Sample::Absent);
         let mut outputs = Outputs { samples: &mut self.outputs };
-        self.ego.show(self.clearance, &mut outputs);
+        self.ego.show(self.clearance, &self.bodies, &self.network, &mut outputs);
         for object in &self.objects {
             match &object.behaviour {
                 Behaviour::Geometric(behaviour) => behaviour.show(&mut outputs),

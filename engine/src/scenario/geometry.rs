@@ -4,7 +4,7 @@ use crate::road::wrapped;
 use nalgebra::Vector2;
 
 /// A position with a heading.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pose {
     /// Metres; x along the road, y to its left.
     pub position: Vector2<f64>,
@@ -30,6 +30,22 @@ impl Pose {
         let ahead = self.forward();
         let offset = point - self.position;
         Vector2::new(ahead.dot(&offset), ahead.perp(&offset))
+    }
+
+    /// A pose of the plane as seen from here.
+    pub fn relative(&self, pose: &Pose) -> Pose {
+        Pose { position: self.to_local(pose.position), heading: wrapped(pose.heading - self.heading) }
+    }
+
+    /// A direction of the plane as seen from here.
+    pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        let ahead = self.forward();
+        Vector2::new(ahead.dot(&direction), ahead.perp(&direction))
+    }
+
+    /// A direction as seen from here, in the plane.
+    pub(crate) fn turn_to_plane(&self, local: Vector2<f64>) -> Vector2<f64> {
+        self.forward() * local.x + self.left() * local.y
     }
 
     /// Whether it is one: neither infinite nor NaN.

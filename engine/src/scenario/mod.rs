@@ -21,6 +21,7 @@ use crate::actor::EgoSetup;
 use crate::object::{self, ObjectSetup, Wiring};
 use crate::program::{Declared, Test};
 use crate::road::Network;
+use crate::run::DEFAULT_DT;
 use crate::stream::{Datum, Effect, Equation, Forward, Graph, Kind, Node, Source, Stream, dot};
 use paracosm_coverage::{Domain, Parameter, Shape, Value};
 use param::Read;
@@ -54,6 +55,7 @@ pub struct Scenario {
     pub(crate) requirements: Rc<RefCell<Vec<requirement::Stated>>>,
     pub(crate) premise: Option<Stream<bool>>,
     pub(crate) duration: f64,
+    pub(crate) dt: f64,
     effects: Vec<Rc<Node>>,
     equations: Rc<RefCell<Vec<Equation>>>,
     /// All that reads streams, laid out, once the program has returned.
@@ -105,6 +107,7 @@ impl Scenario {
             requirements: Rc::default(),
             premise: None,
             duration: 10.0,
+            dt: DEFAULT_DT,
             effects: Vec::new(),
             equations: Rc::default(),
             graph: Graph::default(),
@@ -151,10 +154,10 @@ impl Scenario {
         Param::new(self.parameters.clone(), self.problems.clone(), given.unwrap_or_default(), read)
     }
 
-    /// The shape of a signal with a value of its own at every tick of a run of [`DEFAULT_DT`](crate::DEFAULT_DT)
-    /// seconds a tick. It takes as many coordinates; the [duration](Scenario::duration) has to be said before.
+    /// The shape of a signal with a value of its own at every tick. It takes as many coordinates; the
+    /// [duration](Scenario::duration) and the [tick](Scenario::tick) have to be said before.
     pub fn per_tick(&self) -> Shape {
-        Shape::PiecewiseConstant { pieces: crate::run::ticks(self.duration, crate::run::DEFAULT_DT) }
+        Shape::PiecewiseConstant { pieces: crate::run::ticks(self.duration, self.dt) }
     }
 
     /// Announces a stream that is read before it can be defined: feedback, which goes through a [`Stream::pre`].
@@ -220,6 +223,11 @@ impl Scenario {
     /// How long a run takes in simulated seconds, unless a contact ends it before; 10 where nothing is said.
     pub fn duration(&mut self, seconds: f64) {
         self.duration = seconds;
+    }
+
+    /// How long a tick is, in seconds; [`DEFAULT_DT`] where nothing is said.
+    pub fn tick(&mut self, seconds: f64) {
+        self.dt = seconds;
     }
 
     /// Everything in the world that reads a stream, with what it is called.

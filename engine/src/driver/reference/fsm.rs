@@ -1,0 +1,159 @@
+//! The driver `fsm`: fuzzy surrogate safety measures (Mattas et al. 2020; performance model 2 of UN R157 as amended).
+//!
+//! It looks at another that is ahead and in its path, or comes into it and would meet the car there: it comes nearer both ways,
+//! and the room beside it is used up no later than 0.1 s after the car could have passed it by,
+//! `clearance / v_lat < (gap + lengths) / (v - v_f) + 0.1`.
+//!
+//! Two measures between 0 (safe) and 1 (unsafe) then say how near danger is, each by interpolation between a safe and an unsafe
+//! distance. With the reaction time tau, comfortable and hardest braking `c` and `b` of the car and hardest braking `f` of
+//! the other:
+//!
+//! - *proactive* (PFS), of the gap less `d1`: what is left if the other brakes hardest.
+//!   `safe = v tau + v²/(2 c) - v_f²/(2 f) + d1`, `unsafe = v tau + v²/(2 b) - v_f²/(2 f)`.
+//! - *critical* (CFS), of the gap: what is left if the other goes on as it does. With `a' = max(a, -c)` and
+//!   `w = v + a' tau`: `((v + w)/2 - v_f) tau + (w - v_f)²/(2 c)`, and the same with `b` for the unsafe one; if `w <= v_f`,
+//!   both are `(v - v_f)²/(2 |a'|)`.
+//!
+//! It brakes with `c + CFS (b - c)` where CFS > 0, else with `PFS c`, after tau and with limited jerk.
+//!
+//! Our reading: tau is the time for which there has been a reason to brake without a break; after it the measures of the
+//! moment count. Nothing is asked of a car that is no faster than the other. The two margins of 2 m are the two places of `d1`.
+
+use super::super::{Kind, Setting, setting};
+use super::adapter::Reference;
+use super::held::Held;
+use crate::kinematic::{BrakingModel, Situation};
+
+/// The driver with fuzzy measures; lengths in metres, times in seconds, accelerations in m/s².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fsm {
+    /// tau.
+    pub reaction: f64,
+    /// c, with which it brakes comfortably.
+    pub comfortable: f64,
+    /// b, with which it brakes hardest.
+    pub deceleration: f64,
+    /// f, with which the other may brake.
+    pub leader_deceleration: f64,
+    /// d1, what is to be left between the two when they stand.
+    pub margin: f64,
+    /// How fast its deceleration changes, m/s³.
+    pub jerk: f64,
+    reason: Held,
+    brake: f64,
+}
+
+const STANDARD: Fsm = Fsm {
+    reaction: 0.75,
+    comfortable: 4.0,
+    deceleration: 6.0,
+    leader_deceleration: 7.0,
+    margin: 2.0,
+    jerk: 12.65,
+    reason: Held::NEVER,
+    brake: 0.0,
+};
+
+/// Seconds by which the other may be late and still be looked at.
+const LATE: f64 = 0.1;
+
+pub(in super::super) const KIND: Kind = Kind {
+    name: "fsm",
+    about: "brakes by the fuzzy surrogate safety measures of UN R157, and is told the truth",
+    settings: &SETTINGS,
+    make: |settings| {
+        Reference::boxed(Fsm {
+            reaction: settings.get("reaction"),
+            comfortable: settings.get("comfortable"),
+            deceleration: settings.get("deceleration"),
+            leader_deceleration: settings.get("leader_deceleration"),
+            margin: settings.get("margin"),
+            jerk: settings.get("jerk"),
+            ..STANDARD
+        })
+    },
+};
+
+const SETTINGS: [Setting; 6] = [
+    setting("reaction", STANDARD.reaction, "s", (0.0, 5.0), "how long it takes to react"),
+    setting("comfortable", STANDARD.comfortable, "m/s^2", (0.1, 20.0), "what it brakes with comfortably"),
+    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.1, 20.0), "what it brakes with at the most"),
+    setting("leader_deceleration", STANDARD.leader_deceleration, "m/s^2", (0.1, 20.0), "what the other may brake with"),
+    setting("margin", STANDARD.margin, "m", (0.0, 20.0), "what is to be left when both stand"),
+    setting("jerk", STANDARD.jerk, "m/s^3", (1.0, 1000.0), "how fast its deceleration changes"),
+];
+
+impl Default for Fsm {
+    fn default() -> Self {
+        STANDARD
+    }
+}
+
+/// 1 up to the unsafe distance, 0 from the safe one on, and a straight line between them.
+fn unsafety(distance: f64, unsafe_below: f64, safe_from: f64) -> f64 {
+    if distance <= unsafe_below {
+        1.0
+    } else if distance >= safe_from {
+        0.0
+    } else {
+        (safe_from - distance) / (safe_from - unsafe_below)
+    }
+}
+
+impl Fsm {
+    /// PFS, from 0 (safe) to 1, of a gap in metres at these speeds in m/s.
+    pub fn proactive(&self, gap: f64, speed: f64, other_speed: f64) -> f64 {
+        let front = other_speed.max(0.0);
+        let standing = speed * self.reaction - front * front / (2.0 * self.leader_deceleration);
+        let safe = standing + speed * speed / (2.0 * self.comfortable) + self.margin;
+        let unsafe_ = standing + speed * speed / (2.0 * self.deceleration);
+        unsafety(gap - self.margin, unsafe_, safe)
+    }
+
+    /// CFS, from 0 (safe) to 1, of a gap in metres at these speeds in m/s and this acceleration of the car in m/s².
+    pub fn critical(&self, gap: f64, speed: f64, acceleration: f64, other_speed: f64) -> f64 {
+        if speed <= other_speed {
+            return 0.0;
+        }
+        let tau = self.reaction;
+        let acceleration = acceleration.max(-self.comfortable);
+        let next = speed + acceleration * tau;
+        let excess = next - other_speed;
+        if excess > 0.0 {
+            let meanwhile = (0.5 * (speed + next) - other_speed) * tau;
+            let then = |deceleration: f64| meanwhile + excess * excess / (2.0 * deceleration);
+            return unsafety(gap, then(self.deceleration), then(self.comfortable));
+        }
+        let closing = speed - other_speed;
+        let needed = closing * closing / (2.0 * acceleration.abs());
+        unsafety(gap, needed, needed)
+    }
+
+    /// Whether the other is in the way or would be before the car has passed it.
+    fn looks_at(&self, s: &Situation) -> bool {
+        let passing = (s.gap + s.lengths) / s.closing();
+        let meets = s.approach > 0.0 && s.clearance() / s.approach < passing + LATE;
+        s.is_ahead() && s.closing() > 0.0 && (s.overlaps() || meets)
+    }
+
+    /// The deceleration in m/s² that the two measures ask for.
+    fn wanted(&self, s: &Situation) -> f64 {
+        let critical = self.critical(s.gap, s.speed, s.acceleration, s.other_speed);
+        if critical > 0.0 {
+            self.comfortable + critical * (self.deceleration - self.comfortable)
+        } else {
+            self.proactive(s.gap, s.speed, s.other_speed) * self.comfortable
+        }
+    }
+}
+
+impl BrakingModel for Fsm {
+    fn brake(&mut self, s: &Situation, dt: f64) -> f64 {
+        let wanted = if self.looks_at(s) { self.wanted(s) } else { 0.0 };
+        let acts = self.reason.lasts(wanted > 0.0, self.reaction, dt);
+        let wanted = if acts { wanted } else { 0.0 };
+        let change = self.jerk * dt;
+        self.brake = wanted.clamp(self.brake - change, self.brake + change);
+        self.brake
+    }
+}

@@ -1,0 +1,146 @@
+//! The driver `ideal`: what it collides with, nobody who only brakes could have avoided.
+//!
+//! In the kinematic world it knows the future: [`Ideal::best`] tries not to brake at all and then every [`Profile`] of a
+//! family, the gentlest first, and takes the first without a collision; if there is none, the one that hits slowest.
+//!
+//! Not to brake and to brake fully from the first moment on would suffice to avoid one other whose time in the car's
+//! path is a single interval. Whoever brakes at most so hard and never takes up speed is, at each moment, between where these
+//! two would be. If in that interval they keep behind the other, so does the car that brakes fully; if they have passed it, so
+//! has the car that does not brake; and to change from the one to the other within it is the collision. Braking hard is
+//! hence wrong only where the car can get through before. With several others it may have to pass one and stop for the
+//! next, for which there are profiles that begin later. The rest of the family makes no difference to what is avoided: gentle
+//! braking spares those behind, and what cannot be avoided is sometimes hit slower.
+//!
+//! In a simulated car it knows the truth, but not the future: at each question, without delay, it expects that the
+//! other goes on as it does, looks some seconds ahead, wants some room on all sides, or none if there is none to be had, and does
+//! what the best profile does first. What it did not foresee it may collide with.
+
+use super::super::{Kind, Setting, setting};
+use super::adapter::Reference;
+use crate::kinematic::{BrakingModel, Course, Encounter, Ended, Situation, Size};
+use crate::vehicle::GRAVITY;
+
+/// The driver that no other driver that only brakes outdoes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ideal {
+    /// What it can brake with, m/s²: 1 g, a road of friction 1, where nothing else is said.
+    pub deceleration: f64,
+    /// How many seconds it looks ahead where it does not know the future.
+    pub horizon: f64,
+    /// The room in metres that it wants then on all sides.
+    pub margin: f64,
+}
+
+const STANDARD: Ideal = Ideal { deceleration: GRAVITY, horizon: 5.0, margin: 0.3 };
+
+pub(in super::super) const KIND: Kind = Kind {
+    name: "ideal",
+    about: "brakes without delay and only as hard as it must, and is told the truth",
+    settings: &SETTINGS,
+    make: |settings| {
+        Reference::boxed(Ideal {
+            deceleration: settings.get("deceleration"),
+            horizon: settings.get("horizon"),
+            margin: settings.get("margin"),
+        })
+    },
+};
+
+const SETTINGS: [Setting; 3] = [
+    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.1, 20.0), "what it can brake with"),
+    setting("horizon", STANDARD.horizon, "s", (0.1, 30.0), "how far it looks ahead"),
+    setting("margin", STANDARD.margin, "m", (0.0, 5.0), "room it wants on all sides"),
+];
+
+impl Default for Ideal {
+    fn default() -> Self {
+        STANDARD
+    }
+}
+
+/// To brake with a constant deceleration from some moment on, whatever happens.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Profile {
+    /// Seconds after which the brakes act.
+    pub onset: f64,
+    /// m/s².
+    pub deceleration: f64,
+    time: f64,
+}
+
+impl Profile {
+    /// Not to brake at all.
+    pub const NONE: Self = Self { onset: 0.0, deceleration: 0.0, time: 0.0 };
+}
+
+impl BrakingModel for Profile {
+    fn brake(&mut self, _: &Situation, dt: f64) -> f64 {
+        // Times are sums of steps.
+        let acts = self.time >= self.onset - 1e-9;
+        self.time += dt;
+        if acts { self.deceleration } else { 0.0 }
+    }
+}
+
+/// Decelerations of the family, as parts of the greatest.
+const STRENGTHS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// Onsets of the family, in seconds.
+const ONSETS: [f64; 7] = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
+
+impl Ideal {
+    /// The profiles, the gentlest first.
+    fn profiles(&self) -> impl Iterator<Item = Profile> {
+        let braking = STRENGTHS.into_iter().flat_map(|strength| ONSETS.map(|onset| (strength, onset)));
+        let deceleration = self.deceleration;
+        let braking =
+            braking.map(move |(strength, onset)| Profile { onset, deceleration: strength * deceleration, time: 0.0 });
+        std::iter::once(Profile::NONE).chain(braking)
+    }
+
+    /// The gentlest profile without a collision, or else the one with the slowest, and what becomes of the encounter with it.
+    pub fn best(&self, encounter: &Encounter) -> (Profile, Ended) {
+        let mut best: Option<(Profile, Ended, f64)> = None;
+        for profile in self.profiles() {
+            let ended = encounter.run(&profile);
+            let Some(collision) = ended.collision else {
+                return (profile, ended);
+            };
+            if best.is_none_or(|(.., speed)| collision.speed < speed) {
+                best = Some((profile, ended, collision.speed));
+            }
+        }
+        let (profile, ended, _) = best.expect("not to brake is one of the profiles");
+        (profile, ended)
+    }
+
+    /// What is to be expected if the other goes on as it does, with the margin in metres as a part of it.
+    fn expected(&self, s: &Situation, margin: f64) -> Encounter {
+        let forward = s.other_speed.max(0.0);
+        let other = Course {
+            gap: s.gap - margin,
+            speed: s.other_speed,
+            deceleration: if forward > 0.0 { (-s.other_acceleration).max(0.0) } else { 0.0 },
+            lateral: s.lateral,
+            target: if s.approach > 0.0 { f64::NEG_INFINITY } else { f64::INFINITY },
+            lateral_speed: s.approach.abs(),
+            size: Size { length: s.lengths + 2.0 * margin, width: s.other_width + 2.0 * margin },
+            visible_from: 0.0,
+        };
+        // All of the length is the other's: only the sum of both counts.
+        let size = Size { length: 0.0, width: s.width };
+        Encounter { speed: s.speed, size, others: vec![other], duration: self.horizon }
+    }
+}
+
+impl BrakingModel for Ideal {
+    fn brake(&mut self, s: &Situation, dt: f64) -> f64 {
+        if !s.is_ahead() {
+            return 0.0;
+        }
+        let (mut profile, ended) = self.best(&self.expected(s, self.margin));
+        if ended.collision.is_some() {
+            profile = self.best(&self.expected(s, 0.0)).0;
+        }
+        profile.brake(s, dt)
+    }
+}

@@ -1,0 +1,55 @@
+//! Reference drivers, which are told the truth: the models by which it is judged whether a careful driver, or any driver,
+//! could have avoided what happened.
+//!
+//! | driver | brakes | source |
+//! | --- | --- | --- |
+//! | [`cc`](Cc) | like a competent and careful human | UN Regulation No. 157, Annex 4, Appendix 3 |
+//! | [`rss`](Rss) | where a distance that is safe in the worst case is not kept | Shalev-Shwartz, Shammah, Shashua, "On a Formal Model of Safe and Scalable Self-driving Cars", 2017 |
+//! | [`fsm`](Fsm) | the harder, the less two fuzzy measures of safety hold | Mattas et al., "Fuzzy Surrogate Safety Metrics for real-time assessment of rear-end collision risk", Accident Analysis and Prevention 148, 2020; UN R157 as amended |
+//! | [`reg157`](Reg157) | as late and as little as UN R157 lets an automated lane keeping system | UN R157, 5.2.5.2 |
+//! | [`ideal`](Ideal) | at once, and as hard as is needed | ours |
+//!
+//! All of them in one world: Mattas et al., "Driver models for the definition of safety requirements of automated vehicles
+//! in international regulations. Application to motorway driving conditions", Accident Analysis and Prevention 174, 2022.
+//! What is our reading, where a source leaves something open, is said where the model stands.
+//!
+//! Each is a [`BrakingModel`](crate::kinematic::BrakingModel) of one other road user, which the kinematic world runs as it
+//! is and an adapter lets drive a whole simulated car. Both ask it ten times a second. A time that is no multiple of that
+//! step is rounded up: no driver reacts faster than its reaction time.
+
+mod adapter;
+mod cc;
+mod fsm;
+mod held;
+mod ideal;
+mod reg157;
+mod rss;
+
+pub use cc::Cc;
+pub use fsm::Fsm;
+pub use ideal::{Ideal, Profile};
+pub use reg157::Reg157;
+pub use rss::Rss;
+
+pub(super) use cc::KIND as CC;
+pub(super) use fsm::KIND as FSM;
+pub(super) use ideal::KIND as IDEAL;
+pub(super) use reg157::KIND as REG157;
+pub(super) use rss::KIND as RSS;
+
+use crate::kinematic::{Encounter, Ended};
+
+/// What becomes of an encounter with some driver.
+pub type Drive = fn(&Encounter) -> Ended;
+
+/// The reference drivers by name, each with its standard settings.
+pub const ALL: [(&str, Drive); 5] = [
+    ("cc", |encounter| encounter.run(&Cc::default())),
+    ("rss", |encounter| encounter.run(&Rss::default())),
+    ("fsm", |encounter| encounter.run(&Fsm::default())),
+    ("reg157", |encounter| encounter.run(&Reg157::default())),
+    ("ideal", |encounter| Ideal::default().best(encounter).1),
+];
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,116 @@
+//! The driver `rss`: Responsibility-Sensitive Safety (Shalev-Shwartz, Shammah, Shashua 2017).
+//!
+//! A situation is dangerous when neither the distance along the road nor that across it is safe, even if both road users
+//! do their worst in the response time rho. Along the road, the car under test speeds up with `a` during rho and then
+//! brakes with at least `b_min`, while the other brakes with at most `b_max` at once:
+//!
+//! `d = v rho + a rho² / 2 + (v + rho a)² / (2 b_min) - v_f² / (2 b_max)`, or 0 if that is negative.
+//!
+//! Across it, each moves towards the other, speeds up sideways with `a_lat` during rho and then brakes sideways with at least
+//! `b_lat`; what remains must be mu. The proper response to danger is, after rho, to brake with at least `b_min`
+//! until the distance is safe again.
+//!
+//! Our reading: the car under test keeps its speed during rho and answers with exactly `b_min`, at once and never sideways; it
+//! has no speed across the road; another that comes towards it counts as standing (the paper has a rule of its own for
+//! that). rho, a, mu and `b_min` are those used with UN R157's scenarios; `b_max` is taken equal to `b_min`; `a_lat` and `b_lat`,
+//! for which no value is given there, are those in wide use with RSS, 0.2 and 0.8 m/s².
+
+use super::super::{Kind, Setting, setting};
+use super::adapter::Reference;
+use super::held::Held;
+use crate::kinematic::{BrakingModel, Situation};
+
+/// The driver that keeps safe distances; lengths in metres, times in seconds, accelerations in m/s².
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rss {
+    /// rho, in which nobody is expected to respond.
+    pub response: f64,
+    /// a, with which the car under test may speed up meanwhile.
+    pub acceleration: f64,
+    /// `b_min`, with which it brakes then.
+    pub deceleration: f64,
+    /// `b_max`, with which the other may brake.
+    pub leader_deceleration: f64,
+    /// mu, the room beside the other that must remain.
+    pub lateral_margin: f64,
+    /// `a_lat`, with which either may speed up sideways.
+    pub lateral_acceleration: f64,
+    /// `b_lat`, with which either stops moving sideways.
+    pub lateral_deceleration: f64,
+    danger: Held,
+}
+
+const STANDARD: Rss = Rss {
+    response: 0.75,
+    acceleration: 3.0,
+    deceleration: 6.0,
+    leader_deceleration: 6.0,
+    lateral_margin: 0.3,
+    lateral_acceleration: 0.2,
+    lateral_deceleration: 0.8,
+    danger: Held::NEVER,
+};
+
+pub(in super::super) const KIND: Kind = Kind {
+    name: "rss",
+    about: "keeps the distances of Responsibility-Sensitive Safety, and is told the truth",
+    settings: &SETTINGS,
+    make: |settings| {
+        Reference::boxed(Rss {
+            response: settings.get("response"),
+            acceleration: settings.get("acceleration"),
+            deceleration: settings.get("deceleration"),
+            leader_deceleration: settings.get("leader_deceleration"),
+            lateral_margin: settings.get("lateral_margin"),
+            lateral_acceleration: settings.get("lateral_acceleration"),
+            lateral_deceleration: settings.get("lateral_deceleration"),
+            ..STANDARD
+        })
+    },
+};
+
+const SETTINGS: [Setting; 7] = [
+    setting("response", STANDARD.response, "s", (0.0, 5.0), "time in which nobody responds"),
+    setting("acceleration", STANDARD.acceleration, "m/s^2", (0.0, 20.0), "what the car may speed up with meanwhile"),
+    setting("deceleration", STANDARD.deceleration, "m/s^2", (0.1, 20.0), "what it brakes with then"),
+    setting("leader_deceleration", STANDARD.leader_deceleration, "m/s^2", (0.1, 20.0), "what the other may brake with"),
+    setting("lateral_margin", STANDARD.lateral_margin, "m", (0.0, 10.0), "room that must remain beside the other"),
+    setting("lateral_acceleration", STANDARD.lateral_acceleration, "m/s^2", (0.0, 20.0), "speeding up sideways"),
+    setting("lateral_deceleration", STANDARD.lateral_deceleration, "m/s^2", (0.1, 20.0), "braking sideways"),
+];
+
+impl Default for Rss {
+    fn default() -> Self {
+        STANDARD
+    }
+}
+
+impl Rss {
+    /// The safe distance in metres behind another, at these speeds in m/s.
+    pub fn longitudinal_distance(&self, speed: f64, other_speed: f64) -> f64 {
+        let rho = self.response;
+        let (fastest, front) = (speed + rho * self.acceleration, other_speed.max(0.0));
+        let own = speed * rho + 0.5 * self.acceleration * rho * rho + fastest * fastest / (2.0 * self.deceleration);
+        (own - front * front / (2.0 * self.leader_deceleration)).max(0.0)
+    }
+
+    /// The safe room in metres beside another that comes nearer by `approach` m/s sideways.
+    pub fn lateral_distance(&self, approach: f64) -> f64 {
+        // The way towards the other from a speed towards it.
+        let way = |speed: f64| {
+            let fastest = speed + self.response * self.lateral_acceleration;
+            let coming_to_rest = fastest * fastest.abs() / (2.0 * self.lateral_deceleration);
+            0.5 * (speed + fastest) * self.response + coming_to_rest
+        };
+        self.lateral_margin + (way(0.0) + way(approach)).max(0.0)
+    }
+}
+
+impl BrakingModel for Rss {
+    fn brake(&mut self, s: &Situation, dt: f64) -> f64 {
+        let danger = s.is_ahead()
+            && s.gap < self.longitudinal_distance(s.speed, s.other_speed)
+            && s.clearance() < self.lateral_distance(s.approach);
+        if self.danger.lasts(danger, self.response, dt) { self.deceleration } else { 0.0 }
+    }
+}

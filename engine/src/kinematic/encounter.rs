@@ -1,0 +1,186 @@
+//! One encounter, from its beginning to a collision, to the point from which on none is possible, or to its end.
+
+use super::course::{Course, Place, Size};
+use super::situation::Situation;
+use super::{BrakingModel, DT};
+
+/// The car under test, in the middle of its lane, and those it meets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Encounter {
+    /// The speed in m/s of the car under test until it brakes.
+    pub speed: f64,
+    /// How large it is.
+    pub size: Size,
+    /// The others.
+    pub others: Vec<Course>,
+    /// Seconds after which it is over.
+    pub duration: f64,
+}
+
+/// What became of an encounter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ended {
+    /// The collision that ended it.
+    pub collision: Option<Collision>,
+    /// The least time to collision in seconds with anybody in the path of the car under test; infinite where there was
+    /// none.
+    pub least_ttc: f64,
+    /// The least gap in metres to anybody ahead in its path; infinite where there was nobody, 0 at a collision with its
+    /// front.
+    pub least_gap: f64,
+}
+
+/// How two road users met.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Collision {
+    /// Seconds since the beginning; between two steps as if both had gone on at constant speed.
+    pub time: f64,
+    /// The difference of their speeds along the lane, m/s.
+    pub speed: f64,
+    /// Where it was hit.
+    pub face: Face,
+}
+
+/// The side of the car under test at which it was hit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Face {
+    /// It ran into the other, or they overlapped from the beginning.
+    Front,
+    /// The other moved into its side.
+    Side,
+    /// The other ran into it from behind.
+    Rear,
+}
+
+/// Where the car under test is.
+#[derive(Debug, Clone, Copy)]
+struct Ego {
+    /// Its front bumper, metres along the lane.
+    front: f64,
+    speed: f64,
+    /// Over the last step.
+    acceleration: f64,
+}
+
+impl Ego {
+    /// A step of constant deceleration, which ends at standstill.
+    fn after(self, brake: f64) -> Self {
+        let speed = self.speed - brake * DT;
+        let (speed, way) = if speed < 0.0 {
+            (0.0, 0.5 * self.speed * self.speed / brake)
+        } else {
+            (speed, 0.5 * (self.speed + speed) * DT)
+        };
+        Self { front: self.front + way, speed, acceleration: (speed - self.speed) / DT }
+    }
+}
+
+/// How far two road users are apart along and across the lane.
+#[derive(Debug, Clone, Copy)]
+struct Apart {
+    gap: f64,
+    lengths: f64,
+    clearance: f64,
+    closing: f64,
+}
+
+impl Apart {
+    fn of(s: &Situation) -> Self {
+        Self { gap: s.gap, lengths: s.lengths, clearance: s.clearance(), closing: s.closing() }
+    }
+}
+
+impl Encounter {
+    /// What becomes of it with this driver, of which every other road user gets a copy of its own: the car brakes as hard
+    /// as the most worried of them asks for, and never takes up speed again.
+    pub fn run<M: BrakingModel>(&self, driver: &M) -> Ended {
+        let mut models = vec![driver.clone(); self.others.len()];
+        let mut before: Vec<Option<Apart>> = vec![None; self.others.len()];
+        let mut ego = Ego { front: 0.0, speed: self.speed, acceleration: 0.0 };
+        let mut ended = Ended { collision: None, least_ttc: f64::INFINITY, least_gap: f64::INFINITY };
+        for tick in 0..=(self.duration / DT).round() as usize {
+            let time = tick as f64 * DT;
+            let mut brake = 0.0_f64;
+            let mut settled = true;
+            for ((course, model), before) in self.others.iter().zip(&mut models).zip(&mut before) {
+                let place = course.at(time);
+                let situation = self.situation(&ego, &place, course.size);
+                if situation.overlaps() && situation.is_ahead() {
+                    ended.least_gap = ended.least_gap.min(situation.gap);
+                    ended.least_ttc = ended.least_ttc.min(situation.time_to_collision());
+                }
+                let now = Apart::of(&situation);
+                if let Some(collision) = collision(before.unwrap_or(now), now, time) {
+                    ended.collision = Some(collision.no_later_than(ended.collision));
+                }
+                *before = Some(now);
+                settled &= place.settled && situation.is_ahead() && situation.closing() <= 0.0;
+                if time >= course.visible_from {
+                    brake = brake.max(model.brake(&situation, DT));
+                }
+            }
+            // Nobody ahead who goes on so comes nearer to a car that never takes up speed.
+            if settled || ended.collision.is_some() {
+                break;
+            }
+            ego = ego.after(brake);
+        }
+        if ended.collision.is_some_and(|collision| collision.face == Face::Front) {
+            ended.least_ttc = 0.0;
+            ended.least_gap = 0.0;
+        }
+        ended
+    }
+
+    fn situation(&self, ego: &Ego, other: &Place, size: Size) -> Situation {
+        Situation {
+            speed: ego.speed,
+            acceleration: ego.acceleration,
+            gap: other.rear - ego.front,
+            other_speed: other.speed,
+            other_acceleration: other.acceleration,
+            lateral: other.lateral,
+            approach: other.approach,
+            width: self.size.width,
+            other_width: size.width,
+            lengths: self.size.length + size.length,
+        }
+    }
+}
+
+/// The part of a step, between 0 and 1, in which a straight line from one value to another is negative.
+fn negative(from: f64, to: f64) -> Option<(f64, f64)> {
+    let crossing = from / (from - to);
+    match (from < 0.0, to < 0.0) {
+        (true, true) => Some((0.0, 1.0)),
+        (true, false) => Some((0.0, crossing)),
+        (false, true) => Some((crossing, 1.0)),
+        (false, false) => None,
+    }
+}
+
+/// The contact in the step that ends at `time`. A corner may touch for less than a step, so both ends of it do not tell.
+fn collision(before: Apart, now: Apart, time: f64) -> Option<Collision> {
+    let reached = negative(before.gap, now.gap)?;
+    let not_passed = negative(-before.lengths - before.gap, -now.lengths - now.gap)?;
+    let beside = negative(before.clearance, now.clearance)?;
+    let share = reached.0.max(not_passed.0).max(beside.0);
+    if share >= reached.1.min(not_passed.1).min(beside.1) {
+        return None;
+    }
+    let face = if share == reached.0 {
+        Face::Front
+    } else if share == beside.0 {
+        Face::Side
+    } else {
+        Face::Rear
+    };
+    let closing = before.closing + share * (now.closing - before.closing);
+    Some(Collision { time: (time - DT * (1.0 - share)).max(0.0), speed: closing.abs(), face })
+}
+
+impl Collision {
+    fn no_later_than(self, known: Option<Self>) -> Self {
+        known.filter(|known| known.time <= self.time).unwrap_or(self)
+    }
+}

@@ -1,0 +1,218 @@
+//! A wheel of the jointed car: how it hangs on the chassis, and what chassis and road do to it.
+//!
+//! The tyre is a stiff damper for the spin of its wheel, so that the spin is implicit in the force along it. Across the
+//! wheel the force is explicit, and slip is relative to a speed that is not below what makes this stable ([`slow`]).
+
+use super::super::tyre::Tyre;
+use super::{GRAVITY, Vehicle, Wheel, apply, vector};
+use nalgebra::Vector2;
+use rapier3d::dynamics::{MassProperties, RigidBody};
+use rapier3d::math::{Pose as Frame, Rotation, Vector};
+use rapier3d::prelude::{
+    GenericJointBuilder, ImpulseJointHandle, JointAxesMask, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
+};
+
+/// Metres by which a tyre is compressed at rest (CommonRoad, vehicle 2: 158 kN/m under 2.9 kN).
+const COMPRESSED: f64 = 0.018;
+/// How much above the bound of stability [`slow`] is: a push at the road moves the car also by making it roll.
+const MARGIN: f64 = 1.5;
+
+/// The speed in m/s below which slip is no longer relative to the speed.
+///
+/// Against a speed across the wheels a tyre of the stiffness `C` by load is a damper that slows the car at the rate
+/// `C g / v`, which an explicit step has to resolve.
+pub(super) fn slow(vehicle: &Vehicle, dt: f64) -> f64 {
+    MARGIN * vehicle.cornering_stiffness * GRAVITY * dt
+}
+
+/// A wheel and how it hangs on the chassis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    pub wheel: RigidBodyHandle,
+    joint: ImpulseJointHandle,
+    /// The middle of the wheel at rest as seen from the chassis.
+    at: Vector,
+    pub front: bool,
+    /// What it carries at rest, in newtons, and what its spring carries of that.
+    rest: f64,
+    sprung: f64,
+    /// N/m.
+    spring: f64,
+    /// N s/m.
+    damper: f64,
+    /// How far it is turned to the left.
+    turned: Rotation,
+    /// What it carries now, in newtons.
+    pub load: f64,
+    /// The force of the road across it, in newtons.
+    side: f64,
+    /// Its speeds in m/s along and across.
+    speed: Vector2<f64>,
+    /// The speed of its tread in m/s.
+    tread: f64,
+}
+
+/// What acts on a wheel about its axle, in N m.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Torque {
+    Engine(f64),
+    /// Against its turning, until it stops.
+    Brake(f64),
+}
+
+/// How the chassis stands and moves.
+pub(super) struct Chassis {
+    /// Its middle at the height of the car's centre of gravity.
+    pub frame: Frame,
+    centre: Vector,
+    velocity: Vector,
+    turning: Vector,
+}
+
+impl Corner {
+    /// A wheel of a car that goes straight ahead at `speed` m/s; `side` is 1 on its left and -1 on its right.
+    pub fn new(
+        physics: &mut PhysicsWorld,
+        chassis: RigidBodyHandle,
+        vehicle: &Vehicle,
+        front: bool,
+        side: f64,
+        speed: f64,
+    ) -> Self {
+        let (radius, height) = (vehicle.wheel_radius, vehicle.centre_of_gravity);
+        let along = if front { 0.5 } else { -0.5 } * vehicle.wheelbase;
+        let at = vector(along, 0.5 * side * vehicle.track, radius - height);
+        let inertia = Vector::splat(vehicle.wheel_inertia as f32);
+        let wheel = RigidBodyBuilder::dynamic()
+            .translation(at + vector(0.0, 0.0, height))
+            .linvel(vector(speed, 0.0, 0.0))
+            .angvel(vector(0.0, speed / radius, 0.0))
+            .can_sleep(false)
+            .allow_fast_rotation(true)
+            .additional_mass_properties(MassProperties::new(Vector::ZERO, vehicle.wheel_mass as f32, inertia));
+        let wheel = physics.insert_body(wheel);
+        let locked = JointAxesMask::LIN_X | JointAxesMask::LIN_Y | JointAxesMask::ANG_X | JointAxesMask::ANG_Z;
+        let joint = physics.insert_impulse_joint(chassis, wheel, GenericJointBuilder::new(locked).local_anchor1(at));
+        let rest = 0.5 * vehicle.axle_loads(0.0)[usize::from(!front)];
+        let sprung = rest - vehicle.wheel_mass * GRAVITY;
+        let omega = std::f64::consts::TAU * vehicle.ride_frequency;
+        let spring = sprung / GRAVITY * omega * omega;
+        Self {
+            wheel,
+            joint,
+            at,
+            front,
+            rest,
+            sprung,
+            spring,
+            damper: 2.0 * vehicle.damping_ratio * spring / omega,
+            turned: Rotation::IDENTITY,
+            load: rest,
+            side: 0.0,
+            speed: Vector2::new(speed, 0.0),
+            tread: speed,
+        }
+    }
+
+    /// How far to the left of the car's middle it is, in metres.
+    pub fn left(&self) -> f64 {
+        f64::from(self.at.y)
+    }
+
+    /// Turns its axle so that it points `angle` radians to the left.
+    pub fn turn(&mut self, physics: &mut PhysicsWorld, angle: f64) {
+        let (sin, cos) = libm::sincos(0.5 * angle);
+        self.turned = Rotation::from_xyzw(0.0, 0.0, sin as f32, cos as f32);
+        let joint = physics.impulse_joints.get_mut(self.joint, false).expect("it was inserted");
+        joint.data.local_frame1.rotation = self.turned;
+    }
+
+    /// How much faster or slower its tread is than the road under it, by the speed of the road.
+    pub fn slip(&self, slow: f64) -> f64 {
+        (self.tread - self.speed.x).abs() / self.speed.x.abs().max(slow)
+    }
+
+    /// What the road can push along it, in newtons, beside what it pushes across.
+    pub fn grip(&self, friction: f64) -> f64 {
+        let limit = friction * self.load;
+        (limit * limit - self.side * self.side).max(0.0).sqrt()
+    }
+
+    /// Sets what acts on the wheel in the next step, and returns what acts on the chassis, force and torque.
+    #[expect(clippy::too_many_arguments, reason = "what a step depends on")]
+    pub fn push(
+        &mut self,
+        wheel: &mut RigidBody,
+        chassis: &Chassis,
+        vehicle: &Vehicle,
+        torque: Torque,
+        friction: f64,
+        slow: f64,
+        dt: f64,
+    ) -> (Vector, Vector) {
+        let at = wheel.translation();
+        let up = chassis.frame.rotation * Vector::Z;
+        let compression = f64::from((at - chassis.frame.translation).dot(up) - self.at.z);
+        let rate = f64::from((wheel.linvel() - chassis.velocity_at(at)).dot(up));
+        let spring = up * (self.sprung + self.spring * compression + self.damper * rate) as f32;
+
+        let radius = vehicle.wheel_radius;
+        let turned = chassis.frame.rotation * self.turned;
+        let axle = turned * Vector::Y;
+        let (ahead, left) = level(turned * Vector::X);
+        self.load = (self.rest * (1.0 + (radius - f64::from(at.z)) / COMPRESSED)).max(0.0);
+        self.speed = Vector2::new(wheel.linvel().dot(ahead), wheel.linvel().dot(left)).map(f64::from);
+        let spin = f64::from(wheel.angvel().dot(axle));
+        let tyre = Tyre::new(vehicle.cornering_stiffness, friction, self.load);
+        let rolling = self.speed.x.abs().max(slow);
+        let slip = Vector2::new(self.speed.x - radius * spin, self.speed.y) / rolling;
+        // The damping of the tyre in N s/m, and the spin after the step if nothing but the road acts.
+        let damping = tyre.secant(slip.norm()) / rolling;
+        let inertia = vehicle.wheel_inertia / dt;
+        let resistance = inertia + radius * radius * damping;
+        let free = (inertia * spin + radius * damping * self.speed.x) / resistance;
+        let spun = match torque {
+            Torque::Engine(torque) => free + torque / resistance,
+            Torque::Brake(torque) => free - (torque / resistance).min(free.abs()).copysign(free),
+        };
+        self.tread = radius * spun;
+        let road = tyre.cut(damping * Vector2::new(self.tread - self.speed.x, -self.speed.y));
+        self.side = road.y;
+
+        let pushed = ahead * road.x as f32 + left * road.y as f32 + Vector::Z * self.load as f32;
+        let turning = axle * (inertia * (spun - spin) + radius * road.x) as f32;
+        let lever = vector(0.0, 0.0, -radius);
+        apply(wheel, pushed - spring, lever.cross(pushed) + turning);
+        (spring, (at - chassis.centre).cross(spring) - turning)
+    }
+
+    /// What there is to know about it.
+    pub fn report(&self) -> Wheel {
+        let faster = self.tread.abs().max(self.speed.x.abs());
+        let slip = if faster > 0.0 { (self.tread - self.speed.x) / faster } else { 0.0 };
+        Wheel {
+            slip_ratio: slip.clamp(-1.0, 1.0),
+            slip_angle: libm::atan2(self.speed.y, self.speed.x.abs()),
+            load: self.load,
+            contact: self.load > 0.0,
+        }
+    }
+}
+
+impl Chassis {
+    /// How a body stands and moves.
+    pub fn from(body: &RigidBody) -> Self {
+        Self { frame: *body.position(), centre: body.center_of_mass(), velocity: body.linvel(), turning: body.angvel() }
+    }
+
+    /// The velocity of its point at a place.
+    pub fn velocity_at(&self, place: Vector) -> Vector {
+        self.velocity + self.turning.cross(place - self.centre)
+    }
+}
+
+/// A direction in the ground plane, and the one to its left.
+fn level(ahead: Vector) -> (Vector, Vector) {
+    let ahead = Vector::new(ahead.x, ahead.y, 0.0).normalize();
+    (ahead, Vector::new(-ahead.y, ahead.x, 0.0))
+}

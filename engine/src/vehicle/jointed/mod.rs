@@ -1,0 +1,218 @@
+//! The model `jointed`: the paper's five bodies, a chassis and four wheels on joints, in a physics engine.
+//!
+//! A joint lets its wheel turn about the axle and move up and down, and turns the axle of a front wheel about the
+//! vertical. What acts on the bodies beside gravity is computed before each step: springs and dampers, engine and
+//! brakes, and the road, which pushes a wheel up as its tyre is compressed, and along and across as a brush tyre slips
+//! ([`corner`]).
+//!
+//! The physics engine's own contacts are not used. A friction that sticks is a stiff constraint between the road and a
+//! light wheel, which its iterative solver hardly solves (a standing car crept by half a metre in a minute), and the
+//! point of contact turns with a wheel that spins fast, and brakes it. Joints alone are a star, and once round is enough.
+//!
+//! Brakes and engine know the load on each wheel and ask no more of it than the road gives (an anti-lock system and a
+//! traction control); a wheel that slips nevertheless is let go.
+//!
+//! The engine counts in 32 bits: all happens near the origin of a frame of its own, to which the car is brought back
+//! when it has gone some way.
+
+mod corner;
+
+use super::{Drive, Dynamics, GRAVITY, Pedals, Vehicle, VehicleState, Wheel};
+use crate::road::wrapped;
+use crate::scenario::Pose;
+use corner::{Chassis, Corner, Torque};
+use nalgebra::Vector2;
+use rapier3d::dynamics::{MassProperties, RigidBody};
+use rapier3d::math::Vector;
+use rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
+
+/// Part of the friction that brakes and engine use: the rest keeps a wheel from running away.
+const USED: f64 = 0.995;
+/// Slip at which a wheel is let go.
+const LET_GO: f64 = 0.3;
+/// Moments of inertia of the body about its long and its cross axis, by the one about the vertical (CommonRoad, vehicle
+/// 2: 207 and 1566 by 1792 kg m²).
+const ROLL_INERTIA: f64 = 0.116;
+const PITCH_INERTIA: f64 = 0.874;
+/// Metres from the origin at which the car is brought back to it.
+const FAR: f32 = 32.0;
+
+/// A car as a chassis and four wheels on joints.
+pub struct Jointed {
+    vehicle: Vehicle,
+    state: VehicleState,
+    physics: PhysicsWorld,
+    chassis: RigidBodyHandle,
+    corners: [Corner; 4],
+    /// Where in the world the frame of the physics is.
+    origin: Pose,
+}
+
+impl Jointed {
+    /// A car whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    pub fn new(vehicle: &Vehicle, start: Pose, speed: f64) -> Self {
+        let mut physics = PhysicsWorld { gravity: vector(0.0, 0.0, -GRAVITY), ..PhysicsWorld::default() };
+        let parameters = &mut physics.integration_parameters;
+        parameters.num_solver_iterations = 1;
+        parameters.num_internal_stabilization_iterations = 0;
+        parameters.max_ccd_substeps = 0;
+        let chassis = RigidBodyBuilder::dynamic()
+            .translation(vector(0.0, 0.0, vehicle.centre_of_gravity))
+            .linvel(vector(speed, 0.0, 0.0))
+            .can_sleep(false)
+            .additional_mass_properties(chassis_mass(vehicle));
+        let chassis = physics.insert_body(chassis);
+        let corners = [(true, 1.0), (true, -1.0), (false, 1.0), (false, -1.0)]
+            .map(|(front, side)| Corner::new(&mut physics, chassis, vehicle, front, side, speed));
+        // Bodies know their centres of mass once the engine has seen them.
+        physics.integration_parameters.dt = 0.0;
+        physics.step();
+        Self { vehicle: *vehicle, state: VehicleState::new(start, speed), physics, chassis, corners, origin: start }
+    }
+
+    /// Turns the front wheels, each so that both roll about the same point on the line of the rear axle (Ackermann).
+    fn steer(&mut self, steering: f64, dt: f64) {
+        let before = self.state.steering_angle;
+        self.state.steer(&self.vehicle, steering, dt);
+        if self.state.steering_angle == before {
+            return;
+        }
+        let (sin, cos) = libm::sincos(self.state.steering_angle);
+        let length = self.vehicle.wheelbase;
+        for corner in self.corners.iter_mut().filter(|corner| corner.front) {
+            corner.turn(&mut self.physics, libm::atan2(length * sin, length * cos - corner.left() * sin));
+        }
+    }
+
+    /// Sets what acts on the bodies in the step to come.
+    fn push(&mut self, throttle: f64, friction: f64, dt: f64) {
+        let slow = corner::slow(&self.vehicle, dt);
+        let torques = self.torques(throttle, friction, slow);
+        let chassis = Chassis::from(&self.physics.bodies[self.chassis]);
+        let (mut force, mut torque) = (Vector::ZERO, Vector::ZERO);
+        for (corner, torque_on_wheel) in self.corners.iter_mut().zip(torques) {
+            let wheel = &mut self.physics.bodies[corner.wheel];
+            let (push, turn) = corner.push(wheel, &chassis, &self.vehicle, torque_on_wheel, friction, slow, dt);
+            force += push;
+            torque += turn;
+        }
+        apply(&mut self.physics.bodies[self.chassis], force, torque);
+    }
+
+    /// What engine or brakes do to the wheels.
+    ///
+    /// Each wheel that they act on gets the share of its load. Its torque turns the wheel faster, and through the road
+    /// the rest of the car, the other wheels with it.
+    fn torques(&self, throttle: f64, friction: f64, slow: f64) -> [Torque; 4] {
+        let vehicle = &self.vehicle;
+        let radius = vehicle.wheel_radius;
+        let brakes = throttle < 0.0;
+        let demand = vehicle.demand(throttle, self.state.velocity.x.max(0.0)).abs();
+        let acts = |corner: &Corner| match vehicle.drive {
+            _ if brakes => true,
+            Drive::Front => corner.front,
+            Drive::Rear => !corner.front,
+            Drive::Four => true,
+        };
+        let total: f64 = self.corners.iter().filter(|corner| acts(corner)).map(|corner| corner.load).sum();
+        let idle = self.corners.iter().filter(|corner| !acts(corner)).count();
+        let spin = vehicle.wheel_inertia / (radius * radius);
+        let mass = vehicle.mass + idle as f64 * spin;
+        self.corners.map(|corner| {
+            let torque = if acts(&corner) && corner.load > 0.0 && corner.slip(slow) < LET_GO {
+                let moved = mass * corner.load / total;
+                let acceleration = demand.min(USED * corner.grip(friction) / moved);
+                radius * acceleration * (moved + spin)
+            } else {
+                0.0
+            };
+            if brakes { Torque::Brake(torque) } else { Torque::Engine(torque) }
+        })
+    }
+
+    /// Reads how the car moves now.
+    fn read(&mut self, dt: f64) {
+        let body = &self.physics.bodies[self.chassis];
+        let chassis = Chassis::from(body);
+        let forward = chassis.frame.rotation * Vector::X;
+        let heading = libm::atan2(f64::from(forward.y), f64::from(forward.x));
+        let middle = Pose { position: flat(chassis.frame.translation), heading };
+        let turned = Pose { position: Vector2::zeros(), heading };
+        let now = self.origin.then(&middle);
+        let velocity = turned.to_local(flat(chassis.velocity_at(chassis.frame.translation)));
+        let yaw_rate = f64::from(body.angvel().z);
+        let ahead = self.vehicle.ahead();
+        let state = &mut self.state;
+        let at_centre = |velocity: Vector2<f64>, yaw_rate: f64| velocity + Vector2::new(0.0, ahead * yaw_rate);
+        let (before, after) = (at_centre(state.velocity, state.yaw_rate), at_centre(velocity, yaw_rate));
+        let mean = 0.5 * (before + after);
+        let turn = 0.5 * (state.yaw_rate + yaw_rate);
+        state.acceleration = (after - before) / dt + turn * Vector2::new(-mean.y, mean.x);
+        state.travelled += 0.5 * (state.velocity.norm() + velocity.norm()) * dt;
+        state.heading += wrapped(now.heading - state.heading);
+        (state.position, state.velocity, state.yaw_rate) = (now.position, velocity, yaw_rate);
+    }
+
+    /// Brings the car back to the origin of the frame that the physics counts in.
+    fn bring_back(&mut self) {
+        let at = self.physics.bodies[self.chassis].translation();
+        if at.x.abs().max(at.y.abs()) < FAR {
+            return;
+        }
+        let away = Vector::new(at.x, at.y, 0.0);
+        self.origin = self.origin.then(&Pose { position: flat(away), heading: 0.0 });
+        for body in self.corners.iter().map(|corner| corner.wheel).chain([self.chassis]) {
+            let body = &mut self.physics.bodies[body];
+            body.set_translation(body.translation() - away, false);
+        }
+    }
+}
+
+impl Dynamics for Jointed {
+    fn step(&mut self, pedals: Pedals, friction: f64, dt: f64) {
+        if !self.state.accepts(pedals, friction, dt) {
+            return;
+        }
+        let Pedals { throttle, steering } = pedals.clamped();
+        self.steer(steering, dt);
+        self.push(throttle, friction, dt);
+        self.physics.integration_parameters.dt = dt as f32;
+        self.physics.step();
+        self.read(dt);
+        self.bring_back();
+    }
+
+    fn state(&self) -> &VehicleState {
+        &self.state
+    }
+
+    fn wheels(&self) -> [Wheel; 4] {
+        self.corners.map(|corner| corner.report())
+    }
+}
+
+/// What is left of the car without its wheels, as seen from its middle at the height of its centre of gravity.
+fn chassis_mass(vehicle: &Vehicle) -> MassProperties {
+    let wheels = 4.0 * vehicle.wheel_mass;
+    let mass = vehicle.mass - wheels;
+    let ahead = vehicle.mass * vehicle.ahead() / mass;
+    let above = wheels * (vehicle.centre_of_gravity - vehicle.wheel_radius) / mass;
+    let inertia = vehicle.yaw_inertia * Vector2::new(ROLL_INERTIA, PITCH_INERTIA);
+    MassProperties::new(vector(ahead, 0.0, above), mass as f32, vector(inertia.x, inertia.y, vehicle.body_inertia()))
+}
+
+/// Sets what acts on a body at its centre of mass in the next step.
+fn apply(body: &mut RigidBody, force: Vector, torque: Vector) {
+    body.reset_forces(false);
+    body.reset_torques(false);
+    body.add_force(force, false);
+    body.add_torque(torque, false);
+}
+
+fn vector(x: f64, y: f64, z: f64) -> Vector {
+    [x, y, z].map(|x| x as f32).into()
+}
+
+fn flat(vector: Vector) -> Vector2<f64> {
+    Vector2::new(f64::from(vector.x), f64::from(vector.y))
+}

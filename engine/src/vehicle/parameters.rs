@@ -1,0 +1,299 @@
+//! What a car is made of, and what follows for it on a straight road.
+
+use super::GRAVITY;
+
+/// Which wheels the engine drives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Drive {
+    /// The front wheels.
+    Front,
+    /// The rear wheels.
+    #[default]
+    Rear,
+    /// All four, each as its load allows.
+    Four,
+}
+
+/// Dimensions, masses and limits of a car. Lengths in metres. The car's position is the middle of its box; its axles
+/// stand evenly about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vehicle {
+    /// Bumper to bumper.
+    pub length: f64,
+    /// Side to side.
+    pub width: f64,
+    /// Road to roof.
+    pub height: f64,
+    /// Front axle to rear axle.
+    pub wheelbase: f64,
+    /// Left wheel to right wheel.
+    pub track: f64,
+    /// Centre of gravity to front axle.
+    pub front_axle: f64,
+    /// Height above the road of the centre of gravity (of the sprung mass, as the single-track model of the source
+    /// takes it), on which the load transfer acts.
+    pub centre_of_gravity: f64,
+    /// All of it, in kg.
+    pub mass: f64,
+    /// Moment of inertia about the vertical axis through the centre of gravity, in kg m².
+    pub yaw_inertia: f64,
+    /// Axle to road.
+    pub wheel_radius: f64,
+    /// Of one wheel, in kg.
+    pub wheel_mass: f64,
+    /// Moment of inertia of one wheel about its axle, in kg m².
+    pub wheel_inertia: f64,
+    /// Frequency in Hz at which the body bounces on its springs.
+    pub ride_frequency: f64,
+    /// What the dampers take of the body's bouncing, by what would end it without overshoot.
+    pub damping_ratio: f64,
+    /// Side force of a tyre by its load and its slip angle, in 1/rad, where the angle is small.
+    pub cornering_stiffness: f64,
+    /// Which wheels the engine drives.
+    pub drive: Drive,
+    /// How far the front wheels turn to either side, in radians.
+    pub max_steering_angle: f64,
+    /// How fast they turn, in rad/s.
+    pub max_steering_rate: f64,
+    /// What the engine and the brakes can do, in m/s², before the road limits them.
+    pub max_acceleration: f64,
+    /// Speed in m/s above which the engine gives constant power, so that its acceleration falls as 1/v.
+    pub switch_speed: f64,
+    /// Top speed in m/s.
+    pub max_speed: f64,
+}
+
+impl Vehicle {
+    /// Vehicle 2 of the CommonRoad vehicle models, a BMW 320i (Althoff and Würsching, "CommonRoad: Vehicle
+    /// Models", 2020), with a roof 1.4 m above the road. The track is the mean of its axles', the ride frequency and
+    /// damping are those of its springs and dampers under its sprung mass, and a wheel is half of an axle's unsprung mass.
+    /// The inertia is that of a wheel of 15 inches; the source has one from a heavier car.
+    pub const BMW_320I: Vehicle = Vehicle {
+        length: 4.508,
+        width: 1.610,
+        height: 1.4,
+        wheelbase: 2.579,
+        track: 1.375,
+        front_axle: 1.156,
+        centre_of_gravity: 0.614,
+        mass: 1093.3,
+        yaw_inertia: 1791.6,
+        wheel_radius: 0.344,
+        wheel_mass: 31.9,
+        wheel_inertia: 0.9,
+        ride_frequency: 1.52,
+        damping_ratio: 0.37,
+        cornering_stiffness: 21.92,
+        drive: Drive::Rear,
+        max_steering_angle: 1.066,
+        max_steering_rate: 0.4,
+        max_acceleration: 11.5,
+        switch_speed: 7.319,
+        max_speed: 50.8,
+    };
+
+    /// The acceleration in m/s² that a throttle in [-1, 1] gives at this speed on a road of this friction.
+    /// Below 0 it is a brake, and `throttle * max_acceleration` is asked of it.
+    pub fn acceleration(&self, throttle: f64, speed: f64, friction: f64) -> f64 {
+        let demand = self.demand(throttle, speed);
+        if throttle < 0.0 { demand.max(-friction * GRAVITY) } else { demand.min(self.traction(friction)) }
+    }
+
+    /// The same on a road that limits nothing.
+    pub(super) fn demand(&self, throttle: f64, speed: f64) -> f64 {
+        if throttle < 0.0 {
+            return throttle * self.max_acceleration;
+        }
+        if speed >= self.max_speed {
+            return 0.0;
+        }
+        let power = (self.switch_speed / speed.max(self.switch_speed)).min(1.0);
+        throttle * power * self.max_acceleration
+    }
+
+    /// The acceleration in m/s² at which the driven wheels begin to spin.
+    ///
+    /// Of the rear axle `a = mu N_r / m` with `N_r = m (g l_f + a h) / L`, solved for `a`, and likewise of the front
+    /// axle. A road so rough that the front wheels would lift (`mu h >= L`) limits nothing.
+    fn traction(&self, friction: f64) -> f64 {
+        let (grip, shift) = (friction * GRAVITY, friction * self.centre_of_gravity);
+        match self.drive {
+            Drive::Front => grip * self.rear_axle() / (self.wheelbase + shift),
+            Drive::Rear if self.wheelbase > shift => grip * self.front_axle / (self.wheelbase - shift),
+            Drive::Rear => f64::INFINITY,
+            Drive::Four => grip,
+        }
+    }
+
+    /// Centre of gravity to rear axle, in metres.
+    pub fn rear_axle(&self) -> f64 {
+        self.wheelbase - self.front_axle
+    }
+
+    /// How far its centre of gravity is ahead of its middle, in metres.
+    pub(super) fn ahead(&self) -> f64 {
+        0.5 * self.wheelbase - self.front_axle
+    }
+
+    /// Moment of inertia of what is not a wheel about the vertical through the centre of gravity, in kg m².
+    pub(super) fn body_inertia(&self) -> f64 {
+        let arm = 0.25 * (self.wheelbase * self.wheelbase + self.track * self.track);
+        self.yaw_inertia - 4.0 * (self.wheel_mass * arm + self.wheel_inertia)
+    }
+
+    /// The loads in newtons on the front and on the rear axle under an acceleration in m/s².
+    pub(super) fn axle_loads(&self, acceleration: f64) -> [f64; 2] {
+        let (inertia, per_metre) = (acceleration * self.centre_of_gravity, self.mass / self.wheelbase);
+        let front = per_metre * (GRAVITY * self.rear_axle() - inertia);
+        let rear = per_metre * (GRAVITY * self.front_axle + inertia);
+        [front.max(0.0), rear.max(0.0)]
+    }
+
+    /// The greatest torque of its engine, or of its brakes, on all wheels together, in N m.
+    pub fn max_torque(&self) -> f64 {
+        self.max_acceleration * self.mass * self.wheel_radius
+    }
+
+    /// The same car with this greatest torque, in N m.
+    pub fn with_max_torque(self, torque: f64) -> Self {
+        Self { max_acceleration: torque / (self.mass * self.wheel_radius), ..self }
+    }
+
+    /// What is wrong with it, if anything: the field, its value and what was expected.
+    pub fn problem(&self) -> Option<String> {
+        let positive = [
+            ("length", self.length),
+            ("width", self.width),
+            ("height", self.height),
+            ("wheelbase", self.wheelbase),
+            ("track", self.track),
+            ("centre_of_gravity", self.centre_of_gravity),
+            ("mass", self.mass),
+            ("yaw_inertia", self.yaw_inertia),
+            ("wheel_radius", self.wheel_radius),
+            ("wheel_mass", self.wheel_mass),
+            ("wheel_inertia", self.wheel_inertia),
+            ("ride_frequency", self.ride_frequency),
+            ("damping_ratio", self.damping_ratio),
+            ("cornering_stiffness", self.cornering_stiffness),
+            ("max_steering_rate", self.max_steering_rate),
+            ("max_acceleration", self.max_acceleration),
+            ("switch_speed", self.switch_speed),
+            ("max_speed", self.max_speed),
+        ];
+        let wrong = positive.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()));
+        if let Some((name, value)) = wrong {
+            return Some(format!("the vehicle's {name} is {value}, expected a number above 0"));
+        }
+        let between = |name: &str, value: f64, most: f64| {
+            let wrong = !(0.0..most).contains(&value);
+            wrong.then(|| format!("the vehicle's {name} is {value}, expected 0 to less than {most}"))
+        };
+        let wrong = between("front_axle", self.front_axle, self.wheelbase)
+            .or_else(|| between("max_steering_angle", self.max_steering_angle, std::f64::consts::FRAC_PI_2));
+        if wrong.is_some() {
+            return wrong;
+        }
+        let wheels = 2.0 * self.wheel_mass;
+        for (axle, load) in ["front", "rear"].into_iter().zip(self.axle_loads(0.0)) {
+            let carried = load / GRAVITY;
+            if carried <= wheels {
+                return Some(format!(
+                    "the vehicle's {axle} axle carries {carried:.1} kg, expected more than its {wheels} kg of wheels"
+                ));
+            }
+        }
+        let body = self.body_inertia();
+        (body <= 0.0).then(|| {
+            format!(
+                "the vehicle's yaw_inertia is {}, expected more than its wheels' {:.1}",
+                self.yaw_inertia,
+                self.yaw_inertia - body
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vehicle::Motion;
+
+    const CAR: Vehicle = Vehicle::BMW_320I;
+
+    fn stopping_distance(speed: f64, friction: f64, dt: f64) -> f64 {
+        let mut motion = Motion { speed, ..Motion::default() };
+        while motion.speed > 0.0 {
+            motion = motion.after(CAR.acceleration(-1.0, motion.speed, friction), dt);
+        }
+        motion.travelled
+    }
+
+    #[test]
+    fn full_brakes_stop_the_car_within_two_percent_of_the_friction_limit() {
+        let speed = 50.0 / 3.6;
+        for friction in [0.3, 0.8] {
+            let ideal = speed * speed / (2.0 * friction * GRAVITY);
+            let distances = [0.002, 0.01].map(|dt| stopping_distance(speed, friction, dt));
+            for distance in distances {
+                assert!((distance / ideal - 1.0).abs() < 0.02, "mu {friction}: {distance} m, ideal {ideal} m");
+            }
+            assert!((distances[0] / distances[1] - 1.0).abs() < 0.01, "mu {friction}: {distances:?}");
+        }
+    }
+
+    #[test]
+    fn a_standing_car_with_its_brakes_on_does_not_move() {
+        let rest = Motion::default().after(CAR.acceleration(-1.0, 0.0, 0.8), 0.01);
+        assert_eq!(rest, Motion::default());
+    }
+
+    #[test]
+    fn brakes_weaker_than_the_road_do_as_commanded() {
+        assert_eq!(CAR.acceleration(-0.5, 10.0, 0.8), -5.75);
+        assert_eq!(CAR.acceleration(-0.9, 10.0, 0.2), -0.2 * GRAVITY);
+    }
+
+    #[test]
+    fn the_rear_axle_spins_before_the_whole_car_slips() {
+        for friction in [0.2, 0.5, 0.8] {
+            let grip = CAR.acceleration(1.0, 0.0, friction);
+            let rear_load = (GRAVITY * CAR.front_axle + grip * CAR.centre_of_gravity) / CAR.wheelbase;
+            assert!((grip - friction * rear_load).abs() < 1e-12);
+            assert!(grip < friction * GRAVITY);
+        }
+    }
+
+    #[test]
+    fn the_engine_gives_constant_power_above_the_switch_speed_and_nothing_at_top_speed() {
+        assert!((CAR.acceleration(1.0, 2.0 * CAR.switch_speed, 5.0) - 0.5 * CAR.max_acceleration).abs() < 1e-12);
+        assert_eq!(CAR.acceleration(1.0, CAR.max_speed, 0.8), 0.0);
+    }
+
+    #[test]
+    fn four_driven_wheels_use_the_whole_load_and_front_wheels_the_one_that_they_shed() {
+        let grip = |drive| Vehicle { drive, ..CAR }.acceleration(1.0, 0.0, 0.5);
+        assert_eq!(grip(Drive::Four), 0.5 * GRAVITY);
+        let front = grip(Drive::Front);
+        assert!((front - 0.5 * CAR.axle_loads(front)[0] / CAR.mass).abs() < 1e-12);
+        assert!(front < 0.5 * CAR.axle_loads(0.0)[0] / CAR.mass);
+    }
+
+    #[test]
+    fn a_torque_is_an_acceleration_by_mass_and_wheel() {
+        let strong = CAR.with_max_torque(2000.0);
+        assert!((strong.max_torque() - 2000.0).abs() < 1e-9);
+        assert!((strong.max_acceleration * CAR.mass * CAR.wheel_radius - 2000.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_no_car_has_is_named() {
+        assert_eq!(CAR.problem(), None);
+        let problem = |car: Vehicle| car.problem().unwrap();
+        assert!(problem(Vehicle { mass: f64::NAN, ..CAR }).contains("mass is NaN"));
+        assert!(problem(Vehicle { track: 0.0, ..CAR }).contains("track is 0"));
+        assert!(problem(Vehicle { wheel_mass: 250.0, ..CAR }).contains("rear axle carries 490.1 kg"));
+        assert!(problem(Vehicle { yaw_inertia: 200.0, ..CAR }).contains("yaw_inertia is 200, expected more than"));
+        assert!(problem(Vehicle { front_axle: 3.0, ..CAR }).contains("front_axle is 3, expected 0 to less than 2.579"));
+    }
+}

@@ -1,0 +1,217 @@
+//! The model `single-track`: the wheels of an axle are one, and the car does not pitch or roll.
+//!
+//! The state is the velocity of the centre of gravity ahead (`u`) and to the left (`v`) and the yaw rate (`r`) of
+//! Newton's and Euler's equations in the plane (Rajamani, "Vehicle Dynamics and Control", 2012, chapter 2), with the
+//! longitudinal forces that the [`Vehicle`] allows and the side forces of a brush tyre, cut to the friction circle of the
+//! load that is on the axle.
+//!
+//! Straight ahead nothing of this is needed and the motion is exact ([`Motion`]). Else a step goes by pieces of at most
+//! [`PIECE`] seconds, each a linearly implicit Euler step: the slip angle is a speed across divided by one along, so that
+//! the tyres become stiffer without bound as the car slows down, and an explicit step would blow up. The implicit one
+//! turns into the kinematic model there, in which the axles go where they point. Below [`SLOW`] a tyre's side force is
+//! viscous, and a car that slides at rest comes to rest.
+
+use super::tyre::Tyre;
+use super::{Drive, Dynamics, Motion, Pedals, Vehicle, VehicleState, Wheel};
+use crate::scenario::Pose;
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+/// Seconds that a piece of a step takes at most in a bend.
+const PIECE: f64 = 0.002;
+/// Speed in m/s below which slip is no longer relative to the speed.
+const SLOW: f64 = 0.1;
+/// Speeds in m/s and rad/s below which a car that brakes stands, and one that has stopped turning goes straight.
+const STILL: f64 = 1e-9;
+
+/// A car as a dynamic bicycle.
+#[derive(Debug, Clone)]
+pub struct SingleTrack {
+    vehicle: Vehicle,
+    state: VehicleState,
+    /// What it was last told.
+    throttle: f64,
+    friction: f64,
+    straight: Straight,
+}
+
+/// The straight way that the car is on.
+#[derive(Debug, Clone, Copy)]
+struct Straight {
+    from: Vector2<f64>,
+    along: Vector2<f64>,
+    /// The way that the car had come when it began.
+    travelled: f64,
+}
+
+/// An axle on the road: one wheel that has the loads and forces of two.
+#[derive(Debug, Clone, Copy)]
+struct Axle {
+    load: f64,
+    tyre: Tyre,
+    /// By how much its speeds along and across grow with `u`, `v` and `r`; its forces act on them likewise.
+    forward: Vector3<f64>,
+    left: Vector3<f64>,
+    /// Its speeds in m/s along and across.
+    speed: Vector2<f64>,
+    /// Its forces in newtons along and across.
+    force: Vector2<f64>,
+    /// By how much the force across falls as the speed across grows, in N s/m.
+    damping: f64,
+}
+
+impl SingleTrack {
+    /// A car whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    pub fn new(vehicle: &Vehicle, start: Pose, speed: f64) -> Self {
+        let state = VehicleState::new(start, speed);
+        Self { vehicle: *vehicle, straight: Straight::from(&state), state, throttle: 0.0, friction: 0.0 }
+    }
+
+    /// Whether it goes straight ahead and will go on so.
+    fn is_straight(&self, steering: f64) -> bool {
+        let state = &self.state;
+        steering == 0.0
+            && state.steering_angle == 0.0
+            && state.velocity.y == 0.0
+            && state.yaw_rate == 0.0
+            && state.velocity.x >= 0.0
+    }
+
+    fn go_straight(&mut self, dt: f64) {
+        let state = &mut self.state;
+        let speed = state.velocity.x;
+        let demand = self.vehicle.acceleration(self.throttle, speed, self.friction);
+        let before = Motion { speed, acceleration: state.acceleration.x, travelled: state.travelled };
+        let motion = before.after(demand, dt);
+        state.velocity.x = motion.speed;
+        state.acceleration = Vector2::new(motion.acceleration, 0.0);
+        state.travelled = motion.travelled;
+        state.position = self.straight.from + self.straight.along * (motion.travelled - self.straight.travelled);
+    }
+
+    fn turn(&mut self, dt: f64) {
+        let pieces = (dt / PIECE).ceil();
+        let piece = dt / pieces;
+        let ahead = self.vehicle.ahead();
+        let before = self.motion();
+        let mut centre = self.state.position + self.state.pose().forward() * ahead;
+        let mut motion = before;
+        for _ in 0..pieces as usize {
+            let change = self.change(&motion, piece);
+            let mean = motion + 0.5 * change;
+            self.state.acceleration.x = change.x / piece - mean.y * mean.z;
+            motion += change;
+            let middle = Vector2::new(mean.x, mean.y - ahead * mean.z);
+            let (sin, cos) = libm::sincos(self.state.heading + 0.5 * piece * mean.z);
+            centre += piece * Vector2::new(cos * mean.x - sin * mean.y, sin * mean.x + cos * mean.y);
+            self.state.heading += piece * mean.z;
+            self.state.travelled += piece * middle.norm();
+        }
+        let turned = |motion: &Vector3<f64>| Vector2::new(-motion.y, motion.x) * motion.z;
+        self.state.acceleration = (motion - before).xy() / dt + 0.5 * (turned(&before) + turned(&motion));
+        if self.throttle < 0.0 && motion.amax() < STILL {
+            motion = Vector3::zeros();
+        } else if self.state.steering_angle == 0.0 && motion.yz().amax() < STILL {
+            motion = Vector3::new(motion.x, 0.0, 0.0);
+        }
+        self.state.velocity = Vector2::new(motion.x, motion.y - ahead * motion.z);
+        self.state.yaw_rate = motion.z;
+        self.state.position = centre - self.state.pose().forward() * ahead;
+        self.straight = Straight::from(&self.state);
+    }
+
+    /// The velocity of the centre of gravity ahead and to the left, and the yaw rate.
+    fn motion(&self) -> Vector3<f64> {
+        let VehicleState { velocity, yaw_rate, .. } = self.state;
+        Vector3::new(velocity.x, velocity.y + self.vehicle.ahead() * yaw_rate, yaw_rate)
+    }
+
+    /// What `dt` seconds change in a motion.
+    fn change(&self, motion: &Vector3<f64>, dt: f64) -> Vector3<f64> {
+        let mass = self.vehicle.mass;
+        let (u, v, r) = (motion.x, motion.y, motion.z);
+        // The frame turns with the car: Newton's law in it, and its derivatives.
+        let mut force = mass * Vector3::new(v * r, -u * r, 0.0);
+        let mut stiffness = mass * Matrix3::new(0.0, -r, -v, r, 0.0, u, 0.0, 0.0, 0.0);
+        for axle in self.axles(motion, dt) {
+            force += axle.force.x * axle.forward + axle.force.y * axle.left;
+            stiffness += axle.damping * axle.left * axle.left.transpose();
+        }
+        let inertia = Matrix3::from_diagonal(&Vector3::new(mass, mass, self.vehicle.yaw_inertia));
+        let inverse = (inertia + dt * stiffness).try_inverse();
+        inverse.map_or(Vector3::repeat(f64::NAN), |inverse| inverse * force * dt)
+    }
+
+    /// The axles of a car in this motion. Its brakes ask no more of them than what stops it within `dt` seconds.
+    fn axles(&self, motion: &Vector3<f64>, dt: f64) -> [Axle; 2] {
+        let vehicle = &self.vehicle;
+        let demand = vehicle.acceleration(self.throttle, motion.x.max(0.0), self.friction);
+        let loads = vehicle.axle_loads(self.state.acceleration.x);
+        let brakes = self.throttle < 0.0;
+        let pull = if brakes { demand.max(-motion.x.abs() / dt).copysign(-motion.x) } else { demand };
+        let share = loads[0] / (loads[0] + loads[1]);
+        let share = match vehicle.drive {
+            Drive::Front if !brakes => 1.0,
+            Drive::Rear if !brakes => 0.0,
+            _ => share,
+        };
+        let total = vehicle.mass * pull;
+        let axle = |load: f64, share: f64, angle: f64, arm: f64| {
+            let tyre = Tyre::new(vehicle.cornering_stiffness, self.friction, load);
+            let (sin, cos) = libm::sincos(angle);
+            let (forward, left) = (Vector3::new(cos, sin, arm * sin), Vector3::new(-sin, cos, arm * cos));
+            let speed = Vector2::new(forward.dot(motion), left.dot(motion));
+            let rolling = speed.x.abs().max(SLOW);
+            let (side, slope) = tyre.side_force(speed.y / rolling);
+            let force = tyre.cut(Vector2::new(share * total, -side));
+            Axle { load, tyre, forward, left, speed, force, damping: slope / rolling }
+        };
+        [
+            axle(loads[0], share, self.state.steering_angle, vehicle.front_axle),
+            axle(loads[1], 1.0 - share, 0.0, -vehicle.rear_axle()),
+        ]
+    }
+}
+
+impl Dynamics for SingleTrack {
+    fn step(&mut self, pedals: Pedals, friction: f64, dt: f64) {
+        if !self.state.accepts(pedals, friction, dt) {
+            return;
+        }
+        let Pedals { throttle, steering } = pedals.clamped();
+        (self.throttle, self.friction) = (throttle, friction);
+        if self.is_straight(steering) {
+            self.go_straight(dt);
+        } else {
+            self.state.steer(&self.vehicle, steering, dt);
+            self.turn(dt);
+        }
+    }
+
+    fn state(&self) -> &VehicleState {
+        &self.state
+    }
+
+    /// Both wheels of an axle do the same, each under half of its load.
+    fn wheels(&self) -> [Wheel; 4] {
+        let [front, rear] = self.axles(&self.motion(), PIECE).map(|axle| axle.wheel());
+        [front, front, rear, rear]
+    }
+}
+
+impl Straight {
+    /// What begins where the car is.
+    fn from(state: &VehicleState) -> Self {
+        Self { from: state.position, along: state.pose().forward(), travelled: state.travelled }
+    }
+}
+
+impl Axle {
+    fn wheel(&self) -> Wheel {
+        Wheel {
+            slip_ratio: self.tyre.slip_ratio(self.force),
+            slip_angle: libm::atan2(self.speed.y, self.speed.x.abs()),
+            load: 0.5 * self.load,
+            contact: self.load > 0.0,
+        }
+    }
+}
