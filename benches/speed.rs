@@ -10,7 +10,10 @@ use nalgebra::Vector2;
 use paracosm::Study;
 use paracosm::coverage::Space;
 use paracosm::engine::road::{Network, Place, grid_city};
-use paracosm::engine::{AutonomousVehicle, DEFAULT_DT, Program, RoadSegment, Run, Scenario, Stream, driver, simulate};
+use paracosm::engine::vehicle::{Model, Pedals, Vehicle};
+use paracosm::engine::{
+    AutonomousVehicle, DEFAULT_DT, Pose, Program, RoadSegment, Run, Scenario, Stream, driver, simulate,
+};
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
 
@@ -30,6 +33,24 @@ fn tests(bencher: Bencher, driver: &str) {
     bencher.counter(ItemsCount::new(TESTS)).bench_local(|| {
         for test in &tests {
             black_box(simulate(&program, test, driver.as_mut()).trace.map(|trace| trace.hash()));
+        }
+    });
+}
+
+/// Ways of a car over 10 seconds at 100 Hz, with throttle, brakes and steering.
+#[divan::bench(args = Model::ALL, sample_count = 20)]
+fn ways(bencher: Bencher, model: Model) {
+    const WAYS: usize = 10;
+    let start = Pose { position: Vector2::zeros(), heading: 0.0 };
+    bencher.counter(ItemsCount::new(WAYS)).bench(|| {
+        for _ in 0..WAYS {
+            let mut car = model.build(&Vehicle::BMW_320I, start, 15.0);
+            for tick in 0..1000 {
+                let throttle = if tick % 200 < 120 { 0.3 } else { -0.4 };
+                let steering = if tick % 300 < 150 { 0.02 } else { -0.02 };
+                car.step(Pedals { throttle, steering }, 0.8, DEFAULT_DT);
+            }
+            black_box(car.state().travelled);
         }
     });
 }

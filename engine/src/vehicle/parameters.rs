@@ -198,12 +198,18 @@ impl Vehicle {
         for (axle, load) in ["front", "rear"].into_iter().zip(self.axle_loads(0.0)) {
             let carried = load / GRAVITY;
             if carried <= wheels {
-                return Some(format!("the vehicle's {axle} axle carries {carried:.1} kg, expected more than its {wheels} kg of wheels"));
+                return Some(format!(
+                    "the vehicle's {axle} axle carries {carried:.1} kg, expected more than its {wheels} kg of wheels"
+                ));
             }
         }
         let body = self.body_inertia();
         (body <= 0.0).then(|| {
-            format!("the vehicle's yaw_inertia is {}, expected more than its wheels' {:.1}", self.yaw_inertia, self.yaw_inertia - body)
+            format!(
+                "the vehicle's yaw_inertia is {}, expected more than its wheels' {:.1}",
+                self.yaw_inertia,
+                self.yaw_inertia - body
+            )
         })
     }
 }
