@@ -12,8 +12,10 @@ use paracosm::coverage::Space;
 use paracosm::engine::driver::reference;
 use paracosm::engine::kinematic::CutIn;
 use paracosm::engine::road::{Network, Place, grid_city};
-use paracosm::engine::vehicle::Model;
-use paracosm::engine::{AutonomousVehicle, Program, RoadSegment, Run, Scenario, Setup, Stream, driver, simulate};
+use paracosm::engine::vehicle::{Model, Pedals, Vehicle};
+use paracosm::engine::{
+    AutonomousVehicle, DEFAULT_DT, Pose, Program, RoadSegment, Run, Scenario, Setup, Stream, driver, simulate,
+};
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
 
@@ -49,6 +51,24 @@ fn cut_ins(bencher: Bencher, driver: &str) {
     bencher
         .counter(ItemsCount::new(CUT_INS))
         .bench_local(|| encounters.iter().filter(|encounter| drive(encounter).collision.is_some()).count());
+}
+
+/// Ways of a car over 10 seconds at 100 Hz, with throttle, brakes and steering.
+#[divan::bench(args = Model::ALL, sample_count = 20)]
+fn ways(bencher: Bencher, model: Model) {
+    const WAYS: usize = 10;
+    let start = Pose { position: Vector2::zeros(), heading: 0.0 };
+    bencher.counter(ItemsCount::new(WAYS)).bench(|| {
+        for _ in 0..WAYS {
+            let mut car = model.build(&Vehicle::BMW_320I, start, 15.0);
+            for tick in 0..1000 {
+                let throttle = if tick % 200 < 120 { 0.3 } else { -0.4 };
+                let steering = if tick % 300 < 150 { 0.02 } else { -0.02 };
+                car.step(Pedals { throttle, steering }, 0.8, DEFAULT_DT);
+            }
+            black_box(car.state().travelled);
+        }
+    });
 }
 
 /// Nodes of streams evaluated in each tick of a run of 1,000 ticks: arithmetic, a comparison, a closure, and what

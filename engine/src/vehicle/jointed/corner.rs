@@ -1,10 +1,10 @@
 //! A wheel of the jointed car: how it hangs on the chassis, and what chassis and road do to it.
 //!
 //! The tyre is a stiff damper for the spin of its wheel, so that the spin is implicit in the force along it. Across the
-//! wheel the force is explicit, and slip is relative to a speed that is not below what makes this stable ([`slow`]).
+//! wheel the force is explicit, and slip is relative to a speed that is not below what makes this stable ([`Step::slow`]).
 
 use super::super::tyre::Tyre;
-use super::{GRAVITY, Vehicle, Wheel, apply, vector};
+use super::{GRAVITY, ROLL_INERTIA, Vehicle, Wheel, apply, vector};
 use nalgebra::Vector2;
 use rapier3d::dynamics::{MassProperties, RigidBody};
 use rapier3d::math::{Pose as Frame, Rotation, Vector};
@@ -14,16 +14,9 @@ use rapier3d::prelude::{
 
 /// Metres by which a tyre is compressed at rest (CommonRoad, vehicle 2: 158 kN/m under 2.9 kN).
 const COMPRESSED: f64 = 0.018;
-/// How much above the bound of stability [`slow`] is: a push at the road moves the car also by making it roll.
-const MARGIN: f64 = 1.5;
-
-/// The speed in m/s below which slip is no longer relative to the speed.
-///
-/// Against a speed across the wheels a tyre of the stiffness `C` by load is a damper that slows the car at the rate
-/// `C g / v`, which an explicit step has to resolve.
-pub(super) fn slow(vehicle: &Vehicle, dt: f64) -> f64 {
-    MARGIN * vehicle.cornering_stiffness * GRAVITY * dt
-}
+/// Stiffness of an anti-roll bar by that of a spring: it makes the body roll half as far, 5 degrees under 1 g, so that the
+/// car slides before it tips over.
+const ROLL_BAR: f64 = 0.5;
 
 /// A wheel and how it hangs on the chassis.
 #[derive(Debug, Clone, Copy)]
@@ -60,9 +53,19 @@ pub(super) enum Torque {
     Brake(f64),
 }
 
+/// What a step of the physics is done with, alike for all wheels.
+pub(super) struct Step<'a> {
+    pub vehicle: &'a Vehicle,
+    pub chassis: Chassis,
+    pub friction: f64,
+    pub dt: f64,
+    /// The speed in m/s below which slip is no longer relative to the speed.
+    slow: f64,
+}
+
 /// How the chassis stands and moves.
 pub(super) struct Chassis {
-    /// Its middle at the height of the car's centre of gravity.
+    /// Its middle at the height of the axles.
     pub frame: Frame,
     centre: Vector,
     velocity: Vector,
@@ -79,12 +82,12 @@ impl Corner {
         side: f64,
         speed: f64,
     ) -> Self {
-        let (radius, height) = (vehicle.wheel_radius, vehicle.centre_of_gravity);
+        let radius = vehicle.wheel_radius;
         let along = if front { 0.5 } else { -0.5 } * vehicle.wheelbase;
-        let at = vector(along, 0.5 * side * vehicle.track, radius - height);
+        let at = vector(along, 0.5 * side * vehicle.track, 0.0);
         let inertia = Vector::splat(vehicle.wheel_inertia as f32);
         let wheel = RigidBodyBuilder::dynamic()
-            .translation(at + vector(0.0, 0.0, height))
+            .translation(at + vector(0.0, 0.0, radius))
             .linvel(vector(speed, 0.0, 0.0))
             .angvel(vector(0.0, speed / radius, 0.0))
             .can_sleep(false)
@@ -114,6 +117,14 @@ impl Corner {
         }
     }
 
+    /// The longest step in seconds in which the wheel can hop between road and chassis and not blow up: of an explicit
+    /// spring `k` and damper `c` under a mass `m` that is `k dt² + 2 c dt = 4 m`, and this is half of that way.
+    pub fn longest_step(&self, vehicle: &Vehicle) -> f64 {
+        let stiffness = (1.0 + 2.0 * ROLL_BAR) * self.spring + self.rest / COMPRESSED;
+        let discriminant = self.damper * self.damper + 2.0 * stiffness * vehicle.wheel_mass;
+        (discriminant.sqrt() - self.damper) / stiffness
+    }
+
     /// How far to the left of the car's middle it is, in metres.
     pub fn left(&self) -> f64 {
         f64::from(self.at.y)
@@ -128,33 +139,31 @@ impl Corner {
     }
 
     /// How much faster or slower its tread is than the road under it, by the speed of the road.
-    pub fn slip(&self, slow: f64) -> f64 {
-        (self.tread - self.speed.x).abs() / self.speed.x.abs().max(slow)
+    pub fn slip(&self, step: &Step) -> f64 {
+        (self.tread - self.speed.x).abs() / self.speed.x.abs().max(step.slow)
     }
 
     /// What the road can push along it, in newtons, beside what it pushes across.
-    pub fn grip(&self, friction: f64) -> f64 {
-        let limit = friction * self.load;
+    pub fn grip(&self, step: &Step) -> f64 {
+        let limit = step.friction * self.load;
         (limit * limit - self.side * self.side).max(0.0).sqrt()
     }
 
-    /// Sets what acts on the wheel in the next step, and returns what acts on the chassis, force and torque.
-    #[expect(clippy::too_many_arguments, reason = "what a step depends on")]
-    pub fn push(
-        &mut self,
-        wheel: &mut RigidBody,
-        chassis: &Chassis,
-        vehicle: &Vehicle,
-        torque: Torque,
-        friction: f64,
-        slow: f64,
-        dt: f64,
-    ) -> (Vector, Vector) {
+    /// How far up the wheel is from where it is at rest as seen from the chassis, in metres.
+    pub fn compression(&self, wheel: &RigidBody, chassis: &Chassis) -> f64 {
+        f64::from((wheel.translation() - chassis.frame.translation).dot(chassis.up()))
+    }
+
+    /// Sets what acts on the wheel in the next step, and returns what acts on the chassis, force and torque. `other` is
+    /// the compression of the spring on the other side of the car.
+    pub fn push(&mut self, step: &Step, wheel: &mut RigidBody, torque: Torque, other: f64) -> (Vector, Vector) {
+        let Step { vehicle, chassis, friction, dt, slow } = step;
         let at = wheel.translation();
-        let up = chassis.frame.rotation * Vector::Z;
-        let compression = f64::from((at - chassis.frame.translation).dot(up) - self.at.z);
+        let up = chassis.up();
+        let compression = self.compression(wheel, chassis);
+        let bent = compression + ROLL_BAR * (compression - other);
         let rate = f64::from((wheel.linvel() - chassis.velocity_at(at)).dot(up));
-        let spring = up * (self.sprung + self.spring * compression + self.damper * rate) as f32;
+        let spring = up * (self.sprung + self.spring * bent + self.damper * rate) as f32;
 
         let radius = vehicle.wheel_radius;
         let turned = chassis.frame.rotation * self.turned;
@@ -163,8 +172,8 @@ impl Corner {
         self.load = (self.rest * (1.0 + (radius - f64::from(at.z)) / COMPRESSED)).max(0.0);
         self.speed = Vector2::new(wheel.linvel().dot(ahead), wheel.linvel().dot(left)).map(f64::from);
         let spin = f64::from(wheel.angvel().dot(axle));
-        let tyre = Tyre::new(vehicle.cornering_stiffness, friction, self.load);
-        let rolling = self.speed.x.abs().max(slow);
+        let tyre = Tyre::new(vehicle.cornering_stiffness, *friction, self.load);
+        let rolling = self.speed.x.abs().max(*slow);
         let slip = Vector2::new(self.speed.x - radius * spin, self.speed.y) / rolling;
         // The damping of the tyre in N s/m, and the spin after the step if nothing but the road acts.
         let damping = tyre.secant(slip.norm()) / rolling;
@@ -199,10 +208,31 @@ impl Corner {
     }
 }
 
+impl<'a> Step<'a> {
+    /// A step of `dt` seconds on a road of this friction.
+    ///
+    /// Against a speed across the wheels a tyre of the stiffness `C` by load is a damper that slows the car at the rate
+    /// `C g / v`, which an explicit step has to resolve; a push at the road moves the wheels further where it makes the
+    /// car roll, or turn, more than sway.
+    pub fn new(vehicle: &'a Vehicle, chassis: Chassis, friction: f64, dt: f64) -> Self {
+        let height = vehicle.centre_of_gravity;
+        let rolls =
+            1.0 + vehicle.mass * height * (height - vehicle.wheel_radius) / (ROLL_INERTIA * vehicle.yaw_inertia);
+        let turns = vehicle.mass * vehicle.front_axle * vehicle.rear_axle() / vehicle.yaw_inertia;
+        let slow = vehicle.cornering_stiffness * GRAVITY * dt * rolls.max(turns).max(1.0);
+        Self { vehicle, chassis, friction, dt, slow }
+    }
+}
+
 impl Chassis {
     /// How a body stands and moves.
     pub fn from(body: &RigidBody) -> Self {
         Self { frame: *body.position(), centre: body.center_of_mass(), velocity: body.linvel(), turning: body.angvel() }
+    }
+
+    /// Its vertical.
+    pub fn up(&self) -> Vector {
+        self.frame.rotation * Vector::Z
     }
 
     /// The velocity of its point at a place.

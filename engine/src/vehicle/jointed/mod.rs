@@ -20,7 +20,7 @@ mod corner;
 use super::{Drive, Dynamics, GRAVITY, Pedals, Vehicle, VehicleState, Wheel};
 use crate::road::wrapped;
 use crate::scenario::Pose;
-use corner::{Chassis, Corner, Torque};
+use corner::{Chassis, Corner, Step, Torque};
 use nalgebra::Vector2;
 use rapier3d::dynamics::{MassProperties, RigidBody};
 use rapier3d::math::Vector;
@@ -34,18 +34,30 @@ const LET_GO: f64 = 0.3;
 /// 2: 207 and 1566 by 1792 kg m²).
 const ROLL_INERTIA: f64 = 0.116;
 const PITCH_INERTIA: f64 = 0.874;
+/// What is left of the vertical of a car that has tipped over.
+const UPRIGHT: f32 = 0.5;
+/// Speeds in m/s and rad/s below which a car that brakes stands: what is left is its body rocking on locked wheels, which
+/// moves the frame and not the car.
+const STANDS: f64 = 0.01;
 /// Metres from the origin at which the car is brought back to it.
 const FAR: f32 = 32.0;
 
 /// A car as a chassis and four wheels on joints.
+///
+/// It can tip over, where friction is higher than half of the track by the height of the centre of gravity. Its body
+/// touches nothing, so that there the model ends: its state becomes no number.
 pub struct Jointed {
     vehicle: Vehicle,
     state: VehicleState,
     physics: PhysicsWorld,
     chassis: RigidBodyHandle,
     corners: [Corner; 4],
+    /// Seconds that a step of the physics takes at most.
+    piece: f64,
     /// Where in the world the frame of the physics is.
     origin: Pose,
+    /// The velocity of the car's middle in that frame, in m/s.
+    drift: Vector2<f64>,
 }
 
 impl Jointed {
@@ -57,7 +69,7 @@ impl Jointed {
         parameters.num_internal_stabilization_iterations = 0;
         parameters.max_ccd_substeps = 0;
         let chassis = RigidBodyBuilder::dynamic()
-            .translation(vector(0.0, 0.0, vehicle.centre_of_gravity))
+            .translation(vector(0.0, 0.0, vehicle.wheel_radius))
             .linvel(vector(speed, 0.0, 0.0))
             .can_sleep(false)
             .additional_mass_properties(chassis_mass(vehicle));
@@ -67,7 +79,18 @@ impl Jointed {
         // Bodies know their centres of mass once the engine has seen them.
         physics.integration_parameters.dt = 0.0;
         physics.step();
-        Self { vehicle: *vehicle, state: VehicleState::new(start, speed), physics, chassis, corners, origin: start }
+        let piece = corners.iter().map(|corner| corner.longest_step(vehicle)).fold(f64::INFINITY, f64::min);
+        let state = VehicleState::new(start, speed);
+        Self {
+            vehicle: *vehicle,
+            state,
+            physics,
+            chassis,
+            corners,
+            piece,
+            origin: start,
+            drift: Vector2::new(speed, 0.0),
+        }
     }
 
     /// Turns the front wheels, each so that both roll about the same point on the line of the rear axle (Ackermann).
@@ -86,25 +109,27 @@ impl Jointed {
 
     /// Sets what acts on the bodies in the step to come.
     fn push(&mut self, throttle: f64, friction: f64, dt: f64) {
-        let slow = corner::slow(&self.vehicle, dt);
-        let torques = self.torques(throttle, friction, slow);
         let chassis = Chassis::from(&self.physics.bodies[self.chassis]);
+        let step = Step::new(&self.vehicle, chassis, friction, dt);
+        let torques = self.torques(&step, throttle);
+        let bodies = &mut self.physics.bodies;
+        let compressions = self.corners.map(|corner| corner.compression(&bodies[corner.wheel], &step.chassis));
         let (mut force, mut torque) = (Vector::ZERO, Vector::ZERO);
-        for (corner, torque_on_wheel) in self.corners.iter_mut().zip(torques) {
-            let wheel = &mut self.physics.bodies[corner.wheel];
-            let (push, turn) = corner.push(wheel, &chassis, &self.vehicle, torque_on_wheel, friction, slow, dt);
+        for (i, corner) in self.corners.iter_mut().enumerate() {
+            // Left and right follow each other.
+            let (push, turn) = corner.push(&step, &mut bodies[corner.wheel], torques[i], compressions[i ^ 1]);
             force += push;
             torque += turn;
         }
-        apply(&mut self.physics.bodies[self.chassis], force, torque);
+        apply(&mut bodies[self.chassis], force, torque);
     }
 
     /// What engine or brakes do to the wheels.
     ///
     /// Each wheel that they act on gets the share of its load. Its torque turns the wheel faster, and through the road
     /// the rest of the car, the other wheels with it.
-    fn torques(&self, throttle: f64, friction: f64, slow: f64) -> [Torque; 4] {
-        let vehicle = &self.vehicle;
+    fn torques(&self, step: &Step, throttle: f64) -> [Torque; 4] {
+        let vehicle = step.vehicle;
         let radius = vehicle.wheel_radius;
         let brakes = throttle < 0.0;
         let demand = vehicle.demand(throttle, self.state.velocity.x.max(0.0)).abs();
@@ -119,9 +144,9 @@ impl Jointed {
         let spin = vehicle.wheel_inertia / (radius * radius);
         let mass = vehicle.mass + idle as f64 * spin;
         self.corners.map(|corner| {
-            let torque = if acts(&corner) && corner.load > 0.0 && corner.slip(slow) < LET_GO {
+            let torque = if acts(&corner) && corner.load > 0.0 && corner.slip(step) < LET_GO {
                 let moved = mass * corner.load / total;
-                let acceleration = demand.min(USED * corner.grip(friction) / moved);
+                let acceleration = demand.min(USED * corner.grip(step) / moved);
                 radius * acceleration * (moved + spin)
             } else {
                 0.0
@@ -131,16 +156,28 @@ impl Jointed {
     }
 
     /// Reads how the car moves now.
-    fn read(&mut self, dt: f64) {
+    fn read(&mut self, throttle: f64, dt: f64) {
         let body = &self.physics.bodies[self.chassis];
         let chassis = Chassis::from(body);
+        if chassis.up().z < UPRIGHT {
+            self.state.lose();
+            return;
+        }
         let forward = chassis.frame.rotation * Vector::X;
         let heading = libm::atan2(f64::from(forward.y), f64::from(forward.x));
         let middle = Pose { position: flat(chassis.frame.translation), heading };
-        let turned = Pose { position: Vector2::zeros(), heading };
+        let drift = flat(chassis.velocity_at(chassis.frame.translation));
+        let mut velocity = Pose { position: Vector2::zeros(), heading }.to_local(drift);
+        let mut yaw_rate = f64::from(body.angvel().z);
+        if throttle < 0.0 && velocity.norm() < STANDS && yaw_rate.abs() < STANDS {
+            (velocity, yaw_rate) = (Vector2::zeros(), 0.0);
+            self.origin = self.state.pose().then(&origin_from(&middle));
+        } else {
+            // The engine has moved the bodies with the velocities that they have now.
+            self.origin = self.origin.then(&Pose { position: 0.5 * dt * (self.drift - drift), heading: 0.0 });
+        }
+        self.drift = drift;
         let now = self.origin.then(&middle);
-        let velocity = turned.to_local(flat(chassis.velocity_at(chassis.frame.translation)));
-        let yaw_rate = f64::from(body.angvel().z);
         let ahead = self.vehicle.ahead();
         let state = &mut self.state;
         let at_centre = |velocity: Vector2<f64>, yaw_rate: f64| velocity + Vector2::new(0.0, ahead * yaw_rate);
@@ -174,12 +211,19 @@ impl Dynamics for Jointed {
             return;
         }
         let Pedals { throttle, steering } = pedals.clamped();
-        self.steer(steering, dt);
-        self.push(throttle, friction, dt);
-        self.physics.integration_parameters.dt = dt as f32;
-        self.physics.step();
-        self.read(dt);
-        self.bring_back();
+        let pieces = (dt / self.piece).ceil();
+        let dt = dt / pieces;
+        for _ in 0..pieces as usize {
+            if !self.state.is_finite() {
+                return;
+            }
+            self.steer(steering, dt);
+            self.push(throttle, friction, dt);
+            self.physics.integration_parameters.dt = dt as f32;
+            self.physics.step();
+            self.read(throttle, dt);
+            self.bring_back();
+        }
     }
 
     fn state(&self) -> &VehicleState {
@@ -191,12 +235,12 @@ impl Dynamics for Jointed {
     }
 }
 
-/// What is left of the car without its wheels, as seen from its middle at the height of its centre of gravity.
+/// What is left of the car without its wheels, as seen from its middle at the height of its axles.
 fn chassis_mass(vehicle: &Vehicle) -> MassProperties {
     let wheels = 4.0 * vehicle.wheel_mass;
     let mass = vehicle.mass - wheels;
     let ahead = vehicle.mass * vehicle.ahead() / mass;
-    let above = wheels * (vehicle.centre_of_gravity - vehicle.wheel_radius) / mass;
+    let above = vehicle.mass * (vehicle.centre_of_gravity - vehicle.wheel_radius) / mass;
     let inertia = vehicle.yaw_inertia * Vector2::new(ROLL_INERTIA, PITCH_INERTIA);
     MassProperties::new(vector(ahead, 0.0, above), mass as f32, vector(inertia.x, inertia.y, vehicle.body_inertia()))
 }
@@ -207,6 +251,11 @@ fn apply(body: &mut RigidBody, force: Vector, torque: Vector) {
     body.reset_torques(false);
     body.add_force(force, false);
     body.add_torque(torque, false);
+}
+
+/// The origin of a frame as seen from what has the pose `local` in it.
+fn origin_from(local: &Pose) -> Pose {
+    Pose { position: local.to_local(Vector2::zeros()), heading: -local.heading }
 }
 
 fn vector(x: f64, y: f64, z: f64) -> Vector {

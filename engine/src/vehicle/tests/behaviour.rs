@@ -1,0 +1,201 @@
+//! What must hold whatever the car is told to do.
+
+use super::*;
+use proptest::prelude::*;
+
+#[test]
+fn both_models_change_lanes_alike_and_the_left_is_on_the_left() {
+    let [track, jointed] = Model::ALL.map(|model| {
+        let mut car = model.build(&CAR, ORIGIN, 20.0);
+        for i in 0..400 {
+            let steering = 0.02 * libm::sin(0.01 * f64::from(i) * std::f64::consts::PI);
+            car.step(pedals(0.0, if i < 200 { steering } else { 0.0 }), 0.8, DT);
+        }
+        *car.state()
+    });
+    assert!(track.position.y > 1.0, "{track:?}");
+    assert!((track.position - jointed.position).norm() < 0.1, "{track:?} {jointed:?}");
+    assert!((track.heading - jointed.heading).abs() < 0.005, "{track:?} {jointed:?}");
+}
+
+#[test]
+fn straight_ahead_the_single_track_moves_exactly_as_its_motion_says() {
+    let start = Pose { position: Vector2::new(10.0, -1.75), heading: 0.3 };
+    let mut car = SingleTrack::new(&CAR, start, 15.0);
+    let mut motion = Motion { speed: 15.0, ..Motion::default() };
+    for i in 0..2000 {
+        let (throttle, friction) = (libm::sin(0.01 * f64::from(i)), 0.5 + 0.3 * libm::cos(0.03 * f64::from(i)));
+        motion = motion.after(CAR.acceleration(throttle, motion.speed, friction), DT);
+        car.step(pedals(throttle, 0.0), friction, DT);
+        let state = car.state();
+        let seen = Motion { speed: state.speed(), acceleration: state.acceleration.x, travelled: state.travelled };
+        assert_eq!(seen, motion);
+        assert_eq!(state.position, start.position + start.forward() * motion.travelled);
+    }
+}
+
+/// A way with everything in it.
+fn wild(car: &mut dyn Dynamics) -> VehicleState {
+    for i in 0..1500 {
+        let time = 0.01 * f64::from(i);
+        let friction = if i % 400 < 200 { 0.8 } else { 0.3 };
+        car.step(pedals(libm::sin(1.3 * time), 0.2 * libm::sin(0.7 * time * time)), friction, DT);
+    }
+    *car.state()
+}
+
+#[test]
+fn a_way_is_the_same_twice_and_on_any_thread() {
+    for model in Model::ALL {
+        let once = wild(model.build(&CAR, ORIGIN, 12.0).as_mut());
+        let mut car = model.build(&CAR, ORIGIN, 12.0);
+        let again = std::thread::spawn(move || wild(car.as_mut())).join().unwrap();
+        assert_eq!(once, again);
+        assert!(once.is_finite());
+    }
+}
+
+#[test]
+fn a_way_does_not_depend_on_where_it_begins() {
+    let start = Pose { position: Vector2::new(4000.0, -700.0), heading: 2.0 };
+    for model in Model::ALL {
+        let here = wild(model.build(&CAR, ORIGIN, 12.0).as_mut());
+        let there = wild(model.build(&CAR, start, 12.0).as_mut());
+        assert!((start.then(&here.pose()).position - there.position).norm() < 1e-6);
+        assert!((there.heading - here.heading - start.heading).abs() < 1e-9);
+        assert!((there.velocity - here.velocity).norm() < 1e-9);
+    }
+}
+
+#[test]
+fn the_car_goes_on_without_a_jump_wherever_it_is() {
+    for model in Model::ALL {
+        let mut car = model.build(&CAR, ORIGIN, 30.0);
+        for i in 0..2000 {
+            let before = *car.state();
+            car.step(pedals(0.0, 0.003), 0.8, DT);
+            let after = car.state();
+            let seen = before.pose().to_local(after.position) / DT;
+            let mean = 0.5 * (before.velocity + after.velocity);
+            assert!((seen - mean).norm() < 0.06, "{} at {i}: {seen} {mean}", model.name());
+        }
+        assert!(car.state().travelled > 500.0);
+    }
+}
+
+#[test]
+fn inputs_that_are_no_numbers_leave_a_state_that_is_none_and_stays_none() {
+    let inputs = [
+        (pedals(f64::NAN, 0.0), 0.8, DT),
+        (pedals(0.0, f64::NAN), 0.8, DT),
+        (pedals(1.0, 0.0), f64::NAN, DT),
+        (pedals(1.0, 0.0), f64::INFINITY, DT),
+        (pedals(1.0, 0.0), -0.1, DT),
+        (pedals(1.0, 0.0), 0.8, 0.0),
+    ];
+    for (model, (input, friction, dt)) in Model::ALL.into_iter().flat_map(|model| inputs.map(|input| (model, input))) {
+        let mut car = model.build(&CAR, ORIGIN, 10.0);
+        car.step(pedals(0.0, 0.1), 0.8, DT);
+        assert!(car.state().is_finite());
+        for _ in 0..2 {
+            car.step(input, friction, dt);
+            assert!(!car.state().is_finite(), "{} {input:?} {friction} {dt}", model.name());
+        }
+        car.step(pedals(0.0, 0.0), 0.8, DT);
+        assert!(!car.state().is_finite());
+        car.wheels();
+    }
+}
+
+#[test]
+fn on_a_road_without_friction_nothing_changes_the_motion() {
+    for model in Model::ALL {
+        let mut car = model.build(&CAR, ORIGIN, 10.0);
+        for i in 0..300 {
+            car.step(pedals(if i < 150 { 1.0 } else { -1.0 }, 0.5), 0.0, DT);
+        }
+        let state = car.state();
+        assert!((state.velocity - Vector2::new(10.0, 0.0)).norm() < 0.01, "{} {state:?}", model.name());
+        assert!(state.position.y.abs() < 0.05);
+    }
+}
+
+#[test]
+fn wheels_report_what_they_carry_and_how_they_slip() {
+    for model in Model::ALL {
+        let mut car = model.build(&CAR, ORIGIN, 30.0);
+        for _ in 0..150 {
+            car.step(pedals(-1.0, 0.0), 0.8, DT);
+        }
+        let wheels = car.wheels();
+        let total: f64 = wheels.iter().map(|wheel| wheel.load).sum();
+        assert!((total / (CAR.mass * GRAVITY) - 1.0).abs() < 0.02, "{} {wheels:?}", model.name());
+        assert!(wheels.iter().all(|wheel| wheel.contact));
+        assert!(wheels[0].load > 1.5 * wheels[2].load, "{} {wheels:?}", model.name());
+        // Full brakes hold a brush tyre near the slip at which it begins to slide: 3 mu / C = 0.11.
+        assert!(wheels.iter().all(|wheel| (-0.12..-0.03).contains(&wheel.slip_ratio)), "{} {wheels:?}", model.name());
+
+        let mut car = model.build(&CAR, ORIGIN, 15.0);
+        bend(car.as_mut(), 0.06, 15.0, 0.8, 5.0);
+        let wheels = car.wheels();
+        assert!(wheels.iter().all(|wheel| (-0.09..-0.02).contains(&wheel.slip_angle)), "{} {wheels:?}", model.name());
+        if model == Model::Jointed {
+            assert!(wheels[0].load < wheels[1].load && wheels[2].load < wheels[3].load, "{wheels:?}");
+        }
+    }
+}
+
+#[test]
+fn a_jointed_car_that_tips_over_has_no_state() {
+    let mut car = Jointed::new(&CAR, ORIGIN, 30.0);
+    for _ in 0..500 {
+        car.step(pedals(0.0, 1.0), 3.0, DT);
+    }
+    assert!(!car.state().is_finite());
+}
+
+#[test]
+fn a_step_of_the_single_track_allocates_nothing() {
+    let mut car = SingleTrack::new(&CAR, ORIGIN, 30.0);
+    let counted = allocation_counter::measure(|| {
+        car.step(pedals(0.5, 0.0), 0.8, DT);
+        car.step(pedals(-0.5, 0.1), 0.8, DT);
+    });
+    assert_eq!(counted.count_total, 0);
+}
+
+/// Of the motion in the plane, in joules.
+fn energy(state: &VehicleState) -> f64 {
+    let centre = state.velocity + Vector2::new(0.0, CAR.ahead() * state.yaw_rate);
+    0.5 * (CAR.mass * centre.norm_squared() + CAR.yaw_inertia * state.yaw_rate * state.yaw_rate)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, ..ProptestConfig::default() })]
+
+    #[test]
+    fn whatever_the_feet_and_hands_do_the_car_stays_sane(
+        speed in 0.0..50.0_f64,
+        friction in 0.0..0.9_f64,
+        dt in 0.002..0.03_f64,
+        inputs in prop::collection::vec((-1.5..1.5_f64, -1.5..1.5_f64), 1..8),
+    ) {
+        for model in Model::ALL {
+            let mut car = model.build(&CAR, ORIGIN, speed);
+            for (throttle, steering) in &inputs {
+                let before = energy(car.state());
+                for _ in 0..(1.0 / dt) as usize {
+                    car.step(pedals(*throttle, *steering), friction, dt);
+                    prop_assert!(car.state().is_finite(), "{}", model.name());
+                }
+                let after = energy(car.state());
+                // What the body has by rolling and pitching comes back.
+                let rocking = 0.02 * before + 500.0;
+                prop_assert!(*throttle > 0.0 || after < before + rocking, "{} {before} J, {after} J", model.name());
+                prop_assert!(car.state().speed() < 52.0, "{} {:?}", model.name(), car.state());
+                let total: f64 = car.wheels().iter().map(|wheel| wheel.load).sum();
+                prop_assert!(total < 3.0 * CAR.mass * GRAVITY, "{} {:?}", model.name(), car.wheels());
+            }
+        }
+    }
+}
