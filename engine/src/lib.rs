@@ -36,6 +36,7 @@ pub mod road;
 mod run;
 mod scenario;
 pub mod stream;
+pub mod traffic;
 pub mod vehicle;
 mod world;
 

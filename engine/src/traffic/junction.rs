@@ -1,0 +1,228 @@
+//! Who drives first where lanes cross and join.
+//!
+//! A car passes the line before such a lane only with a claim on it. It asks for one when it comes near, gets it if
+//!
+//! 1. nobody waits before it, and there is room for all of it behind the intersection, so that it never stands in one,
+//! 2. those who have claims already are away before it is there, or can be followed,
+//! 3. nobody asks whom it has to let go first,
+//!
+//! and loses it again if, while it can still stop, the first ceases to hold. Claims are numbered as they are given, and
+//! on the way a car stops before whatever zone an earlier one has not left yet: cars wait for earlier ones only, so that
+//! no circle of them waits for itself. The rule of the road decides among those who ask. Where four cars each have
+//! another at their right, or the main road is never free, it would not do: who has asked for [`PATIENCE`] seconds goes
+//! before all who have not, in the order in which they began to ask, by their indices at last.
+//!
+//! That is the reservation of tiles of Dresner and Stone (2008), without an agent at the intersection.
+
+use super::ahead::{Ask, View};
+use super::idm::HARDEST;
+use super::occupancy::Who;
+use crate::road::{LaneId, LaneKind};
+
+/// Seconds after which one no longer lets others go first.
+const PATIENCE: f64 = 8.0;
+/// Metres behind the car ahead that count as taken with it.
+const ROOM: f64 = 1.5;
+/// Acceleration in m/s² that others are trusted to have where they leave a zone.
+const TRUSTED: f64 = 1.0;
+
+/// Lists of things by lane, filled anew at every tick.
+#[derive(Debug)]
+pub(super) struct Lists<T> {
+    heads: Vec<u32>,
+    nodes: Vec<Node<T>>,
+    used: Vec<LaneId>,
+}
+
+#[derive(Debug)]
+struct Node<T> {
+    owner: u32,
+    what: T,
+    next: u32,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl<T> Lists<T> {
+    pub fn new(lanes: usize, room: usize) -> Self {
+        Self { heads: vec![NONE; lanes], nodes: Vec::with_capacity(room), used: Vec::with_capacity(room) }
+    }
+
+    pub fn clear(&mut self) {
+        for lane in self.used.drain(..) {
+            self.heads[lane.index()] = NONE;
+        }
+        self.nodes.clear();
+    }
+
+    pub fn add(&mut self, lane: LaneId, owner: usize, what: T) {
+        let head = &mut self.heads[lane.index()];
+        if *head == NONE {
+            self.used.push(lane);
+        }
+        self.nodes.push(Node { owner: owner as u32, what, next: *head });
+        *head = self.nodes.len() as u32 - 1;
+    }
+
+    /// What was added for a lane, with its owners.
+    pub fn on(&self, lane: LaneId) -> impl Iterator<Item = (usize, &T)> {
+        let mut next = self.heads[lane.index()];
+        std::iter::from_fn(move || {
+            let node = self.nodes.get(next as usize)?;
+            next = node.next;
+            Some((node.owner as usize, &node.what))
+        })
+    }
+}
+
+/// A car that asks for leave, and could make use of it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asker {
+    pub car: usize,
+    pub ask: Ask,
+    /// The last lane of its path that it asks for.
+    pub last: usize,
+    /// Since when it asks.
+    pub since: f64,
+    pub impatient: bool,
+    pub granted: bool,
+}
+
+impl Asker {
+    pub fn new(car: usize, ask: Ask, last: usize, since: f64, now: f64) -> Self {
+        Self { car, ask, last, since, impatient: now - since > PATIENCE, granted: false }
+    }
+
+    /// Who is served first.
+    pub fn before(&self, other: &Self) -> bool {
+        self.order(other).is_lt()
+    }
+
+    pub fn order(&self, other: &Self) -> std::cmp::Ordering {
+        other.impatient.cmp(&self.impatient).then(self.since.total_cmp(&other.since)).then(self.car.cmp(&other.car))
+    }
+}
+
+impl View<'_> {
+    /// The last lane of the path that a car has to claim, so that it can stop behind it without being in the way, and
+    /// it is sure to get there; none if it is not.
+    pub fn passage(&self, index: usize, ask: &Ask) -> Option<usize> {
+        let car = &self.cars[index];
+        let length = 2.0 * car.half;
+        let mut last = ask.index;
+        // How far ahead what is claimed ends, and the lane that is looked at begins.
+        let mut end = ask.base + self.map.length(car.path[last]);
+        let mut base = end;
+        for (k, &lane) in car.path.iter().enumerate().skip(ask.index + 1) {
+            if !self.map.rivals(lane).is_empty() && base + self.map.line(lane) - end < length + ROOM {
+                last = k;
+                end = base + self.map.length(lane);
+            }
+            base += self.map.length(lane);
+            if base - end > length + ROOM {
+                break;
+            }
+        }
+        self.has_room(index, ask, (last, end)).then_some(last)
+    }
+
+    /// Whether there will be room for a car behind the lane `last` of its path, which ends `end` metres ahead.
+    fn has_room(&self, index: usize, ask: &Ask, (last, end): (usize, f64)) -> bool {
+        let car = &self.cars[index];
+        let (first, last) = (car.path[ask.index], car.path[last]);
+        // Traffic goes round a roundabout whether or not it is full: only who enters asks for room.
+        let round = self.map.network.lane(last).kind == LaneKind::RingAtArm;
+        let mut needed = 2.0 * car.half + ROOM;
+        for rival in self.map.rivals(last).iter().filter(|rival| rival.merges) {
+            for (other, claim) in self.claims.on(rival.lane) {
+                if other != index && self.cars[other].rear_on(claim) < self.map.length(rival.lane) {
+                    needed += 2.0 * self.cars[other].half + ROOM;
+                }
+            }
+        }
+        let mut base = -car.s;
+        for (k, &lane) in car.path.iter().enumerate() {
+            let bodies = if k == 0 { self.occupancy.ahead_of(index) } else { self.occupancy.on(lane) };
+            for body in bodies {
+                let rear = base + body.rear;
+                match body.who {
+                    Who::Zebra | Who::Foreign { .. } if car.heedless => {}
+                    // Whoever stands on the way; nearer ones keep the car from asking at all.
+                    Who::Zebra | Who::Foreign { .. } => {
+                        if base + body.front > ask.distance {
+                            return rear - end >= needed;
+                        }
+                    }
+                    Who::Car(other) | Who::Leaving(other) => {
+                        let other = &self.cars[other as usize];
+                        if base + body.middle() >= end {
+                            // Even at its hardest braking it leaves that much more room.
+                            let stopping = 0.5 * body.speed * body.speed / HARDEST;
+                            return round || rear + stopping - end >= needed;
+                        }
+                        if k >= ask.index || other.claims.iter().any(|claim| claim.lane == first) {
+                            needed += 2.0 * other.half + ROOM;
+                        }
+                    }
+                }
+            }
+            base += self.map.length(lane);
+            if base > end + needed {
+                break;
+            }
+        }
+        true
+    }
+
+    /// Whether a car may have the claim that it asks for.
+    pub fn may_go(&self, asker: &Asker, askers: &[Asker], asking: &Lists<usize>) -> bool {
+        let car = &self.cars[asker.car];
+        let mut base = asker.ask.base;
+        for &lane in car.path.range(asker.ask.index..=asker.last) {
+            let length = self.map.length(lane);
+            for rival in self.map.rivals(lane) {
+                for (other, claim) in self.claims.on(rival.lane) {
+                    let rear = self.cars[other].rear_on(claim);
+                    if other == asker.car || rear > rival.other.1 {
+                        continue;
+                    }
+                    let speed = self.cars[other].speed;
+                    let fits = if rival.merges {
+                        let gap = self.joining_gap(base + length - car.half, rival, rear);
+                        gap > 0.0 && car.idm.following(car.speed, car.desired, gap, speed) > -car.idm.deceleration
+                    } else {
+                        let arrival = time(base + rival.from - car.half, car.speed, car.idm.acceleration);
+                        let way = rival.other.1 - rear;
+                        let pace = self.cars[other].desired.min(self.map.speed(rival.lane)).max(1.0);
+                        arrival > time(way, speed, TRUSTED).max(way / pace)
+                    };
+                    if !fits {
+                        return false;
+                    }
+                }
+                for (_, &other) in asking.on(rival.lane) {
+                    let other = &askers[other];
+                    if other.car == asker.car || other.granted {
+                        continue;
+                    }
+                    let lets_go = match (asker.impatient, other.impatient) {
+                        (false, false) if rival.gives_way != rival.given_way => rival.gives_way,
+                        (true, false) => false,
+                        (false, true) => true,
+                        _ => other.before(asker),
+                    };
+                    if lets_go {
+                        return false;
+                    }
+                }
+            }
+            base += length;
+        }
+        true
+    }
+}
+
+/// Seconds until so many metres are driven with a constant acceleration.
+fn time(way: f64, speed: f64, acceleration: f64) -> f64 {
+    if way <= 0.0 { 0.0 } else { ((speed * speed + 2.0 * acceleration * way).sqrt() - speed) / acceleration }
+}
