@@ -114,7 +114,10 @@ impl View<'_> {
         let car = &self.cars[index];
         if let Some(from) = car.change.and_then(|change| change.from) {
             let s = self.map.across(car.s, car.lane, from);
-            self.next_body(index, self.occupancy.ahead_on_old_lane(index), -s, dt, ahead);
+            let met = self.next_body(index, self.occupancy.ahead_on_old_lane(index), -s, dt, ahead);
+            if let Some(next) = self.map.road_after(from).filter(|_| !met) {
+                self.next_body(index, self.occupancy.on(next), self.map.length(from) - s, dt, ahead);
+            }
         }
         let horizon = car.horizon();
         let mut base = -car.s;

@@ -101,15 +101,16 @@ impl View<'_> {
         let behind = bodies.partition_point(|body| body.middle() <= s);
         let (rear, front) = (s - car.half, s + car.half);
         let leader = bodies[behind..].first().map(|body| (body.rear - front, body.speed));
-        let leader = leader.or_else(|| self.next_lane(to, |next| {
-            let body = self.occupancy.on(next).first()?;
+        let leader = leader.or_else(|| {
+            let body = self.occupancy.on(self.map.road_after(to)?).first()?;
             Some((self.map.length(to) + body.rear - front, body.speed))
-        }));
+        });
         let follower = bodies[..behind].last().map(|body| (rear - body.front, *body));
-        let follower = follower.or_else(|| self.lane_before(to, |before| {
+        let follower = follower.or_else(|| {
+            let before = self.map.road_before(to)?;
             let body = self.occupancy.on(before).last()?;
             Some((rear + self.map.length(before) - body.front, *body))
-        }));
+        });
         let (mut own, mut others) = (car.idm.free(car.speed, car.desired), 0.0);
         if let Some((gap, speed)) = leader {
             if gap < CLEAR || safe_speed(car.speed, gap, speed, dt) < car.speed {
@@ -153,26 +154,10 @@ impl View<'_> {
     fn is_long_enough(&self, car: &Car, s: f64, to: LaneId, duration: f64) -> bool {
         let needed = car.speed.max(WALKING) * duration + 0.5 * car.idm.acceleration * duration * duration;
         let left = self.map.length(to) - s;
-        let goes_on = self.next_lane(to, |next| Some(self.map.length(next))).unwrap_or(0.0);
-        let begins = self.lane_before(to, |_| Some(())).is_some() || self.map.network.lane(to).predecessors.is_empty();
+        let goes_on = self.map.road_after(to).map_or(0.0, |next| self.map.length(next));
+        let begins = self.map.road_before(to).is_some() || self.map.network.lane(to).predecessors.is_empty();
         let begun = s - car.half;
         left + goes_on > needed + car.half + CLEAR && (begins || begun > BEHIND_INTERSECTION)
-    }
-
-    /// Something about the lane that a road goes on with behind the end of a lane.
-    fn next_lane<T>(&self, lane: LaneId, about: impl Fn(LaneId) -> Option<T>) -> Option<T> {
-        match &*self.map.network.lane(lane).successors {
-            [next] if self.map.is_road(*next) => about(*next),
-            _ => None,
-        }
-    }
-
-    /// The same before its beginning.
-    fn lane_before<T>(&self, lane: LaneId, about: impl Fn(LaneId) -> Option<T>) -> Option<T> {
-        match &*self.map.network.lane(lane).predecessors {
-            [before] if self.map.is_road(*before) => about(*before),
-            _ => None,
-        }
     }
 }
 

@@ -75,13 +75,21 @@ impl<T> Lists<T> {
     }
 }
 
+/// The lanes of an intersection that a car drives over between two places where it may stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Passage {
+    /// The last of them, by its index in the path.
+    pub last: usize,
+    /// Whether there is room behind it.
+    pub sure: bool,
+}
+
 /// A car that asks for leave, and could make use of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asker {
     pub car: usize,
     pub ask: Ask,
-    /// The last lane of its path that it asks for.
-    pub last: usize,
+    pub passage: Passage,
     /// Since when it asks.
     pub since: f64,
     pub impatient: bool,
@@ -89,8 +97,8 @@ pub(super) struct Asker {
 }
 
 impl Asker {
-    pub fn new(car: usize, ask: Ask, last: usize, since: f64, now: f64) -> Self {
-        Self { car, ask, last, since, impatient: now - since > PATIENCE, granted: false }
+    pub fn new(car: usize, ask: Ask, passage: Passage, since: f64, now: f64) -> Self {
+        Self { car, ask, passage, since, impatient: now - since > PATIENCE, granted: false }
     }
 
     /// Who is served first.
@@ -104,34 +112,36 @@ impl Asker {
 }
 
 impl View<'_> {
-    /// The last lane of the path that a car has to claim, so that it can stop behind it without being in the way, and
-    /// it is sure to get there; none if it is not.
-    pub fn passage(&self, index: usize, ask: &Ask) -> Option<usize> {
+    /// What a car has to claim so that it can stop behind it without being in the way; none if it would not get there.
+    pub fn passage(&self, index: usize, ask: &Ask) -> Option<Passage> {
         let car = &self.cars[index];
         let length = 2.0 * car.half;
         let mut last = ask.index;
         // How far ahead what is claimed ends, and the lane that is looked at begins.
         let mut end = ask.base + self.map.length(car.path[last]);
         let mut base = end;
-        for (k, &lane) in car.path.iter().enumerate().skip(ask.index + 1) {
+        let mut lanes = car.path.iter().enumerate().skip(ask.index + 1);
+        while base - end < length + ROOM {
+            let Some((k, &lane)) = lanes.next() else {
+                // The path is too short yet to tell, or the route ends here.
+                if car.complete { break } else { return None }
+            };
             if !self.map.rivals(lane).is_empty() && base + self.map.line(lane) - end < length + ROOM {
                 last = k;
                 end = base + self.map.length(lane);
             }
             base += self.map.length(lane);
-            if base - end > length + ROOM {
-                break;
-            }
         }
-        self.has_room(index, ask, (last, end)).then_some(last)
+        let sure = self.has_room(index, ask, (last, end));
+        // Traffic goes round a roundabout whether or not it is full: only who enters asks for room.
+        let goes_round = self.map.network.lane(car.path[last]).kind == LaneKind::RingAtArm;
+        (sure || goes_round).then_some(Passage { last, sure })
     }
 
     /// Whether there will be room for a car behind the lane `last` of its path, which ends `end` metres ahead.
     fn has_room(&self, index: usize, ask: &Ask, (last, end): (usize, f64)) -> bool {
         let car = &self.cars[index];
         let (first, last) = (car.path[ask.index], car.path[last]);
-        // Traffic goes round a roundabout whether or not it is full: only who enters asks for room.
-        let round = self.map.network.lane(last).kind == LaneKind::RingAtArm;
         let mut needed = 2.0 * car.half + ROOM;
         for rival in self.map.rivals(last).iter().filter(|rival| rival.merges) {
             for (other, claim) in self.claims.on(rival.lane) {
@@ -158,7 +168,7 @@ impl View<'_> {
                         if base + body.middle() >= end {
                             // Even at its hardest braking it leaves that much more room.
                             let stopping = 0.5 * body.speed * body.speed / HARDEST;
-                            return round || rear + stopping - end >= needed;
+                            return rear + stopping - end >= needed;
                         }
                         if k >= ask.index || other.claims.iter().any(|claim| claim.lane == first) {
                             needed += 2.0 * other.half + ROOM;
@@ -178,7 +188,7 @@ impl View<'_> {
     pub fn may_go(&self, asker: &Asker, askers: &[Asker], asking: &Lists<usize>) -> bool {
         let car = &self.cars[asker.car];
         let mut base = asker.ask.base;
-        for &lane in car.path.range(asker.ask.index..=asker.last) {
+        for &lane in car.path.range(asker.ask.index..=asker.passage.last) {
             let length = self.map.length(lane);
             for rival in self.map.rivals(lane) {
                 for (other, claim) in self.claims.on(rival.lane) {
@@ -194,7 +204,7 @@ impl View<'_> {
                         let arrival = time(base + rival.from - car.half, car.speed, car.idm.acceleration);
                         let way = rival.other.1 - rear;
                         let pace = self.cars[other].desired.min(self.map.speed(rival.lane)).max(1.0);
-                        arrival > time(way, speed, TRUSTED).max(way / pace)
+                        claim.sure && arrival > time(way, speed, TRUSTED).max(way / pace)
                     };
                     if !fits {
                         return false;

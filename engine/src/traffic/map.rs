@@ -132,6 +132,23 @@ impl Map {
         self.network.lane(lane).beside().any(|beside| beside == other)
     }
 
+    /// The lane that a road goes on with where this lane ends, if it leads nowhere else.
+    pub fn road_after(&self, lane: LaneId) -> Option<LaneId> {
+        self.only_road(&self.network.lane(lane).successors)
+    }
+
+    /// The lane of a road that leads to this one, if no other does.
+    pub fn road_before(&self, lane: LaneId) -> Option<LaneId> {
+        self.only_road(&self.network.lane(lane).predecessors)
+    }
+
+    fn only_road(&self, lanes: &[LaneId]) -> Option<LaneId> {
+        match lanes {
+            [only] if self.is_road(*only) => Some(*only),
+            _ => None,
+        }
+    }
+
     /// A place on a lane as one beside it has it.
     pub fn across(&self, s: f64, from: LaneId, to: LaneId) -> f64 {
         s * self.length(to) / self.length(from)

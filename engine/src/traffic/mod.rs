@@ -276,14 +276,12 @@ impl Traffic {
                 self.cars[index].ticket = None;
                 continue;
             };
-            let last = self.view().passage(index, &ask);
+            let passage = self.view().passage(index, &ask);
             let car = &mut self.cars[index];
             if ask.held {
                 let stops = ask.distance > 0.5 + car.speed * car.speed / 6.0;
-                if stops && (last.is_none() || !ask.first) {
+                if stops && (passage.is_none() || !ask.first) && car.give_back(&ask) {
                     // The claim is listed until the end of this step, which does no harm.
-                    let turn = car.claim(car.path[ask.index], ask.base).map(|claim| claim.turn);
-                    car.claims.retain(|claim| Some(claim.turn) != turn);
                     self.ahead[index].ask = Some(ahead::Ask { held: false, ..ask });
                 }
                 continue;
@@ -297,8 +295,8 @@ impl Traffic {
                 _ => self.time,
             };
             car.ticket = Some((lane, since));
-            match last.filter(|_| ask.first) {
-                Some(last) => self.askers.push(Asker::new(index, ask, last, since, self.time)),
+            match passage.filter(|_| ask.first) {
+                Some(passage) => self.askers.push(Asker::new(index, ask, passage, since, self.time)),
                 None if ask.first && car.itinerary.is_free() && self.time - since > ELSEWHERE && ask.index > 0 => {
                     car.path.truncate(ask.index);
                     car.complete = false;
@@ -310,7 +308,7 @@ impl Traffic {
         }
         self.askers.sort_unstable_by(Asker::order);
         for (number, asker) in self.askers.iter().enumerate() {
-            for lane in self.cars[asker.car].path.range(asker.ask.index..=asker.last) {
+            for lane in self.cars[asker.car].path.range(asker.ask.index..=asker.passage.last) {
                 self.asking.add(*lane, asker.car, number);
             }
         }
@@ -320,11 +318,11 @@ impl Traffic {
                 continue;
             }
             self.askers[number].granted = true;
-            let Asker { car: index, ask, last, .. } = asker;
+            let Asker { car: index, ask, passage, .. } = asker;
             let car = &mut self.cars[index];
             let mut start = car.travelled + ask.base;
-            for k in ask.index..=last {
-                let claim = Claim { lane: car.path[k], start, turn: self.turns };
+            for k in ask.index..=passage.last {
+                let claim = Claim { lane: car.path[k], start, turn: self.turns, sure: passage.sure };
                 start += self.map.length(claim.lane);
                 car.claims.push(claim);
                 self.claims.add(claim.lane, index, claim);
@@ -383,7 +381,7 @@ fn claim_start(car: &mut Car, map: &Map, turns: &mut u64) {
             return;
         }
         if !map.rivals(lane).is_empty() {
-            car.claims.push(Claim { lane, start: base, turn: *turns });
+            car.claims.push(Claim { lane, start: base, turn: *turns, sure: true });
             *turns += 1;
         }
         base += map.length(lane);

@@ -1,5 +1,6 @@
 //! A car as it drives.
 
+use super::ahead::Ask;
 use super::car::{Itinerary, TrafficCar};
 use super::idm::Idm;
 use super::map::Map;
@@ -10,6 +11,9 @@ use std::collections::VecDeque;
 /// Speed in m/s above which a lane change takes the time that it is to take; below, it takes as long a way as at this.
 pub(super) const WALKING: f64 = 5.0;
 
+/// Metres that somebody may want to drive around a roundabout.
+const LONGEST_ROUND: f64 = 500.0;
+
 /// The right to a lane of an intersection.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Claim {
@@ -18,6 +22,8 @@ pub(super) struct Claim {
     pub start: f64,
     /// Claims are served in this order; those that were given together share it.
     pub turn: u64,
+    /// Whether the car is sure to leave it soon.
+    pub sure: bool,
 }
 
 /// A lane change.
@@ -124,9 +130,14 @@ impl Car {
             let changed = self.path.get(pair + 1).is_some_and(|next| map.beside(self.path[pair], *next));
             ahead += if changed { 0.0 } else { map.length(self.path[pair]) };
         }
-        // More than the horizon, so that this is not to be done at every tick.
-        while !self.complete && ahead < self.horizon() + 50.0 {
+        // More than the horizon, so that this is not to be done at every tick, and as far as a road, so that it is known
+        // where an intersection is left.
+        let enough = self.horizon() + 50.0;
+        while !self.complete {
             let last = self.path[self.path.len() - 1];
+            if ahead > enough && (map.is_road(last) || ahead > enough + LONGEST_ROUND) {
+                return;
+            }
             match self.itinerary.next(last, &map.network) {
                 Some(lane) => {
                     self.path.push_back(lane);
@@ -140,6 +151,16 @@ impl Car {
     /// The claim on a lane of the path that begins `base` metres ahead of the car's middle.
     pub fn claim(&self, lane: LaneId, base: f64) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.lane == lane && (claim.start - self.travelled - base).abs() < 1.0)
+    }
+
+    /// Gives back the claims that begin with the lane of `ask`; false if they begin with one before it.
+    pub fn give_back(&mut self, ask: &Ask) -> bool {
+        let Some(first) = self.claim(self.path[ask.index], ask.base).copied() else { return false };
+        let begins = self.claims.iter().all(|claim| claim.turn != first.turn || claim.start >= first.start);
+        if begins {
+            self.claims.retain(|claim| claim.turn != first.turn);
+        }
+        begins
     }
 
     /// Where its rear is along a lane that it has a claim on.
