@@ -217,9 +217,7 @@ impl View<'_> {
                 continue;
             }
             let next = self.occupancy.on(fork.lane).iter().find(|body| match body.who {
-                Who::Car(other) => {
-                    body.middle() > -base || (body.middle() == -base && (other as usize) < index)
-                }
+                Who::Car(other) => body.middle() > -base || (body.middle() == -base && (other as usize) < index),
                 _ => false,
             });
             let Some(body) = next.filter(|body| body.rear < fork.apart.1) else { continue };

@@ -37,7 +37,10 @@ impl Car {
         let (lane, offset) = (self.lane, self.offset().0);
         let apart = 0.5 * (map.network.lane(lane).width + map.network.lane(to).width);
         let aside = if side == Side::Left { -apart } else { apart };
-        let keeps = { self.change = None; self.offset().0 };
+        let keeps = {
+            self.change = None;
+            self.offset().0
+        };
         self.change = Some(Change { side, from: Some(lane), start: offset - keeps + aside, progress: 0.0, duration });
         self.s = map.across(self.s, lane, to);
         self.lane = to;
@@ -127,9 +130,7 @@ impl View<'_> {
             let desired = if body.car().is_some() { other.desired } else { body.speed.max(1.0) };
             let after = other.idm.following(body.speed, desired, gap, car.speed);
             let before = match leader {
-                Some((ahead, speed)) => {
-                    other.idm.following(body.speed, desired, gap + 2.0 * car.half + ahead, speed)
-                }
+                Some((ahead, speed)) => other.idm.following(body.speed, desired, gap + 2.0 * car.half + ahead, speed),
                 None => other.idm.free(body.speed, desired),
             };
             if after < -IMPOSED {

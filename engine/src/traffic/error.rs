@@ -30,7 +30,9 @@ pub enum TrafficError {
         lanes: usize,
     },
     /// A route with two lanes of which the second neither follows the first nor lies beside it on a road.
-    #[error("the route of car {car} leads from lane {from} to lane {to}, which neither follows it nor lies beside it on a road")]
+    #[error(
+        "the route of car {car} leads from lane {from} to lane {to}, which neither follows it nor lies beside it on a road"
+    )]
     Route {
         /// Its index.
         car: usize,

@@ -12,6 +12,11 @@
 //! another at their right, or the main road is never free, it would not do: who has asked for [`PATIENCE`] seconds goes
 //! before all who have not, in the order in which they began to ask, by their indices at last.
 //!
+//! In a roundabout with one lane around it a car may wait between two arms, and claims the way from one to the next; it
+//! goes round whether or not there is room, for there always is while only those enter who have some, and so nobody counts
+//! on its being away soon. Where there are more lanes around it cars would wait in each other's way: there the whole way
+//! through is claimed at once.
+//!
 //! That is the reservation of tiles of Dresner and Stone (2008), without an agent at the intersection.
 
 use super::ahead::{Ask, View};
@@ -126,7 +131,8 @@ impl View<'_> {
                 // The path is too short yet to tell, or the route ends here.
                 if car.complete { break } else { return None }
             };
-            if !self.map.rivals(lane).is_empty() && base + self.map.line(lane) - end < length + ROOM {
+            let cramped = !self.map.rivals(lane).is_empty() && base + self.map.line(lane) - end < length + ROOM;
+            if cramped || self.map.is_through(lane) {
                 last = k;
                 end = base + self.map.length(lane);
             }
@@ -171,10 +177,16 @@ impl View<'_> {
                             return rear + stopping - end >= needed;
                         }
                         if k >= ask.index || other.claims.iter().any(|claim| claim.lane == first) {
+                            if !other.is_sure() || rear + other.wall < end {
+                                return false;
+                            }
                             needed += 2.0 * other.half + ROOM;
                         }
                     }
                 }
+            }
+            if base < end && k >= ask.index && !self.is_parted(index, lane, base) {
+                return false;
             }
             base += self.map.length(lane);
             if base > end + needed {
@@ -182,6 +194,15 @@ impl View<'_> {
             }
         }
         true
+    }
+
+    /// Whether all who turned off at the beginning of a lane, `base` metres ahead, are sure to be out of its way.
+    fn is_parted(&self, index: usize, lane: LaneId, base: f64) -> bool {
+        self.map.forks(lane).iter().all(|fork| {
+            let bodies = self.occupancy.on(fork.lane).iter();
+            let mut sticking_out = bodies.filter(|body| body.middle() > -base && body.rear < fork.apart.1);
+            sticking_out.all(|body| body.car().is_none_or(|other| other == index || self.cars[other].is_sure()))
+        })
     }
 
     /// Whether a car may have the claim that it asks for.

@@ -1,6 +1,6 @@
 //! What traffic asks about lanes at every tick, found once for a network.
 
-use crate::road::{LaneId, LaneKind, Network};
+use crate::road::{Lane, LaneId, LaneKind, Network};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -45,6 +45,7 @@ struct Facts {
     /// Where one waits: metres along the lane, perhaps before its beginning.
     line: f64,
     road: bool,
+    through: bool,
     rivals: Range<u32>,
     forks: Range<u32>,
 }
@@ -86,11 +87,15 @@ impl Map {
             }
             let at_its_beginning = matches!(lane.kind, LaneKind::Straight | LaneKind::Left | LaneKind::Right);
             let zone = rivals[first.0 as usize..].iter().map(|rival| rival.from).fold(f64::INFINITY, f64::min);
+            let road = lane.kind == LaneKind::Road;
+            let wide = |lane: &Lane| lane.beside().next().is_some();
+            let from_wide = lane.predecessors.iter().any(|before| wide(network.lane(*before)));
             lanes.push(Facts {
                 length: lane.length(),
                 speed: (LATERAL / lane.curve.curvature().abs()).sqrt(),
                 line: if at_its_beginning { -BEFORE_LINE } else { zone - BEFORE_ZONE },
-                road: lane.kind == LaneKind::Road,
+                road,
+                through: !road && (wide(lane) || from_wide),
                 rivals: first.0..rivals.len() as u32,
                 forks: first.1..forks.len() as u32,
             });
@@ -115,6 +120,11 @@ impl Map {
     /// Whether it runs along a road.
     pub fn is_road(&self, lane: LaneId) -> bool {
         self.lanes[lane.index()].road
+    }
+
+    /// Whether one does not stop between the lane before it and this one: within a roundabout with several lanes.
+    pub fn is_through(&self, lane: LaneId) -> bool {
+        self.lanes[lane.index()].through
     }
 
     pub fn rivals(&self, lane: LaneId) -> &[Rival] {

@@ -195,7 +195,10 @@ impl Traffic {
     /// # Panics
     /// There is no car with this index, or the speed is no number from 0 on.
     pub fn set_speed(&mut self, index: usize, speed: Option<f64>) {
-        assert!(speed.is_none_or(|speed| speed >= 0.0 && speed.is_finite()), "car {index} is to drive at {speed:?} m/s");
+        assert!(
+            speed.is_none_or(|speed| speed >= 0.0 && speed.is_finite()),
+            "car {index} is to drive at {speed:?} m/s"
+        );
         self.cars[index].given = speed;
     }
 
@@ -237,7 +240,8 @@ impl Traffic {
             if car.gone {
                 return;
             }
-            let body = |lane, s: f64, who| Body { lane, rear: s - car.half, front: s + car.half, speed: car.speed, who };
+            let body =
+                |lane, s: f64, who| Body { lane, rear: s - car.half, front: s + car.half, speed: car.speed, who };
             bodies.push(body(car.lane, car.s, Who::Car(index)));
             if let Some(from) = car.change.and_then(|change| change.from) {
                 bodies.push(body(from, map.across(car.s, car.lane, from), Who::Leaving(index)));
@@ -261,9 +265,13 @@ impl Traffic {
         let mut all = std::mem::take(&mut self.ahead);
         all.clear();
         let view = self.view();
-        all.extend((0..self.cars.len()).map(|index| {
-            if self.cars[index].gone { Ahead::nothing() } else { view.ahead_of(index, dt) }
-        }));
+        all.extend(
+            (0..self.cars.len()).map(
+                |index| {
+                    if self.cars[index].gone { Ahead::nothing() } else { view.ahead_of(index, dt) }
+                },
+            ),
+        );
         self.ahead = all;
     }
 
@@ -320,9 +328,10 @@ impl Traffic {
             self.askers[number].granted = true;
             let Asker { car: index, ask, passage, .. } = asker;
             let car = &mut self.cars[index];
-            let mut start = car.travelled + ask.base;
+            let entry = car.travelled + ask.base;
+            let mut start = entry;
             for k in ask.index..=passage.last {
-                let claim = Claim { lane: car.path[k], start, turn: self.turns, sure: passage.sure };
+                let claim = Claim { lane: car.path[k], start, entry, turn: self.turns, sure: passage.sure };
                 start += self.map.length(claim.lane);
                 car.claims.push(claim);
                 self.claims.add(claim.lane, index, claim);
@@ -381,16 +390,9 @@ fn claim_start(car: &mut Car, map: &Map, turns: &mut u64) {
             return;
         }
         if !map.rivals(lane).is_empty() {
-            car.claims.push(Claim { lane, start: base, turn: *turns, sure: true });
+            car.claims.push(Claim { lane, start: base, entry: base, turn: *turns, sure: true });
             *turns += 1;
         }
         base += map.length(lane);
-    }
-}
-impl Traffic {
-    #[doc(hidden)]
-    pub fn debug(&self, i: usize) -> String {
-        let (c, a) = (&self.cars[i], &self.ahead[i]);
-        format!("lane {} v={:.2} path {:?} claims {:?} ticket {:?} ask {:?} wall {:.1} acc {:.2} safe {:.2} pass {:?}", c.lane.index(), c.speed, c.path.iter().take(4).map(|l| l.index()).collect::<Vec<_>>(), c.claims.iter().map(|c| (c.lane.index(), c.turn)).collect::<Vec<_>>(), c.ticket, a.ask, a.wall, a.acceleration, a.safe, a.ask.map(|k| self.view().passage(i, &k)))
     }
 }

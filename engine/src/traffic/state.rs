@@ -20,6 +20,8 @@ pub(super) struct Claim {
     pub lane: LaneId,
     /// How far the car will have come when its middle is at the beginning of the lane.
     pub start: f64,
+    /// The same of the first lane of those that were claimed with it.
+    pub entry: f64,
     /// Claims are served in this order; those that were given together share it.
     pub turn: u64,
     /// Whether the car is sure to leave it soon.
@@ -155,12 +157,15 @@ impl Car {
 
     /// Gives back the claims that begin with the lane of `ask`; false if they begin with one before it.
     pub fn give_back(&mut self, ask: &Ask) -> bool {
-        let Some(first) = self.claim(self.path[ask.index], ask.base).copied() else { return false };
-        let begins = self.claims.iter().all(|claim| claim.turn != first.turn || claim.start >= first.start);
-        if begins {
-            self.claims.retain(|claim| claim.turn != first.turn);
-        }
-        begins
+        let claim = self.claim(self.path[ask.index], ask.base).copied();
+        let Some(claim) = claim.filter(|claim| claim.start == claim.entry) else { return false };
+        self.claims.retain(|other| other.turn != claim.turn);
+        true
+    }
+
+    /// Whether it is sure to leave all that it has claimed soon.
+    pub fn is_sure(&self) -> bool {
+        self.claims.iter().all(|claim| claim.sure)
     }
 
     /// Where its rear is along a lane that it has a claim on.
