@@ -19,13 +19,23 @@
 //!
 //! That is the reservation of tiles of Dresner and Stone (2008), without an agent at the intersection.
 
+use super::Traffic;
 use super::ahead::{Ask, View};
 use super::idm::HARDEST;
+use super::map::Rival;
 use super::occupancy::Who;
+use super::state::Claim;
 use crate::road::{LaneId, LaneKind};
+use std::cmp::Ordering;
 
 /// Seconds after which one no longer lets others go first.
 const PATIENCE: f64 = 8.0;
+/// Seconds before a car asks in which those who have to let it go first do so already.
+const FOREWARNED: f64 = 3.0;
+/// Seconds after which a car without a goal turns elsewhere, because there is no room where it wants to go.
+const ELSEWHERE: f64 = 15.0;
+/// Deceleration in m/s² at which cars still stop where they lose leave to drive on.
+const FIRM: f64 = 3.0;
 /// Metres behind the car ahead that count as taken with it.
 const ROOM: f64 = 1.5;
 /// Acceleration in m/s² that others are trusted to have where they leave a zone.
@@ -92,27 +102,125 @@ pub(super) struct Passage {
 /// A car that asks for leave, and could make use of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asker {
-    pub car: usize,
-    pub ask: Ask,
-    pub passage: Passage,
+    car: usize,
+    ask: Ask,
+    passage: Passage,
     /// Since when it asks.
-    pub since: f64,
-    pub impatient: bool,
-    pub granted: bool,
+    since: f64,
+    impatient: bool,
+    /// Whether it does not ask yet, and only is to be let go first.
+    far: bool,
+    granted: bool,
 }
 
 impl Asker {
-    pub fn new(car: usize, ask: Ask, passage: Passage, since: f64, now: f64) -> Self {
-        Self { car, ask, passage, since, impatient: now - since > PATIENCE, granted: false }
-    }
-
     /// Who is served first.
-    pub fn before(&self, other: &Self) -> bool {
-        self.order(other).is_lt()
+    fn order(&self, other: &Self) -> Ordering {
+        other.impatient.cmp(&self.impatient).then(self.since.total_cmp(&other.since)).then(self.car.cmp(&other.car))
     }
 
-    pub fn order(&self, other: &Self) -> std::cmp::Ordering {
-        other.impatient.cmp(&self.impatient).then(self.since.total_cmp(&other.since)).then(self.car.cmp(&other.car))
+    /// Whether it lets another one go first, whose lane is a rival of its own.
+    fn lets_go(&self, other: &Self, rival: &Rival) -> bool {
+        let (gives_way, given_way) = (rival.gives_way && !rival.given_way, rival.given_way && !rival.gives_way);
+        match (self.impatient, other.impatient) {
+            _ if other.far => gives_way && !self.impatient,
+            (false, false) if gives_way || given_way => gives_way,
+            (true, false) => false,
+            (false, true) => true,
+            _ => other.order(self).is_lt(),
+        }
+    }
+}
+
+impl Traffic {
+    /// Lets cars pass their lines, or makes them stop there.
+    pub(super) fn give_leave(&mut self, dt: f64) {
+        self.askers.clear();
+        self.asking.clear();
+        for index in 0..self.cars.len() {
+            match self.ahead[index].ask {
+                Some(ask) if ask.held => self.confirm(index, ask),
+                Some(ask) => self.ask(index, ask, dt),
+                None => self.cars[index].ticket = None,
+            }
+        }
+        self.askers.sort_unstable_by(Asker::order);
+        for (number, asker) in self.askers.iter().enumerate() {
+            for lane in self.cars[asker.car].path.range(asker.ask.index..=asker.passage.last) {
+                self.asking.add(*lane, asker.car, number);
+            }
+        }
+        for number in 0..self.askers.len() {
+            let asker = self.askers[number];
+            if !asker.far && self.view().may_go(&asker, &self.askers, &self.asking) {
+                self.askers[number].granted = true;
+                self.grant(&asker);
+            }
+        }
+        for (car, ahead) in self.cars.iter_mut().zip(&mut self.ahead) {
+            if let Some(ask) = ahead.ask.filter(|ask| !ask.held) {
+                if ask.distance <= car.asking_distance() {
+                    ahead.stop(car, ask.distance, dt);
+                }
+                ahead.wall = ahead.wall.min(ask.distance);
+            }
+            car.wall = ahead.wall;
+        }
+    }
+
+    /// Takes leave back that a car cannot make use of, while it can still stop.
+    fn confirm(&mut self, index: usize, ask: Ask) {
+        let speed = self.cars[index].speed;
+        let stops = ask.distance > 0.5 + speed * speed / (2.0 * FIRM);
+        let useless = stops && (!ask.first || self.view().passage(index, &ask).is_none());
+        // The claims stay listed until the end of this step, which does no harm.
+        if useless && self.cars[index].give_back(&ask) {
+            self.ahead[index].ask = Some(Ask { held: false, ..ask });
+        }
+    }
+
+    /// Notes that a car asks, if it is near.
+    fn ask(&mut self, index: usize, ask: Ask, dt: f64) {
+        let car = &self.cars[index];
+        let near = car.asking_distance();
+        if ask.distance > near + car.speed * FOREWARNED {
+            return;
+        }
+        let passage = self.view().passage(index, &ask).filter(|_| ask.first);
+        let far = ask.distance > near;
+        let car = &mut self.cars[index];
+        let lane = car.path[ask.index];
+        let since = car.ticket.filter(|(asked, _)| *asked == lane).map_or(self.time, |(_, since)| since);
+        if !far {
+            car.ticket = Some((lane, since));
+        }
+        if let Some(passage) = passage {
+            let impatient = !far && self.time - since > PATIENCE;
+            self.askers.push(Asker { car: index, ask, passage, since, impatient, far, granted: false });
+            return;
+        }
+        let waits = |time: f64| ((time - since) / ELSEWHERE).floor();
+        if ask.first && ask.index > 0 && car.itinerary.is_free() && waits(self.time) > waits(self.time - dt).max(0.0) {
+            car.path.truncate(ask.index);
+            car.complete = false;
+            car.extend_path(&self.map);
+            car.ticket = Some((car.path[ask.index], since));
+        }
+    }
+
+    /// Gives a car the claims that it asks for.
+    fn grant(&mut self, asker: &Asker) {
+        let car = &mut self.cars[asker.car];
+        let entry = car.travelled + asker.ask.base;
+        let mut start = entry;
+        for k in asker.ask.index..=asker.passage.last {
+            let claim = Claim { lane: car.path[k], start, entry, turn: self.turns, sure: asker.passage.sure };
+            start += self.map.length(claim.lane);
+            car.claims.push(claim);
+            self.claims.add(claim.lane, asker.car, claim);
+        }
+        self.turns += 1;
+        self.ahead[asker.car].ask = Some(Ask { held: true, ..asker.ask });
     }
 }
 
@@ -236,13 +344,7 @@ impl View<'_> {
                     if other.car == asker.car || other.granted {
                         continue;
                     }
-                    let lets_go = match (asker.impatient, other.impatient) {
-                        (false, false) if rival.gives_way != rival.given_way => rival.gives_way,
-                        (true, false) => false,
-                        (false, true) => true,
-                        _ => other.before(asker),
-                    };
-                    if lets_go {
+                    if asker.lets_go(other, rival) {
                         return false;
                     }
                 }

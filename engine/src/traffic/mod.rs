@@ -49,8 +49,6 @@ use std::sync::Arc;
 
 /// Seconds between two thoughts about a lane change.
 const THOUGHT: f64 = 1.0;
-/// Seconds after which a car without a goal turns elsewhere, because there is no room where it wants to go.
-const ELSEWHERE: f64 = 15.0;
 
 /// Cars on a road network.
 #[derive(Debug)]
@@ -273,83 +271,6 @@ impl Traffic {
             ),
         );
         self.ahead = all;
-    }
-
-    /// Lets cars pass their lines, or makes them stop there.
-    fn give_leave(&mut self, dt: f64) {
-        self.askers.clear();
-        self.asking.clear();
-        for index in 0..self.cars.len() {
-            let Some(ask) = self.ahead[index].ask else {
-                self.cars[index].ticket = None;
-                continue;
-            };
-            let passage = self.view().passage(index, &ask);
-            let car = &mut self.cars[index];
-            if ask.held {
-                let stops = ask.distance > 0.5 + car.speed * car.speed / 6.0;
-                if stops && (passage.is_none() || !ask.first) && car.give_back(&ask) {
-                    // The claim is listed until the end of this step, which does no harm.
-                    self.ahead[index].ask = Some(ahead::Ask { held: false, ..ask });
-                }
-                continue;
-            }
-            if ask.distance > car.asking_distance() {
-                continue;
-            }
-            let lane = car.path[ask.index];
-            let since = match car.ticket {
-                Some((asked, since)) if asked == lane => since,
-                _ => self.time,
-            };
-            car.ticket = Some((lane, since));
-            match passage.filter(|_| ask.first) {
-                Some(passage) => self.askers.push(Asker::new(index, ask, passage, since, self.time)),
-                None if ask.first && car.itinerary.is_free() && self.time - since > ELSEWHERE && ask.index > 0 => {
-                    car.path.truncate(ask.index);
-                    car.complete = false;
-                    car.extend_path(&self.map);
-                    car.ticket = Some((car.path[ask.index], self.time));
-                }
-                None => {}
-            }
-        }
-        self.askers.sort_unstable_by(Asker::order);
-        for (number, asker) in self.askers.iter().enumerate() {
-            for lane in self.cars[asker.car].path.range(asker.ask.index..=asker.passage.last) {
-                self.asking.add(*lane, asker.car, number);
-            }
-        }
-        for number in 0..self.askers.len() {
-            let asker = self.askers[number];
-            if !self.view().may_go(&asker, &self.askers, &self.asking) {
-                continue;
-            }
-            self.askers[number].granted = true;
-            let Asker { car: index, ask, passage, .. } = asker;
-            let car = &mut self.cars[index];
-            let entry = car.travelled + ask.base;
-            let mut start = entry;
-            for k in ask.index..=passage.last {
-                let claim = Claim { lane: car.path[k], start, entry, turn: self.turns, sure: passage.sure };
-                start += self.map.length(claim.lane);
-                car.claims.push(claim);
-                self.claims.add(claim.lane, index, claim);
-            }
-            self.turns += 1;
-            if let Some(ask) = &mut self.ahead[index].ask {
-                ask.held = true;
-            }
-        }
-        for (car, ahead) in self.cars.iter_mut().zip(&mut self.ahead) {
-            if let Some(ask) = ahead.ask.filter(|ask| !ask.held) {
-                if ask.distance <= car.asking_distance() {
-                    ahead.stop(car, ask.distance, dt);
-                }
-                ahead.wall = ahead.wall.min(ask.distance);
-            }
-            car.wall = ahead.wall;
-        }
     }
 
     fn change_lanes(&mut self, dt: f64) {
