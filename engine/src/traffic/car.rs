@@ -11,6 +11,8 @@ use rand_pcg::Pcg64;
 const SIZE: [f64; 2] = [4.5, 1.8];
 /// The speed in m/s that is wanted where nothing else is said: 50 km/h.
 const TOWN: f64 = 50.0 / 3.6;
+/// Who drives by chance leaves a roundabout after so many arms.
+const MOST_ARMS: usize = 3;
 /// Metres of a lane that a scattered car has to itself.
 const SLOT: f64 = 9.0;
 
@@ -186,8 +188,13 @@ impl TrafficCar {
 /// What a car does at forks.
 #[derive(Debug)]
 pub(super) enum Itinerary {
-    Wander(Pcg64),
-    Lanes { lanes: Vec<LaneId>, next: usize, circular: bool },
+    /// By chance, with the number of arms that were passed since a roundabout was entered.
+    Wander(Pcg64, usize),
+    Lanes {
+        lanes: Vec<LaneId>,
+        next: usize,
+        circular: bool,
+    },
 }
 
 impl Itinerary {
@@ -196,7 +203,7 @@ impl Itinerary {
         let lanes =
             |lanes: &Vec<LaneId>, circular| Self::Lanes { lanes: lanes.clone(), next: 1 % lanes.len(), circular };
         match &car.way {
-            Way::Wander => (Self::Wander(Pcg64::new(u128::from(seed), index as u128)), f64::INFINITY),
+            Way::Wander => (Self::Wander(Pcg64::new(u128::from(seed), index as u128), 0), f64::INFINITY),
             Way::Follow(way, end) => {
                 let itinerary = Self::Lanes { lanes: way.clone(), next: 1, circular: false };
                 (itinerary, *end)
@@ -208,11 +215,21 @@ impl Itinerary {
     /// The lane after `last`, if it goes on.
     pub fn next(&mut self, last: LaneId, network: &Network) -> Option<LaneId> {
         match self {
-            Self::Wander(random) => match &*network.lane(last).successors {
-                [] => None,
-                [only] => Some(*only),
-                several => Some(several[random.random_range(0..several.len())]),
-            },
+            Self::Wander(random, arms) => {
+                let exit = |lane: &&LaneId| network.lane(**lane).kind == LaneKind::Exit;
+                let lane = match &*network.lane(last).successors {
+                    [] => return None,
+                    [only] => *only,
+                    several if *arms >= MOST_ARMS => *several.iter().find(exit).unwrap_or(&several[0]),
+                    several => several[random.random_range(0..several.len())],
+                };
+                *arms = match network.lane(lane).kind {
+                    LaneKind::RingAtArm => *arms + 1,
+                    LaneKind::Ring => *arms,
+                    _ => 0,
+                };
+                Some(lane)
+            }
             Self::Lanes { lanes, next, circular } => {
                 let lane = *lanes.get(*next)?;
                 *next += 1;
@@ -226,6 +243,6 @@ impl Itinerary {
 
     /// Whether it can be chosen anew.
     pub fn is_free(&self) -> bool {
-        matches!(self, Self::Wander(_))
+        matches!(self, Self::Wander(..))
     }
 }
