@@ -141,6 +141,20 @@ impl TrafficCar {
         places.into_iter().map(Self::at).collect()
     }
 
+    /// Puts lane changes of its way that lie in a roundabout onto the road before it, where there is one.
+    pub(super) fn planned(mut self, map: &Map) -> Self {
+        if let Way::Follow(lanes, _) | Way::Circle(lanes) = &mut self.way
+            && lanes.iter().all(|lane| lane.index() < map.network.lanes().len())
+        {
+            let within = |pair: &[LaneId]| !map.is_road(pair[0]) && map.beside(pair[0], pair[1]);
+            while let Some(at) = lanes.windows(2).position(within) {
+                let Some(earlier) = changed_earlier(lanes, at, map) else { break };
+                *lanes = earlier;
+            }
+        }
+        self
+    }
+
     /// Refuses what cannot be.
     pub(super) fn check(&self, index: usize, map: &Map) -> Result<(), TrafficError> {
         let lanes = map.network.lanes().len();
@@ -183,6 +197,28 @@ impl TrafficCar {
         }
         Ok(())
     }
+}
+
+/// A way that changes after its lane `at`, so that it does before the first lane of a road before that.
+fn changed_earlier(lanes: &[LaneId], at: usize, map: &Map) -> Option<Vec<LaneId>> {
+    let lane = |id: LaneId| map.network.lane(id);
+    let mut way: Vec<LaneId> = lanes[at + 1..].iter().rev().copied().collect();
+    for before in (0..at).rev() {
+        let beside = lanes[before];
+        let like = |other: &&LaneId| {
+            let (one, other) = (lane(beside), lane(**other));
+            (one.kind, one.element, one.number.signum()) == (other.kind, other.element, other.number.signum())
+        };
+        way.push(*lane(way[way.len() - 1]).predecessors.iter().find(like)?);
+        if map.is_road(beside) {
+            let last = way[way.len() - 1];
+            way.extend(Some(beside).filter(|beside| map.beside(*beside, last)));
+            way.extend(lanes[..before].iter().rev());
+            way.reverse();
+            return Some(way);
+        }
+    }
+    None
 }
 
 /// What a car does at forks.
@@ -238,6 +274,14 @@ impl Itinerary {
                 }
                 Some(lane)
             }
+        }
+    }
+
+    /// Where it ends, if it does, `end` metres along its last lane.
+    pub fn goal(&self, end: f64) -> Option<Place> {
+        match self {
+            Self::Lanes { lanes, circular: false, .. } => lanes.last().map(|lane| Place { lane: *lane, s: end }),
+            _ => None,
         }
     }
 

@@ -11,8 +11,9 @@ use super::state::{Car, Change, WALKING};
 use crate::road::{LaneId, LaneKind, Place};
 use crate::scenario::Side;
 
-/// Seconds that a lane change takes where nothing else is said.
+/// Seconds that a lane change takes where it pays, and where the route asks for it.
 const DURATION: f64 = 4.0;
+const DURATION_DUE: f64 = 2.5;
 /// How much a change counts the others' accelerations, p in the paper.
 const POLITENESS: f64 = 0.3;
 /// What it has to gain in m/s², and how much more or less to the left and to the right.
@@ -72,12 +73,11 @@ impl View<'_> {
         if car.change.is_some() || lane.kind != LaneKind::Road {
             return None;
         }
-        let duration = DURATION;
         let left = self.map.length(car.lane) - car.s;
         let due = car.path.get(1).filter(|next| self.map.beside(car.lane, **next));
         if let Some(&due) = due.filter(|_| left < AT_ONCE) {
             let side = if lane.left == Some(due) { Side::Left } else { Side::Right };
-            return self.gain(index, due, duration, ahead, dt).map(|_| (side, due, duration));
+            return self.gain(index, due, DURATION_DUE, ahead, dt).map(|_| (side, due, DURATION_DUE));
         }
         if !car.changes_lanes {
             return None;
@@ -86,8 +86,8 @@ impl View<'_> {
         let sides = [(Side::Left, lane.left, -TO_THE_RIGHT), (Side::Right, lane.right, TO_THE_RIGHT)];
         let options = sides.into_iter().filter_map(|(side, to, bonus)| {
             let to = to.filter(|to| free || due == Some(to))?;
-            let gain = self.gain(index, to, duration, ahead, dt)? + bonus;
-            (gain > THRESHOLD).then_some((gain, (side, to, duration)))
+            let gain = self.gain(index, to, DURATION, ahead, dt)? + bonus;
+            (gain > THRESHOLD).then_some((gain, (side, to, DURATION)))
         });
         // The first of equals: to the left.
         options.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, change)| change)
@@ -164,7 +164,7 @@ impl View<'_> {
 
 impl Car {
     /// Finds another way where the car has waited too long for the lane change that its route asks for: on to the end of
-    /// its lane, and from there to the lane of its route that it could not get to.
+    /// its lane, and from there to the end of its route, or to the lane that it could not get to where that has no end.
     pub fn give_up_change(&mut self, dt: f64, map: &Map) {
         let due = self.path.get(1).copied().filter(|next| map.beside(self.lane, *next));
         let Some(due) = due.filter(|_| self.speed < 0.1 && self.change.is_none()) else {
@@ -176,11 +176,12 @@ impl Car {
             return;
         }
         self.stuck = 0.0;
-        let goal = Place { lane: self.path.get(2).copied().unwrap_or(due), s: 0.0 };
+        let goal = self.itinerary.goal(self.end).unwrap_or(Place { lane: *self.path.get(2).unwrap_or(&due), s: 0.0 });
         let ways = map.network.lane(self.lane).successors.iter();
         let ways = ways.filter_map(|next| map.network.route(Place { lane: *next, s: 0.0 }, goal, 50.0));
         let Some(way) = ways.min_by(|a, b| a.length.total_cmp(&b.length)) else { return };
-        self.path.drain(..self.path.len().min(3));
+        self.complete = self.end.is_finite();
+        self.path.drain(..if self.complete { self.path.len() } else { self.path.len().min(3) });
         for lane in way.lanes.iter().rev() {
             self.path.push_front(*lane);
         }

@@ -105,6 +105,7 @@ impl Traffic {
     /// A car has a number that cannot be, a route that is none, or the place of another.
     pub fn new(network: Arc<Network>, cars: Vec<TrafficCar>, seed: u64) -> Result<Self, TrafficError> {
         let map = Map::new(network);
+        let cars: Vec<TrafficCar> = cars.into_iter().map(|car| car.planned(&map)).collect();
         cars.iter().enumerate().try_for_each(|(index, car)| car.check(index, &map))?;
         let (lanes, count) = (map.network.lanes().len(), cars.len());
         let cars = cars.iter().enumerate().map(|(index, car)| Car::new(car, index, seed)).collect();
@@ -248,7 +249,7 @@ impl Traffic {
         let half_width = cars.iter().map(|car| 0.5 * car.width).fold(0.0, f64::max);
         let (lanes, open) = (&mut self.near.0, &mut self.near.1);
         for obstacle in obstacles {
-            obstacle::place(obstacle, &map.network, half_width, (lanes, open), self.occupancy.bodies_mut());
+            obstacle::place(obstacle, &map.network, half_width, (lanes, open), self.occupancy.added());
         }
         self.occupancy.sort();
         self.claims.clear();

@@ -81,8 +81,8 @@ impl Occupancy {
         }
     }
 
-    /// Where bodies are added.
-    pub fn bodies_mut(&mut self) -> &mut Vec<Body> {
+    /// Where further bodies are added.
+    pub fn added(&mut self) -> &mut Vec<Body> {
         &mut self.unsorted
     }
 
