@@ -1,5 +1,5 @@
 //! Whole tests per second on one core, points per second of each generator, samples per second of formulas, and a city's
-//! roads. Divan's items per second are the figures; `baseline` is plain integer arithmetic, by which two machines (or two
+//! roads and traffic. Divan's items per second are the figures; `baseline` is plain integer arithmetic, by which two machines (or two
 //! moods of one) can be compared.
 
 mod baseline;
@@ -12,6 +12,7 @@ use paracosm::coverage::Space;
 use paracosm::engine::driver::reference;
 use paracosm::engine::kinematic::CutIn;
 use paracosm::engine::road::{Network, Place, grid_city};
+use paracosm::engine::traffic::{Traffic, TrafficCar};
 use paracosm::engine::vehicle::{Model, Pedals, Vehicle};
 use paracosm::engine::{
     AutonomousVehicle, DEFAULT_DT, Pose, Program, RoadSegment, Run, Scenario, Setup, Stream, driver, simulate,
@@ -210,4 +211,19 @@ fn routes(bencher: Bencher) {
             .map(|i| city.route(place(1009 * i), place(2503 * i + 1), 20.0).map_or(0, |way| way.lanes.len()))
             .sum::<usize>()
     });
+}
+
+/// Steps of traffic all over the city, a fiftieth of a second each. Half of the cars change lanes where that pays; the
+/// streets have two lanes for each direction.
+#[divan::bench(args = [10, 100, 1000], sample_count = 20)]
+fn traffic(bencher: Bencher, cars: usize) {
+    const STEPS: usize = 500;
+    const DT: f64 = 0.02;
+    let city = grid_city(20, 20, 80.0, 4).build().unwrap();
+    let scattered = TrafficCar::scattered(&city, cars, 1).into_iter().enumerate();
+    let scattered = scattered.map(|(i, car)| if i % 2 == 0 { car.changing_lanes() } else { car }).collect();
+    let mut traffic = Traffic::new(city, scattered, 1).unwrap();
+    // From standstill to the usual.
+    (0..STEPS).for_each(|_| traffic.step(DT, &[]));
+    bencher.counter(ItemsCount::new(STEPS)).bench_local(|| (0..STEPS).for_each(|_| traffic.step(DT, &[])));
 }

@@ -39,6 +39,7 @@ pub mod road;
 mod run;
 mod scenario;
 pub mod stream;
+pub mod traffic;
 pub mod vehicle;
 mod world;
 

@@ -147,16 +147,22 @@ impl Tree {
     /// The items below the nodes that meet a box: all whose own boxes do, and some that come near.
     pub fn near(&self, target: &Bounds) -> Vec<u32> {
         let mut found = Vec::new();
-        let mut open = Vec::from_iter((!self.nodes.is_empty()).then_some(0));
+        self.visit_near(target, &mut Vec::new(), |item| found.push(item));
+        found
+    }
+
+    /// The same without an allocation, where `open` has been used before.
+    pub fn visit_near(&self, target: &Bounds, open: &mut Vec<usize>, mut visit: impl FnMut(u32)) {
+        open.clear();
+        open.extend((!self.nodes.is_empty()).then_some(0));
         while let Some(index) = open.pop() {
             let node = &self.nodes[index];
             if node.bounds.meets(target) {
                 match &node.below {
-                    Below::Leaf(range) => found.extend_from_slice(&self.items[range.clone()]),
+                    Below::Leaf(range) => self.items[range.clone()].iter().for_each(|item| visit(*item)),
                     Below::Second(second) => open.extend([*second, index + 1]),
                 }
             }
         }
-        found
     }
 }

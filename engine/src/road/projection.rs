@@ -1,5 +1,6 @@
 //! Where on the lanes a position is.
 
+use super::bounds::Bounds;
 use super::lane::{Lane, LaneId};
 use super::network::Network;
 use super::route::Place;
@@ -59,6 +60,12 @@ impl Network {
         let at = curve.at(s);
         let beyond = position - at.position;
         Projection { lane, s, offset: at.forward().perp(&beyond), heading: at.heading, distance: beyond.norm() }
+    }
+
+    /// The lanes that come near a box, all that meet it among them, in no particular order. `open` is what the search
+    /// needs to remember; used again, it spares an allocation.
+    pub(crate) fn lanes_near(&self, target: &Bounds, open: &mut Vec<usize>, mut visit: impl FnMut(LaneId)) {
+        self.tree.visit_near(target, open, |lane| visit(LaneId(lane)));
     }
 
     fn distance_squared(&self, lane: u32, position: Vector2<f64>) -> f64 {

@@ -1,0 +1,268 @@
+//! What lies ahead of a car, and how fast that lets it drive.
+//!
+//! A car looks along its path: at the body that is next on it, at those that have turned off but still stick out into
+//! it, at those that have the right to cross it or to join it first, at bends, and at the next line where it needs leave
+//! to drive on. Each alone gives an acceleration by the model and a safe speed; the least holds.
+
+use super::idm::safe_speed;
+use super::junction::Lists;
+use super::map::{BEFORE_ZONE, Map, Rival};
+use super::occupancy::{Body, Occupancy, Who};
+use super::state::{Car, Claim};
+
+/// Metres that cars which join stay apart, beyond what the model has: along bends of different radii lengths differ.
+const JOINING: f64 = 1.0;
+/// Bodies that come into the way later than in so many seconds are not braked for.
+const SOON: f64 = 1.5;
+/// Seconds in which the speed is brought to what the next bend asks for, and the hardest braking for it in m/s².
+const BEND: (f64, f64) = (0.5, 3.0);
+/// Whoever stops fewer metres beyond a line keeps the next one from passing it.
+const BEYOND_LINE: f64 = 8.0;
+
+/// All that a car may look at.
+#[derive(Clone, Copy)]
+pub(super) struct View<'a> {
+    pub map: &'a Map,
+    pub cars: &'a [Car],
+    pub occupancy: &'a Occupancy,
+    pub claims: &'a Lists<Claim>,
+}
+
+/// The next line on the path of a car.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ask {
+    /// Which lane of the path it belongs to, and how far ahead of the car's middle that begins.
+    pub index: usize,
+    pub base: f64,
+    /// From the front to the line.
+    pub distance: f64,
+    /// Whether the car has leave to pass it.
+    pub held: bool,
+    /// Whether nobody waits before it, or right behind it.
+    pub first: bool,
+}
+
+/// How a car may drive on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ahead {
+    /// By the model, in m/s²: in all, and because of what drives ahead alone.
+    pub acceleration: f64,
+    pub following: f64,
+    /// The greatest safe speed after this step.
+    pub safe: f64,
+    pub ask: Option<Ask>,
+    /// From the front to where the car will stop of its own accord, but for the line of `ask`.
+    pub wall: f64,
+    /// Whether the path has to be longer to tell.
+    pub short: bool,
+    /// Where the rears of others will be, relative to the car's middle, once they have stopped: the nearest of them.
+    held_up: f64,
+}
+
+impl Ahead {
+    /// What lies ahead of who is gone.
+    pub fn nothing() -> Self {
+        let (short, far) = (false, f64::INFINITY);
+        Self { acceleration: 0.0, following: 0.0, safe: far, ask: None, wall: far, short, held_up: far }
+    }
+
+    /// Something that drives ahead.
+    fn follow(&mut self, car: &Car, gap: f64, speed: f64, dt: f64) {
+        let following = car.idm.following(car.speed, car.desired, gap, speed);
+        self.following = self.following.min(following);
+        self.acceleration = self.acceleration.min(following);
+        self.safe = self.safe.min(safe_speed(car.speed, gap, speed, dt));
+    }
+
+    /// A place to stop at.
+    pub fn stop(&mut self, car: &Car, distance: f64, dt: f64) {
+        let stopping = car.idm.following(car.speed, car.desired, distance + car.idm.gap, 0.0);
+        self.acceleration = self.acceleration.min(stopping);
+        self.safe = self.safe.min(safe_speed(car.speed, distance + 0.5, 0.0, dt));
+    }
+
+    /// A bend, so far ahead.
+    fn bend(&mut self, car: &Car, distance: f64, speed: f64) {
+        let left = (distance - car.speed * BEND.0).max(0.0);
+        let allowed = (speed * speed + 2.0 * car.idm.deceleration * left).sqrt();
+        self.acceleration = self.acceleration.min(((allowed - car.speed) / BEND.0).max(-BEND.1));
+    }
+}
+
+impl View<'_> {
+    /// What lies ahead of a car. Lines without leave to pass them are braked for by who asks, not here.
+    pub fn ahead_of(&self, index: usize, dt: f64) -> Ahead {
+        let car = &self.cars[index];
+        let free = car.idm.free(car.speed, car.desired);
+        let mut ahead = Ahead {
+            acceleration: free,
+            following: free,
+            safe: f64::INFINITY,
+            ask: None,
+            wall: f64::INFINITY,
+            short: false,
+            held_up: f64::INFINITY,
+        };
+        self.walk(index, dt, &mut ahead);
+        if let Some(ask) = &mut ahead.ask {
+            ask.first = ahead.held_up > ask.distance + self.cars[index].half + BEYOND_LINE;
+        }
+        ahead
+    }
+
+    fn walk(&self, index: usize, dt: f64, ahead: &mut Ahead) {
+        let car = &self.cars[index];
+        if let Some(from) = car.change.and_then(|change| change.from) {
+            let s = self.map.across(car.s, car.lane, from);
+            let met = self.next_body(index, self.occupancy.ahead_on_old_lane(index), -s, dt, ahead);
+            if let Some(next) = self.map.road_after(from).filter(|_| !met) {
+                self.next_body(index, self.occupancy.on(next), self.map.length(from) - s, dt, ahead);
+            }
+        }
+        let horizon = car.horizon();
+        let mut base = -car.s;
+        let mut alone = true;
+        for (k, &lane) in car.path.iter().enumerate() {
+            let length = self.map.length(lane);
+            let bend = self.map.speed(lane);
+            if bend < car.desired {
+                ahead.bend(car, base.max(0.0), bend);
+            }
+            let rivals = self.map.rivals(lane);
+            if !rivals.is_empty() {
+                let claim = car.claim(lane, base);
+                let distance = base + self.map.line(lane) - car.half;
+                if distance > 0.0 || claim.is_none() {
+                    let held = claim.is_some();
+                    if ahead.ask.is_none() {
+                        ahead.ask = Some(Ask { index: k, base, distance, held, first: true });
+                    } else if !held {
+                        // The line after the next: leave is asked for once the next is passed.
+                        if distance < car.asking_distance() {
+                            ahead.stop(car, distance, dt);
+                        }
+                        ahead.wall = distance;
+                        return;
+                    }
+                }
+                if let Some(claim) = claim {
+                    self.yield_to_earlier(index, claim, rivals, (base, length), dt, ahead);
+                }
+            }
+            self.sticking_out(index, k, base, dt, ahead);
+            if alone {
+                let bodies = if k == 0 { self.occupancy.ahead_of(index) } else { self.occupancy.on(lane) };
+                alone = !self.next_body(index, bodies, base, dt, ahead);
+            }
+            match car.path.get(k + 1) {
+                Some(next) if self.map.beside(lane, *next) => {
+                    let distance = base + length - 1.0 - car.half;
+                    ahead.stop(car, distance, dt);
+                    ahead.wall = distance;
+                    return;
+                }
+                None if car.complete && car.end.is_finite() => {
+                    let distance = base + car.end;
+                    ahead.stop(car, distance, dt);
+                    ahead.wall = distance;
+                    return;
+                }
+                _ => base += length,
+            }
+            if base > horizon {
+                return;
+            }
+        }
+        ahead.short = !car.complete;
+    }
+
+    /// The first of `bodies` that is in the way; whether there is one.
+    fn next_body(&self, index: usize, bodies: &[Body], base: f64, dt: f64, ahead: &mut Ahead) -> bool {
+        let car = &self.cars[index];
+        for body in bodies {
+            let gap = base + body.rear - car.half;
+            match body.who {
+                Who::Zebra => {
+                    // Who is on it already leaves it.
+                    if !car.heedless && gap > -0.5 {
+                        ahead.stop(car, gap, dt);
+                        ahead.held_up = ahead.held_up.min(base + body.rear);
+                    }
+                }
+                Who::Foreign { soon } => {
+                    if !car.heedless && soon <= SOON {
+                        ahead.follow(car, gap, body.speed, dt);
+                        ahead.held_up = ahead.held_up.min(base + body.rear);
+                        return true;
+                    }
+                }
+                Who::Car(other) | Who::Leaving(other) => {
+                    if other as usize != index {
+                        ahead.follow(car, gap, body.speed, dt);
+                        ahead.held_up = ahead.held_up.min(base + body.rear + self.cars[other as usize].wall);
+                        return true;
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Those who turned off at the beginning of a lane of the path, and are not away from it yet.
+    fn sticking_out(&self, index: usize, k: usize, base: f64, dt: f64, ahead: &mut Ahead) {
+        let car = &self.cars[index];
+        let lane = car.path[k];
+        for fork in self.map.forks(lane) {
+            if -base - car.half > fork.apart.0 {
+                continue;
+            }
+            let next = self.occupancy.on(fork.lane).iter().find(|body| match body.who {
+                Who::Car(other) => body.middle() > -base || (body.middle() == -base && (other as usize) < index),
+                _ => false,
+            });
+            let Some(body) = next.filter(|body| body.rear < fork.apart.1) else { continue };
+            ahead.follow(car, base + body.rear - car.half, body.speed, dt);
+            if body.car().is_some_and(|other| body.rear + self.cars[other].wall < fork.apart.1) {
+                ahead.held_up = f64::NEG_INFINITY;
+            }
+        }
+    }
+
+    /// Those who may cross a lane, or join it, before the car.
+    fn yield_to_earlier(
+        &self,
+        index: usize,
+        claim: &Claim,
+        rivals: &[Rival],
+        (base, length): (f64, f64),
+        dt: f64,
+        ahead: &mut Ahead,
+    ) {
+        let car = &self.cars[index];
+        for rival in rivals {
+            for (other, theirs) in self.claims.on(rival.lane) {
+                let rear = self.cars[other].rear_on(theirs);
+                if other == index || theirs.turn >= claim.turn || rear > rival.other.1 {
+                    continue;
+                }
+                let to_zone = base + rival.from - BEFORE_ZONE - car.half;
+                if rival.merges {
+                    let gap = self.joining_gap(base + length - car.half, rival, rear);
+                    if gap > to_zone {
+                        ahead.follow(car, gap, self.cars[other].speed, dt);
+                    } else {
+                        ahead.stop(car, to_zone, dt);
+                    }
+                } else if to_zone > -BEFORE_ZONE {
+                    ahead.stop(car, to_zone.max(0.0), dt);
+                }
+            }
+        }
+    }
+
+    /// The gap to who will be next ahead once both have joined: `end` is how far ahead that is, `rear` where the other
+    /// one ends along its lane.
+    pub fn joining_gap(&self, end: f64, rival: &Rival, rear: f64) -> f64 {
+        end - (self.map.length(rival.lane) - rear) - JOINING
+    }
+}

@@ -1,0 +1,292 @@
+//! Cars as programs describe them.
+
+use super::error::TrafficError;
+use super::idm::Idm;
+use super::map::Map;
+use crate::road::{LaneId, LaneKind, Network, Place, Route};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Length and width in metres of what most cars are like.
+const SIZE: [f64; 2] = [4.5, 1.8];
+/// The speed in m/s that is wanted where nothing else is said: 50 km/h.
+const TOWN: f64 = 50.0 / 3.6;
+/// Who drives by chance leaves a roundabout after so many arms.
+const MOST_ARMS: usize = 3;
+/// Metres of a lane that a scattered car has to itself.
+const SLOT: f64 = 9.0;
+
+/// A car of the traffic, before it drives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrafficCar {
+    pub(super) start: Place,
+    pub(super) way: Way,
+    pub(super) desired: f64,
+    pub(super) speed: f64,
+    pub(super) idm: Idm,
+    pub(super) length: f64,
+    pub(super) width: f64,
+    pub(super) offset: f64,
+    pub(super) changes_lanes: bool,
+    pub(super) heedless: bool,
+}
+
+/// Where a car drives to.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Way {
+    Wander,
+    Follow(Vec<LaneId>, f64),
+    Circle(Vec<LaneId>),
+}
+
+impl TrafficCar {
+    /// A car of 4.5 m by 1.8 m that stands with its middle at this place, then drives at 50 km/h where the road is
+    /// free and turns as chance has it.
+    pub fn at(start: Place) -> Self {
+        Self {
+            start,
+            way: Way::Wander,
+            desired: TOWN,
+            speed: 0.0,
+            idm: Idm::default(),
+            length: SIZE[0],
+            width: SIZE[1],
+            offset: 0.0,
+            changes_lanes: false,
+            heedless: false,
+        }
+    }
+
+    /// A car that drives along a route, from its start to its end, where it stays.
+    pub fn following(route: &Route) -> Self {
+        let start = Place { lane: route.lanes[0], s: route.start };
+        Self { way: Way::Follow(route.lanes.clone(), route.end), ..Self::at(start) }
+    }
+
+    /// A car that drives along a route again and again: its first lane follows its last one, or is the same.
+    pub fn circling(route: &Route) -> Self {
+        let mut lanes = route.lanes.clone();
+        if lanes.len() > 1 && lanes.last() == lanes.first() {
+            lanes.pop();
+        }
+        let start = Place { lane: lanes[0], s: route.start };
+        Self { way: Way::Circle(lanes), ..Self::at(start) }
+    }
+
+    /// The speed in m/s that it drives at where nothing hinders it.
+    pub fn desired_speed(mut self, speed: f64) -> Self {
+        self.desired = speed;
+        self
+    }
+
+    /// The speed in m/s at which it begins.
+    pub fn speed(mut self, speed: f64) -> Self {
+        self.speed = speed;
+        self
+    }
+
+    /// How it follows others.
+    pub fn idm(mut self, idm: Idm) -> Self {
+        self.idm = idm;
+        self
+    }
+
+    /// Its length and width in metres.
+    pub fn size(mut self, length: f64, width: f64) -> Self {
+        self.length = length;
+        self.width = width;
+        self
+    }
+
+    /// How many metres to the right of the middle of its lane it keeps.
+    pub fn keeping_right(mut self, metres: f64) -> Self {
+        self.offset = -metres;
+        self
+    }
+
+    /// It changes lanes where that lets it drive faster, as MOBIL has it. Without, it changes lanes only where its
+    /// route does.
+    pub fn changing_lanes(mut self) -> Self {
+        self.changes_lanes = true;
+        self
+    }
+
+    /// It takes no notice of what is no part of the traffic.
+    pub fn heedless(mut self) -> Self {
+        self.heedless = true;
+        self
+    }
+
+    /// A bicycle: 1.8 m long, at most 5 m/s, at the right of its lane.
+    pub fn bicycle(start: Place) -> Self {
+        let idm = Idm { acceleration: 0.8, deceleration: 1.5, gap: 1.5, ..Idm::default() };
+        Self::at(start).size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0).idm(idm)
+    }
+
+    /// So many cars at different places on the roads of a network, as chance has it: fewer where there is no room. They
+    /// are as [`TrafficCar::at`] has them.
+    pub fn scattered(network: &Network, count: usize, seed: u64) -> Vec<Self> {
+        let mut places = Vec::new();
+        for (id, lane) in network.ids().zip(network.lanes()).filter(|(_, lane)| lane.kind == LaneKind::Road) {
+            let slots = (lane.length() / SLOT) as usize;
+            places.extend((0..slots).map(|slot| Place { lane: id, s: (slot as f64 + 0.5) * SLOT }));
+        }
+        let mut random = Pcg64::seed_from_u64(seed);
+        let count = count.min(places.len());
+        for i in 0..count {
+            let other = random.random_range(i..places.len());
+            places.swap(i, other);
+        }
+        places.truncate(count);
+        places.into_iter().map(Self::at).collect()
+    }
+
+    /// Puts lane changes of its way that lie in a roundabout onto the road before it, where there is one.
+    pub(super) fn planned(mut self, map: &Map) -> Self {
+        if let Way::Follow(lanes, _) | Way::Circle(lanes) = &mut self.way
+            && lanes.iter().all(|lane| lane.index() < map.network.lanes().len())
+        {
+            let within = |pair: &[LaneId]| !map.is_road(pair[0]) && map.beside(pair[0], pair[1]);
+            while let Some(at) = lanes.windows(2).position(within) {
+                let Some(earlier) = changed_earlier(lanes, at, map) else { break };
+                *lanes = earlier;
+            }
+        }
+        self
+    }
+
+    /// Refuses what cannot be.
+    pub(super) fn check(&self, index: usize, map: &Map) -> Result<(), TrafficError> {
+        let lanes = map.network.lanes().len();
+        let number = |what, value: f64, least: f64, most: f64| {
+            let fits = (least..=most).contains(&value);
+            if fits { Ok(()) } else { Err(TrafficError::Value { car: index, what, value, least, most }) }
+        };
+        let way: &[LaneId] = match &self.way {
+            Way::Wander => &[],
+            Way::Follow(lanes, _) | Way::Circle(lanes) => lanes,
+        };
+        if let Some(lane) = way.iter().chain([&self.start.lane]).find(|lane| lane.index() >= lanes) {
+            return Err(TrafficError::UnknownLane { car: index, lane: lane.index(), lanes });
+        }
+        number("place in metres along its lane", self.start.s, 0.0, map.length(self.start.lane))?;
+        number("length in metres", self.length, 0.1, 30.0)?;
+        number("width in metres", self.width, 0.1, map.network.lane(self.start.lane).width)?;
+        number("desired speed in m/s", self.desired, 0.0, 100.0)?;
+        number("speed in m/s", self.speed, 0.0, 100.0)?;
+        number("metres to the right", -self.offset, -5.0, 5.0)?;
+        number("acceleration of IDM in m/s²", self.idm.acceleration, 0.01, 10.0)?;
+        number("deceleration of IDM in m/s²", self.idm.deceleration, 0.01, 10.0)?;
+        number("time headway of IDM in s", self.idm.headway, 0.0, 100.0)?;
+        number("gap of IDM in metres", self.idm.gap, 0.5, 100.0)?;
+        number("exponent of IDM", self.idm.exponent, 0.1, 100.0)?;
+        let leads = |from: LaneId, to: LaneId| {
+            let beside = map.is_road(from) && map.beside(from, to);
+            beside || map.network.lane(from).successors.contains(&to)
+        };
+        let closing = match &self.way {
+            Way::Circle(lanes) if lanes.len() > 1 => Some((lanes[lanes.len() - 1], lanes[0])),
+            Way::Circle(lanes) => Some((lanes[0], lanes[0])),
+            _ => None,
+        };
+        let pairs = way.windows(2).map(|pair| (pair[0], pair[1])).chain(closing);
+        for (from, to) in pairs {
+            if !leads(from, to) {
+                return Err(TrafficError::Route { car: index, from: from.index(), to: to.index() });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A way that changes after its lane `at`, so that it does before the first lane of a road before that.
+fn changed_earlier(lanes: &[LaneId], at: usize, map: &Map) -> Option<Vec<LaneId>> {
+    let lane = |id: LaneId| map.network.lane(id);
+    let mut way: Vec<LaneId> = lanes[at + 1..].iter().rev().copied().collect();
+    for before in (0..at).rev() {
+        let beside = lanes[before];
+        let like = |other: &&LaneId| {
+            let (one, other) = (lane(beside), lane(**other));
+            (one.kind, one.element, one.number.signum()) == (other.kind, other.element, other.number.signum())
+        };
+        way.push(*lane(way[way.len() - 1]).predecessors.iter().find(like)?);
+        if map.is_road(beside) {
+            let last = way[way.len() - 1];
+            way.extend(Some(beside).filter(|beside| map.beside(*beside, last)));
+            way.extend(lanes[..before].iter().rev());
+            way.reverse();
+            return Some(way);
+        }
+    }
+    None
+}
+
+/// What a car does at forks.
+#[derive(Debug)]
+pub(super) enum Itinerary {
+    /// By chance, with the number of arms that were passed since a roundabout was entered.
+    Wander(Pcg64, usize),
+    Lanes {
+        lanes: Vec<LaneId>,
+        next: usize,
+        circular: bool,
+    },
+}
+
+impl Itinerary {
+    /// The itinerary of a car after its first lane, and where along its last lane it ends.
+    pub fn of(car: &TrafficCar, index: usize, seed: u64) -> (Self, f64) {
+        let lanes =
+            |lanes: &Vec<LaneId>, circular| Self::Lanes { lanes: lanes.clone(), next: 1 % lanes.len(), circular };
+        match &car.way {
+            Way::Wander => (Self::Wander(Pcg64::new(u128::from(seed), index as u128), 0), f64::INFINITY),
+            Way::Follow(way, end) => {
+                let itinerary = Self::Lanes { lanes: way.clone(), next: 1, circular: false };
+                (itinerary, *end)
+            }
+            Way::Circle(way) => (lanes(way, true), f64::INFINITY),
+        }
+    }
+
+    /// The lane after `last`, if it goes on.
+    pub fn next(&mut self, last: LaneId, network: &Network) -> Option<LaneId> {
+        match self {
+            Self::Wander(random, arms) => {
+                let exit = |lane: &&LaneId| network.lane(**lane).kind == LaneKind::Exit;
+                let lane = match &*network.lane(last).successors {
+                    [] => return None,
+                    [only] => *only,
+                    several if *arms >= MOST_ARMS => *several.iter().find(exit).unwrap_or(&several[0]),
+                    several => several[random.random_range(0..several.len())],
+                };
+                *arms = match network.lane(lane).kind {
+                    LaneKind::RingAtArm => *arms + 1,
+                    LaneKind::Ring => *arms,
+                    _ => 0,
+                };
+                Some(lane)
+            }
+            Self::Lanes { lanes, next, circular } => {
+                let lane = *lanes.get(*next)?;
+                *next += 1;
+                if *circular && *next == lanes.len() {
+                    *next = 0;
+                }
+                Some(lane)
+            }
+        }
+    }
+
+    /// Where it ends, if it does, `end` metres along its last lane.
+    pub fn goal(&self, end: f64) -> Option<Place> {
+        match self {
+            Self::Lanes { lanes, circular: false, .. } => lanes.last().map(|lane| Place { lane: *lane, s: end }),
+            _ => None,
+        }
+    }
+
+    /// Whether it can be chosen anew.
+    pub fn is_free(&self) -> bool {
+        matches!(self, Self::Wander(..))
+    }
+}

@@ -1,0 +1,190 @@
+//! Lane changes.
+//!
+//! Where a lane change pays is decided by MOBIL (Kesting, Treiber, Helbing 2007), with some preference for the right;
+//! where the route asks for one, safety alone decides. A car that changes lanes is on both of them until it is done.
+
+use super::ahead::{Ahead, View};
+use super::idm::safe_speed;
+use super::map::Map;
+use super::occupancy::{Body, Who};
+use super::state::{Car, Change, WALKING};
+use crate::road::{LaneId, LaneKind, Place};
+use crate::scenario::Side;
+
+/// Seconds that a lane change takes where it pays, and where the route asks for it.
+const DURATION: f64 = 4.0;
+const DURATION_DUE: f64 = 2.5;
+/// How much a change counts the others' accelerations, p in the paper.
+const POLITENESS: f64 = 0.3;
+/// What it has to gain in m/s², and how much more or less to the left and to the right.
+const THRESHOLD: f64 = 0.2;
+const TO_THE_RIGHT: f64 = 0.1;
+/// How hard the car behind may have to brake for it, in m/s².
+const IMPOSED: f64 = 2.0;
+/// Metres to those ahead and behind that are kept in any case.
+const CLEAR: f64 = 2.0;
+/// Metres behind an intersection that are left to those who come out of it.
+const BEHIND_INTERSECTION: f64 = 15.0;
+/// From how many metres before the end of a lane on a car changes to that of its route at once, and up to where it
+/// overtakes on others.
+const AT_ONCE: f64 = 250.0;
+const OVERTAKING: f64 = 350.0;
+/// Seconds of standing after which a car drives on without the lane change that it waits for.
+const GIVEN_UP: f64 = 5.0;
+
+impl Car {
+    /// Begins a lane change: it belongs to the other lane from now on.
+    pub fn begin_change(&mut self, side: Side, to: LaneId, duration: f64, map: &Map) {
+        let (lane, offset) = (self.lane, self.offset().0);
+        let apart = 0.5 * (map.network.lane(lane).width + map.network.lane(to).width);
+        let aside = if side == Side::Left { -apart } else { apart };
+        let keeps = {
+            self.change = None;
+            self.offset().0
+        };
+        self.change = Some(Change { side, from: Some(lane), start: offset - keeps + aside, progress: 0.0, duration });
+        self.s = map.across(self.s, lane, to);
+        self.lane = to;
+        // Leave to pass a line goes with the path.
+        let front = self.travelled + self.half;
+        self.claims.retain(|claim| claim.start < front);
+        self.ticket = None;
+        self.stuck = 0.0;
+        self.path.pop_front();
+        if self.path.front() == Some(&to) {
+            return;
+        }
+        if self.itinerary.is_free() {
+            self.path.clear();
+            self.complete = false;
+        } else {
+            self.path.push_front(lane);
+        }
+        self.path.push_front(to);
+        self.extend_path(map);
+    }
+}
+
+impl View<'_> {
+    /// The lane change that a car wants and may begin now.
+    pub fn wanted_change(&self, index: usize, ahead: &Ahead, dt: f64) -> Option<(Side, LaneId, f64)> {
+        let car = &self.cars[index];
+        let lane = self.map.network.lane(car.lane);
+        if car.change.is_some() || lane.kind != LaneKind::Road {
+            return None;
+        }
+        let left = self.map.length(car.lane) - car.s;
+        let due = car.path.get(1).filter(|next| self.map.beside(car.lane, **next));
+        if let Some(&due) = due.filter(|_| left < AT_ONCE) {
+            let side = if lane.left == Some(due) { Side::Left } else { Side::Right };
+            return self.gain(index, due, DURATION_DUE, ahead, dt).map(|_| (side, due, DURATION_DUE));
+        }
+        if !car.changes_lanes {
+            return None;
+        }
+        let free = car.itinerary.is_free() || left > OVERTAKING;
+        let sides = [(Side::Left, lane.left, -TO_THE_RIGHT), (Side::Right, lane.right, TO_THE_RIGHT)];
+        let options = sides.into_iter().filter_map(|(side, to, bonus)| {
+            let to = to.filter(|to| free || due == Some(to))?;
+            let gain = self.gain(index, to, DURATION, ahead, dt)? + bonus;
+            (gain > THRESHOLD).then_some((gain, (side, to, DURATION)))
+        });
+        // The first of equals: to the left.
+        options.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, change)| change)
+    }
+
+    /// What a lane change gains, in m/s², if it is safe.
+    fn gain(&self, index: usize, to: LaneId, duration: f64, ahead: &Ahead, dt: f64) -> Option<f64> {
+        let car = &self.cars[index];
+        let s = self.map.across(car.s, car.lane, to);
+        if !self.is_long_enough(car, s, to, duration) {
+            return None;
+        }
+        let bodies = self.occupancy.on(to);
+        let behind = bodies.partition_point(|body| body.middle() <= s);
+        let (rear, front) = (s - car.half, s + car.half);
+        let leader = bodies[behind..].first().map(|body| (body.rear - front, body.speed));
+        let leader = leader.or_else(|| {
+            let body = self.occupancy.on(self.map.road_after(to)?).first()?;
+            Some((self.map.length(to) + body.rear - front, body.speed))
+        });
+        let follower = bodies[..behind].last().map(|body| (rear - body.front, *body));
+        let follower = follower.or_else(|| {
+            let before = self.map.road_before(to)?;
+            let body = self.occupancy.on(before).last()?;
+            Some((rear + self.map.length(before) - body.front, *body))
+        });
+        let (mut own, mut others) = (car.idm.free(car.speed, car.desired), 0.0);
+        if let Some((gap, speed)) = leader {
+            if gap < CLEAR || safe_speed(car.speed, gap, speed, dt) < car.speed {
+                return None;
+            }
+            own = car.idm.following(car.speed, car.desired, gap, speed);
+        }
+        if let Some((gap, body)) = follower {
+            if gap < CLEAR || safe_speed(body.speed, gap, car.speed, dt) < body.speed {
+                return None;
+            }
+            // What is no part of the traffic is taken to drive as this car does.
+            let other = body.car().map_or(car, |other| &self.cars[other]);
+            let desired = if body.car().is_some() { other.desired } else { body.speed.max(1.0) };
+            let after = other.idm.following(body.speed, desired, gap, car.speed);
+            let before = match leader {
+                Some((ahead, speed)) => other.idm.following(body.speed, desired, gap + 2.0 * car.half + ahead, speed),
+                None => other.idm.free(body.speed, desired),
+            };
+            if after < -IMPOSED {
+                return None;
+            }
+            others += after - before;
+        }
+        if let Some(Body { who: Who::Car(other), front, .. }) = self.occupancy.behind(index).last() {
+            let other = &self.cars[*other as usize];
+            let gap = car.s - car.half - front;
+            let before = other.idm.following(other.speed, other.desired, gap, car.speed);
+            let after = match self.occupancy.ahead_of(index).first() {
+                Some(body) => other.idm.following(other.speed, other.desired, body.rear - front, body.speed),
+                None => other.idm.free(other.speed, other.desired),
+            };
+            others += after - before;
+        }
+        Some(own - ahead.following + POLITENESS * others)
+    }
+
+    /// Whether there is room along a lane to change to it.
+    fn is_long_enough(&self, car: &Car, s: f64, to: LaneId, duration: f64) -> bool {
+        let needed = car.speed.max(WALKING) * duration + 0.5 * car.idm.acceleration * duration * duration;
+        let left = self.map.length(to) - s;
+        let goes_on = self.map.road_after(to).map_or(0.0, |next| self.map.length(next));
+        let begins = self.map.road_before(to).is_some() || self.map.network.lane(to).predecessors.is_empty();
+        let begun = s - car.half;
+        left + goes_on > needed + car.half + CLEAR && (begins || begun > BEHIND_INTERSECTION)
+    }
+}
+
+impl Car {
+    /// Finds another way where the car has waited too long for the lane change that its route asks for: on to the end of
+    /// its lane, and from there to the end of its route, or to the lane that it could not get to where that has no end.
+    pub fn give_up_change(&mut self, dt: f64, map: &Map) {
+        let due = self.path.get(1).copied().filter(|next| map.beside(self.lane, *next));
+        let Some(due) = due.filter(|_| self.speed < 0.1 && self.change.is_none()) else {
+            self.stuck = 0.0;
+            return;
+        };
+        self.stuck += dt;
+        if self.stuck < GIVEN_UP {
+            return;
+        }
+        self.stuck = 0.0;
+        let goal = self.itinerary.goal(self.end).unwrap_or(Place { lane: *self.path.get(2).unwrap_or(&due), s: 0.0 });
+        let ways = map.network.lane(self.lane).successors.iter();
+        let ways = ways.filter_map(|next| map.network.route(Place { lane: *next, s: 0.0 }, goal, 50.0));
+        let Some(way) = ways.min_by(|a, b| a.length.total_cmp(&b.length)) else { return };
+        self.complete = self.end.is_finite();
+        self.path.drain(..if self.complete { self.path.len() } else { self.path.len().min(3) });
+        for lane in way.lanes.iter().rev() {
+            self.path.push_front(*lane);
+        }
+        self.path.push_front(self.lane);
+    }
+}

@@ -1,0 +1,320 @@
+//! Traffic: cars that drive over the lanes of a road network, each seeing what is around it.
+//!
+//! [`Traffic`] is a simulation of its own, in lanes and metres along them, without physics and without streams: at every
+//! step each car looks ahead (`ahead.rs`), follows what is there by the intelligent driver model ([`Idm`]), claims the
+//! intersection before it (`junction.rs`), perhaps changes lanes (`change.rs`), and moves on. All decide on what they see
+//! at the beginning of the step, so that their order does not matter where they do not compete; where they do, their
+//! indices decide. A step costs time in proportion to the number of cars, and allocates nothing but where a car has to
+//! find another way.
+//!
+//! ```
+//! use paracosm_engine::road::grid_city;
+//! use paracosm_engine::traffic::{Traffic, TrafficCar};
+//!
+//! let city = grid_city(4, 4, 80.0, 2).build()?;
+//! let cars = TrafficCar::scattered(&city, 40, 1);
+//! let mut traffic = Traffic::new(city, cars, 1)?;
+//! for _ in 0..500 {
+//!     traffic.step(0.02, &[]);
+//! }
+//! assert!(traffic.cars().all(|car| car.travelled > 1.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod ahead;
+mod car;
+mod change;
+mod error;
+mod idm;
+mod junction;
+mod map;
+mod obstacle;
+mod occupancy;
+mod state;
+
+pub use car::TrafficCar;
+pub use error::TrafficError;
+pub use idm::Idm;
+pub use obstacle::Obstacle;
+
+use crate::road::{LaneId, Network};
+use crate::scenario::{Pose, Side};
+use ahead::{Ahead, View};
+use idm::HARDEST;
+use junction::{Asker, Lists};
+use map::Map;
+use occupancy::{Body, Occupancy, Who};
+use state::{Car, Claim};
+use std::sync::Arc;
+
+/// Seconds between two thoughts about a lane change.
+const THOUGHT: f64 = 1.0;
+
+/// Cars on a road network.
+#[derive(Debug)]
+pub struct Traffic {
+    map: Map,
+    cars: Vec<Car>,
+    /// Seconds since the beginning.
+    time: f64,
+    /// Claims given so far.
+    turns: u64,
+    occupancy: Occupancy,
+    claims: Lists<Claim>,
+    /// What lies ahead of every car.
+    ahead: Vec<Ahead>,
+    askers: Vec<Asker>,
+    asking: Lists<usize>,
+    /// The lanes to which somebody has begun to change in this step.
+    changed: Vec<LaneId>,
+    /// Memory for the search for lanes near an obstacle.
+    near: (Vec<LaneId>, Vec<usize>),
+}
+
+/// A car as it is now.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CarState {
+    /// The middle of its rectangle, and where it faces.
+    pub pose: Pose,
+    /// Its length in metres.
+    pub length: f64,
+    /// Its width in metres.
+    pub width: f64,
+    /// In m/s.
+    pub speed: f64,
+    /// In m/s².
+    pub acceleration: f64,
+    /// Its lane: from the beginning of a lane change on, the new one.
+    pub lane: LaneId,
+    /// Where its middle is, in metres along the lane.
+    pub s: f64,
+    /// Metres to the left of the middle of its lane.
+    pub offset: f64,
+    /// The side to which it is changing lanes.
+    pub indicator: Option<Side>,
+    /// Metres that it has come.
+    pub travelled: f64,
+    /// Whether it has driven out of the network: it is nowhere then.
+    pub gone: bool,
+}
+
+impl Traffic {
+    /// Cars on the lanes of a network. What they do by chance follows from the seed and their indices.
+    ///
+    /// # Errors
+    /// A car has a number that cannot be, a route that is none, or the place of another.
+    pub fn new(network: Arc<Network>, cars: Vec<TrafficCar>, seed: u64) -> Result<Self, TrafficError> {
+        let map = Map::new(network);
+        let cars: Vec<TrafficCar> = cars.into_iter().map(|car| car.planned(&map)).collect();
+        cars.iter().enumerate().try_for_each(|(index, car)| car.check(index, &map))?;
+        let (lanes, count) = (map.network.lanes().len(), cars.len());
+        let cars = cars.iter().enumerate().map(|(index, car)| Car::new(car, index, seed)).collect();
+        let mut traffic = Self {
+            map,
+            cars,
+            time: 0.0,
+            turns: 0,
+            occupancy: Occupancy::new(lanes, count),
+            claims: Lists::new(lanes, 4 * count),
+            ahead: Vec::with_capacity(count),
+            askers: Vec::with_capacity(count),
+            asking: Lists::new(lanes, 4 * count),
+            changed: Vec::with_capacity(count),
+            near: (Vec::new(), Vec::new()),
+        };
+        traffic.see(&[]);
+        traffic.refuse_overlaps()?;
+        for car in &mut traffic.cars {
+            car.extend_path(&traffic.map);
+            claim_start(car, &traffic.map, &mut traffic.turns);
+        }
+        Ok(traffic)
+    }
+
+    /// Moves all on by `dt` seconds; `obstacles` are the bodies that are no part of the traffic.
+    ///
+    /// # Panics
+    /// `dt` is no positive number.
+    pub fn step(&mut self, dt: f64, obstacles: &[Obstacle]) {
+        assert!(dt > 0.0 && dt.is_finite(), "a step takes {dt} s, expected more than 0");
+        self.see(obstacles);
+        self.look_ahead(dt);
+        self.give_leave(dt);
+        self.change_lanes(dt);
+        for (car, ahead) in self.cars.iter_mut().zip(&self.ahead).filter(|(car, _)| !car.gone) {
+            let lowest = (car.speed - HARDEST * dt).max(0.0);
+            let speed = match car.given {
+                Some(given) if given <= ahead.safe => given,
+                Some(_) => ahead.safe.max(lowest),
+                None => (car.speed + ahead.acceleration * dt).min(ahead.safe).max(lowest),
+            };
+            car.drive(speed, dt, &self.map);
+            if ahead.short {
+                car.extend_path(&self.map);
+            }
+            car.give_up_change(dt, &self.map);
+        }
+        self.time += dt;
+    }
+
+    /// The network that it drives on.
+    pub fn network(&self) -> &Arc<Network> {
+        &self.map.network
+    }
+
+    /// All cars, in the order in which they were given.
+    pub fn cars(&self) -> impl ExactSizeIterator<Item = CarState> {
+        (0..self.cars.len()).map(|index| self.car(index))
+    }
+
+    /// A car.
+    ///
+    /// # Panics
+    /// There is none with this index.
+    pub fn car(&self, index: usize) -> CarState {
+        let car = &self.cars[index];
+        CarState {
+            pose: car.pose(&self.map),
+            length: 2.0 * car.half,
+            width: car.width,
+            speed: car.speed,
+            acceleration: car.acceleration,
+            lane: car.lane,
+            s: car.s,
+            offset: car.offset().0,
+            indicator: car.change.map(|change| change.side),
+            travelled: car.travelled,
+            gone: car.gone,
+        }
+    }
+
+    /// Gives a car its speed from now on, in m/s, which it leaves only so as not to run into what is ahead; with `None` it
+    /// drives as the model has it again.
+    ///
+    /// # Panics
+    /// There is no car with this index, or the speed is no number from 0 on.
+    pub fn set_speed(&mut self, index: usize, speed: Option<f64>) {
+        assert!(
+            speed.is_none_or(|speed| speed >= 0.0 && speed.is_finite()),
+            "car {index} is to drive at {speed:?} m/s"
+        );
+        self.cars[index].given = speed;
+    }
+
+    /// Sets the speed that a car wants to drive at, in m/s.
+    ///
+    /// # Panics
+    /// There is no car with this index, or the speed is no number from 0 on.
+    pub fn set_desired_speed(&mut self, index: usize, speed: f64) {
+        assert!(speed >= 0.0 && speed.is_finite(), "car {index} is to want {speed} m/s");
+        self.cars[index].desired = speed;
+    }
+
+    /// Makes a car begin a lane change that takes so many seconds, whoever is there. Whether it does: there is a lane, and
+    /// it is not changing lanes already. A car with a route changes back when that asks for it.
+    ///
+    /// # Panics
+    /// There is no car with this index, or the duration is not positive.
+    pub fn change_lane(&mut self, index: usize, side: Side, duration: f64) -> bool {
+        assert!(duration > 0.0 && duration.is_finite(), "car {index} is to change lanes in {duration} s");
+        let car = &mut self.cars[index];
+        let lane = self.map.network.lane(car.lane);
+        let to = if side == Side::Left { lane.left } else { lane.right };
+        match to.filter(|_| car.change.is_none() && !car.gone && self.map.is_road(car.lane)) {
+            Some(to) => car.begin_change(side, to, duration, &self.map),
+            None => return false,
+        }
+        true
+    }
+
+    fn view(&self) -> View<'_> {
+        View { map: &self.map, cars: &self.cars, occupancy: &self.occupancy, claims: &self.claims }
+    }
+
+    /// Finds what is on every lane, and who has claims on it.
+    fn see(&mut self, obstacles: &[Obstacle]) {
+        let (map, cars) = (&self.map, &self.cars);
+        self.occupancy.clear(|index, bodies| {
+            let car = &cars[index as usize];
+            if car.gone {
+                return;
+            }
+            let body =
+                |lane, s: f64, who| Body { lane, rear: s - car.half, front: s + car.half, speed: car.speed, who };
+            bodies.push(body(car.lane, car.s, Who::Car(index)));
+            if let Some(from) = car.change.and_then(|change| change.from) {
+                bodies.push(body(from, map.across(car.s, car.lane, from), Who::Leaving(index)));
+            }
+        });
+        let half_width = cars.iter().map(|car| 0.5 * car.width).fold(0.0, f64::max);
+        let (lanes, open) = (&mut self.near.0, &mut self.near.1);
+        for obstacle in obstacles {
+            obstacle::place(obstacle, &map.network, half_width, (lanes, open), self.occupancy.added());
+        }
+        self.occupancy.sort();
+        self.claims.clear();
+        for (index, car) in cars.iter().enumerate() {
+            for claim in &car.claims {
+                self.claims.add(claim.lane, index, *claim);
+            }
+        }
+    }
+
+    fn look_ahead(&mut self, dt: f64) {
+        let mut all = std::mem::take(&mut self.ahead);
+        all.clear();
+        let view = self.view();
+        all.extend(
+            (0..self.cars.len()).map(
+                |index| {
+                    if self.cars[index].gone { Ahead::nothing() } else { view.ahead_of(index, dt) }
+                },
+            ),
+        );
+        self.ahead = all;
+    }
+
+    fn change_lanes(&mut self, dt: f64) {
+        self.changed.clear();
+        for index in 0..self.cars.len() {
+            if self.cars[index].gone || self.cars[index].next_thought > self.time {
+                continue;
+            }
+            self.cars[index].next_thought += THOUGHT;
+            let change = self.view().wanted_change(index, &self.ahead[index], dt);
+            // One at a time: nobody has seen the first of two.
+            if let Some((side, to, duration)) = change.filter(|(_, to, _)| !self.changed.contains(to)) {
+                self.cars[index].begin_change(side, to, duration, &self.map);
+                self.changed.push(to);
+            }
+        }
+    }
+
+    fn refuse_overlaps(&self) -> Result<(), TrafficError> {
+        for (index, car) in self.cars.iter().enumerate() {
+            let next = self.occupancy.ahead_of(index).first();
+            if let Some((body, other)) = next.and_then(|body| Some((body, body.car()?)))
+                && body.rear < car.s + car.half
+            {
+                return Err(TrafficError::Overlap { first: index.min(other), second: index.max(other) });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Claims whatever a car stands on at the start.
+fn claim_start(car: &mut Car, map: &Map, turns: &mut u64) {
+    let mut base = -car.s;
+    for k in 0..car.path.len() {
+        let lane = car.path[k];
+        if base + map.line(lane) > car.half || base > car.half {
+            return;
+        }
+        if !map.rivals(lane).is_empty() {
+            car.claims.push(Claim { lane, start: base, entry: base, turn: *turns, sure: true });
+            *turns += 1;
+        }
+        base += map.length(lane);
+    }
+}

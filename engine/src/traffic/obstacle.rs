@@ -1,0 +1,128 @@
+//! Bodies that are no part of the traffic, seen from its lanes.
+//!
+//! A body is on a lane where its rectangle reaches into the strip that cars need; that goes on being so for as long as it
+//! needs to get there when it moves towards it, and somebody who is about to walk over a zebra crossing is on the whole
+//! of it. Predictions are along straight lines, measured across the lane, so that who follows a bend beside it comes no
+//! nearer.
+
+use super::occupancy::{Body, Who};
+use crate::road::{Bounds, Crossing, LaneId, Network};
+use crate::scenario::Pose;
+use nalgebra::Vector2;
+
+/// A body that cars stop for: the car under test, a pedestrian, something that stands in the way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Obstacle {
+    /// The middle of its rectangle, and where that faces.
+    pub pose: Pose,
+    /// Its length in metres.
+    pub length: f64,
+    /// Its width in metres.
+    pub width: f64,
+    /// Where it moves, in m/s.
+    pub velocity: Vector2<f64>,
+}
+
+/// Seconds ahead that a body is looked at.
+pub(super) const FORESEEN: f64 = 4.0;
+/// Metres on either side of a lane's middle that have to be clear for a car to pass, beyond its own half width.
+const CLEARANCE: f64 = 0.3;
+/// Somebody who will step onto a zebra crossing in fewer seconds is let go.
+const ABOUT_TO_ENTER: f64 = 2.0;
+/// Metres beside a zebra crossing where people still walk.
+const BESIDE_ZEBRA: f64 = 1.0;
+/// Metres before a zebra crossing where cars stop.
+const BEFORE_ZEBRA: f64 = 1.0;
+/// What is longer is no pedestrian, in metres.
+const LONGEST_PEDESTRIAN: f64 = 2.5;
+/// Who moves slower stands, in m/s.
+const STANDING: f64 = 0.1;
+
+/// Half the size of an obstacle along and across a direction.
+fn extents(obstacle: &Obstacle, heading: f64) -> (f64, f64) {
+    let (sin, cos) = libm::sincos(obstacle.pose.heading - heading);
+    let (sin, cos) = (sin.abs(), cos.abs());
+    let (length, width) = (0.5 * obstacle.length, 0.5 * obstacle.width);
+    (length * cos + width * sin, length * sin + width * cos)
+}
+
+/// Adds the bodies that an obstacle is on the lanes of a network, for cars up to `half_width`. `lanes` and `open` are
+/// memory that is used again.
+pub(super) fn place(
+    obstacle: &Obstacle,
+    network: &Network,
+    half_width: f64,
+    (lanes, open): (&mut Vec<LaneId>, &mut Vec<usize>),
+    bodies: &mut Vec<Body>,
+) {
+    let from = obstacle.pose.position;
+    let to = from + obstacle.velocity * FORESEEN;
+    let around = 0.5 * (obstacle.length + obstacle.width) + half_width + CLEARANCE;
+    let bounds = Bounds { min: from.inf(&to).add_scalar(-around), max: from.sup(&to).add_scalar(around) };
+    lanes.clear();
+    network.lanes_near(&bounds, open, |lane| lanes.push(lane));
+    lanes.sort_unstable();
+    bodies.extend(lanes.iter().filter_map(|lane| on_lane(obstacle, network, *lane, half_width + CLEARANCE)));
+    for crossing in network.crossings() {
+        on_crossing(obstacle, crossing, network, bodies);
+    }
+}
+
+fn on_lane(obstacle: &Obstacle, network: &Network, lane: LaneId, clear: f64) -> Option<Body> {
+    let curve = &network.lane(lane).curve;
+    let nearest = curve.nearest(obstacle.pose.position);
+    let at = curve.at(nearest);
+    let local = at.to_local(obstacle.pose.position);
+    let forward = at.forward();
+    let (along_speed, aside_speed) = (forward.dot(&obstacle.velocity), forward.perp(&obstacle.velocity));
+    let (along, across) = extents(obstacle, at.heading);
+    let missing = local.y.abs() - across - clear;
+    let soon = if missing <= 0.0 {
+        0.0
+    } else if aside_speed * local.y < 0.0 {
+        missing / aside_speed.abs()
+    } else {
+        return None;
+    };
+    let middle = nearest + local.x + along_speed * soon;
+    let (rear, front) = (middle - along, middle + along);
+    (soon <= FORESEEN && front > 0.0 && rear < curve.length()).then_some(Body {
+        lane,
+        rear,
+        front,
+        speed: along_speed,
+        who: Who::Foreign { soon },
+    })
+}
+
+fn on_crossing(obstacle: &Obstacle, crossing: &Crossing, network: &Network, bodies: &mut Vec<Body>) {
+    let end = crossing.path.length();
+    let start = crossing.path.start();
+    let offset = obstacle.pose.position - start.position;
+    let reach = end + 2.0 * (ABOUT_TO_ENTER + LONGEST_PEDESTRIAN) + obstacle.velocity.norm() * ABOUT_TO_ENTER;
+    if obstacle.length > LONGEST_PEDESTRIAN || offset.norm_squared() > reach * reach {
+        return;
+    }
+    let local = start.to_local(obstacle.pose.position);
+    let speed = start.forward().dot(&obstacle.velocity);
+    let (along, across) = extents(obstacle, start.heading);
+    if local.y.abs() - across > 0.5 * crossing.width + BESIDE_ZEBRA {
+        return;
+    }
+    // What it stands on, and where it will be once it is over the kerb.
+    let (right, left) = (local.x - along, local.x + along);
+    let steps = speed * ABOUT_TO_ENTER;
+    if left + steps.max(0.0) < 0.0 || right + steps.min(0.0) > end {
+        return;
+    }
+    let mut edge = 0.0;
+    for &(lane, s) in &crossing.lanes {
+        let width = network.lane(lane).width;
+        let behind = (speed > STANDING && edge + width < right) || (speed < -STANDING && edge > left);
+        if !behind {
+            let half = 0.5 * crossing.width;
+            bodies.push(Body { lane, rear: s - half - BEFORE_ZEBRA, front: s + half, speed: 0.0, who: Who::Zebra });
+        }
+        edge += width;
+    }
+}

@@ -1,0 +1,168 @@
+//! What is on every lane, in order.
+//!
+//! Bodies are dealt to their lanes in the order of the tick before, in which they are all but sorted; an insertion sort
+//! of each lane then takes linear time. Nothing is allocated once the lists have grown to their sizes.
+
+use crate::road::LaneId;
+
+/// Something on a lane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Body {
+    pub lane: LaneId,
+    /// Where it ends and begins: metres along the lane, perhaps beyond its ends.
+    pub rear: f64,
+    pub front: f64,
+    /// Along the lane, in m/s.
+    pub speed: f64,
+    pub who: Who,
+}
+
+/// What a body is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Who {
+    /// A car of the traffic.
+    Car(u32),
+    /// The same car, on the lane that it is leaving.
+    Leaving(u32),
+    /// Something else, that will be there in so many seconds.
+    Foreign { soon: f64 },
+    /// A zebra crossing that somebody is walking over.
+    Zebra,
+}
+
+impl Body {
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.rear + self.front)
+    }
+
+    /// The car of the traffic that it is.
+    pub fn car(&self) -> Option<usize> {
+        match self.who {
+            Who::Car(car) | Who::Leaving(car) => Some(car as usize),
+            _ => None,
+        }
+    }
+}
+
+/// The bodies on all lanes.
+#[derive(Debug)]
+pub(super) struct Occupancy {
+    /// Lane by lane, sorted by their middles within a lane.
+    bodies: Vec<Body>,
+    /// Where the bodies of each lane begin and end.
+    ranges: Vec<(u32, u32)>,
+    /// The lanes with bodies.
+    used: Vec<LaneId>,
+    /// Where the body of each car stands in `bodies`, and its other one while it changes lanes.
+    ranks: Vec<[u32; 2]>,
+    /// The order of cars in `bodies`.
+    order: Vec<u32>,
+    /// What is to be sorted.
+    unsorted: Vec<Body>,
+}
+
+impl Occupancy {
+    pub fn new(lanes: usize, cars: usize) -> Self {
+        Self {
+            bodies: Vec::with_capacity(3 * cars),
+            ranges: vec![(0, 0); lanes],
+            used: Vec::with_capacity(3 * cars),
+            ranks: vec![[u32::MAX; 2]; cars],
+            order: (0..cars as u32).collect(),
+            unsorted: Vec::with_capacity(3 * cars),
+        }
+    }
+
+    /// Begins anew: `place` is asked for the bodies of every car.
+    pub fn clear(&mut self, mut place: impl FnMut(u32, &mut Vec<Body>)) {
+        self.unsorted.clear();
+        for car in &self.order {
+            place(*car, &mut self.unsorted);
+        }
+    }
+
+    /// Where further bodies are added.
+    pub fn added(&mut self) -> &mut Vec<Body> {
+        &mut self.unsorted
+    }
+
+    /// Sorts what was added.
+    pub fn sort(&mut self) {
+        for lane in self.used.drain(..) {
+            self.ranges[lane.index()] = (0, 0);
+        }
+        for body in &self.unsorted {
+            let (_, count) = &mut self.ranges[body.lane.index()];
+            if *count == 0 {
+                self.used.push(body.lane);
+            }
+            *count += 1;
+        }
+        let mut begin = 0;
+        for lane in &self.used {
+            let range = &mut self.ranges[lane.index()];
+            let count = range.1;
+            *range = (begin, begin);
+            begin += count;
+        }
+        self.bodies.clear();
+        self.bodies.extend_from_slice(&self.unsorted);
+        for body in &self.unsorted {
+            let (begin, end) = &mut self.ranges[body.lane.index()];
+            let mut at = *end as usize;
+            let key = body.middle();
+            while at > *begin as usize && self.bodies[at - 1].middle() > key {
+                self.bodies[at] = self.bodies[at - 1];
+                at -= 1;
+            }
+            self.bodies[at] = *body;
+            *end += 1;
+        }
+        self.order.clear();
+        for (rank, body) in self.bodies.iter().enumerate() {
+            match body.who {
+                Who::Car(car) => {
+                    self.ranks[car as usize] = [rank as u32, u32::MAX];
+                    self.order.push(car);
+                }
+                Who::Leaving(_) | Who::Foreign { .. } | Who::Zebra => {}
+            }
+        }
+        for (rank, body) in self.bodies.iter().enumerate() {
+            if let Who::Leaving(car) = body.who {
+                self.ranks[car as usize][1] = rank as u32;
+            }
+        }
+    }
+
+    /// What is on a lane, in order.
+    pub fn on(&self, lane: LaneId) -> &[Body] {
+        let (begin, end) = self.ranges[lane.index()];
+        &self.bodies[begin as usize..end as usize]
+    }
+
+    /// What is on a car's lane ahead of it.
+    pub fn ahead_of(&self, car: usize) -> &[Body] {
+        self.beyond(self.ranks[car][0])
+    }
+
+    /// What is on a car's lane behind it, the last of them next to it.
+    pub fn behind(&self, car: usize) -> &[Body] {
+        let rank = self.ranks[car][0] as usize;
+        let (begin, _) = self.ranges[self.bodies[rank].lane.index()];
+        &self.bodies[begin as usize..rank]
+    }
+
+    /// What is ahead of a car on the lane that it is leaving.
+    pub fn ahead_on_old_lane(&self, car: usize) -> &[Body] {
+        match self.ranks[car][1] {
+            u32::MAX => &[],
+            rank => self.beyond(rank),
+        }
+    }
+
+    fn beyond(&self, rank: u32) -> &[Body] {
+        let (_, end) = self.ranges[self.bodies[rank as usize].lane.index()];
+        &self.bodies[rank as usize + 1..end as usize]
+    }
+}
