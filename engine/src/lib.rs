@@ -31,6 +31,7 @@
 mod actor;
 pub mod driver;
 pub mod kinematic;
+mod monitor;
 pub mod object;
 mod observation;
 mod outcome;
@@ -43,7 +44,8 @@ pub mod traffic;
 pub mod vehicle;
 mod world;
 
-pub use actor::{Actor, AutonomousVehicle, Car, Fixture, Mover, Pedestrian, Walk, Walker};
+pub use actor::{Actor, AutonomousVehicle, Car, EnvironmentCars, Fixture, Fleet, Mover, Pedestrian, Walk, Walker};
+pub use monitor::Monitor;
 pub use observation::{Ahead, Briefing, Control, Observation, Other, Way};
 pub use outcome::{Metric, Outcome};
 pub use paracosm_coverage::Shape;

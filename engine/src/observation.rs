@@ -17,6 +17,8 @@ pub struct Briefing {
 /// Another body, as it truly is; what a driver makes of it is the driver's own perception.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Other {
+    /// Which of the bodies it is, from 0 on: by this it is known again.
+    pub id: usize,
     /// What it is taken for.
     pub class: Class,
     /// Its middle as seen from the car's middle, in metres: x ahead, y to the left.
@@ -49,7 +51,7 @@ pub struct Observation {
     pub odometry: Pose,
     /// The way that it is to go.
     pub way: Way,
-    /// The other bodies, always in the same order.
+    /// The other bodies in the order of their ids: those that are in the world.
     pub others: Vec<Other>,
 }
 

@@ -1,13 +1,36 @@
 //! The catalogue of scenario programs, by name.
 
+mod cut_in;
+mod cut_out;
+mod follow_leader;
+mod grid_traffic;
+mod highway_traffic;
+mod ncap;
+mod oncoming_distractor;
 mod pedestrian_crossing;
+mod roundabout_entry;
+mod t_loop;
 
 use paracosm_coverage::{did_you_mean, nearest};
 use paracosm_engine::Program;
 use thiserror::Error;
 
 /// Every scenario there is.
-pub const ALL: [&Program; 1] = [&pedestrian_crossing::PROGRAM];
+pub const ALL: [&Program; 13] = [
+    &pedestrian_crossing::PROGRAM,
+    &follow_leader::PROGRAM,
+    &oncoming_distractor::PROGRAM,
+    &t_loop::PROGRAM,
+    &grid_traffic::PROGRAM,
+    &roundabout_entry::PROGRAM,
+    &cut_in::PROGRAM,
+    &cut_out::PROGRAM,
+    &ncap::CPNA,
+    &ncap::CPFA,
+    &ncap::CPNCO,
+    &ncap::CCR,
+    &highway_traffic::PROGRAM,
+];
 
 /// A name that no scenario has.
 #[derive(Debug, Error, PartialEq)]

@@ -211,6 +211,12 @@ impl Car {
         self.asked(Quantity::LaneMargin)
     }
 
+    /// Seconds until another that has the right of way comes to a place of an intersection where the car is: infinite
+    /// while the car is in nobody's way.
+    pub fn right_of_way(&self) -> Stream<f64> {
+        self.asked(Quantity::RightOfWay)
+    }
+
     /// How far it is to the left of the way that it is to go, in metres.
     pub fn way_offset(&self) -> Stream<f64> {
         self.asked(Quantity::WayOffset)

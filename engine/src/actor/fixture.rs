@@ -52,7 +52,7 @@ impl Place for Fixture {
 }
 
 impl Geometric for Still {
-    fn poses(&self, poses: &mut [Pose]) {
-        poses[0] = self.0;
+    fn poses(&self, poses: &mut [Option<Pose>]) {
+        poses[0] = Some(self.0);
     }
 }

@@ -3,12 +3,14 @@
 
 mod ego;
 mod fixture;
+mod fleet;
 mod mover;
 mod pedestrian;
 mod quantity;
 
 pub use ego::{AutonomousVehicle, Car};
 pub use fixture::Fixture;
+pub use fleet::{EnvironmentCars, Fleet};
 pub use mover::{Actor, Mover};
 pub use pedestrian::{Pedestrian, Walk, Walker};
 

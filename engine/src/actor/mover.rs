@@ -193,8 +193,8 @@ impl Actor {
 }
 
 impl Geometric for Moving {
-    fn poses(&self, poses: &mut [Pose]) {
-        poses[0] = self.pose;
+    fn poses(&self, poses: &mut [Option<Pose>]) {
+        poses[0] = Some(self.pose);
     }
 
     fn show(&self, outputs: &mut Outputs<'_>) {

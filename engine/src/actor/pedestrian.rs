@@ -135,8 +135,8 @@ impl Walking {
 }
 
 impl Geometric for Walking {
-    fn poses(&self, poses: &mut [Pose]) {
-        poses[0] = self.pose;
+    fn poses(&self, poses: &mut [Option<Pose>]) {
+        poses[0] = Some(self.pose);
     }
 
     fn show(&self, outputs: &mut Outputs<'_>) {

@@ -19,6 +19,7 @@ pub(super) enum Quantity {
     TimeToCollision,
     Headway,
     LaneMargin,
+    RightOfWay,
     WayOffset,
     Remaining,
 }
@@ -42,6 +43,7 @@ impl Quantity {
             Quantity::TimeToCollision => "car.time_to_collision",
             Quantity::Headway => "car.headway",
             Quantity::LaneMargin => "car.lane_margin",
+            Quantity::RightOfWay => "car.right_of_way",
             Quantity::WayOffset => "car.way_offset",
             Quantity::Remaining => "car.remaining",
         }
@@ -61,6 +63,7 @@ impl Quantity {
             Quantity::TimeToCollision => least(bodies, time_to_collision),
             Quantity::Headway => least(bodies, headway),
             Quantity::LaneMargin => lane_margin(&bodies[0], network),
+            Quantity::RightOfWay => right_of_way(bodies, network),
             Quantity::WayOffset => ego.way_offset(),
             Quantity::Remaining => ego.remaining(),
         }
@@ -94,7 +97,8 @@ impl Asked {
 
 /// The least of what the car and each of the others make together; infinite without any.
 fn least(bodies: &[BodyState], of: fn(&BodyState, &BodyState) -> f64) -> f64 {
-    bodies[1..].iter().map(|other| of(&bodies[0], other)).fold(f64::INFINITY, f64::min)
+    let others = bodies[1..].iter().filter(|other| other.present);
+    others.map(|other| of(&bodies[0], other)).fold(f64::INFINITY, f64::min)
 }
 
 /// Another body as seen from the car: its middle, and the halves of the box along the car's axes that encloses it, with
@@ -141,6 +145,41 @@ fn lane_margin(car: &BodyState, network: &Network) -> f64 {
     };
     let aside = car.body.outline.enclosing(car.pose.heading - seen.heading).y;
     0.5 * network.lane(seen.lane).width - seen.offset.abs() - aside
+}
+
+/// Seconds until the first of the others that have the right of way comes to a place of an intersection where the car is;
+/// infinite where none does, 0 where one is there already.
+///
+/// The places are the [conflicts](crate::road::Conflict) of the lane that the car is on, and of those its lane gives way to
+/// another. Of others that are still before the intersection, those are looked at whose lane leads to it.
+fn right_of_way(bodies: &[BodyState], network: &Network) -> f64 {
+    let (car, others) = (&bodies[0], &bodies[1..]);
+    let Some(here) = network.project_along(&car.pose) else { return f64::INFINITY };
+    let reach = car.body.outline.half_extent().x;
+    let entered = network.lane(here.lane).conflicts.iter();
+    let entered =
+        entered.filter(|conflict| conflict.gives_way && here.s + reach > conflict.from && here.s - reach < conflict.to);
+    let mut least = f64::INFINITY;
+    for conflict in entered {
+        // The stretch of the other lane is the conflict as it is seen from there.
+        let other_lane = network.lane(conflict.with);
+        let Some(theirs) = other_lane.conflicts.iter().find(|theirs| theirs.with == here.lane) else { continue };
+        for other in others.iter().filter(|other| other.present) {
+            let Some(there) = network.project_along(&other.pose) else { continue };
+            let half = other.body.outline.half_extent().x;
+            let along = if there.lane == conflict.with {
+                Some(there.s)
+            } else if other_lane.predecessors.contains(&there.lane) {
+                Some(there.s - network.lane(there.lane).length())
+            } else {
+                None
+            };
+            let Some(s) = along.filter(|s| s - half < theirs.to) else { continue };
+            let way = (theirs.from - s - half).max(0.0);
+            least = least.min(if way == 0.0 { 0.0 } else { way / other.velocity.norm() });
+        }
+    }
+    least
 }
 
 #[cfg(test)]

@@ -75,10 +75,12 @@ impl Perception {
 
     /// Takes a frame; `front` is the distance in metres from the car's middle to the sensor at its front.
     pub fn see(&mut self, observation: &Observation, front: f64) {
-        self.seen.resize_with(observation.others.len(), VecDeque::new);
+        let bodies = observation.others.iter().map(|body| body.id + 1).max().unwrap_or(0);
+        self.seen.resize_with(bodies.max(self.seen.len()), VecDeque::new);
         let half_angle = 0.5 * self.sensor.field_of_view;
         let oldest = observation.time - self.memory();
-        for (body, seen) in observation.others.iter().zip(&mut self.seen) {
+        for body in &observation.others {
+            let seen = &mut self.seen[body.id];
             let from_sensor = body.position - Vector2::new(front, 0.0);
             let bearing = libm::atan2(from_sensor.y, from_sensor.x).abs();
             // Drawn for every frame, so that what is out of sight does not shift the noise of what is seen later.
@@ -101,8 +103,8 @@ impl Perception {
 
     /// What the driver believes at the time of the last frame.
     pub fn tracks<'a>(&'a self, observation: &'a Observation) -> impl Iterator<Item = Track> + 'a {
-        let bodies = observation.others.iter().zip(&self.seen);
-        bodies.filter_map(|(body, seen)| {
+        observation.others.iter().filter_map(|body| {
+            let seen = &self.seen[body.id];
             // A whisker more than the latency, because times are sums of ticks.
             let known = observation.time - self.sensor.latency + 1e-9;
             let count = seen.iter().take_while(|detection| detection.time <= known).count();

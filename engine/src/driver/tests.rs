@@ -16,6 +16,7 @@ fn odometry(travelled: f64) -> Pose {
 fn person(x: f64, y: f64) -> Other {
     let velocity = Vector2::zeros();
     Other {
+        id: 0,
         class: Class::Prop,
         position: Vector2::new(x, y),
         velocity,

@@ -25,8 +25,8 @@
 //! struct Flight { pose: Pose, height: f64, climb: Input<f64>, shown: Output<f64> }
 //!
 //! impl Geometric for Flight {
-//!     fn poses(&self, poses: &mut [Pose]) {
-//!         poses[0] = self.pose;
+//!     fn poses(&self, poses: &mut [Option<Pose>]) {
+//!         poses[0] = Some(self.pose);
 //!     }
 //!     fn show(&self, outputs: &mut Outputs<'_>) {
 //!         outputs.set(&self.shown, self.height);
@@ -77,8 +77,8 @@ use nalgebra::Vector2;
 
 /// The behaviour of an object whose poses are under its own control.
 pub trait Geometric: 'static {
-    /// Writes where its bodies are, in the order in which they were declared.
-    fn poses(&self, poses: &mut [Pose]);
+    /// Writes where its bodies are, in the order in which they were declared; `None` for one that has left the world.
+    fn poses(&self, poses: &mut [Option<Pose>]);
 
     /// Shows its outputs as they stand at the beginning of a tick. An output that is not shown is absent.
     fn show(&self, outputs: &mut Outputs<'_>) {

@@ -173,10 +173,10 @@ impl Tick<'_> {
         }
     }
 
-    /// All bodies but the object's own as they stand at the beginning of the tick, the car under test first, the others
+    /// All bodies but the object's own that are in the world, as they stand at the beginning of the tick, the car under test first, the others
     /// in the order in which they were placed.
     pub fn others(&self) -> impl Iterator<Item = &BodyState> {
         let Range { start, end } = self.own.0..self.own.1;
-        self.bodies[..start].iter().chain(&self.bodies[end..])
+        self.bodies[..start].iter().chain(&self.bodies[end..]).filter(|body| body.present)
     }
 }

@@ -222,7 +222,9 @@ impl Run {
 
     fn observe(&mut self) {
         let (car, others) = self.scene.bodies.split_first().expect("the car is the first body");
-        let others = others.iter().map(|other| Other {
+        let present = others.iter().enumerate().filter(|(_, other)| other.present);
+        let others = present.map(|(id, other)| Other {
+            id,
             class: other.body.class,
             position: car.pose.to_local(other.pose.position),
             velocity: car.pose.turn_to_local(other.velocity),

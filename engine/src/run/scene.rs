@@ -38,7 +38,7 @@ pub(super) struct Scene {
     /// What `car.clearance` shows at this tick.
     clearance: f64,
     /// Where the bodies of one object go within a tick.
-    poses: Vec<Pose>,
+    poses: Vec<Option<Pose>>,
     /// Where all bodies are at the end of a tick.
     next: Vec<BodyState>,
     pushes: Vec<Vector2<f64>>,
@@ -111,7 +111,7 @@ impl Scene {
             return Err(format!("the friction of the road is {friction}, expected a number from 0 on"));
         }
         self.ego.step(friction, dt)?;
-        self.next[0].move_to(self.ego.pose(), dt);
+        self.next[0].move_to(Some(self.ego.pose()), dt);
         self.next[0].velocity = self.ego.velocity();
         self.pushes.clear();
         for object in &mut self.objects {
@@ -121,11 +121,11 @@ impl Scene {
                 Behaviour::Geometric(behaviour) => {
                     behaviour.step(&tick)?;
                     self.poses.clear();
-                    self.poses.extend(self.bodies[first..end].iter().map(|body| body.pose));
+                    self.poses.extend(self.bodies[first..end].iter().map(|body| Some(body.pose)));
                     behaviour.poses(&mut self.poses);
                     for (state, pose) in self.next[first..end].iter_mut().zip(&self.poses) {
-                        if !pose.is_finite() {
-                            return Err(format!("{} is nowhere: {:?}", object.name, pose.position));
+                        if pose.is_some_and(|pose| !pose.is_finite()) {
+                            return Err(format!("the place of {} is no number: {pose:?}", object.name));
                         }
                         state.move_to(*pose, dt);
                     }

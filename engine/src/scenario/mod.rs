@@ -220,6 +220,17 @@ impl Scenario {
         self.premise = Some(event.clone());
     }
 
+    /// Says that there is no such world, and why: the test is invalid. For what the intervals of the parameters cannot say.
+    pub fn refuse(&mut self, why: &str) {
+        self.problem(why.to_owned());
+    }
+
+    /// The time since the run began, in seconds.
+    pub fn time(&self) -> Stream<f64> {
+        let dt = self.dt;
+        Stream::tick().scan(-dt, move |time, ()| time + dt).named("time")
+    }
+
     /// How long a run takes in simulated seconds, unless a contact ends it before; 10 where nothing is said.
     pub fn duration(&mut self, seconds: f64) {
         self.duration = seconds;

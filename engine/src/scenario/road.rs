@@ -1,7 +1,7 @@
 //! The roads of a scenario: a single road or a whole network, and where its lanes and sidewalks are.
 
 use super::{Line, Place, Pose, Problems, Scenario};
-use crate::road::{Composite, Network, Path, RoadError, RoadSegment};
+use crate::road::{self, Composite, Network, Path, RoadError, RoadSegment};
 use crate::stream::Stream;
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -149,15 +149,16 @@ impl Streets {
         self.ask(|network| Ok(network.path(&[network.lane_of(road, lane)?]))).unwrap_or_else(nowhere)
     }
 
+    /// The place on a lane of a road, `at` metres along the road: where cars of the [traffic](crate::traffic) start.
+    pub fn place_on(&self, road: &str, lane: i32, at: f64) -> Option<road::Place> {
+        self.ask(|network| place_on(network, (road, lane, at)))
+    }
+
     /// The shortest way from one place to another without a change of lanes. Places are roads, lanes, and metres along
     /// the road.
     pub fn way(&self, from: (&str, i32, f64), to: (&str, i32, f64)) -> Path {
         self.ask(|network| {
-            let [start, end] = [from, to].map(|(road, lane, at)| {
-                let place = network.lane_of(road, lane)?;
-                Ok(network.project_onto(place, network.on_lane(road, lane, at)?.position).place())
-            });
-            let route = network.route(start?, end?, f64::from(u16::MAX));
+            let route = network.route(place_on(network, from)?, place_on(network, to)?, f64::from(u16::MAX));
             let path = route.and_then(|route| network.path_along(&route));
             path.ok_or_else(|| RoadError::NoWay { from: place_name(from), to: place_name(to) })
         })
@@ -168,6 +169,11 @@ impl Streets {
         let answer = question(self.network.as_ref()?);
         answer.map_err(|error| self.problems.borrow_mut().push(error.to_string())).ok()
     }
+}
+
+fn place_on(network: &Network, (road, lane, at): (&str, i32, f64)) -> Result<road::Place, RoadError> {
+    let position = network.on_lane(road, lane, at)?.position;
+    Ok(network.project_onto(network.lane_of(road, lane)?, position).place())
 }
 
 /// Where everything is that a mistake leaves without a place.

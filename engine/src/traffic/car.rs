@@ -73,6 +73,11 @@ impl TrafficCar {
         Self { way: Way::Circle(lanes), ..Self::at(start) }
     }
 
+    /// Where it starts.
+    pub fn start(&self) -> Place {
+        self.start
+    }
+
     /// The speed in m/s that it drives at where nothing hinders it.
     pub fn desired_speed(mut self, speed: f64) -> Self {
         self.desired = speed;

@@ -109,7 +109,7 @@ impl World {
     pub fn clearance(&self, bodies: &[BodyState]) -> f64 {
         let Some((car, others)) = bodies.split_first() else { return f64::INFINITY };
         let mut nearest = f64::INFINITY;
-        for other in others {
+        for other in others.iter().filter(|other| other.present) {
             let apart = (other.pose.position - car.pose.position).norm();
             if apart - car.body.outline.reach() - other.body.outline.reach() < nearest {
                 nearest = nearest.min(distance(car, other));
@@ -125,11 +125,12 @@ impl World {
         }
         self.show(bodies);
         let car = self.solids.first()?;
-        let touches = |solid: &Solid| {
+        let touches = |(solid, state): (&Solid, &BodyState)| {
             let pair = self.physics.narrow_phase.contact_pair(car.collider, solid.collider);
-            pair.and_then(|pair| pair.find_deepest_contact()).is_some_and(|(_, contact)| contact.dist <= 0.0)
+            let deepest = pair.and_then(|pair| pair.find_deepest_contact());
+            state.present && deepest.is_some_and(|(_, contact)| contact.dist <= 0.0)
         };
-        let body = 1 + self.solids[1..].iter().position(touches)?;
+        let body = 1 + self.solids[1..].iter().zip(&bodies[1..]).position(touches)?;
         Some(Contact { body, face: self.face(bodies, body) })
     }
 

@@ -66,12 +66,14 @@ impl<M: BrakingModel + 'static> Driver for Reference<M> {
 
     fn step(&mut self, observation: &Observation) -> Control {
         let fresh = &self.fresh;
-        self.watched.resize_with(observation.others.len(), || Watched { model: fresh.clone(), speed: None });
+        let bodies = observation.others.iter().map(|other| other.id + 1).max().unwrap_or(0);
+        self.watched.resize_with(bodies.max(self.watched.len()), || Watched { model: fresh.clone(), speed: None });
         let mut brake = 0.0_f64;
-        for (i, other) in observation.others.iter().enumerate() {
-            let situation = self.situation(observation.speed, other, self.watched[i].speed);
-            self.watched[i].speed = Some(other.velocity.x);
-            brake = brake.max(self.watched[i].model.brake(&situation, DT));
+        for other in &observation.others {
+            let situation = self.situation(observation.speed, other, self.watched[other.id].speed);
+            let watched = &mut self.watched[other.id];
+            watched.speed = Some(other.velocity.x);
+            brake = brake.max(watched.model.brake(&situation, DT));
         }
         self.speed = Some(observation.speed);
         if brake > 0.0 {

@@ -253,6 +253,7 @@ fn odometry(travelled: f64) -> Pose {
 /// A car of 4 m x 2 m.
 fn car(x: f64, y: f64, velocity: Vector2<f64>) -> Other {
     Other {
+        id: 0,
         class: Class::Prop,
         position: Vector2::new(x, y),
         velocity,

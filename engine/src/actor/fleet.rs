@@ -1,0 +1,223 @@
+//! Environment cars: [`Traffic`] as an object of a scenario, that minds the other objects and can be told what to do.
+
+use crate::object::{Body, Class, Geometric, Input, Output, Outputs, Tick, Wiring};
+use crate::scenario::{Place, Pose, Scenario, Side, Streets};
+use crate::stream::Stream;
+use crate::traffic::{CarState, Obstacle, Traffic, TrafficCar};
+use nalgebra::Vector2;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// Cars that drive by themselves over the roads of a scenario, not placed yet.
+#[derive(Debug, Clone)]
+pub struct EnvironmentCars {
+    streets: Streets,
+    cars: Vec<TrafficCar>,
+    seed: u64,
+}
+
+/// Placed environment cars: what can be read of them, and what they can be told. Cars are counted from 0, in the order in
+/// which they were given.
+#[derive(Debug, Clone)]
+pub struct Fleet {
+    name: String,
+    count: usize,
+    wiring: Wiring,
+    told: Rc<RefCell<Told>>,
+}
+
+/// What the program has asked of the cars.
+#[derive(Debug, Default)]
+struct Told {
+    shown: Vec<(usize, Shown)>,
+    orders: Vec<(usize, Order)>,
+    /// Questions about cars that there are not.
+    missing: Vec<usize>,
+}
+
+#[derive(Debug)]
+enum Shown {
+    Position(Output<Vector2<f64>>),
+    Speed(Output<f64>),
+}
+
+#[derive(Debug)]
+enum Order {
+    /// Absent: it drives as it likes.
+    Speed(Input<f64>),
+    Wish(Input<f64>),
+    Change(Side, f64, Input<bool>),
+}
+
+struct Driving {
+    traffic: Traffic,
+    obstacles: Vec<Obstacle>,
+    told: Rc<RefCell<Told>>,
+}
+
+impl EnvironmentCars {
+    /// These cars on these roads.
+    pub fn on(streets: &Streets, cars: Vec<TrafficCar>) -> Self {
+        Self { streets: streets.clone(), cars, seed: 1 }
+    }
+
+    /// So many cars at places that chance chooses: [`TrafficCar::scattered`].
+    pub fn scattered(streets: &Streets, count: usize, seed: u64) -> Self {
+        let cars = streets.network().map(|network| TrafficCar::scattered(network, count, seed));
+        Self { seed, ..Self::on(streets, cars.unwrap_or_default()) }
+    }
+
+    /// Without those that would start within so many metres of a place.
+    pub fn away_from(mut self, place: Vector2<f64>, metres: f64) -> Self {
+        if let Some(network) = self.streets.network() {
+            let far = |car: &TrafficCar| {
+                let start = car.start();
+                (network.lane(start.lane).curve.point(start.s) - place).norm() > metres
+            };
+            self.cars.retain(far);
+        }
+        self
+    }
+
+    /// Where all that they do by chance comes from.
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+}
+
+impl Place for EnvironmentCars {
+    type Handle = Fleet;
+
+    fn place(self, scenario: &mut Scenario) -> Fleet {
+        let wiring = scenario.wiring.clone();
+        let mut draft = scenario.object("traffic");
+        let told = Rc::<RefCell<Told>>::default();
+        let fleet = Fleet { name: draft.name().to_owned(), count: self.cars.len(), wiring, told: told.clone() };
+        // A network that cannot be built has been reported.
+        let Some(network) = self.streets.network() else { return fleet };
+        match Traffic::new(network.clone(), self.cars, self.seed) {
+            Ok(traffic) => {
+                for car in traffic.cars() {
+                    draft.body(body(&car), car.pose);
+                }
+                draft.geometric(Driving { traffic, obstacles: Vec::new(), told });
+            }
+            Err(error) => draft.problem(&format!("cannot begin: {error}")),
+        }
+        fleet
+    }
+}
+
+/// What a car of the traffic is to others, by its size.
+fn body(car: &CarState) -> Body {
+    let usual = match (car.length, car.width) {
+        (length, _) if length > 7.0 => Body::truck(),
+        (_, width) if width < 1.0 => Body::bicycle(),
+        _ => Body::car(),
+    };
+    Body::block(usual.class, car.length, car.width, usual.height)
+}
+
+impl Fleet {
+    /// How many cars there are.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Where the middle of a car is.
+    pub fn position(&self, car: usize) -> Stream<Vector2<f64>> {
+        let output = self.wiring.output(&self.called(car, "position"));
+        let stream = output.stream();
+        self.told.borrow_mut().shown.push((car, Shown::Position(output)));
+        stream
+    }
+
+    /// The speed of a car in m/s.
+    pub fn speed(&self, car: usize) -> Stream<f64> {
+        let output = self.wiring.output(&self.called(car, "speed"));
+        let stream = output.stream();
+        self.told.borrow_mut().shown.push((car, Shown::Speed(output)));
+        stream
+    }
+
+    /// Gives a car this speed in m/s, which it leaves only so as not to run into what is ahead; at ticks at which the
+    /// stream is absent it drives as it likes.
+    pub fn drive(&self, car: usize, speed: impl Into<Stream<f64>>) {
+        let input = self.wiring.input(&self.called(car, "speed"), &speed.into());
+        self.told.borrow_mut().orders.push((car, Order::Speed(input)));
+    }
+
+    /// Sets the speed in m/s at which a car drives where nothing hinders it.
+    pub fn wish(&self, car: usize, speed: impl Into<Stream<f64>>) {
+        let input = self.wiring.input(&self.called(car, "desired_speed"), &speed.into());
+        self.told.borrow_mut().orders.push((car, Order::Wish(input)));
+    }
+
+    /// Lets a car change to the lane beside, within so many seconds, whoever is there, when the event occurs.
+    pub fn change_lane(&self, car: usize, side: Side, seconds: f64, event: &Stream<bool>) {
+        let input = self.wiring.input(&self.called(car, "change_lane"), event);
+        self.told.borrow_mut().orders.push((car, Order::Change(side, seconds, input)));
+    }
+
+    fn called(&self, car: usize, what: &str) -> String {
+        if car >= self.count {
+            self.told.borrow_mut().missing.push(car);
+        }
+        format!("{}[{car}].{what}", self.name)
+    }
+}
+
+impl Driving {
+    fn obey(&mut self, tick: &Tick<'_>) -> Result<(), String> {
+        for (car, order) in &self.told.borrow().orders {
+            match order {
+                Order::Speed(input) => {
+                    let speed = tick.get(input).map(|_| tick.speed(input)).transpose()?;
+                    self.traffic.set_speed(*car, speed);
+                }
+                Order::Wish(input) => self.traffic.set_desired_speed(*car, tick.speed(input)?),
+                Order::Change(side, seconds, event) => {
+                    if tick.get(event) == Some(true) {
+                        self.traffic.change_lane(*car, *side, *seconds);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Geometric for Driving {
+    fn poses(&self, poses: &mut [Option<Pose>]) {
+        for (pose, car) in poses.iter_mut().zip(self.traffic.cars()) {
+            *pose = (!car.gone).then_some(car.pose);
+        }
+    }
+
+    fn show(&self, outputs: &mut Outputs<'_>) {
+        for (car, shown) in &self.told.borrow().shown {
+            let state = self.traffic.car(*car);
+            match shown {
+                Shown::Position(output) => outputs.set(output, state.pose.position),
+                Shown::Speed(output) => outputs.set(output, state.speed),
+            }
+        }
+    }
+
+    fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {
+        if let Some(car) = self.told.borrow().missing.first() {
+            return Err(format!("there is no car {car} in the traffic of {}", self.traffic.cars().len()));
+        }
+        self.obey(tick)?;
+        // What stands beside the roads is nothing to stop for.
+        let in_the_way = |class| !matches!(class, Class::Building | Class::Tree | Class::Sign);
+        self.obstacles.clear();
+        self.obstacles.extend(tick.others().filter(|other| in_the_way(other.body.class)).map(|other| {
+            let half = other.body.outline.half_extent();
+            Obstacle { pose: other.pose, length: 2.0 * half.x, width: 2.0 * half.y, velocity: other.velocity }
+        }));
+        self.traffic.step(tick.dt(), &self.obstacles);
+        Ok(())
+    }
+}

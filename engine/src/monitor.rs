@@ -1,0 +1,134 @@
+//! Monitors: the requirements that drives are usually held to, ready to be stated.
+//!
+//! A [`Monitor`] is a statement about streams with an id, a text, a unit and a scale; [`Scenario::monitor`] states it, and
+//! what that returns lets the program say otherwise. The paper's `CollisionMonitor` and `DistanceMonitor` are
+//! [`Monitor::no_collision`] and [`Monitor::progress`], its dynamic check for inactivity is [`Monitor::activity`]. A
+//! monitor over anything else is made of the statement itself:
+//!
+//! ```
+//! use paracosm_engine::{AutonomousVehicle, Monitor, Program, RoadSegment, Scenario, never};
+//!
+//! fn quiet(s: &mut Scenario) {
+//!     let road = s.place(RoadSegment::new(300.0));
+//!     let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+//!     s.monitor(Monitor::no_collision(&car));
+//!     s.monitor(Monitor::lane_keeping(&car)).text("The car stays in its lane, even in the bend.");
+//!     s.monitor(Monitor::new("quiet", never(car.speed().above(14.0)), "m/s", 5.0));
+//! }
+//! # Program { name: "quiet", about: "a quiet street", build: quiet }.declare().unwrap();
+//! ```
+
+use crate::actor::Car;
+use crate::scenario::{Draft, Scenario, Temporal, always, eventually, never};
+
+/// A requirement that is not stated yet.
+#[derive(Debug, Clone)]
+pub struct Monitor {
+    id: String,
+    statement: Temporal,
+    text: Option<String>,
+    unit: &'static str,
+    scale: f64,
+}
+
+/// Speed in m/s below which a car stands.
+const STANDING: f64 = 0.1;
+
+impl Monitor {
+    /// A statement about every run: its id, the unit of its robustness, and how much of it is a lot.
+    pub fn new(id: &str, statement: Temporal, unit: &'static str, scale: f64) -> Self {
+        Self { id: id.to_owned(), statement, text: None, unit, scale }
+    }
+
+    fn text(self, text: String) -> Self {
+        Self { text: Some(text), ..self }
+    }
+
+    /// The car touches nothing. Its robustness is the least clearance in metres, or minus the braking distance that was
+    /// missing: [`Car::clearance`].
+    pub fn no_collision(car: &Car) -> Self {
+        let text = "The car touches nobody: metres of clearance, or minus the braking distance that was missing.";
+        Self::new("no-collision", never(car.collides()), "m", 5.0).text(text.to_owned())
+    }
+
+    /// The car comes at least so many metres far, so that standing still for ever is no pass.
+    pub fn progress(car: &Car, metres: f64) -> Self {
+        let text = format!("The car comes at least {metres} m far, so that standing still for ever is no pass.");
+        Self::new("progress", eventually(car.travelled().at_least(metres)), "m", 0.5 * metres).text(text)
+    }
+
+    /// The car reaches the end of the way that it is to go, to within so many metres.
+    pub fn route_completion(car: &Car, metres: f64) -> Self {
+        let text = format!("The car comes to within {metres} m of the end of its way.");
+        Self::new("route-completion", eventually(car.remaining().at_most(metres)), "m", 50.0).text(text)
+    }
+
+    /// The car does not stand still for so many seconds: its robustness is by how many m/s it was quicker than a car that
+    /// stands, in its worst span.
+    pub fn activity(car: &Car, seconds: f64) -> Self {
+        let stands = Temporal::from(car.speed().below(STANDING)).historically(0.0..=seconds);
+        let text = format!("The car does not stand still for {seconds} s.");
+        Self::new("activity", never(stands), "m/s", 5.0).text(text)
+    }
+
+    /// The car keeps at least so many metres away from everything.
+    pub fn clearance(car: &Car, metres: f64) -> Self {
+        let text = format!("The car keeps at least {metres} m away from everything.");
+        Self::new("clearance", always(car.clearance().at_least(metres)), "m", metres.max(1.0)).text(text)
+    }
+
+    /// The car never drives faster than so many m/s.
+    pub fn speed_limit(car: &Car, limit: f64) -> Self {
+        let text = format!("The car never drives faster than {limit} m/s.");
+        Self::new("speed-limit", always(car.speed().at_most(limit)), "m/s", 5.0).text(text)
+    }
+
+    /// The time to collision with anything is never below so many seconds.
+    pub fn time_to_collision(car: &Car, seconds: f64) -> Self {
+        let text = format!("The time to collision is never below {seconds} s.");
+        Self::new("time-to-collision", always(car.time_to_collision().at_least(seconds)), "s", 2.0).text(text)
+    }
+
+    /// The time headway to the body straight ahead is never below so many seconds.
+    pub fn headway(car: &Car, seconds: f64) -> Self {
+        let text = format!("The time headway is never below {seconds} s.");
+        Self::new("headway", always(car.headway().at_least(seconds)), "s", 2.0).text(text)
+    }
+
+    /// The whole car stays in a lane that leads its way: metres that are left beside it.
+    pub fn lane_keeping(car: &Car) -> Self {
+        let text = "The whole car stays in its lane: metres that are left beside it.";
+        Self::new("lane-keeping", always(car.lane_margin().at_least(0.0)), "m", 1.0).text(text.to_owned())
+    }
+
+    /// The car's middle stays within so many metres of the way that it is to go.
+    pub fn on_its_way(car: &Car, metres: f64) -> Self {
+        let text = format!("The car stays within {metres} m of its way.");
+        Self::new("on-its-way", always(car.way_offset().abs().at_most(metres)), "m", 1.0).text(text)
+    }
+
+    /// The acceleration of the car along its heading never changes faster than so many m/s³, either way.
+    pub fn jerk(car: &Car, limit: f64) -> Self {
+        let text = format!("The car's acceleration never changes faster than {limit} m/s³.");
+        Self::new("jerk", always(car.jerk().abs().at_most(limit)), "m/s³", limit).text(text)
+    }
+
+    /// The car is never in an intersection at a place where another with the right of way will be within so many seconds,
+    /// or is.
+    pub fn right_of_way(car: &Car, seconds: f64) -> Self {
+        let text = format!("The car is in nobody's way who has the right of way and is there within {seconds} s.");
+        Self::new("right-of-way", always(car.right_of_way().at_least(seconds)), "s", 2.0).text(text)
+    }
+}
+
+impl Scenario {
+    /// States what a monitor asks of every run. What it returns says other texts, units and scales.
+    pub fn monitor(&mut self, monitor: Monitor) -> Draft {
+        let Monitor { id, statement, text, unit, scale } = monitor;
+        let draft = self.require(&id, statement).unit(unit).scale(scale);
+        match text {
+            Some(text) => draft.text(&text),
+            None => draft,
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! The cut-in of UN Regulation No. 157: a slower car changes into the lane of the car under test, right before it.
+//!
+//! Ranges are those of the public variations of the regulation's scenarios. The lane change begins at once; the gap is from
+//! bumper to bumper at that moment. A combination in which the other car would drive backwards is no world.
+
+use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario};
+
+pub(crate) const PROGRAM: Program = Program {
+    name: "cut-in",
+    about: "a slower car changes into the lane of the car, right before it (UN R157)",
+    build: cut_in,
+};
+
+/// The width of a lane in metres.
+const LANE: f64 = 3.5;
+
+fn cut_in(s: &mut Scenario) {
+    let speed = s.interval("ego_speed", 20.0..=60.0).unit("km/h").default(50.0);
+    let relative = s.interval("relative_speed", -50.0..=-10.0).unit("km/h").default(-20.0);
+    let gap = s.interval("gap", 0.0..=60.0).unit("m").default(20.0);
+    let lateral = s.interval("lateral_speed", 0.5..=3.0).unit("m/s").default(1.0);
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+
+    let road = s.place(RoadSegment::new(800.0).lanes(4).lane_width(LANE).friction(friction));
+    let car = s.place(AutonomousVehicle::along(road.path(2)).starting(10.0).speed(speed.value() / 3.6));
+    let other_speed = (speed.value() + relative.value()) / 3.6;
+    if other_speed < 0.0 {
+        s.refuse("the other car would drive backwards");
+    }
+    let aside = (s.time() * lateral.value()).min(LANE);
+    let start = 10.0 + gap.value() + 0.5 * (4.508 + 4.5);
+    let other = Mover::car(road.path(1)).starting(start).speed(other_speed.max(0.0)).offset(-aside);
+    let other = s.place(other);
+
+    s.duration(20.0);
+    s.premise(&other.position().y().at_most(-LANE));
+    s.monitor(Monitor::no_collision(&car));
+    s.monitor(Monitor::lane_keeping(&car));
+}

@@ -1,0 +1,32 @@
+//! The paper's second study (section 4.2.2, Figure 10): the car follows a leader, whose speed is a signal over the run.
+//!
+//! The leader starts `gap` metres ahead, bumper to bumper, and drives as the signal has it, which may well mean that it
+//! brakes. Fog and light are there for drivers that see.
+
+use paracosm_engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario, Shape};
+
+pub(crate) const PROGRAM: Program = Program {
+    name: "follow-leader",
+    about: "the car follows a leader whose speed varies over the run",
+    build: follow_leader,
+};
+
+fn follow_leader(s: &mut Scenario) {
+    let leader_speed =
+        s.interval("leader_speed", 0.0..=20.0).unit("m/s").signal(Shape::PiecewiseLinear { pieces: 3 }).default(12.0);
+    let gap = s.nominal("gap", 10.0..=60.0, 25.0).unit("m");
+    let speed = s.nominal("approach_speed", 5.0..=30.0, 15.0).unit("m/s");
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
+    let light = s.nominal("light", 0.0..=1.0, 1.0);
+
+    let road = s.place(RoadSegment::new(1000.0));
+    s.place(Environment::new().light(light).fog(fog).friction(friction));
+    let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(speed.value()));
+    let middles = gap.value() + 0.5 * (4.508 + 4.5);
+    s.place(Mover::car(road.path(1)).named("leader").starting(10.0 + middles).speed(leader_speed));
+
+    s.duration(15.0);
+    s.monitor(Monitor::no_collision(&car));
+    s.monitor(Monitor::lane_keeping(&car));
+}

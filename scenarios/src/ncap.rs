@@ -1,0 +1,140 @@
+//! Tests of Euro NCAP's AEB protocols: pedestrians that cross (CPNA, CPFA, CPNCO) and cars ahead (CCR).
+//!
+//! A pedestrian starts so that a car that does not brake takes it with a given part of its front: `impact` is the share of
+//! the car's width at which the middle of the pedestrian is then, counted from the side that it comes from. It stands
+//! beside the way of the car, gathers speed evenly over the first metre or so, and walks on across. The run begins 6 s
+//! before the impact.
+
+use paracosm_engine::object::Body;
+use paracosm_engine::road::Path;
+use paracosm_engine::vehicle::Vehicle;
+use paracosm_engine::{
+    AutonomousVehicle, Car, Fixture, Monitor, Mover, Param, Pose, Program, Road, RoadSegment, Scenario, Stream,
+};
+
+pub(crate) const CPNA: Program = Program {
+    name: "ncap-cpna",
+    about: "an adult walks from the near side (Euro NCAP CPNA-25 and CPNA-75)",
+    build: cpna,
+};
+pub(crate) const CPFA: Program =
+    Program { name: "ncap-cpfa", about: "an adult runs from the far side (Euro NCAP CPFA-50)", build: cpfa };
+pub(crate) const CPNCO: Program = Program {
+    name: "ncap-cpnco",
+    about: "a child runs from behind parked cars at the near side (Euro NCAP CPNCO-50)",
+    build: cpnco,
+};
+pub(crate) const CCR: Program = Program {
+    name: "ncap-ccr",
+    about: "the car comes upon a car that stands, drives slowly or brakes (Euro NCAP CCRs, CCRm, CCRb)",
+    build: ccr,
+};
+
+/// Seconds from the beginning to the impact.
+const TIME: f64 = 6.0;
+/// Where the car starts and where the pedestrian crosses, in metres along the road.
+const START: f64 = 10.0;
+
+/// A pedestrian beside the way of the car.
+struct Crossing {
+    body: Body,
+    name: &'static str,
+    /// -1 from the right, 1 from the left.
+    side: f64,
+    /// Metres from the middle of the car's lane at which it stands, and over which it gathers speed.
+    from: f64,
+    run_up: f64,
+    /// In m/s.
+    speed: f64,
+    /// The share of the car's width at which it is taken.
+    impact: f64,
+}
+
+impl Crossing {
+    /// Where the pedestrian walks, when `bumper` is where the car's front is at the impact.
+    fn path(&self, lane: Pose) -> Path {
+        let start = lane.position + lane.left() * (self.side * self.from);
+        Path::straight(start, start - lane.left() * (self.side * 2.0 * self.from))
+    }
+
+    /// Its speed over time: it starts so late that it is where it is to be after [`TIME`].
+    fn speed(&self, time: &Stream<f64>) -> Stream<f64> {
+        let width = Vehicle::BMW_320I.width;
+        let way = self.from - 0.5 * width + self.impact * width;
+        let gathering = 2.0 * self.run_up / self.speed;
+        let begin = TIME - gathering - (way - self.run_up) / self.speed;
+        ((time - begin) * (self.speed / gathering)).max(0.0).min(self.speed)
+    }
+}
+
+/// A straight road with the car on it, 6 s at its speed before the pedestrian.
+fn approach(s: &mut Scenario, crossing: &Crossing, speed: &Param<f64>) -> (Road, Car) {
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    s.tick(0.002);
+    let v = speed.value() / 3.6;
+    let road = s.place(RoadSegment::new(250.0).friction(friction));
+    let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(v));
+    let radius = crossing.body.outline.half_extent().x;
+    let lane = road.on_lane(1, START + v * TIME + 0.5 * Vehicle::BMW_320I.length + radius);
+    let walker = Mover::new(crossing.name, crossing.body, crossing.path(lane)).speed(crossing.speed(&s.time()));
+    s.place(walker);
+    s.duration(TIME + 3.0);
+    s.monitor(Monitor::no_collision(&car));
+    (road, car)
+}
+
+fn cpna(s: &mut Scenario) {
+    let speed = s.interval("ego_speed", 10.0..=60.0).unit("km/h").default(40.0);
+    let impact = s.choice("impact", [25, 75]).unit("%").default(25);
+    let impact = f64::from(impact.value()) / 100.0;
+    let body = Body::adult();
+    let crossing = Crossing { body, name: "adult", side: -1.0, from: 4.0, run_up: 1.0, speed: 5.0 / 3.6, impact };
+    approach(s, &crossing, &speed);
+}
+
+fn cpfa(s: &mut Scenario) {
+    let speed = s.interval("ego_speed", 10.0..=60.0).unit("km/h").default(40.0);
+    let body = Body::adult();
+    let crossing = Crossing { body, name: "adult", side: 1.0, from: 6.0, run_up: 1.5, speed: 8.0 / 3.6, impact: 0.5 };
+    approach(s, &crossing, &speed);
+}
+
+fn cpnco(s: &mut Scenario) {
+    let speed = s.interval("ego_speed", 10.0..=60.0).unit("km/h").default(40.0);
+    let body = Body::child();
+    let crossing = Crossing { body, name: "child", side: -1.0, from: 4.0, run_up: 1.0, speed: 5.0 / 3.6, impact: 0.5 };
+    let (road, _) = approach(s, &crossing, &speed);
+    // Two cars are parked one after the other, a metre beside the way of the car; the child comes from a metre behind the
+    // last of them.
+    let line = START + speed.value() / 3.6 * TIME + 0.5 * Vehicle::BMW_320I.length;
+    for back in [1.0 + 0.5 * 4.5, 1.0 + 1.5 * 4.5 + 1.0] {
+        let lane = road.on_lane(1, line - back);
+        let position = lane.position - lane.left() * (0.5 * Vehicle::BMW_320I.width + 1.0 + 0.5 * 1.8);
+        s.place(Fixture::parked_car(Pose { position, ..lane }));
+    }
+}
+
+fn ccr(s: &mut Scenario) {
+    let speed = s.interval("ego_speed", 10.0..=80.0).unit("km/h").default(50.0);
+    let overlap = s.interval("overlap", -50.0..=50.0).unit("%").default(0.0);
+    let target = s.choice("target", ["standing", "moving", "braking"]).default("standing");
+    let gap = s.nominal_choice("gap", [12, 40], 40).unit("m");
+    let brake = s.nominal_choice("deceleration", [2, 6], 6).unit("m/s²");
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+
+    let road = s.place(RoadSegment::new(600.0).friction(friction));
+    let v = speed.value() / 3.6;
+    let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(v));
+    let slow = 20.0 / 3.6;
+    let (ahead, driven) = match target.value() {
+        "standing" => (v * TIME, Stream::constant(0.0)),
+        "moving" => ((v - slow).max(0.0) * TIME + 1.0, Stream::constant(slow)),
+        _ => (f64::from(gap.value()), (v - (s.time() - 1.0).max(0.0) * f64::from(brake.value())).max(0.0)),
+    };
+    let shifted = road.path(1).shifted(0.01 * overlap.value() * Vehicle::BMW_320I.width);
+    let start = START + ahead + 0.5 * (Vehicle::BMW_320I.length + 4.5);
+    s.place(Mover::car(shifted).named("target").starting(start).speed(driven));
+
+    s.duration(15.0);
+    s.monitor(Monitor::no_collision(&car));
+}

@@ -1,0 +1,32 @@
+//! The car follows a leader of constant speed while another car, of the same colour, comes the other way: a driver that
+//! follows what it sees must not take the one for the other (section 4.2.2 of the paper).
+
+use paracosm_engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario};
+
+pub(crate) const PROGRAM: Program = Program {
+    name: "oncoming-distractor",
+    about: "the car follows a leader while another car comes the other way",
+    build: oncoming_distractor,
+};
+
+fn oncoming_distractor(s: &mut Scenario) {
+    let distance = s.interval("distance", 40.0..=200.0).unit("m").default(120.0);
+    let oncoming_speed = s.interval("oncoming_speed", 3.0..=20.0).unit("m/s").default(10.0);
+    let leader_speed = s.nominal("leader_speed", 2.0..=15.0, 8.0).unit("m/s");
+    let gap = s.nominal("gap", 10.0..=60.0, 25.0).unit("m");
+    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
+    let light = s.nominal("light", 0.0..=1.0, 1.0);
+
+    let road = s.place(RoadSegment::new(500.0));
+    s.place(Environment::new().light(light).fog(fog));
+    let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(10.0));
+    let leader = 10.0 + gap.value() + 0.5 * (4.508 + 4.5);
+    s.place(Mover::car(road.path(1)).named("leader").starting(leader).speed(leader_speed));
+    let oncoming = Mover::car(road.path(-1)).named("oncoming");
+    s.place(oncoming.starting(500.0 - 10.0 - distance.value()).speed(oncoming_speed));
+
+    s.duration(15.0);
+    s.monitor(Monitor::no_collision(&car));
+    s.monitor(Monitor::lane_keeping(&car));
+    s.monitor(Monitor::progress(&car, 60.0));
+}

@@ -1,0 +1,53 @@
+//! The car comes to a roundabout while another one is in it: it has to let that one pass, or be well ahead of it.
+//!
+//! The other car goes round from the arm at the left to the arm opposite, past the entry of the car under test. `lead` is
+//! by how many seconds it would be there before the car if neither changed its speed.
+
+use paracosm_engine::road::{Network, RoadSegment, Roundabout};
+use paracosm_engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, Scenario};
+use std::sync::{Arc, LazyLock};
+
+pub(crate) const PROGRAM: Program = Program {
+    name: "roundabout-entry",
+    about: "the car enters a roundabout in which another car is",
+    build: roundabout_entry,
+};
+
+static ROUNDABOUT: LazyLock<Arc<Network>> = LazyLock::new(|| {
+    let arm = |name: &str| RoadSegment::new(120.0).named(name);
+    Roundabout::new()
+        .named("circus")
+        .connect("one", arm("east"), "one")
+        .connect("two", arm("south"), "one")
+        .connect("three", arm("west"), "one")
+        .connect("four", arm("north"), "one")
+        .build()
+        .expect("the arms meet the roundabout")
+});
+
+fn roundabout_entry(s: &mut Scenario) {
+    let speed = s.interval("approach_speed", 4.0..=14.0).unit("m/s").default(8.0);
+    let other_speed = s.interval("other_speed", 3.0..=9.0).unit("m/s").default(6.0);
+    let lead = s.interval("lead", -4.0..=4.0).unit("s").default(0.5);
+    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+
+    let streets = s.place(ROUNDABOUT.clone());
+    s.place(Environment::new().friction(friction));
+    // Roads lead away from the roundabout, so that lane -1 leads to it. Both cars reach the ring after 60 m.
+    let way = streets.way(("south", -1, 60.0), ("north", 1, 100.0));
+    let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
+    let other = streets.way(("west", -1, 110.0), ("north", 1, 100.0));
+    // From the entry of the other car to that of the car under test it is a quarter of the ring.
+    let meeting = 110.0 + 20.0;
+    let time = 60.0 / speed.value();
+    let start = meeting - other_speed.value() * (time - lead.value());
+    if start < 0.0 {
+        s.refuse("the other car would have to start before the beginning of its road");
+    }
+    s.place(Mover::car(other).starting(start.max(0.0)).speed(other_speed));
+
+    s.duration(25.0);
+    s.monitor(Monitor::no_collision(&car));
+    s.monitor(Monitor::right_of_way(&car, 0.5));
+    s.monitor(Monitor::route_completion(&car, 60.0));
+}
