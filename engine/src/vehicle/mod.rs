@@ -125,6 +125,9 @@ impl Model {
     }
 
     /// A car of this model whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    ///
+    /// # Panics
+    /// The vehicle has a [`Vehicle::problem`].
     pub fn build(self, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
         match self {
             Model::SingleTrack => Box::new(SingleTrack::new(vehicle, start, speed)),
