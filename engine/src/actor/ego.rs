@@ -102,6 +102,9 @@ impl Place for AutonomousVehicle {
         let (speed, most) = (self.speed, self.vehicle.max_speed);
         let asked = Rc::new(Asked::new(scenario.wiring.clone()));
         let mut draft = scenario.object("car");
+        if let Some(problem) = self.vehicle.problem() {
+            draft.problem(&format!("cannot be built: {problem}"));
+        }
         if !(0.0..=most).contains(&speed) {
             draft.problem(&format!("has the speed {speed} m/s, expected 0 to {most}"));
         }

@@ -27,7 +27,7 @@ use crate::observation::{Briefing, Control, Observation};
 
 pub(super) const KIND: Kind = Kind {
     name: "aeb",
-    about: "keeps its speed and brakes for pedestrians it sees on its path",
+    about: "keeps its speed and its way, and brakes for what it sees on its path",
     settings: &SETTINGS,
     make: |settings| Box::new(Aeb::new(settings)),
 };

@@ -1,12 +1,15 @@
 //! What a driver believes of the bodies around it: a modelled camera or radar, instead of a rendered one.
 //!
-//! Each frame shows the middle of every body in range and in the field of view, with noise, and reaches the
+//! Each frame shows the middle of every body that is in range, in the field of view and not behind something large
+//! (a car, a lorry, a house), with noise, and reaches the
 //! driver only after the latency of the sensor's processing; that holds for every frame, so that the driver
 //! lives in the past all the time and not only until the first detection. Positions are kept as seen from where
 //! the car began, which it knows from its own odometry; a straight line through the last few of them by least
 //! squares gives position and velocity now.
 
-use crate::observation::Observation;
+use crate::object::{Class, crosses};
+use crate::observation::{Observation, Other};
+use crate::scenario::Pose;
 use nalgebra::Vector2;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -85,7 +88,8 @@ impl Perception {
             let bearing = libm::atan2(from_sensor.y, from_sensor.x).abs();
             // Drawn for every frame, so that what is out of sight does not shift the noise of what is seen later.
             let noise = gaussian(&mut self.random) * self.sensor.noise;
-            if from_sensor.norm() <= self.sensor.range && bearing <= half_angle {
+            let visible = from_sensor.norm() <= self.sensor.range && bearing <= half_angle;
+            if visible && !hidden(body, observation, front) {
                 let odometry = observation.odometry;
                 let position = odometry.position + odometry.turn_to_plane(body.position + noise);
                 seen.push_back(Detection { time: observation.time, position });
@@ -115,6 +119,16 @@ impl Perception {
             Some(Track { position, velocity, half_extent: body.half_extent() })
         })
     }
+}
+
+/// Whether something large stands between the middle of a body and the sensor at the car's front.
+fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
+    let sensor = Vector2::new(front, 0.0);
+    let large = |other: &&Other| matches!(other.class, Class::Car | Class::Truck | Class::Building);
+    observation.others.iter().filter(|other| other.id != body.id).filter(large).any(|other| {
+        let pose = Pose { position: other.position, heading: other.heading };
+        crosses((&other.outline, &pose), sensor, body.position)
+    })
 }
 
 /// The straight line through the detections by least squares: position at `now` and velocity.

@@ -31,6 +31,33 @@ fn to_point((outline, pose): (&Outline, &Pose), point: Vector2<f64>) -> f64 {
     }
 }
 
+/// Whether the straight line between two points leads over what a body covers of the ground.
+pub(crate) fn crosses((outline, pose): (&Outline, &Pose), from: Vector2<f64>, to: Vector2<f64>) -> bool {
+    let (from, to) = (pose.to_local(from), pose.to_local(to));
+    let way = to - from;
+    match outline {
+        Outline::Rectangle { .. } => {
+            let half = outline.half_extent();
+            let (mut begin, mut end) = (0.0_f64, 1.0_f64);
+            for axis in 0..2 {
+                if way[axis] == 0.0 {
+                    if from[axis].abs() > half[axis] {
+                        return false;
+                    }
+                } else {
+                    let sides = [-half[axis], half[axis]].map(|side| (side - from[axis]) / way[axis]);
+                    (begin, end) = (begin.max(sides[0].min(sides[1])), end.min(sides[0].max(sides[1])));
+                }
+            }
+            begin <= end
+        }
+        Outline::Disc { radius } => {
+            let share = if way == Vector2::zeros() { 0.0 } else { -from.dot(&way) / way.norm_squared() };
+            (from + way * share.clamp(0.0, 1.0)).norm() <= *radius
+        }
+    }
+}
+
 fn corners(outline: &Outline, pose: &Pose) -> [Vector2<f64>; 4] {
     let half = outline.half_extent();
     let (ahead, left) = (pose.forward() * half.x, pose.left() * half.y);
@@ -86,6 +113,17 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn a_line_crosses_an_outline_if_one_of_its_points_is_in_it(
+            outline in outline(), at in pose(), from in pose(), to in pose()
+        ) {
+            let (from, to) = (from.position, to.position);
+            let points = (0..=2000).map(|i| from + (to - from) * (f64::from(i) / 2000.0));
+            let nearest = points.map(|point| to_point((&outline, &at), point)).fold(f64::INFINITY, f64::min);
+            let crosses = crosses((&outline, &at), from, to);
+            prop_assert!(if crosses { nearest < 0.01 } else { nearest > 0.0 }, "{} but {}", crosses, nearest);
+        }
+
         #[test]
         fn the_gap_is_the_least_distance_of_any_two_points(
             a in outline(), at in pose(), b in outline(), there in pose()

@@ -69,7 +69,7 @@ pub use draft::Draft;
 pub use wiring::{Input, Output, Outputs, Tick};
 
 pub(crate) use draft::{Behaviour, ObjectSetup};
-pub(crate) use footprint::gap;
+pub(crate) use footprint::{crosses, gap};
 pub(crate) use wiring::Wiring;
 
 use crate::scenario::Pose;

@@ -19,7 +19,7 @@
 //! | radius of the middle's way at 0.03 rad, 5 to 20 m/s, mu 1.05 | 85.9 to 86.4 m | 85.9 to 86.7 m | 85.9 m |
 //! | the same, mu 0.6 | 85.9 to 87.2 m | 85.9 to 87.1 m | |
 //! | understeer gradient over these speeds, mu 1.05 | 0.014 mrad s²/m | 0.040 mrad s²/m | nearly neutral |
-//! | greatest side acceleration at 20 m/s, mu 0.2 to 0.8 | 0.983 to 0.999 mu g | 0.992 to 0.999 mu g | mu g |
+//! | greatest side acceleration at 20 m/s, mu 0.2 to 0.8 | 0.983 to 0.999 mu g | 0.990 to 0.999 mu g | mu g |
 //! | drift in 60 s at rest | none | less than 1 nm | none |
 //! | time to 40, 60, 80, 100 km/h, mu 0.6 to 1.05 | at most 0.1 % longer | 0.4 to 1.6 % longer | traction, then constant power |
 //!
@@ -136,6 +136,9 @@ impl Model {
     }
 
     /// A car of this model whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    ///
+    /// # Panics
+    /// The vehicle has a [`Vehicle::problem`].
     pub fn build(self, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
         match self {
             Model::SingleTrack => Box::new(SingleTrack::new(vehicle, start, speed)),

@@ -159,6 +159,17 @@ impl Vehicle {
         Self { max_acceleration: torque / (self.mass * self.wheel_radius), ..self }
     }
 
+    /// The same car, if nothing is wrong with it.
+    ///
+    /// # Panics
+    /// It has a [`Vehicle::problem`].
+    pub(super) fn checked(&self) -> Self {
+        if let Some(problem) = self.problem() {
+            panic!("{problem}");
+        }
+        *self
+    }
+
     /// What is wrong with it, if anything: the field, its value and what was expected.
     pub fn problem(&self) -> Option<String> {
         let positive = [

@@ -61,9 +61,12 @@ struct Axle {
 
 impl SingleTrack {
     /// A car whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    ///
+    /// # Panics
+    /// The vehicle has a [`Vehicle::problem`].
     pub fn new(vehicle: &Vehicle, start: Pose, speed: f64) -> Self {
         let state = VehicleState::new(start, speed);
-        Self { vehicle: *vehicle, straight: Straight::from(&state), state, throttle: 0.0, friction: 0.0 }
+        Self { vehicle: vehicle.checked(), straight: Straight::from(&state), state, throttle: 0.0, friction: 0.0 }
     }
 
     /// Whether it goes straight ahead and will go on so.

@@ -62,7 +62,11 @@ pub struct Jointed {
 
 impl Jointed {
     /// A car whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    ///
+    /// # Panics
+    /// The vehicle has a [`Vehicle::problem`].
     pub fn new(vehicle: &Vehicle, start: Pose, speed: f64) -> Self {
+        let vehicle = &vehicle.checked();
         let mut physics = PhysicsWorld { gravity: vector(0.0, 0.0, -GRAVITY), ..PhysicsWorld::default() };
         let parameters = &mut physics.integration_parameters;
         parameters.num_solver_iterations = 1;
