@@ -1,0 +1,155 @@
+//! Every scenario of the catalogue: that it can be run, is the same whenever it is run, and is what its documentation says.
+
+use paracosm_coverage::{Domain, Value, Values};
+use paracosm_engine::vehicle::{Model, Vehicle};
+use paracosm_engine::{Metric, Outcome, Program, driver, simulate};
+use paracosm_oracles::Verdict;
+use paracosm_scenarios::{ALL, find};
+
+fn run(program: &Program, test: &Values, model: Model, driver: &str) -> Outcome {
+    let mut driver = driver::find(driver).unwrap().build(&[]).unwrap();
+    simulate(program, test, model, driver.as_mut())
+}
+
+fn nominal(program: &Program, changes: &[(&str, Value)]) -> Values {
+    let mut test = program.declare().unwrap_or_else(|error| panic!("{error}")).nominal();
+    for (name, value) in changes {
+        test.set(*name, value.clone());
+    }
+    test
+}
+
+/// The samples of a signal.
+fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
+    let trace = outcome.trace.as_ref().expect("it ran");
+    let column = trace.signals().iter().position(|signal| signal == name).expect("it is recorded");
+    trace.rows().map(|row| row[column]).collect()
+}
+
+#[test]
+fn every_scenario_runs_with_every_driver() {
+    for program in ALL {
+        for kind in driver::ALL {
+            let outcome = run(program, &nominal(program, &[]), Model::SingleTrack, kind.name);
+            assert_eq!(outcome.error, None, "{} with {}", program.name, kind.name);
+            assert!(!matches!(outcome.verdict, Verdict::Error | Verdict::Invalid));
+        }
+    }
+}
+
+#[test]
+fn every_scenario_runs_with_a_jointed_car() {
+    for program in ALL {
+        let outcome = run(program, &nominal(program, &[]), Model::Jointed, "aeb");
+        assert_eq!(outcome.error, None, "{}", program.name);
+    }
+}
+
+/// Tests of a scenario: from the corner where every open parameter is least to the one where each is greatest.
+fn diagonal(program: &Program, count: usize) -> Vec<Values> {
+    let declaration = program.declare().unwrap();
+    let at = |share: f64| {
+        let value = |domain: &Domain| match domain {
+            Domain::Interval { lo, hi } => Value::Number(lo + (hi - lo) * share),
+            Domain::Choice(levels) => levels[((levels.len() - 1) as f64 * share) as usize].clone(),
+        };
+        let open = declaration.parameters.iter().filter(|declared| declared.open);
+        let changes: Vec<_> = open.map(|d| (d.parameter.name.as_str(), value(&d.parameter.domain))).collect();
+        nominal(program, &changes)
+    };
+    (0..count).map(|i| at(i as f64 / (count - 1) as f64)).collect()
+}
+
+#[test]
+fn the_same_test_has_the_same_trace_in_every_run_and_on_every_thread() {
+    let mut tests = 0;
+    for program in ALL {
+        let count = if program.declare().unwrap().duration > 50.0 { 4 } else { 20 };
+        let values = diagonal(program, count);
+        let hash = |test: &Values| run(program, test, Model::SingleTrack, "aeb").trace.map(|trace| trace.hash());
+        let alone: Vec<_> = values.iter().map(hash).collect();
+        let again: Vec<_> = std::thread::scope(|scope| {
+            let threads: Vec<_> = values.iter().map(|test| scope.spawn(move || hash(test))).collect();
+            threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+        });
+        assert_eq!(alone, again, "{}", program.name);
+        tests += alone.iter().flatten().count();
+    }
+    assert!(tests > 200, "{tests} tests have a trace");
+}
+
+/// Where the middle of a pedestrian is when the car has it: as a share of the car's width from its right side.
+fn impact(outcome: &Outcome, name: &str) -> f64 {
+    let last = |name: &str| *signal(outcome, name).last().unwrap();
+    0.5 + (last(&format!("{name}.y")) - last("car.y")) / Vehicle::BMW_320I.width
+}
+
+#[test]
+fn a_car_that_does_not_brake_takes_the_pedestrian_where_the_protocol_says_to_a_centimetre() {
+    let cases = [
+        ("ncap-cpna", "adult", Some(25), 0.25),
+        ("ncap-cpna", "adult", Some(75), 0.75),
+        ("ncap-cpfa", "adult", None, 0.5),
+        ("ncap-cpnco", "child", None, 0.5),
+    ];
+    for (scenario, name, choice, share) in cases {
+        let program = find(scenario).unwrap();
+        for speed in (10..=60).step_by(5) {
+            let mut changes = vec![("ego_speed", Value::Number(f64::from(speed)))];
+            changes.extend(choice.map(|impact| ("impact", Value::Number(f64::from(impact)))));
+            let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+            assert_eq!(outcome.verdict, Verdict::Fail, "{scenario} at {speed} km/h");
+            let missed = (impact(&outcome, name) - share).abs() * Vehicle::BMW_320I.width;
+            assert!(missed < 0.01, "{scenario} at {speed} km/h: {missed} m beside {share}");
+            let face = outcome.metrics.iter().find(|(metric, _)| metric == "contact_face").map(|(_, face)| face);
+            assert_eq!(face, Some(&Metric::Word(Some("front".to_owned()))));
+            let time = outcome.trace.as_ref().unwrap().len() as f64 * 0.002;
+            assert!((time - 6.0).abs() < 0.01, "{scenario} at {speed} km/h: the impact is at {time} s");
+        }
+    }
+}
+
+#[test]
+fn pedestrians_reach_their_speed_over_the_distance_that_the_protocol_says() {
+    for (scenario, name, run_up, km_h) in [("ncap-cpna", "adult", 1.0, 5.0), ("ncap-cpfa", "adult", 1.5, 8.0)] {
+        let program = find(scenario).unwrap();
+        let outcome = run(program, &nominal(program, &[]), Model::SingleTrack, "cruise");
+        let (y, speed) = (signal(&outcome, &format!("{name}.y")), signal(&outcome, &format!("{name}.speed")));
+        let walks = speed.iter().position(|speed| *speed > km_h / 3.6 - 1e-6).expect("it reaches its speed");
+        let way = (y[walks] - y[0]).abs();
+        assert!((way - run_up).abs() < 0.01, "{scenario}: {way} m");
+    }
+}
+
+#[test]
+fn a_cut_in_begins_at_the_gap_from_bumper_to_bumper_and_moves_across_as_fast_as_it_says() {
+    let program = find("cut-in").unwrap();
+    let changes = [("gap", 30.0), ("lateral_speed", 1.5), ("ego_speed", 60.0), ("relative_speed", -10.0)];
+    let changes = changes.map(|(name, value)| (name, Value::Number(value)));
+    let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+    let clearance = signal(&outcome, "car.clearance")[0];
+    let beside: f64 = 3.5 - 0.5 * (Vehicle::BMW_320I.width + 1.8);
+    assert!((clearance - beside.hypot(30.0)).abs() < 1e-9, "{clearance}");
+    let y = signal(&outcome, "other.y");
+    assert!((y[101] - y[1] + 1.5).abs() < 1e-9);
+}
+
+#[test]
+fn a_world_that_cannot_be_is_invalid() {
+    let program = find("cut-in").unwrap();
+    let changes = [("ego_speed", 20.0), ("relative_speed", -50.0)].map(|(name, value)| (name, Value::Number(value)));
+    let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+    assert_eq!(outcome.verdict, Verdict::Invalid);
+    assert!(outcome.error.unwrap().contains("the other car would drive backwards"));
+}
+
+#[test]
+fn the_loop_is_gone_round_on_its_way() {
+    let program = find("t-loop").unwrap();
+    for model in Model::ALL {
+        let outcome = run(program, &nominal(program, &[]), model, "cruise");
+        assert_eq!(outcome.verdict, Verdict::Pass, "{model}: {:?}", outcome.robustness);
+        let travelled = *signal(&outcome, "car.travelled").last().unwrap();
+        assert!(travelled > 1000.0, "{model}: {travelled} m");
+    }
+}
