@@ -229,7 +229,7 @@ fn they_do_where_the_streets_are_half_full() {
 fn they_do_with_bicycles_among_them() {
     let net = grid_city(4, 4, 80.0, 2).build().unwrap();
     let mixed = |index: usize, car: TrafficCar| {
-        if index % 4 == 0 { car.size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0) } else { car }
+        if index.is_multiple_of(4) { car.size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0) } else { car }
     };
     let way = drive_on(&mut scattered(&net, 60, 6, mixed), 600.0, 60.0);
     assert!(way > 2000.0, "{way} m a car in 10 minutes");
@@ -267,6 +267,39 @@ proptest! {
             traffic.step(DT, &[]);
             if tick % 5 == 0 {
                 prop_assert_eq!(collision(&traffic), None, "after {} s", tick as f64 * DT);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_choice_of_parameters_makes_a_car_run_into_the_one_ahead(
+        drivers in prop::collection::vec(
+            (0.3..4.0, 0.5..5.0, 0.1..3.0, 0.6..5.0, 1.0..8.0, 2.0..12.0, 5.0..40.0), 6,
+        ),
+        leader in prop::collection::vec(0.0..35.0_f64, 6),
+        dt in 0.01..0.1_f64,
+    ) {
+        let net = RoadSegment::new(20_000.0).named("road").build().unwrap();
+        let cars = drivers.iter().enumerate().map(|(i, &(acceleration, deceleration, headway, gap, exponent, length, desired))| {
+            let idm = Idm { acceleration, deceleration, headway, gap, exponent };
+            TrafficCar::at(place(&net, "road", 1, 500.0 - 15.0 * i as f64)).idm(idm).size(length, 1.8).desired_speed(desired)
+        });
+        let mut traffic = Traffic::new(net.clone(), cars.collect(), 0).unwrap();
+        for wanted in leader {
+            for _ in 0..(10.0 / dt) as usize {
+                // The leader does what a car can: 3 m/s² up, 8 m/s² down.
+                let now = traffic.car(0).speed;
+                traffic.set_speed(0, Some(wanted.clamp((now - 8.0 * dt).max(0.0), now + 3.0 * dt)));
+                traffic.step(dt, &[]);
+                let cars: Vec<CarState> = traffic.cars().collect();
+                for pair in cars.windows(2) {
+                    let gap = pair[0].s - pair[1].s - 0.5 * (pair[0].length + pair[1].length);
+                    prop_assert!(gap > 0.0, "{} m", gap);
+                }
             }
         }
     }

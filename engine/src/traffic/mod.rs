@@ -303,15 +303,17 @@ impl Traffic {
     }
 }
 
-/// Claims whatever a car stands on at the start.
+/// Claims whatever a car stands on at the start, or cannot stop before.
 fn claim_start(car: &mut Car, map: &Map, turns: &mut u64) {
+    let reach = car.half + 0.5 * car.speed * car.speed / HARDEST;
     let mut base = -car.s;
     for k in 0..car.path.len() {
         let lane = car.path[k];
-        if base + map.line(lane) > car.half || base > car.half {
+        let begins = base + map.line(lane).min(0.0);
+        if begins > reach {
             return;
         }
-        if !map.rivals(lane).is_empty() {
+        if !map.rivals(lane).is_empty() && base + map.line(lane) <= reach {
             car.claims.push(Claim { lane, start: base, entry: base, turn: *turns, sure: true });
             *turns += 1;
         }
