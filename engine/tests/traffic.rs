@@ -504,6 +504,29 @@ fn a_car_lets_the_car_under_test_cross_before_it() {
 }
 
 #[test]
+fn a_car_on_the_main_road_does_not_brake_for_the_car_under_test_until_that_is_in_its_way() {
+    let net = tee();
+    let across = route(&net, place(&net, "west", -1, 50.0), place(&net, "east", 1, 95.0));
+    // From the side road at 8 m/s, up to the line in time with the car on the main road, and not beyond, or beyond.
+    let least = |line: f64| {
+        let cars = vec![TrafficCar::following(&across).speed(8.0).desired_speed(8.0)];
+        let mut traffic = Traffic::new(net.clone(), cars, 0).unwrap();
+        let (mut y, mut least, mut speed) = (-50.0, f64::INFINITY, 8.0_f64);
+        for _ in 0..ticks(12.0) {
+            let braking = (2.0 * 4.0 * (line - y - 2.25_f64).max(0.0)).sqrt();
+            speed = speed.min(braking);
+            y += speed * DT;
+            let pose = Pose { position: Vector2::new(1.75, y), heading: FRAC_PI_2 };
+            traffic.step(DT, &[Obstacle { pose, length: 4.5, width: 1.6, velocity: Vector2::new(0.0, speed) }]);
+            least = least.min(traffic.car(0).speed);
+        }
+        least
+    };
+    assert!(least(-10.0) > 7.5, "{} m/s: it waits", least(-10.0));
+    assert!(least(-3.0) < 2.0, "{} m/s: it stands in the way", least(-3.0));
+}
+
+#[test]
 fn a_commanded_lane_change_takes_its_time_and_ends_in_the_middle_of_the_lane() {
     let net = road(500.0);
     let car = TrafficCar::at(place(&net, "road", 1, 20.0)).speed(12.0).desired_speed(12.0);

@@ -43,6 +43,7 @@ use ahead::{Ahead, View};
 use idm::HARDEST;
 use junction::{Asker, Lists};
 use map::Map;
+use obstacle::Near;
 use occupancy::{Body, Occupancy, Who};
 use state::{Car, Claim};
 use std::sync::Arc;
@@ -67,8 +68,7 @@ pub struct Traffic {
     asking: Lists<usize>,
     /// The lanes to which somebody has begun to change in this step.
     changed: Vec<LaneId>,
-    /// Memory for the search for lanes near an obstacle.
-    near: (Vec<LaneId>, Vec<usize>),
+    near: Near,
 }
 
 /// A car as it is now.
@@ -120,7 +120,7 @@ impl Traffic {
             askers: Vec::with_capacity(count),
             asking: Lists::new(lanes, 4 * count),
             changed: Vec::with_capacity(count),
-            near: (Vec::new(), Vec::new()),
+            near: Near::default(),
         };
         traffic.see(&[]);
         traffic.refuse_overlaps()?;
@@ -247,9 +247,8 @@ impl Traffic {
             }
         });
         let half_width = cars.iter().map(|car| 0.5 * car.width).fold(0.0, f64::max);
-        let (lanes, open) = (&mut self.near.0, &mut self.near.1);
         for obstacle in obstacles {
-            obstacle::place(obstacle, &map.network, half_width, (lanes, open), self.occupancy.added());
+            obstacle::place(obstacle, map, half_width, &mut self.near, self.occupancy.added());
         }
         self.occupancy.sort();
         self.claims.clear();
