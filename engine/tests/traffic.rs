@@ -629,6 +629,43 @@ fn who_may_change_lanes_overtakes() {
 }
 
 #[test]
+fn lorries_and_fast_cars_share_a_motorway() {
+    // Two roads, so that lane changes reach over their joint.
+    let half = |name: &str| RoadSegment::new(3000.0).lanes(6).lane_width(3.75).sidewalk(0.0).named(name);
+    let net = half("first").connect("two", half("second"), "one").build().unwrap();
+    let cars = (0..90).map(|i| {
+        let car = TrafficCar::at(place(&net, "first", 1 + i % 3, 20.0 + 25.0 * f64::from(i / 3))).changing_lanes();
+        match i % 5 {
+            0 => car.size(12.0, 2.5).desired_speed(22.0).speed(20.0),
+            _ => car.desired_speed(26.0 + f64::from(i % 7) * 2.0).speed(20.0),
+        }
+    });
+    let mut traffic = Traffic::new(net.clone(), cars.collect(), 0).unwrap();
+    let rank = |traffic: &Traffic| {
+        let mut order: Vec<usize> = (0..90).collect();
+        order.sort_by(|a, b| traffic.car(*a).travelled.total_cmp(&traffic.car(*b).travelled));
+        order
+    };
+    run(&mut traffic, 10.0, &[]);
+    let (before, mut changes) = (rank(&traffic), 0);
+    for tick in 0..ticks(120.0) {
+        let lanes: Vec<_> = traffic.cars().map(|car| net.lane(car.lane).number).collect();
+        traffic.step(DT, &[]);
+        changes += traffic.cars().zip(lanes).filter(|(car, lane)| net.lane(car.lane).number != *lane).count();
+        if tick % 5 == 0 {
+            assert_eq!(collision(&traffic), None);
+        }
+    }
+    assert!(changes > 30, "{changes} lane changes");
+    assert_ne!(before, rank(&traffic));
+    let faster = |fast: bool| {
+        let cars = (0..90).filter(|i| (i % 5 != 0) == fast).map(|i| traffic.car(i).travelled);
+        cars.clone().sum::<f64>() / cars.count() as f64
+    };
+    assert!(faster(true) > faster(false) + 200.0, "cars come past lorries: {} m, {} m", faster(true), faster(false));
+}
+
+#[test]
 fn a_given_speed_is_kept_unless_something_is_in_the_way() {
     let net = road(500.0);
     let cars = [80.0, 20.0].map(|s| TrafficCar::at(place(&net, "road", 1, s)));
@@ -721,6 +758,6 @@ fn cars_that_cannot_be_are_refused_by_their_indices() {
     let way = Route { lanes: lanes.to_vec(), start: 10.0, end: 20.0, length: 0.0, changes: 0 };
     assert_eq!(
         refusal(TrafficCar::following(&way)),
-        "the route of car 1 leads from lane 0 to lane 2, which neither follows it nor lies beside it on a road"
+        "the route of car 1 leads from lane 0 to lane 2, neither its successor nor beside it on a road"
     );
 }

@@ -163,8 +163,9 @@ impl View<'_> {
 }
 
 impl Car {
-    /// Finds another way where the car has waited too long for the lane change that its route asks for: on to the end of
-    /// its lane, and from there to the end of its route, or to the lane that it could not get to where that has no end.
+    /// Finds another way where the car has waited too long for the lane change that its route asks for: on to the end
+    /// of its lane, and from there to the end of its route, or to the lane that it could not get to where that has no
+    /// end.
     pub fn give_up_change(&mut self, dt: f64, map: &Map) {
         let due = self.path.get(1).copied().filter(|next| map.beside(self.lane, *next));
         let Some(due) = due.filter(|_| self.speed < 0.1 && self.change.is_none()) else {

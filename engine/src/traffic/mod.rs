@@ -1,11 +1,11 @@
 //! Traffic: cars that drive over the lanes of a road network, each seeing what is around it.
 //!
-//! [`Traffic`] is a simulation of its own, in lanes and metres along them, without physics and without streams: at every
-//! step each car looks ahead (`ahead.rs`), follows what is there by the intelligent driver model ([`Idm`]), claims the
-//! intersection before it (`junction.rs`), perhaps changes lanes (`change.rs`), and moves on. All decide on what they see
-//! at the beginning of the step, so that their order does not matter where they do not compete; where they do, their
-//! indices decide. A step costs time in proportion to the number of cars, and allocates nothing but where a car has to
-//! find another way.
+//! [`Traffic`] is a simulation of its own, in lanes and metres along them, without physics and without streams: at
+//! every step each car looks ahead (`ahead.rs`), follows what is there by the intelligent driver model ([`Idm`]),
+//! claims the intersection before it (`junction.rs`), perhaps changes lanes (`change.rs`), and moves on. All decide on
+//! what they see at the beginning of the step, so that their order does not matter where they do not compete; where
+//! they do, their indices decide. A step costs time in proportion to the number of cars, and allocates nothing but
+//! where a car has to find another way.
 //!
 //! ```
 //! use paracosm_engine::road::grid_city;
@@ -188,8 +188,8 @@ impl Traffic {
         }
     }
 
-    /// Gives a car its speed from now on, in m/s, which it leaves only so as not to run into what is ahead; with `None` it
-    /// drives as the model has it again.
+    /// Gives a car its speed from now on, in m/s, which it leaves only so as not to run into what is ahead; with `None`
+    /// it drives as the model has it again.
     ///
     /// # Panics
     /// There is no car with this index, or the speed is no number from 0 on.
@@ -210,8 +210,8 @@ impl Traffic {
         self.cars[index].desired = speed;
     }
 
-    /// Makes a car begin a lane change that takes so many seconds, whoever is there. Whether it does: there is a lane, and
-    /// it is not changing lanes already. A car with a route changes back when that asks for it.
+    /// Makes a car begin a lane change that takes so many seconds, whoever is there. Whether it does: there is a lane,
+    /// and it is not changing lanes already. A car with a route changes back when that asks for it.
     ///
     /// # Panics
     /// There is no car with this index, or the duration is not positive.

@@ -1,9 +1,9 @@
 //! Bodies that are no part of the traffic, seen from its lanes.
 //!
-//! A body is on a lane where its rectangle reaches into the strip that cars need; that goes on being so for as long as it
-//! needs to get there when it moves towards it, and somebody who is about to walk over a zebra crossing is on the whole
-//! of it. Predictions are along straight lines, measured across the lane, so that who follows a bend beside it comes no
-//! nearer. A vehicle that has to give way is expected to, until it all but is in the way.
+//! A body is on a lane where its rectangle reaches into the strip that cars need; that goes on being so for as long as
+//! it needs to get there when it moves towards it, and somebody who is about to walk over a zebra crossing is on the
+//! whole of it. Predictions are along straight lines, measured across the lane, so that who follows a bend beside it
+//! comes no nearer. A vehicle that has to give way is expected to, until it all but is in the way.
 
 use super::map::Map;
 use super::occupancy::{Body, Who};
