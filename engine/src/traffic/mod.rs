@@ -211,7 +211,7 @@ impl Traffic {
     }
 
     /// Makes a car begin a lane change that takes so many seconds, whoever is there. Whether it does: there is a lane,
-    /// and it is not changing lanes already. A car with a route changes back when that asks for it.
+    /// the car is on a road, and it is not changing lanes already. A car with a route changes back when that asks for it.
     ///
     /// # Panics
     /// There is no car with this index, or the duration is not positive.
@@ -220,7 +220,8 @@ impl Traffic {
         let car = &mut self.cars[index];
         let lane = self.map.network.lane(car.lane);
         let to = if side == Side::Left { lane.left } else { lane.right };
-        match to.filter(|_| car.change.is_none() && !car.gone && self.map.is_road(car.lane)) {
+        let on_road = car.s + car.half < self.map.length(car.lane) || self.map.road_after(car.lane).is_some();
+        match to.filter(|_| car.change.is_none() && !car.gone && on_road && self.map.is_road(car.lane)) {
             Some(to) => car.begin_change(side, to, duration, &self.map),
             None => return false,
         }
