@@ -226,10 +226,12 @@ fn they_do_where_the_streets_are_half_full() {
 }
 
 #[test]
-fn they_do_with_bicycles_among_them() {
+fn they_do_with_bicycles_and_vans_among_them() {
     let net = grid_city(4, 4, 80.0, 2).build().unwrap();
-    let mixed = |index: usize, car: TrafficCar| {
-        if index.is_multiple_of(4) { car.size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0) } else { car }
+    let mixed = |index: usize, car: TrafficCar| match index % 4 {
+        0 => car.size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0),
+        1 => car.size(7.0, 2.3).desired_speed(11.0),
+        _ => car,
     };
     let way = drive_on(&mut scattered(&net, 60, 6, mixed), 600.0, 60.0);
     assert!(way > 2000.0, "{way} m a car in 10 minutes");

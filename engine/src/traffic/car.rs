@@ -97,7 +97,8 @@ impl TrafficCar {
         self
     }
 
-    /// Its length and width in metres.
+    /// Its length and width in metres. What is larger than a van of 7 m by 2.3 m swings out too far for the lane beside
+    /// it where it turns at an intersection: its middle keeps to the lane there, and its rear does not cut the corner.
     pub fn size(mut self, length: f64, width: f64) -> Self {
         self.length = length;
         self.width = width;

@@ -211,7 +211,8 @@ impl Traffic {
     }
 
     /// Makes a car begin a lane change that takes so many seconds, whoever is there. Whether it does: there is a lane,
-    /// the car is on a road, and it is not changing lanes already. A car with a route changes back when that asks for it.
+    /// the car is on a road, and it is not changing lanes already. A car with a route changes back when that asks for
+    /// it.
     ///
     /// # Panics
     /// There is no car with this index, or the duration is not positive.
