@@ -7,6 +7,9 @@
 //! they do, their indices decide. A step costs time in proportion to the number of cars, and allocates nothing but
 //! where a car has to find another way.
 //!
+//! Cars of up to 7 m by 2.3 m never touch one another. None waits for ever, unless the roads around a block are so full
+//! of cars that are to go round it that none of them has room to begin.
+//!
 //! ```
 //! use paracosm_engine::road::grid_city;
 //! use paracosm_engine::traffic::{Traffic, TrafficCar};
