@@ -221,7 +221,7 @@ fn traffic(bencher: Bencher, cars: usize) {
     const DT: f64 = 0.02;
     let city = grid_city(20, 20, 80.0, 4).build().unwrap();
     let scattered = TrafficCar::scattered(&city, cars, 1).into_iter().enumerate();
-    let scattered = scattered.map(|(i, car)| if i % 2 == 0 { car.changing_lanes() } else { car }).collect();
+    let scattered = scattered.map(|(i, car)| if i.is_multiple_of(2) { car.changing_lanes() } else { car }).collect();
     let mut traffic = Traffic::new(city, scattered, 1).unwrap();
     // From standstill to the usual.
     (0..STEPS).for_each(|_| traffic.step(DT, &[]));

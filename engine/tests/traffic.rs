@@ -226,10 +226,12 @@ fn they_do_where_the_streets_are_half_full() {
 }
 
 #[test]
-fn they_do_with_bicycles_among_them() {
+fn they_do_with_bicycles_and_vans_among_them() {
     let net = grid_city(4, 4, 80.0, 2).build().unwrap();
-    let mixed = |index: usize, car: TrafficCar| {
-        if index % 4 == 0 { car.size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0) } else { car }
+    let mixed = |index: usize, car: TrafficCar| match index % 4 {
+        0 => car.size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0),
+        1 => car.size(7.0, 2.3).desired_speed(11.0),
+        _ => car,
     };
     let way = drive_on(&mut scattered(&net, 60, 6, mixed), 600.0, 60.0);
     assert!(way > 2000.0, "{way} m a car in 10 minutes");
@@ -267,6 +269,39 @@ proptest! {
             traffic.step(DT, &[]);
             if tick % 5 == 0 {
                 prop_assert_eq!(collision(&traffic), None, "after {} s", tick as f64 * DT);
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_choice_of_parameters_makes_a_car_run_into_the_one_ahead(
+        drivers in prop::collection::vec(
+            (0.3..4.0, 0.5..5.0, 0.1..3.0, 0.6..5.0, 1.0..8.0, 2.0..12.0, 5.0..40.0), 6,
+        ),
+        leader in prop::collection::vec(0.0..35.0_f64, 6),
+        dt in 0.01..0.1_f64,
+    ) {
+        let net = RoadSegment::new(20_000.0).named("road").build().unwrap();
+        let cars = drivers.iter().enumerate().map(|(i, &(acceleration, deceleration, headway, gap, exponent, length, desired))| {
+            let idm = Idm { acceleration, deceleration, headway, gap, exponent };
+            TrafficCar::at(place(&net, "road", 1, 500.0 - 15.0 * i as f64)).idm(idm).size(length, 1.8).desired_speed(desired)
+        });
+        let mut traffic = Traffic::new(net.clone(), cars.collect(), 0).unwrap();
+        for wanted in leader {
+            for _ in 0..(10.0 / dt) as usize {
+                // The leader does what a car can: 3 m/s² up, 8 m/s² down.
+                let now = traffic.car(0).speed;
+                traffic.set_speed(0, Some(wanted.clamp((now - 8.0 * dt).max(0.0), now + 3.0 * dt)));
+                traffic.step(dt, &[]);
+                let cars: Vec<CarState> = traffic.cars().collect();
+                for pair in cars.windows(2) {
+                    let gap = pair[0].s - pair[1].s - 0.5 * (pair[0].length + pair[1].length);
+                    prop_assert!(gap > 0.0, "{} m", gap);
+                }
             }
         }
     }
@@ -471,6 +506,29 @@ fn a_car_lets_the_car_under_test_cross_before_it() {
 }
 
 #[test]
+fn a_car_on_the_main_road_does_not_brake_for_the_car_under_test_until_that_is_in_its_way() {
+    let net = tee();
+    let across = route(&net, place(&net, "west", -1, 50.0), place(&net, "east", 1, 95.0));
+    // From the side road at 8 m/s, up to the line in time with the car on the main road, and not beyond, or beyond.
+    let least = |line: f64| {
+        let cars = vec![TrafficCar::following(&across).speed(8.0).desired_speed(8.0)];
+        let mut traffic = Traffic::new(net.clone(), cars, 0).unwrap();
+        let (mut y, mut least, mut speed) = (-50.0, f64::INFINITY, 8.0_f64);
+        for _ in 0..ticks(12.0) {
+            let braking = (2.0 * 4.0 * (line - y - 2.25_f64).max(0.0)).sqrt();
+            speed = speed.min(braking);
+            y += speed * DT;
+            let pose = Pose { position: Vector2::new(1.75, y), heading: FRAC_PI_2 };
+            traffic.step(DT, &[Obstacle { pose, length: 4.5, width: 1.6, velocity: Vector2::new(0.0, speed) }]);
+            least = least.min(traffic.car(0).speed);
+        }
+        least
+    };
+    assert!(least(-10.0) > 7.5, "{} m/s: it waits", least(-10.0));
+    assert!(least(-1.5) < 2.0, "{} m/s: it stands in the way", least(-1.5));
+}
+
+#[test]
 fn a_commanded_lane_change_takes_its_time_and_ends_in_the_middle_of_the_lane() {
     let net = road(500.0);
     let car = TrafficCar::at(place(&net, "road", 1, 20.0)).speed(12.0).desired_speed(12.0);
@@ -573,6 +631,43 @@ fn who_may_change_lanes_overtakes() {
 }
 
 #[test]
+fn lorries_and_fast_cars_share_a_motorway() {
+    // Two roads, so that lane changes reach over their joint.
+    let half = |name: &str| RoadSegment::new(3000.0).lanes(6).lane_width(3.75).sidewalk(0.0).named(name);
+    let net = half("first").connect("two", half("second"), "one").build().unwrap();
+    let cars = (0..90).map(|i| {
+        let car = TrafficCar::at(place(&net, "first", 1 + i % 3, 20.0 + 25.0 * f64::from(i / 3))).changing_lanes();
+        match i % 5 {
+            0 => car.size(12.0, 2.5).desired_speed(22.0).speed(20.0),
+            _ => car.desired_speed(26.0 + f64::from(i % 7) * 2.0).speed(20.0),
+        }
+    });
+    let mut traffic = Traffic::new(net.clone(), cars.collect(), 0).unwrap();
+    let rank = |traffic: &Traffic| {
+        let mut order: Vec<usize> = (0..90).collect();
+        order.sort_by(|a, b| traffic.car(*a).travelled.total_cmp(&traffic.car(*b).travelled));
+        order
+    };
+    run(&mut traffic, 10.0, &[]);
+    let (before, mut changes) = (rank(&traffic), 0);
+    for tick in 0..ticks(120.0) {
+        let lanes: Vec<_> = traffic.cars().map(|car| net.lane(car.lane).number).collect();
+        traffic.step(DT, &[]);
+        changes += traffic.cars().zip(lanes).filter(|(car, lane)| net.lane(car.lane).number != *lane).count();
+        if tick % 5 == 0 {
+            assert_eq!(collision(&traffic), None);
+        }
+    }
+    assert!(changes > 30, "{changes} lane changes");
+    assert_ne!(before, rank(&traffic));
+    let faster = |fast: bool| {
+        let cars = (0..90).filter(|i| (i % 5 != 0) == fast).map(|i| traffic.car(i).travelled);
+        cars.clone().sum::<f64>() / cars.count() as f64
+    };
+    assert!(faster(true) > faster(false) + 200.0, "cars come past lorries: {} m, {} m", faster(true), faster(false));
+}
+
+#[test]
 fn a_given_speed_is_kept_unless_something_is_in_the_way() {
     let net = road(500.0);
     let cars = [80.0, 20.0].map(|s| TrafficCar::at(place(&net, "road", 1, s)));
@@ -665,6 +760,6 @@ fn cars_that_cannot_be_are_refused_by_their_indices() {
     let way = Route { lanes: lanes.to_vec(), start: 10.0, end: 20.0, length: 0.0, changes: 0 };
     assert_eq!(
         refusal(TrafficCar::following(&way)),
-        "the route of car 1 leads from lane 0 to lane 2, which neither follows it nor lies beside it on a road"
+        "the route of car 1 leads from lane 0 to lane 2, neither its successor nor beside it on a road"
     );
 }

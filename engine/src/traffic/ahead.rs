@@ -1,8 +1,8 @@
 //! What lies ahead of a car, and how fast that lets it drive.
 //!
 //! A car looks along its path: at the body that is next on it, at those that have turned off but still stick out into
-//! it, at those that have the right to cross it or to join it first, at bends, and at the next line where it needs leave
-//! to drive on. Each alone gives an acceleration by the model and a safe speed; the least holds.
+//! it, at those that have the right to cross it or to join it first, at bends, and at the next line where it needs
+//! leave to drive on. Each alone gives an acceleration by the model and a safe speed; the least holds.
 
 use super::idm::safe_speed;
 use super::junction::Lists;

@@ -58,12 +58,18 @@ impl TrafficCar {
     }
 
     /// A car that drives along a route, from its start to its end, where it stays.
+    ///
+    /// # Panics
+    /// The route has no lanes.
     pub fn following(route: &Route) -> Self {
         let start = Place { lane: route.lanes[0], s: route.start };
         Self { way: Way::Follow(route.lanes.clone(), route.end), ..Self::at(start) }
     }
 
     /// A car that drives along a route again and again: its first lane follows its last one, or is the same.
+    ///
+    /// # Panics
+    /// The route has no lanes.
     pub fn circling(route: &Route) -> Self {
         let mut lanes = route.lanes.clone();
         if lanes.len() > 1 && lanes.last() == lanes.first() {
@@ -96,7 +102,8 @@ impl TrafficCar {
         self
     }
 
-    /// Its length and width in metres.
+    /// Its length and width in metres. What is larger than a van of 7 m by 2.3 m swings out too far for the lane beside
+    /// it where it turns at an intersection: its middle keeps to the lane there, and its rear does not cut the corner.
     pub fn size(mut self, length: f64, width: f64) -> Self {
         self.length = length;
         self.width = width;
@@ -241,15 +248,14 @@ pub(super) enum Itinerary {
 impl Itinerary {
     /// The itinerary of a car after its first lane, and where along its last lane it ends.
     pub fn of(car: &TrafficCar, index: usize, seed: u64) -> (Self, f64) {
-        let lanes =
-            |lanes: &Vec<LaneId>, circular| Self::Lanes { lanes: lanes.clone(), next: 1 % lanes.len(), circular };
         match &car.way {
             Way::Wander => (Self::Wander(Pcg64::new(u128::from(seed), index as u128), 0), f64::INFINITY),
-            Way::Follow(way, end) => {
-                let itinerary = Self::Lanes { lanes: way.clone(), next: 1, circular: false };
-                (itinerary, *end)
+            Way::Follow(way, end) => (Self::Lanes { lanes: way.clone(), next: 1, circular: false }, *end),
+            Way::Circle(way) => {
+                // After a lane that leads to itself comes that lane.
+                let next = 1 % way.len();
+                (Self::Lanes { lanes: way.clone(), next, circular: true }, f64::INFINITY)
             }
-            Way::Circle(way) => (lanes(way, true), f64::INFINITY),
         }
     }
 

@@ -33,16 +33,12 @@ const OVERTAKING: f64 = 350.0;
 const GIVEN_UP: f64 = 5.0;
 
 impl Car {
-    /// Begins a lane change: it belongs to the other lane from now on.
+    /// Begins a lane change, while there is none: the car belongs to the other lane from now on.
     pub fn begin_change(&mut self, side: Side, to: LaneId, duration: f64, map: &Map) {
-        let (lane, offset) = (self.lane, self.offset().0);
+        let lane = self.lane;
         let apart = 0.5 * (map.network.lane(lane).width + map.network.lane(to).width);
-        let aside = if side == Side::Left { -apart } else { apart };
-        let keeps = {
-            self.change = None;
-            self.offset().0
-        };
-        self.change = Some(Change { side, from: Some(lane), start: offset - keeps + aside, progress: 0.0, duration });
+        let start = if side == Side::Left { -apart } else { apart };
+        self.change = Some(Change { side, from: Some(lane), start, progress: 0.0, duration });
         self.s = map.across(self.s, lane, to);
         self.lane = to;
         // Leave to pass a line goes with the path.
@@ -163,14 +159,16 @@ impl View<'_> {
 }
 
 impl Car {
-    /// Finds another way where the car has waited too long for the lane change that its route asks for: on to the end of
-    /// its lane, and from there to the end of its route, or to the lane that it could not get to where that has no end.
+    /// Finds another way where the car has waited too long for the lane change that its route asks for: on to the end
+    /// of its lane, and from there to the end of its route, or to the lane that it could not get to where that has no
+    /// end.
     pub fn give_up_change(&mut self, dt: f64, map: &Map) {
-        let due = self.path.get(1).copied().filter(|next| map.beside(self.lane, *next));
-        let Some(due) = due.filter(|_| self.speed < 0.1 && self.change.is_none()) else {
+        if self.speed > 0.1 || self.change.is_some() {
             self.stuck = 0.0;
             return;
-        };
+        }
+        let due = self.path.get(1).copied().filter(|next| map.beside(self.lane, *next));
+        let Some(due) = due else { return };
         self.stuck += dt;
         if self.stuck < GIVEN_UP {
             return;

@@ -31,7 +31,7 @@ pub enum TrafficError {
     },
     /// A route with two lanes of which the second neither follows the first nor lies beside it on a road.
     #[error(
-        "the route of car {car} leads from lane {from} to lane {to}, which neither follows it nor lies beside it on a road"
+        "the route of car {car} leads from lane {from} to lane {to}, neither its successor nor beside it on a road"
     )]
     Route {
         /// Its index.

@@ -52,9 +52,9 @@ impl Idm {
     }
 }
 
-/// The greatest speed after a step of `dt` at which one does not run into what is `gap` metres ahead, should it brake as
-/// hard as it can, and oneself from the next step on: with v' that speed and V its own,
-/// v'² / 2B + (v + v') dt / 2 = gap + V² / 2B (after Gipps 1981).
+/// The greatest speed after a step of `dt` at which one does not run into what is `gap` metres ahead, should it brake
+/// as hard as it can, and oneself from the next step on (after Gipps 1981). With v' that speed and V its own,
+/// v'² / 2B + (v + v') dt / 2 = gap + V² / 2B.
 pub(super) fn safe_speed(speed: f64, gap: f64, ahead: f64, dt: f64) -> f64 {
     let ahead = ahead.max(0.0);
     let half = 0.5 * HARDEST * dt;

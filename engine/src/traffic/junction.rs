@@ -7,15 +7,15 @@
 //! 3. nobody asks whom it has to let go first,
 //!
 //! and loses it again if, while it can still stop, the first ceases to hold. Claims are numbered as they are given, and
-//! on the way a car stops before whatever zone an earlier one has not left yet: cars wait for earlier ones only, so that
-//! no circle of them waits for itself. The rule of the road decides among those who ask. Where four cars each have
+//! on the way a car stops before whatever zone an earlier one has not left yet: cars wait for earlier ones only, so
+//! that no circle of them waits for itself. The rule of the road decides among those who ask. Where four cars each have
 //! another at their right, or the main road is never free, it would not do: who has asked for [`PATIENCE`] seconds goes
 //! before all who have not, in the order in which they began to ask, by their indices at last.
 //!
 //! In a roundabout with one lane around it a car may wait between two arms, and claims the way from one to the next; it
-//! goes round whether or not there is room, for there always is while only those enter who have some, and so nobody counts
-//! on its being away soon. Where there are more lanes around it cars would wait in each other's way: there the whole way
-//! through is claimed at once.
+//! goes round whether or not there is room, for there always is while only those enter who have some, and so nobody
+//! counts on its being away soon. Where there are more lanes around it cars would wait in each other's way: there the
+//! whole way through is claimed at once.
 //!
 //! That is the reservation of tiles of Dresner and Stone (2008), without an agent at the intersection.
 

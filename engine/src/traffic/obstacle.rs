@@ -1,10 +1,11 @@
 //! Bodies that are no part of the traffic, seen from its lanes.
 //!
-//! A body is on a lane where its rectangle reaches into the strip that cars need; that goes on being so for as long as it
-//! needs to get there when it moves towards it, and somebody who is about to walk over a zebra crossing is on the whole
-//! of it. Predictions are along straight lines, measured across the lane, so that who follows a bend beside it comes no
-//! nearer.
+//! A body is on a lane where its rectangle reaches into the strip that cars need; that goes on being so for as long as
+//! it needs to get there when it moves towards it, and somebody who is about to walk over a zebra crossing is on the
+//! whole of it. Predictions are along straight lines, measured across the lane, so that who follows a bend beside it
+//! comes no nearer. A vehicle that has to give way is expected to, until it all but is in the way.
 
+use super::map::Map;
 use super::occupancy::{Body, Who};
 use crate::road::{Bounds, Crossing, LaneId, Network};
 use crate::scenario::Pose;
@@ -24,7 +25,11 @@ pub struct Obstacle {
 }
 
 /// Seconds ahead that a body is looked at.
-pub(super) const FORESEEN: f64 = 4.0;
+const FORESEEN: f64 = 4.0;
+/// The same of a vehicle that has to give way: it no longer does.
+const CANNOT_WAIT: f64 = 0.5;
+/// The cosine of the angle up to which a vehicle drives along a lane.
+const ALONG: f64 = 0.7;
 /// Metres on either side of a lane's middle that have to be clear for a car to pass, beyond its own half width.
 const CLEARANCE: f64 = 0.3;
 /// Somebody who will step onto a zebra crossing in fewer seconds is let go.
@@ -46,29 +51,53 @@ fn extents(obstacle: &Obstacle, heading: f64) -> (f64, f64) {
     (length * cos + width * sin, length * sin + width * cos)
 }
 
-/// Adds the bodies that an obstacle is on the lanes of a network, for cars up to `half_width`. `lanes` and `open` are
-/// memory that is used again.
-pub(super) fn place(
-    obstacle: &Obstacle,
-    network: &Network,
-    half_width: f64,
-    (lanes, open): (&mut Vec<LaneId>, &mut Vec<usize>),
-    bodies: &mut Vec<Body>,
-) {
+/// Memory for what is near an obstacle, used again and again.
+#[derive(Debug, Default)]
+pub(super) struct Near {
+    lanes: Vec<LaneId>,
+    open: Vec<usize>,
+    /// The lanes that it drives along, and those that follow.
+    own: Vec<LaneId>,
+}
+
+/// Adds the bodies that an obstacle is on the lanes of a network, for cars up to `half_width`.
+pub(super) fn place(obstacle: &Obstacle, map: &Map, half_width: f64, near: &mut Near, bodies: &mut Vec<Body>) {
     let from = obstacle.pose.position;
     let to = from + obstacle.velocity * FORESEEN;
     let around = 0.5 * (obstacle.length + obstacle.width) + half_width + CLEARANCE;
     let bounds = Bounds { min: from.inf(&to).add_scalar(-around), max: from.sup(&to).add_scalar(around) };
+    let Near { lanes, open, own } = near;
     lanes.clear();
-    network.lanes_near(&bounds, open, |lane| lanes.push(lane));
+    map.network.lanes_near(&bounds, open, |lane| lanes.push(lane));
     lanes.sort_unstable();
-    bodies.extend(lanes.iter().filter_map(|lane| on_lane(obstacle, network, *lane, half_width + CLEARANCE)));
-    for crossing in network.crossings() {
-        on_crossing(obstacle, crossing, network, bodies);
+    own.clear();
+    if obstacle.length > LONGEST_PEDESTRIAN {
+        for lane in lanes.iter().filter(|lane| drives_along(obstacle, &map.network, **lane)) {
+            own.push(*lane);
+            own.extend(&map.network.lane(*lane).successors);
+        }
+    }
+    for lane in &*lanes {
+        let mut rivals = map.rivals(*lane).iter().filter(|rival| own.contains(&rival.lane)).peekable();
+        let waits = rivals.peek().is_some() && rivals.all(|rival| rival.given_way && !rival.gives_way);
+        let foreseen = if waits { CANNOT_WAIT } else { FORESEEN };
+        bodies.extend(on_lane(obstacle, &map.network, *lane, half_width + CLEARANCE, foreseen));
+    }
+    for crossing in map.network.crossings() {
+        on_crossing(obstacle, crossing, &map.network, bodies);
     }
 }
 
-fn on_lane(obstacle: &Obstacle, network: &Network, lane: LaneId, clear: f64) -> Option<Body> {
+/// Whether it faces along a lane and has its middle on it.
+fn drives_along(obstacle: &Obstacle, network: &Network, lane: LaneId) -> bool {
+    let lane = network.lane(lane);
+    let at = lane.curve.at(lane.curve.nearest(obstacle.pose.position));
+    let local = at.to_local(obstacle.pose.position);
+    let along = at.forward().dot(&obstacle.pose.forward());
+    along > ALONG && local.x.abs() < 0.5 * obstacle.length && local.y.abs() < 0.5 * lane.width
+}
+
+fn on_lane(obstacle: &Obstacle, network: &Network, lane: LaneId, clear: f64, foreseen: f64) -> Option<Body> {
     let curve = &network.lane(lane).curve;
     let nearest = curve.nearest(obstacle.pose.position);
     let at = curve.at(nearest);
@@ -86,7 +115,7 @@ fn on_lane(obstacle: &Obstacle, network: &Network, lane: LaneId, clear: f64) -> 
     };
     let middle = nearest + local.x + along_speed * soon;
     let (rear, front) = (middle - along, middle + along);
-    (soon <= FORESEEN && front > 0.0 && rear < curve.length()).then_some(Body {
+    (soon <= foreseen && front > 0.0 && rear < curve.length()).then_some(Body {
         lane,
         rear,
         front,

@@ -132,8 +132,8 @@ impl Car {
             let changed = self.path.get(pair + 1).is_some_and(|next| map.beside(self.path[pair], *next));
             ahead += if changed { 0.0 } else { map.length(self.path[pair]) };
         }
-        // More than the horizon, so that this is not to be done at every tick, and as far as a road, so that it is known
-        // where an intersection is left.
+        // More than the horizon, so that this is not to be done at every tick, and as far as a road, so that it is
+        // known where an intersection is left.
         let enough = self.horizon() + 50.0;
         while !self.complete {
             let last = self.path[self.path.len() - 1];
