@@ -195,6 +195,23 @@ impl Geometric for Driving {
         }
     }
 
+    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
+        if let Some(car) = self.told.borrow().missing.first() {
+            return Err(format!("there is no car {car} in the traffic of {}", self.traffic.cars().len()));
+        }
+        for (car, order) in &self.told.borrow().orders {
+            if let Order::Speed(input) = order
+                && tick.get(input).is_some()
+            {
+                self.traffic.begin_at(*car, tick.speed(input)?);
+            }
+        }
+        for (velocity, car) in velocities.iter_mut().zip(self.traffic.cars()) {
+            *velocity = car.pose.forward() * car.speed;
+        }
+        Ok(())
+    }
+
     fn show(&self, outputs: &mut Outputs<'_>) {
         for (car, shown) in &self.told.borrow().shown {
             let state = self.traffic.car(*car);
@@ -206,9 +223,6 @@ impl Geometric for Driving {
     }
 
     fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {
-        if let Some(car) = self.told.borrow().missing.first() {
-            return Err(format!("there is no car {car} in the traffic of {}", self.traffic.cars().len()));
-        }
         self.obey(tick)?;
         // What stands beside the roads is nothing to stop for.
         let in_the_way = |class| !matches!(class, Class::Building | Class::Tree | Class::Sign);

@@ -197,6 +197,12 @@ impl Geometric for Moving {
         poses[0] = Some(self.pose);
     }
 
+    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
+        self.speed = tick.speed(&self.speed_input)?;
+        velocities[0] = self.pose.forward() * self.speed;
+        Ok(())
+    }
+
     fn show(&self, outputs: &mut Outputs<'_>) {
         outputs.set(&self.shown.position, self.pose.position);
         outputs.set(&self.shown.x, self.pose.position.x);

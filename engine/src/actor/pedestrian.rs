@@ -139,6 +139,13 @@ impl Geometric for Walking {
         poses[0] = Some(self.pose);
     }
 
+    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
+        let way = self.target.get().map_or(Vector2::zeros(), |target| target - self.pose.position);
+        self.velocity = way.try_normalize(0.0).unwrap_or_default() * tick.speed(&self.input)?;
+        velocities[0] = self.velocity;
+        Ok(())
+    }
+
     fn show(&self, outputs: &mut Outputs<'_>) {
         outputs.set(&self.position, self.pose.position);
         outputs.set(&self.x, self.pose.position.x);

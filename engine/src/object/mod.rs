@@ -80,6 +80,16 @@ pub trait Geometric: 'static {
     /// Writes where its bodies are, in the order in which they were declared; `None` for one that has left the world.
     fn poses(&self, poses: &mut [Option<Pose>]);
 
+    /// Says how its bodies move as the run begins, in m/s over the ground, in the order in which they were declared: at
+    /// rest where it does not. Its inputs are those of the first tick.
+    ///
+    /// # Errors
+    /// As of [`Geometric::step`].
+    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
+        let _ = (tick, velocities);
+        Ok(())
+    }
+
     /// Shows its outputs as they stand at the beginning of a tick. An output that is not shown is absent.
     fn show(&self, outputs: &mut Outputs<'_>) {
         let _ = outputs;

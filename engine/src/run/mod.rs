@@ -67,8 +67,8 @@ pub struct Run {
     row: Vec<f64>,
     trace: Trace,
     observation: Observation,
-    /// What two bodies that overlap at the start are called.
-    overlapping: Option<String>,
+    /// What there is to say of a run that cannot begin.
+    unable: Option<Outcome>,
 }
 
 impl Run {
@@ -100,7 +100,12 @@ impl Run {
             requirements.push(stated.requirement);
         }
         let ticks = ticks(scenario.duration, dt);
-        let scene = Scene::new(scenario, &graph, setup.model);
+        let beginning = scenario.beginning();
+        let mut scene = Scene::new(scenario, &graph, setup.model);
+        let begun = scene.begin(beginning, Clock { tick: 0, ticks });
+        let overlap =
+            scene.overlapping().map(|names| Outcome::broken(Verdict::Invalid, format!("{names} overlap at the start")));
+        let fault = begun.err().map(|message| Outcome::broken(Verdict::Error, format!("{message} at 0.000 s")));
         let mut trace = Trace::new(dt, names);
         trace.reserve(ticks + 1);
         Ok(Self {
@@ -117,7 +122,7 @@ impl Run {
             columns,
             trace,
             observation: Observation::default(),
-            overlapping: scene.overlapping(),
+            unable: overlap.or(fault),
             scene,
         })
     }
@@ -133,9 +138,8 @@ impl Run {
     /// It was over already.
     pub fn advance(&mut self) -> Step<'_> {
         assert!(self.tick <= self.ticks, "the run is over");
-        if let Some(names) = &self.overlapping {
-            let message = format!("{names} overlap at the start");
-            return self.end(Outcome::broken(Verdict::Invalid, message));
+        if let Some(outcome) = self.unable.take() {
+            return self.end(outcome);
         }
         loop {
             if !self.supplied {

@@ -1,10 +1,10 @@
 //! All that is in a world, as it moves from tick to tick.
 
 use crate::actor::Ego;
-use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick};
+use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
 use crate::road::Network;
 use crate::scenario::{Pose, Scenario};
-use crate::stream::{Graph, Sample, Slot};
+use crate::stream::{Clock, Graph, Sample, Slot};
 use crate::vehicle::{GRAVITY, Model};
 use crate::world::{Contact, World, overlapping};
 use nalgebra::Vector2;
@@ -29,6 +29,7 @@ pub(super) struct Scene {
     pub bodies: Vec<BodyState>,
     /// What the objects show at this tick.
     pub outputs: Vec<Sample>,
+    wiring: Wiring,
     /// Where the values of their inputs stand.
     inputs: Vec<Slot>,
     friction: Slot,
@@ -42,6 +43,7 @@ pub(super) struct Scene {
     /// Where all bodies are at the end of a tick.
     next: Vec<BodyState>,
     pushes: Vec<Vector2<f64>>,
+    velocities: Vec<Vector2<f64>>,
 }
 
 impl Scene {
@@ -69,13 +71,37 @@ impl Scene {
             network,
             inputs: scenario.wiring.slots(graph),
             outputs: vec![Sample::Absent; scenario.wiring.samples()],
+            wiring: scenario.wiring,
             friction: graph.slot(&scenario.conditions.friction.node),
             next: bodies.clone(),
             poses: Vec::with_capacity(objects.iter().map(|object| object.own.1 - object.own.0).max().unwrap_or(0)),
             pushes: Vec::with_capacity(masses.len()),
+            velocities: Vec::new(),
             bodies,
             objects,
         }
+    }
+
+    /// Lets all objects say how they move as the run begins, by their inputs at the first tick: of `graph`, a copy of the
+    /// run's that is used for nothing else.
+    pub fn begin(&mut self, mut graph: Graph, clock: Clock) -> Result<(), String> {
+        self.show();
+        graph.tick(clock, &self.outputs);
+        let inputs = self.wiring.slots(&graph);
+        for object in &mut self.objects {
+            let (first, end) = object.own;
+            let tick = Tick { dt: f64::NAN, graph: &graph, inputs: &inputs, bodies: &self.bodies, own: object.own };
+            if let Behaviour::Geometric(behaviour) = &mut object.behaviour {
+                self.velocities.clear();
+                self.velocities.resize(end - first, Vector2::zeros());
+                behaviour.begin(&tick, &mut self.velocities)?;
+                for (state, velocity) in self.next[first..end].iter_mut().zip(&self.velocities) {
+                    state.velocity = *velocity;
+                }
+            }
+        }
+        self.bodies.copy_from_slice(&self.next);
+        Ok(())
     }
 
     /// What two bodies that overlap are called: for a world that cannot begin.

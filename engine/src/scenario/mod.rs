@@ -271,6 +271,15 @@ impl Scenario {
         }
     }
 
+    /// The streams that inputs are bound to, laid out once more. They have been laid out.
+    pub(crate) fn beginning(&self) -> Graph {
+        let equations = self.equations.borrow();
+        let definitions = equations.iter().filter_map(|equation| equation.definition.as_ref());
+        let readers = self.wiring.readers();
+        let graph = Graph::new(readers.iter().map(|(_, node)| node).chain(definitions), &equations);
+        graph.expect("what has been laid out can be laid out again")
+    }
+
     /// The streams in the language of Graphviz. They have been laid out.
     pub(crate) fn dot(&self, title: &str) -> String {
         dot(title, &self.readers(), &self.equations.borrow()).expect("what has been laid out can be drawn")

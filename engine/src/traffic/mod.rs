@@ -204,6 +204,15 @@ impl Traffic {
         self.cars[index].given = speed;
     }
 
+    /// Lets a car go at this speed in m/s right away: for the beginning.
+    ///
+    /// # Panics
+    /// There is no car with this index, or the speed is no number from 0 on.
+    pub fn begin_at(&mut self, index: usize, speed: f64) {
+        assert!(speed >= 0.0 && speed.is_finite(), "car {index} is to begin at {speed} m/s");
+        self.cars[index].speed = speed;
+    }
+
     /// Sets the speed that a car wants to drive at, in m/s.
     ///
     /// # Panics
