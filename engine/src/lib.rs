@@ -33,6 +33,7 @@ pub mod driver;
 pub mod object;
 mod observation;
 mod outcome;
+pub mod picture;
 mod program;
 pub mod road;
 mod run;
@@ -47,7 +48,7 @@ pub use outcome::{Metric, Outcome};
 pub use paracosm_coverage::Shape;
 pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use road::RoadSegment;
-pub use run::{DEFAULT_DT, Run, Step, simulate};
+pub use run::{DEFAULT_DT, Run, Step, simulate, watch};
 pub use scenario::{
     Conditions, Draft, Environment, Line, Param, Paved, Place, Pose, Road, Scenario, Side, Streets, Temporal, always,
     eventually, never,

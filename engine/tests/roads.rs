@@ -1,9 +1,10 @@
 //! Road networks as programs build them: what is connected to what, what is refused, and the way over the lanes.
 
 use nalgebra::Vector2;
+use paracosm_engine::picture::RoadPicture;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, LaneKind, Network, Place, RoadError, RoadPicture, RoadSegment, Roundabout, Strip,
-    Surface, TIntersection, grid_city,
+    Composite, CrossIntersection, LaneKind, Network, Place, RoadError, RoadSegment, Roundabout, Strip, Surface,
+    TIntersection, grid_city,
 };
 use paracosm_engine::{Pose, Side};
 use std::f64::consts::{FRAC_PI_2, PI};

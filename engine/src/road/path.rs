@@ -45,6 +45,22 @@ impl Path {
         self.length
     }
 
+    /// The curves that it consists of.
+    pub fn curves(&self) -> impl ExactSizeIterator<Item = &Curve> {
+        self.pieces.iter().map(|(_, curve)| curve)
+    }
+
+    /// What is left of it from `s` metres along it on; nothing but its end from there on.
+    pub fn rest(&self, s: f64) -> Self {
+        let s = s.min(self.length);
+        let last = self.pieces.len() - 1;
+        let piece = |(i, (from, curve)): (usize, &(f64, Curve))| {
+            let ends_before = from + curve.length() <= s && i < last;
+            (!ends_before).then(|| curve.piece((s - from).max(0.0), curve.length()))
+        };
+        Self::new(self.pieces.iter().enumerate().filter_map(piece))
+    }
+
     /// The pose `s` metres along it; before its start and beyond its end it goes on as it is.
     pub fn at(&self, s: f64) -> Pose {
         self.beside(s, 0.0)

@@ -1,0 +1,115 @@
+//! A world as it begins: roads, bodies, and the ways that are planned.
+
+use super::body::{UNDER_TEST, body, class_colour, is_actor};
+use super::drawing::{Contour, Drawing, Mark, Paint};
+use super::ground::{directions, ground, seen_from};
+use super::legend::{Entry, PLAN_DASH, entries, legend};
+use super::view::View;
+use crate::object::BodyState;
+use crate::road::{Bounds, Path};
+use crate::run::Run;
+use nalgebra::Vector2;
+
+/// Width of a picture in pixels.
+const WIDTH: f64 = 1200.0;
+/// Metres around what has to be seen.
+const MARGIN: f64 = 10.0;
+/// The widest ground in metres that is shown for the sake of planned ways alone.
+const WIDEST: f64 = 240.0;
+/// How many metres of a planned way are shown: the first of these that does not make the picture too wide.
+const REACHES: [f64; 6] = [f64::INFINITY, 320.0, 160.0, 80.0, 40.0, 0.0];
+/// Metres between two points of a planned way.
+const STEP: f64 = 1.0;
+/// How faint a planned way is.
+const FAINT: f64 = 0.9;
+
+/// The world of a run from above, as it stands now.
+pub fn world(run: &Run, caption: &str) -> Drawing {
+    let bodies = run.bodies();
+    let plans = run.plans();
+    let view = View::fit(&around(bodies, &plans), WIDTH);
+    let mut marks = ground(&view, run.network());
+    marks.push(directions(&view, run.network()));
+    let mut shown: Vec<usize> = Vec::new();
+    for (index, path) in &plans {
+        if bodies.get(*index).is_some_and(|state| view.shows(state.pose.position, 0.0)) {
+            shown.push(*index);
+            marks.extend(plan(&view, path, Paint { colour: class_colour(bodies[*index].body.class), opacity: FAINT }));
+        }
+    }
+    marks.push(heading(&view, &bodies[0]));
+    let seen = bodies.iter().enumerate().filter(|(_, state)| {
+        let reach = state.body.outline.reach().max(state.body.height);
+        view.shows(state.pose.position, reach)
+    });
+    let seen: Vec<usize> = seen.map(|(i, _)| i).collect();
+    for &i in &seen {
+        let colour = if i == 0 { UNDER_TEST } else { class_colour(bodies[i].body.class) };
+        marks.extend(body(&view, &bodies[i].body, &bodies[i].pose, colour, 1.0));
+    }
+    let mut entries = entries(seen.iter().map(|i| &bodies[*i].body));
+    if !shown.is_empty() {
+        entries.push(Entry::Plan);
+    }
+    framed(&view, vec![marks], &entries, caption)
+}
+
+/// Pictures of one size below each other, and the legend.
+pub(super) fn framed(view: &View, panels: Vec<Vec<Mark>>, entries: &[Entry], caption: &str) -> Drawing {
+    const GAP: f64 = 4.0;
+    let [width, height] = view.size();
+    let mut marks = Vec::new();
+    let mut y = 0.0;
+    for panel in panels {
+        marks.push(Mark::Inset { at: [0.0, y], drawing: Drawing { width, height, marks: panel } });
+        y += height + GAP;
+    }
+    let legend = legend(width, view.scale, entries, caption);
+    y -= GAP;
+    let total = y + legend.height;
+    marks.push(Mark::Inset { at: [0.0, y], drawing: legend });
+    Drawing { width, height: total, marks }
+}
+
+/// Where the actors are and go.
+fn around(bodies: &[BodyState], plans: &[(usize, Path)]) -> Bounds {
+    let actors = bodies.iter().enumerate().filter(|(i, state)| *i == 0 || is_actor(state.body.class));
+    let standing = Bounds::around(actors.map(|(_, state)| state.pose.position)).grown(MARGIN);
+    let reaching = |reach: f64| {
+        let points = plans.iter().flat_map(|(_, path)| points(path, path.length().min(reach)));
+        standing.union(&Bounds::around(points).grown(MARGIN))
+    };
+    let fitting = REACHES.iter().map(|reach| reaching(*reach)).find(|bounds| (bounds.max - bounds.min).max() <= WIDEST);
+    fitting.unwrap_or(standing)
+}
+
+/// Points along the beginning of a path, of this length.
+fn points(path: &Path, length: f64) -> impl Iterator<Item = Vector2<f64>> {
+    let count = (length / STEP).ceil().clamp(1.0, 10_000.0) as usize;
+    (0..=count).map(move |i| path.at(length * i as f64 / count as f64).position)
+}
+
+/// A planned way with an arrow at its end.
+fn plan(view: &View, path: &Path, paint: Paint) -> Vec<Mark> {
+    let mut contour = Contour::default();
+    for curve in path.curves() {
+        let piece = view.curve(curve, 0.0);
+        let again = usize::from(!contour.segments.is_empty());
+        contour.segments.extend(&piece.segments[again..]);
+    }
+    let end = path.at(path.length());
+    let size = 9.0 / view.scale;
+    let head = [(0.3, 0.0), (-1.0, 0.55), (-1.0, -0.55)].map(|(x, y)| view.at(seen_from(&end, x * size, y * size)));
+    vec![contour.dashed(paint, 2.5, PLAN_DASH), Contour::polygon(head).fill(paint)]
+}
+
+/// An arrow before the car under test: where it goes is its driver's to say.
+fn heading(view: &View, car: &BodyState) -> Mark {
+    let front = car.body.outline.half_extent().x + 6.0 / view.scale;
+    let size = 1.0 / view.scale;
+    let half = [(0.0, 2.0), (20.0, 2.0), (20.0, 6.5), (31.0, 0.0)];
+    let other = half.iter().rev().skip(1).map(|(x, y)| (*x, -y));
+    let corners = half.into_iter().chain(other);
+    let corners = corners.map(|(x, y)| view.at(seen_from(&car.pose, front + x * size, y * size)));
+    Contour::polygon(corners).fill(UNDER_TEST)
+}
