@@ -114,3 +114,67 @@ impl Palette {
 fn bin(rgb: [u8; 3]) -> usize {
     rgb.into_iter().fold(0, |bin, part| bin << BITS | usize::from(part >> (8 - BITS)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::picture::{Contour, Drawing, Frame as Still, Mark, Segment};
+
+    /// A square of this colour at a place on nothing.
+    fn square(at: f64, colour: [u8; 3], side: f64) -> Drawing {
+        let corners = [[at, 0.0], [at + side, 0.0], [at + side, side], [at, side]];
+        let mut segments = vec![Segment::Move(corners[0])];
+        segments.extend(corners[1..].iter().map(|corner| Segment::Line(*corner)));
+        segments.push(Segment::Close);
+        let marks = vec![Mark::Fill { contour: Contour { segments }, paint: colour.into() }];
+        Drawing { width: 60.0, height: 20.0, marks }
+    }
+
+    #[test]
+    fn a_film_of_few_colours_is_played_back_pixel_by_pixel() {
+        let (day, night) = ([230, 230, 230], [20, 20, 40]);
+        let scenes = vec![square(0.0, day, 60.0), square(0.0, night, 60.0)];
+        let still = |i: usize| Still {
+            scene: usize::from(i >= 12),
+            time: i as f64,
+            // It stands still for a while.
+            drawing: square(2.0 * i.min(8) as f64, [200, 0, 0], 10.0),
+        };
+        let film = Film { scenes, frames: (0..20).map(still).collect() };
+        let file = gif(&film).unwrap();
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut decoder = options.read_info(&file[..]).unwrap();
+        let mut shown = vec![0; 60 * 20 * 3];
+        for (i, expected) in film.frames.iter().enumerate() {
+            let frame = decoder.read_next_frame().unwrap().expect("there is a frame for each");
+            let (left, top, width) = (usize::from(frame.left), usize::from(frame.top), usize::from(frame.width));
+            for (pixel, rgba) in frame.buffer.chunks_exact(4).enumerate().filter(|(_, rgba)| rgba[3] > 0) {
+                let at = 3 * ((top + pixel / width) * 60 + left + pixel % width);
+                shown[at..at + 3].copy_from_slice(&rgba[..3]);
+            }
+            let mut pixels = rasterised(&film.scenes[expected.scene], 1.0);
+            draw(&mut pixels, &expected.drawing, 1.0);
+            assert!(shown == opaque(&pixels), "frame {i}");
+            let stands = i > 8 && i != 12;
+            assert!(!stands || frame.buffer.len() == 4, "frame {i} says nothing new");
+        }
+        assert!(decoder.read_next_frame().unwrap().is_none());
+    }
+
+    #[test]
+    fn the_most_frequent_colours_are_kept_and_the_others_are_shown_by_the_nearest_of_them() {
+        let colour = |i: u32| [i % 8, i / 8 % 8, i / 64].map(|part| (32 * part) as u8);
+        let picture = (0..300).flat_map(|i| std::iter::repeat_n(colour(i), 1 + i as usize)).flatten().collect();
+        let mut palette = Palette::of(std::iter::once(picture));
+        assert_eq!(palette.colours.len(), 3 * 255);
+        let far = |a: [u8; 3], b: &[u8]| -> u32 { a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(*b)).pow(2)).sum() };
+        for i in 0..300 {
+            let index = usize::from(palette.index(colour(i)));
+            let shown = &palette.colours[3 * index..][..3];
+            let nearest = palette.colours.chunks_exact(3).map(|kept| far(colour(i), kept)).min();
+            assert_eq!(Some(far(colour(i), shown)), nearest, "colour {i}");
+            assert_eq!(colour(i) == shown, i >= 45, "colour {i}");
+        }
+    }
+}

@@ -150,3 +150,92 @@ fn letters(font: &FontRef, text: &str, [x, y]: Pixel, anchor: Anchor, size: f64)
     }
     path.finish()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::picture::Colour;
+
+    const WHITE: Colour = [255, 255, 255];
+    const RED: Colour = [200, 0, 0];
+
+    fn square(from: f64, to: f64, colour: Colour, opacity: f64) -> Mark {
+        let corners = [[from, from], [to, from], [to, to], [from, to]];
+        let mut segments = vec![Segment::Move(corners[0])];
+        segments.extend(corners[1..].iter().map(|corner| Segment::Line(*corner)));
+        segments.push(Segment::Close);
+        Mark::Fill { contour: Contour { segments }, paint: Look { colour, opacity } }
+    }
+
+    fn drawing(marks: Vec<Mark>) -> Drawing {
+        let background = square(0.0, 40.0, WHITE, 1.0);
+        Drawing { width: 40.0, height: 40.0, marks: [vec![background], marks].concat() }
+    }
+
+    /// The colour of a pixel.
+    fn at(drawing: &Drawing, scale: u32, x: u32, y: u32) -> Vec<u8> {
+        let first = 3 * (y * 40 * scale + x) as usize;
+        opaque(&rasterised(drawing, scale as f32))[first..first + 3].to_vec()
+    }
+
+    #[test]
+    fn what_is_filled_has_its_colour_and_what_is_faint_half_of_it() {
+        let solid = drawing(vec![square(10.0, 20.0, RED, 1.0)]);
+        assert_eq!([at(&solid, 1, 9, 15), at(&solid, 1, 10, 15), at(&solid, 1, 20, 15)], [WHITE, RED, WHITE]);
+        assert_eq!([at(&solid, 2, 19, 30), at(&solid, 2, 20, 30), at(&solid, 2, 40, 30)], [WHITE, RED, WHITE]);
+        let faint = at(&drawing(vec![square(10.0, 20.0, [0, 0, 0], 0.5)]), 1, 15, 15);
+        assert!(faint.iter().all(|part| part.abs_diff(127) <= 1), "{faint:?}");
+    }
+
+    #[test]
+    fn an_inset_cuts_off_what_reaches_beyond_it() {
+        let inset = Drawing { width: 10.0, height: 10.0, marks: vec![square(-50.0, 50.0, RED, 1.0)] };
+        let drawing = drawing(vec![Mark::Inset { at: [20.0, 10.0], drawing: inset }]);
+        for (x, y, colour) in [(20, 10, RED), (29, 19, RED), (19, 10, WHITE), (30, 19, WHITE), (20, 9, WHITE)] {
+            assert_eq!(at(&drawing, 1, x, y), colour, "at {x}, {y}");
+        }
+    }
+
+    /// How many pixels left and right of the middle are dark.
+    fn dark(anchor: Anchor, text: &str) -> [usize; 2] {
+        let text = text.to_owned();
+        let text = Mark::Text { at: [20.0, 30.0], anchor, size: 12.0, colour: [0, 0, 0], halo: None, text };
+        let pixels = opaque(&rasterised(&drawing(vec![text]), 1.0));
+        let dark = |of: std::ops::Range<usize>| {
+            (0..1600).filter(|pixel| of.contains(&(pixel % 40)) && pixels[3 * pixel] < 128).count()
+        };
+        [dark(0..20), dark(20..40)]
+    }
+
+    #[test]
+    fn a_text_stands_where_its_anchor_says() {
+        let [left, right] = dark(Anchor::Start, "8 s");
+        assert!(left == 0 && right > 10, "{left} {right}");
+        let [left, right] = dark(Anchor::End, "8 s");
+        assert!(right == 0 && left > 10, "{left} {right}");
+        let [left, right] = dark(Anchor::Middle, "8888");
+        assert!(left > 10 && left.abs_diff(right) <= 4, "{left} {right}");
+    }
+
+    #[test]
+    fn a_letter_with_a_hole_keeps_it() {
+        let zero = Mark::Text {
+            at: [20.0, 36.0],
+            anchor: Anchor::Middle,
+            size: 40.0,
+            colour: [0, 0, 0],
+            halo: None,
+            text: "0".to_owned(),
+        };
+        let drawing = drawing(vec![zero]);
+        let row: Vec<bool> = (0..40).map(|x| at(&drawing, 1, x, 22)[0] < 128).collect();
+        let changes = row.windows(2).filter(|two| two[0] != two[1]).count();
+        assert_eq!(changes, 4, "light, dark, light in the hole, dark, light: {row:?}");
+    }
+
+    #[test]
+    fn what_is_no_number_is_not_drawn() {
+        let broken = drawing(vec![square(f64::NAN, 20.0, RED, 1.0), square(10.0, 1e300, RED, 1.0)]);
+        rasterised(&broken, 1.0);
+    }
+}

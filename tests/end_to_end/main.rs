@@ -10,5 +10,6 @@ mod covering;
 mod generate;
 mod guilty;
 mod pedestrian_study;
+mod pictures;
 mod plan;
 mod signals;

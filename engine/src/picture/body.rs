@@ -16,7 +16,7 @@ const WINDOW: Paint = Paint { colour: [0xff, 0xff, 0xff], opacity: 0.6 };
 /// The least radius in pixels of what could otherwise hardly be seen.
 const LEAST_RADIUS: f64 = 3.5;
 /// The least width in pixels of a vehicle.
-const LEAST_WIDTH: f64 = 4.0;
+const LEAST_WIDTH: f64 = 5.0;
 /// The share of its height that a tree's crown is wide.
 const CROWN: f64 = 0.25;
 
@@ -39,8 +39,16 @@ pub(super) fn class_colour(class: Class) -> Colour {
     }
 }
 
-/// The marks of a body in this colour; a share of them where it is a ghost of itself.
+/// Metres from its middle to where nothing is drawn of it, at least.
+pub(super) fn extent(body: &Body) -> f64 {
+    body.outline.reach().max(CROWN * body.height)
+}
+
+/// The marks of a body in this colour, where it is seen; a share of them where it is a ghost of itself.
 pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share: f64) -> Vec<Mark> {
+    if !view.shows(pose.position, extent(body)) {
+        return Vec::new();
+    }
     let centre = view.at(pose.position);
     let rim = |contour: &Contour, width: f64| contour.clone().stroke(Paint::from(RIM).faint(share), width);
     let fill = |contour: Contour, paint: Paint| contour.fill(paint.faint(share));

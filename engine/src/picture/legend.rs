@@ -17,6 +17,8 @@ pub(super) const LETTERS: f64 = 14.0;
 const MARGIN: f64 = 12.0;
 /// The height of a line of the legend.
 const LINE: f64 = 30.0;
+/// Metres around the bodies that explain themselves: more than they take.
+const SWATCH: f64 = 20.0;
 /// Pixels to a metre of the bodies that explain themselves.
 const SCALE: f64 = 5.5;
 
@@ -31,7 +33,7 @@ pub(super) enum Entry {
 
 /// The width of a text in pixels, rather too much: whoever shows it may have another font.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    0.58 * size * text.chars().count() as f64
+    0.56 * size * text.chars().count() as f64
 }
 
 pub(super) fn text(at: Pixel, anchor: Anchor, text: impl Into<String>) -> Mark {
@@ -147,8 +149,8 @@ pub(super) const PLAN_DASH: [f64; 2] = [6.0, 6.0];
 
 /// A body as a sample of its class.
 fn sample(of: &Body, colour: Colour, middle: Pixel) -> Vec<Mark> {
-    let corner = Vector2::new(-middle[0], middle[1]) / SCALE;
-    let view = View { bounds: Bounds { min: corner, max: corner }, scale: SCALE };
+    let [x, y] = middle.map(|pixels| pixels / SCALE);
+    let view = View { bounds: Bounds { min: Vector2::new(-x, -SWATCH), max: Vector2::new(SWATCH, y) }, scale: SCALE };
     let mut marks = body(&view, &shown(of), &Pose { position: Vector2::zeros(), heading: 0.0 }, colour, 1.0);
     // Rims are as white as the paper.
     for mark in &mut marks {

@@ -1,6 +1,8 @@
 //! What is kept of a run for its pictures: where all bodies were, every so often.
 
-use super::body::is_actor;
+use super::body::{extent, is_actor};
+use super::view::MARGIN;
+use super::world::NEAR;
 use crate::object::Body;
 use crate::road::{Bounds, Network};
 use crate::run::Run;
@@ -63,16 +65,22 @@ impl Record {
         self.moments.is_empty()
     }
 
-    /// Where the car under test was in these moments, and the actors that were within `reach` metres of it.
+    /// Where the car under test was in these moments, the actors that were within `reach` metres of it, and what stands
+    /// beside its way.
     pub(super) fn bounds(&self, scene: &Scene, moments: Range<usize>, reach: f64) -> Bounds {
-        let seen = self.moments[moments].iter().flat_map(|moment| {
+        let mut bounds = Bounds::empty();
+        for moment in &self.moments[moments] {
             let car = moment.poses[0].position;
-            let counts = move |(i, position): &(usize, Vector2<f64>)| {
-                *i == 0 || is_actor(scene.bodies[*i].class) && (position - car).norm() <= reach
-            };
-            moment.poses.iter().map(|pose| pose.position).enumerate().filter(counts).map(|(_, position)| position)
-        });
-        Bounds::around(seen)
+            for (i, (pose, body)) in moment.poses.iter().zip(&scene.bodies).enumerate() {
+                let distance = (pose.position - car).norm();
+                if i == 0 || is_actor(body.class) && distance <= reach {
+                    bounds.include(pose.position);
+                } else if distance <= NEAR {
+                    bounds = bounds.union(&Bounds::around([pose.position]).grown(extent(body) - MARGIN[1]));
+                }
+            }
+        }
+        bounds
     }
 
     /// Whether a body moved in these moments.

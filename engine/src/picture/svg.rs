@@ -13,7 +13,8 @@ impl Drawing {
         let mut svg = Svg { text: String::new() };
         svg.line(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"{FONT}\">"
+             viewBox=\"0 0 {width} {height}\" font-family=\"{FONT}\" stroke-linecap=\"round\" \
+             stroke-linejoin=\"round\">"
         ));
         svg.marks(&self.marks);
         svg.line(format_args!("</svg>"));
@@ -42,8 +43,7 @@ impl Svg {
                         format!(" stroke-dasharray=\"{} {}\"", number(dash), number(gap))
                     });
                     self.line(format_args!(
-                        "<path fill=\"none\" {} stroke-width=\"{}\" stroke-linecap=\"round\" \
-                         stroke-linejoin=\"round\"{dash} d=\"{}\"/>",
+                        "<path fill=\"none\" {} stroke-width=\"{}\"{dash} d=\"{}\"/>",
                         painted("stroke", paint),
                         number(*width),
                         path(contour)
@@ -57,12 +57,9 @@ impl Svg {
                     };
                     let halo = halo.map_or(String::new(), |halo| {
                         let (halo, width) = (hex(halo), number(0.25 * size));
-                        format!(
-                            " stroke=\"{halo}\" stroke-width=\"{width}\" stroke-linejoin=\"round\" \
-                             paint-order=\"stroke\""
-                        )
+                        format!(" stroke=\"{halo}\" stroke-width=\"{width}\" paint-order=\"stroke\"")
                     });
-                    let [x, y] = at.map(number);
+                    let [x, y] = at.map(place);
                     let (size, fill) = (number(*size), hex(*colour));
                     let text = text.replace('&', "&amp;").replace('<', "&lt;");
                     self.line(format_args!(
@@ -95,7 +92,7 @@ fn path(contour: &Contour) -> String {
         text.push_str(command);
         for (i, [x, y]) in points.iter().enumerate() {
             let space = if i > 0 { " " } else { "" };
-            write!(text, "{space}{} {}", number(*x), number(*y)).expect("a string takes all that is written");
+            write!(text, "{space}{} {}", place(*x), place(*y)).expect("a string takes all that is written");
         }
     };
     for segment in &contour.segments {
@@ -109,9 +106,18 @@ fn path(contour: &Contour) -> String {
     text
 }
 
-/// To a hundredth of a pixel, without zeros at the end.
+/// A share or a width, to a hundredth.
 fn number(value: f64) -> String {
-    let text = format!("{value:.2}");
+    trimmed(format!("{value:.2}"))
+}
+
+/// A place, to a tenth of a pixel.
+fn place(value: f64) -> String {
+    trimmed(format!("{value:.1}"))
+}
+
+/// Without zeros at the end.
+fn trimmed(text: String) -> String {
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }

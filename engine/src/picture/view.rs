@@ -1,7 +1,7 @@
 //! Which part of the ground a picture shows, and how large.
 
 use super::drawing::{Contour, Pixel, Segment};
-use crate::road::{Bounds, Curve};
+use crate::road::{Bounds, Curve, Network, Surface};
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_4;
 
@@ -13,10 +13,38 @@ pub(super) struct View {
     pub scale: f64,
 }
 
+/// Metres to the left and right of what has to be seen, and above and below it.
+pub(super) const MARGIN: [f64; 2] = [14.0, 6.0];
+/// How far in metres the edges of a road may be from who is on it.
+const ACROSS: f64 = 25.0;
+/// Metres beyond the edges of a road.
+const VERGE: f64 = 2.0;
 /// The least width in metres that a picture shows.
 const NARROWEST: f64 = 60.0;
 /// The least and the largest height of a picture, as shares of its width.
-const HEIGHTS: [f64; 2] = [0.15, 0.7];
+const HEIGHTS: [f64; 2] = [0.12, 0.7];
+
+/// What has to be seen, with some ground around it.
+pub(super) fn with_margin(bounds: &Bounds) -> Bounds {
+    let margin = Vector2::from(MARGIN);
+    Bounds { min: bounds.min - margin, max: bounds.max + margin }
+}
+
+/// Across the road at each of these points, from edge to edge.
+pub(super) fn across(network: &Network, points: impl Iterator<Item = Vector2<f64>>) -> Bounds {
+    let mut strips = network.strips();
+    strips.retain(|strip| matches!(strip.surface, Surface::Sidewalk | Surface::Carriageway));
+    let edges = points.flat_map(|point| {
+        strips.iter().flat_map(move |strip| {
+            let s = strip.curve.nearest(point);
+            [strip.right, strip.left]
+                .map(|side| strip.curve.beside(s, side))
+                .into_iter()
+                .filter(move |edge| (edge - point).norm() <= ACROSS)
+        })
+    });
+    Bounds::around(edges).grown(VERGE)
+}
 
 impl View {
     /// A picture of this width in pixels that shows all within some bounds, and around them what makes it neither too

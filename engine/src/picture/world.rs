@@ -1,23 +1,23 @@
 //! A world as it begins: roads, bodies, and the ways that are planned.
 
-use super::body::{UNDER_TEST, body, class_colour, is_actor};
+use super::body::{UNDER_TEST, body, class_colour, extent, is_actor};
 use super::drawing::{Contour, Drawing, Mark, Paint};
 use super::ground::{directions, ground, seen_from};
-use super::legend::{Entry, PLAN_DASH, entries, legend};
-use super::view::View;
+use super::legend::{Entry, PAPER, PLAN_DASH, entries, legend};
+use super::view::{View, across, with_margin};
 use crate::object::BodyState;
-use crate::road::{Bounds, Path};
+use crate::road::{Bounds, Network, Path};
 use crate::run::Run;
 use nalgebra::Vector2;
 
 /// Width of a picture in pixels.
 const WIDTH: f64 = 1200.0;
-/// Metres around what has to be seen.
-const MARGIN: f64 = 10.0;
 /// The widest ground in metres that is shown for the sake of planned ways alone.
 const WIDEST: f64 = 240.0;
 /// How many metres of a planned way are shown: the first of these that does not make the picture too wide.
 const REACHES: [f64; 6] = [f64::INFINITY, 320.0, 160.0, 80.0, 40.0, 0.0];
+/// How near in metres something stands that is seen for that.
+pub(super) const NEAR: f64 = 16.0;
 /// Metres between two points of a planned way.
 const STEP: f64 = 1.0;
 /// How faint a planned way is.
@@ -27,7 +27,7 @@ const FAINT: f64 = 0.9;
 pub fn world(run: &Run, caption: &str) -> Drawing {
     let bodies = run.bodies();
     let plans = run.plans();
-    let view = View::fit(&around(bodies, &plans), WIDTH);
+    let view = View::fit(&around(run.network(), bodies, &plans), WIDTH);
     let mut marks = ground(&view, run.network());
     marks.push(directions(&view, run.network()));
     let mut shown: Vec<usize> = Vec::new();
@@ -38,12 +38,10 @@ pub fn world(run: &Run, caption: &str) -> Drawing {
         }
     }
     marks.push(heading(&view, &bodies[0]));
-    let seen = bodies.iter().enumerate().filter(|(_, state)| {
-        let reach = state.body.outline.reach().max(state.body.height);
-        view.shows(state.pose.position, reach)
-    });
-    let seen: Vec<usize> = seen.map(|(i, _)| i).collect();
-    for &i in &seen {
+    let seen = (0..bodies.len()).filter(|i| view.shows(bodies[*i].pose.position, 0.0));
+    let seen: Vec<usize> = seen.collect();
+    // The car under test lies on top.
+    for i in (0..bodies.len()).rev() {
         let colour = if i == 0 { UNDER_TEST } else { class_colour(bodies[i].body.class) };
         marks.extend(body(&view, &bodies[i].body, &bodies[i].pose, colour, 1.0));
     }
@@ -71,16 +69,21 @@ pub(super) fn framed(view: &View, panels: Vec<Vec<Mark>>, entries: &[Entry], cap
     Drawing { width, height: total, marks }
 }
 
-/// Where the actors are and go.
-fn around(bodies: &[BodyState], plans: &[(usize, Path)]) -> Bounds {
+/// Where the actors are and go, across the road, and what stands near.
+fn around(network: &Network, bodies: &[BodyState], plans: &[(usize, Path)]) -> Bounds {
     let actors = bodies.iter().enumerate().filter(|(i, state)| *i == 0 || is_actor(state.body.class));
-    let standing = Bounds::around(actors.map(|(_, state)| state.pose.position)).grown(MARGIN);
+    let actors: Vec<_> = actors.map(|(_, state)| state.pose.position).collect();
+    let across = across(network, actors.iter().copied());
     let reaching = |reach: f64| {
-        let points = plans.iter().flat_map(|(_, path)| points(path, path.length().min(reach)));
-        standing.union(&Bounds::around(points).grown(MARGIN))
+        let ways = plans.iter().flat_map(|(_, path)| points(path, path.length().min(reach)));
+        let points: Vec<_> = actors.iter().copied().chain(ways).collect();
+        let near =
+            bodies.iter().filter(|state| points.iter().any(|point| (state.pose.position - point).norm() <= NEAR));
+        let near = near.map(|state| Bounds::around([state.pose.position]).grown(extent(&state.body) + 1.0));
+        near.fold(with_margin(&Bounds::around(points.iter().copied())).union(&across), |all, body| all.union(&body))
     };
-    let fitting = REACHES.iter().map(|reach| reaching(*reach)).find(|bounds| (bounds.max - bounds.min).max() <= WIDEST);
-    fitting.unwrap_or(standing)
+    let mut views = REACHES.iter().map(|reach| reaching(*reach));
+    views.find(|bounds| (bounds.max - bounds.min).max() <= WIDEST).unwrap_or_else(|| reaching(0.0))
 }
 
 /// Points along the beginning of a path, of this length.
@@ -100,7 +103,8 @@ fn plan(view: &View, path: &Path, paint: Paint) -> Vec<Mark> {
     let end = path.at(path.length());
     let size = 9.0 / view.scale;
     let head = [(0.3, 0.0), (-1.0, 0.55), (-1.0, -0.55)].map(|(x, y)| view.at(seen_from(&end, x * size, y * size)));
-    vec![contour.dashed(paint, 2.5, PLAN_DASH), Contour::polygon(head).fill(paint)]
+    let rim = contour.clone().dashed(Paint { colour: PAPER, opacity: 0.4 }, 4.5, PLAN_DASH);
+    vec![rim, contour.dashed(paint, 2.5, PLAN_DASH), Contour::polygon(head).fill(paint)]
 }
 
 /// An arrow before the car under test: where it goes is its driver's to say.
