@@ -160,10 +160,10 @@ fn a_plan_is_the_way_that_is_left() {
 
 proptest! {
     #[test]
-    fn the_rest_of_a_path_is_where_the_path_goes_on(
+    fn a_piece_of_a_path_is_where_the_path_is(
         bends in prop::collection::vec((-0.05..0.05f64, 5.0..60.0f64), 1..5),
-        share in 0.0..1.0f64,
-        further in 0.0..1.0f64,
+        shares in [-0.2..1.2f64, -0.2..1.2],
+        along in 0.0..1.0f64,
     ) {
         let mut at = Pose { position: Vector2::new(3.0, -7.0), heading: 0.4 };
         let curves: Vec<Curve> = bends.iter().map(|(curvature, length)| {
@@ -172,13 +172,39 @@ proptest! {
             curve
         }).collect();
         let path = Path::new(curves);
-        let s = share * path.length();
-        let rest = path.rest(s);
-        prop_assert!((rest.length() - (path.length() - s)).abs() < 1e-9);
-        let t = further * rest.length();
-        prop_assert!((rest.at(t).position - path.at(s + t).position).norm() < 1e-7);
-        prop_assert!(path.rest(path.length() + 1.0).length() < 1e-9);
+        let [a, b] = shares.map(|share| share * path.length());
+        let piece = path.piece(a.min(b), a.max(b));
+        let [from, to] = [a.min(b), a.max(b)].map(|s| s.clamp(0.0, path.length()));
+        prop_assert!((piece.length() - (to - from)).abs() < 1e-9);
+        let s = along * piece.length();
+        prop_assert!((piece.at(s).position - path.at(from + s).position).norm() < 1e-7);
     }
+}
+
+#[test]
+fn many_planned_ways_are_cut_short_so_that_roads_are_still_seen() {
+    fn crowd(s: &mut Scenario) {
+        let road = s.place(RoadSegment::new(900.0).lanes(6));
+        let car = s.place(AutonomousVehicle::at(road.on_lane(2, 30.0)).speed(15.0));
+        for i in 0..40 {
+            s.place(Mover::car(road.path([-1, -2, 1][i % 3])).starting(20.0 * i as f64).speed(10.0));
+        }
+        s.require("no-collision", never(car.collides()));
+    }
+    let drawing = world(&begun(crowd), "");
+    let scale = (drawing.width - 28.0) / 780.0;
+    let dashed = |(_, mark): &([f64; 2], &Mark)| match mark {
+        Mark::Stroke { contour, dash: Some(_), .. } => {
+            let along = |segments: &[Segment]| match segments {
+                [Segment::Move(a) | Segment::Line(a), Segment::Line(b)] => (b[0] - a[0]).hypot(b[1] - a[1]),
+                _ => 0.0,
+            };
+            Some(contour.segments.windows(2).map(along).sum::<f64>() / scale)
+        }
+        _ => None,
+    };
+    let lengths: Vec<f64> = marks(&drawing).iter().filter_map(dashed).collect();
+    assert!(lengths.len() > 40 && lengths.iter().all(|length| *length < 170.0), "{lengths:?}");
 }
 
 #[test]

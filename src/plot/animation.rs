@@ -168,7 +168,8 @@ mod tests {
         let picture = (0..300).flat_map(|i| std::iter::repeat_n(colour(i), 1 + i as usize)).flatten().collect();
         let mut palette = Palette::of(std::iter::once(picture));
         assert_eq!(palette.colours.len(), 3 * 255);
-        let far = |a: [u8; 3], b: &[u8]| -> u32 { a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(*b)).pow(2)).sum() };
+        let far =
+            |a: [u8; 3], b: &[u8]| -> u32 { a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(*b)).pow(2)).sum() };
         for i in 0..300 {
             let index = usize::from(palette.index(colour(i)));
             let shown = &palette.colours[3 * index..][..3];

@@ -207,7 +207,7 @@ impl Geometric for Moving {
     }
 
     fn plan(&self) -> Option<Path> {
-        Some(self.path.rest(self.at))
+        Some(self.path.piece(self.at, self.path.length()))
     }
 
     fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {

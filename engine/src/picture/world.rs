@@ -18,6 +18,8 @@ const WIDEST: f64 = 240.0;
 const REACHES: [f64; 6] = [f64::INFINITY, 320.0, 160.0, 80.0, 40.0, 0.0];
 /// How near in metres something stands that is seen for that.
 pub(super) const NEAR: f64 = 16.0;
+/// How many metres of planned ways there are in all at most, so that roads are still seen: of each the first part.
+const MOST: f64 = 5000.0;
 /// Metres between two points of a planned way.
 const STEP: f64 = 1.0;
 /// How faint a planned way is.
@@ -31,10 +33,13 @@ pub fn world(run: &Run, caption: &str) -> Drawing {
     let mut marks = ground(&view, run.network());
     marks.push(directions(&view, run.network()));
     let mut shown: Vec<usize> = Vec::new();
-    for (index, path) in &plans {
+    let all = |reach: &f64| plans.iter().map(|(_, path)| path.length().min(*reach)).sum::<f64>() <= MOST;
+    let reach = REACHES.into_iter().find(all).unwrap_or(0.0);
+    for (index, path) in plans.iter().filter(|(_, path)| path.length().min(reach) > 0.0) {
         if bodies.get(*index).is_some_and(|state| view.shows(state.pose.position, 0.0)) {
             shown.push(*index);
-            marks.extend(plan(&view, path, Paint { colour: class_colour(bodies[*index].body.class), opacity: FAINT }));
+            let path = path.piece(0.0, reach);
+            marks.extend(plan(&view, &path, Paint { colour: class_colour(bodies[*index].body.class), opacity: FAINT }));
         }
     }
     marks.push(heading(&view, &bodies[0]));

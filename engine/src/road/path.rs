@@ -50,15 +50,18 @@ impl Path {
         self.pieces.iter().map(|(_, curve)| curve)
     }
 
-    /// What is left of it from `s` metres along it on; nothing but its end from there on.
-    pub fn rest(&self, s: f64) -> Self {
-        let s = s.min(self.length);
-        let last = self.pieces.len() - 1;
-        let piece = |(i, (from, curve)): (usize, &(f64, Curve))| {
-            let ends_before = from + curve.length() <= s && i < last;
-            (!ends_before).then(|| curve.piece((s - from).max(0.0), curve.length()))
-        };
-        Self::new(self.pieces.iter().enumerate().filter_map(piece))
+    /// The piece of it between two distances along it, of which the first is not beyond the second. What would be beyond
+    /// its ends is left out.
+    pub fn piece(&self, from: f64, to: f64) -> Self {
+        let [from, to] = [from, to].map(|s| s.clamp(0.0, self.length));
+        // Where the piece is but a point, it is one of the curve that goes on from there, or of the last.
+        let last = self.pieces.partition_point(|(begin, _)| *begin < to).max(1) - 1;
+        let first = (self.pieces.partition_point(|(begin, _)| *begin <= from).max(1) - 1).min(last);
+        Self::new(
+            self.pieces[first..=last]
+                .iter()
+                .map(|(begin, curve)| curve.piece((from - begin).max(0.0), (to - begin).min(curve.length()))),
+        )
     }
 
     /// The pose `s` metres along it; before its start and beyond its end it goes on as it is.
