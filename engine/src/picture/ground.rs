@@ -7,7 +7,9 @@ use crate::scenario::Pose;
 use nalgebra::Vector2;
 
 /// What is thinner than this many pixels is left out.
-const THINNEST: f64 = 0.1;
+const THINNEST: f64 = 0.2;
+/// The least number of pixels to a metre at which lanes have arrows.
+const LEAST_SCALE: f64 = 2.0;
 /// Metres between two arrows on a lane.
 const ARROWS: f64 = 40.0;
 
@@ -59,10 +61,11 @@ pub(super) fn ground(view: &View, network: &Network) -> Vec<Mark> {
     marks
 }
 
-/// Arrows on the lanes of roads, the way of their traffic.
+/// Arrows on the lanes of roads, the way of their traffic; none where they would be too small to be told.
 pub(super) fn directions(view: &View, network: &Network) -> Mark {
     let mut contour = Contour::default();
-    for lane in network.lanes().iter().filter(|lane| lane.kind == LaneKind::Road) {
+    let large = view.scale >= LEAST_SCALE;
+    for lane in network.lanes().iter().filter(|lane| large && lane.kind == LaneKind::Road) {
         let count = (lane.length() / ARROWS).floor().max(1.0);
         for i in 0..count as usize {
             let here = lane.curve.at(lane.length() * (i as f64 + 0.5) / count);
