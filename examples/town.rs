@@ -1,6 +1,7 @@
 //! A town around a roundabout, with a way through it: `cargo run --release --example town > town.svg`.
 
-use paracosm::engine::road::{Composite, Place, RoadError, RoadPicture, RoadSegment, Roundabout, TIntersection};
+use paracosm::engine::picture::RoadPicture;
+use paracosm::engine::road::{Composite, Place, RoadError, RoadSegment, Roundabout, TIntersection};
 use std::f64::consts::FRAC_PI_2;
 
 /// Four avenues lead from the roundabout to T-intersections, and a street around the town joins these.

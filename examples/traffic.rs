@@ -2,7 +2,8 @@
 //!
 //! Blue cars drive, red ones brake or stand, yellow ones change lanes.
 
-use paracosm::engine::road::{Colour, RoadPicture, grid_city};
+use paracosm::engine::picture::{Colour, RoadPicture};
+use paracosm::engine::road::grid_city;
 use paracosm::engine::traffic::{CarState, Traffic, TrafficCar};
 
 const BLUE: Colour = [0x00, 0x77, 0xbb];

@@ -7,7 +7,7 @@ use crate::executor::{in_order, pool};
 use crate::{Error, Study, Trial};
 use paracosm_coverage::Values;
 use paracosm_engine::driver::Driver;
-use paracosm_engine::{Outcome, Program, Test, simulate};
+use paracosm_engine::{Outcome, Program, Run, Test, watch};
 use paracosm_oracles::{Trace, Verdict};
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -117,8 +117,20 @@ pub fn simulate_trial(
     index: usize,
     test: &Values,
 ) -> (Trial, Option<Trace>) {
+    watch_trial(program, study, driver, index, test, |_| ())
+}
+
+/// [`simulate_trial`], with a look at the run whenever the driver is asked, and at the end.
+pub fn watch_trial(
+    program: &Program,
+    study: &Study,
+    driver: &mut dyn Driver,
+    index: usize,
+    test: &Values,
+    see: impl FnMut(&Run),
+) -> (Trial, Option<Trace>) {
     let values = study.complete(test);
-    let run = AssertUnwindSafe(|| simulate(program, Test::new(&values, &study.space), study.vehicle, driver));
+    let run = AssertUnwindSafe(|| watch(program, Test::new(&values, &study.space), study.vehicle, driver, see));
     let mut outcome = catch_unwind(run).unwrap_or_else(|panic| {
         let message = panic.downcast_ref::<String>().map(String::as_str);
         let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");

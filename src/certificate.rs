@@ -6,7 +6,7 @@
 //! `tests/check_certificate.py`, which shares nothing with this software, checks it.
 
 use crate::estimate::{Holes, KwiseWorst};
-use crate::folder::write_whole;
+use crate::folder::{is_new, write_whole};
 use crate::{Coverage, Error, Measure, Tests, Watch};
 use paracosm_coverage::dispersion::LargestEmptyBox;
 use paracosm_coverage::kwise_dispersion::projections;
@@ -129,11 +129,7 @@ impl Certificate {
 
     /// Checks that a file does not exist yet.
     pub(crate) fn is_new(path: &Path) -> Result<(), Error> {
-        if path.exists() {
-            let message = format!("{} exists; a certificate does not replace a file", path.display());
-            return Err(Error::Usage(message));
-        }
-        Ok(())
+        is_new(path, "a certificate")
     }
 }
 

@@ -212,6 +212,14 @@ fn parse_trials(file: &Path, text: &str) -> Result<Vec<Trial>, Error> {
     text.split_terminator('\n').enumerate().map(parse).collect()
 }
 
+/// Checks that a file does not exist yet, so that `what` does not replace it.
+pub(crate) fn is_new(path: &Path, what: &str) -> Result<(), Error> {
+    if path.exists() {
+        return Err(Error::Usage(format!("{} exists; {what} does not replace a file", path.display())));
+    }
+    Ok(())
+}
+
 /// Writes a file so that it is never seen half-written, not even after a crash.
 pub(crate) fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
     let mut part = path.as_os_str().to_owned();

@@ -42,7 +42,7 @@ mod trial;
 #[cfg(feature = "cli")]
 pub mod cli;
 
-pub use campaign::{Campaign, simulate_trial};
+pub use campaign::{Campaign, simulate_trial, watch_trial};
 pub use error::Error;
 pub use estimate::{
     Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Strength, Tests, Watch,

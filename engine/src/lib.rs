@@ -35,6 +35,7 @@ mod monitor;
 pub mod object;
 mod observation;
 mod outcome;
+pub mod picture;
 mod program;
 pub mod road;
 mod run;
@@ -51,7 +52,7 @@ pub use outcome::{Metric, Outcome};
 pub use paracosm_coverage::Shape;
 pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use road::RoadSegment;
-pub use run::{DEFAULT_DT, Run, Setup, Step, simulate};
+pub use run::{DEFAULT_DT, Run, Setup, Step, simulate, watch};
 pub use scenario::{
     Conditions, Draft, Environment, Line, Param, Paved, Place, Pose, Road, Scenario, Side, Streets, Temporal, always,
     eventually, never,

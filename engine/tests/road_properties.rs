@@ -2,9 +2,9 @@
 
 use nalgebra::Vector2;
 use paracosm_engine::Pose;
+use paracosm_engine::picture::RoadPicture;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, Curve, Lane, LaneId, Network, Place, RoadPicture, RoadSegment, Roundabout,
-    TIntersection,
+    Composite, CrossIntersection, Curve, Lane, LaneId, Network, Place, RoadSegment, Roundabout, TIntersection,
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;

@@ -1,11 +1,13 @@
 //! `paracosm-fuzz describe`: what a scenario asks for and asks of its runs.
 
+use super::draw::{Kind, Target};
 use super::output::{Format, Table, digits, domain_words, json, value_words};
-use super::{Failure, Found, print};
-use crate::Study;
-use crate::engine::Declaration;
+use super::{Failure, Found, Verbosity, print};
+use crate::engine::{DEFAULT_DT, Declaration, Program, Run, Setup, picture};
+use crate::{Study, plot};
 use clap::Args;
 use serde_json::json;
+use std::path::PathBuf;
 
 /// What `describe` takes.
 #[derive(Debug, Args)]
@@ -16,22 +18,40 @@ pub(super) struct Options {
     /// Print the graph of its streams in the language of Graphviz
     #[arg(long, conflicts_with = "format")]
     dot: bool,
+    /// Draw its world from above as it begins with nominal values, to a file that does not exist yet: .svg or .png
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["dot", "format"])]
+    draw: Option<PathBuf>,
     /// How to print it [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
 
 impl Options {
-    pub fn execute(&self) -> Result<Found, Failure> {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
         let study = Study::of(&self.scenario)?;
         let program = study.program()?;
         let declaration = program.declare()?;
+        if let Some(file) = &self.draw {
+            let target = Target::new(file, &[Kind::Svg, Kind::Png])?;
+            verbosity.note(target.write(|kind| draw(&program, &declaration, kind))?);
+            return Ok(Found::Nothing);
+        }
         let text = match Format::or_fitting(self.format) {
             _ if self.dot => program.dot()?,
             Format::Table => table(&study, program.about, &declaration),
             Format::Json => as_json(&study, program.about, &declaration),
         };
         print(&text).map(|()| Found::Nothing)
+    }
+}
+
+/// The world from above.
+fn draw(program: &Program, declaration: &Declaration, kind: Kind) -> Result<Vec<u8>, Failure> {
+    let run = Run::new(program, &declaration.nominal(), Setup::asking_every(DEFAULT_DT))?;
+    let drawing = picture::world(&run, program.name);
+    match kind {
+        Kind::Svg => Ok(drawing.svg().into_bytes()),
+        Kind::Png | Kind::Gif => plot::png(&drawing),
     }
 }
 

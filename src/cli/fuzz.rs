@@ -34,11 +34,15 @@ enum Verb {
     /// Show scenarios, strategies and drivers with their parameters
     #[command(after_help = "Example:\n  paracosm-fuzz list")]
     List(list::Options),
-    /// Show a scenario: its parameters and requirements, or the graph of its streams
-    #[command(after_help = "Example:\n  paracosm-fuzz describe pedestrian-crossing --dot | dot -Tsvg > streams.svg")]
+    /// Show a scenario: its parameters and requirements, the graph of its streams, or its world from above
+    #[command(
+        after_help = "Examples:\n  paracosm-fuzz describe pedestrian-crossing --dot | dot -Tsvg > streams.svg\n  \
+                            paracosm-fuzz describe pedestrian-crossing --draw world.svg"
+    )]
     Describe(describe::Options),
     /// Run a logged test again and compare its trace hash with the log's
-    #[command(after_help = "Example:\n  paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv")]
+    #[command(after_help = "Examples:\n  paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv\n  \
+                            paracosm-fuzz replay paracosm-out 17 --draw test-17.gif")]
     Replay(replay::Options),
 }
 
@@ -48,7 +52,7 @@ impl Command {
             None => self.run.execute(self.verbosity),
             Some(Verb::Run(options)) => options.execute(self.verbosity),
             Some(Verb::List(options)) => options.execute(),
-            Some(Verb::Describe(options)) => options.execute(),
+            Some(Verb::Describe(options)) => options.execute(self.verbosity),
             Some(Verb::Replay(options)) => options.execute(self.verbosity),
         }
     }

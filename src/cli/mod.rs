@@ -5,6 +5,7 @@
 
 mod cover;
 mod describe;
+mod draw;
 mod fuzz;
 mod list;
 mod output;

@@ -1,9 +1,11 @@
 //! `paracosm-fuzz replay`: one logged test once more.
 
+use super::draw::{Kind, Target};
 use super::output::{Format, Table, digits, json, value_words};
 use super::{Failure, Found, Verbosity, print};
 use crate::engine::Metric;
-use crate::{Error, Folder, Study, Trial, simulate_trial, write_trace};
+use crate::engine::picture::Record;
+use crate::{Error, Folder, Study, Trial, plot, watch_trial, write_trace};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -17,6 +19,9 @@ pub(super) struct Options {
     /// Where to write the trace [default: DIR/trace-INDEX.csv]
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
+    /// Draw the run from above to a file that does not exist yet: as one picture (.svg, .png) or as a film (.gif)
+    #[arg(long, value_name = "FILE")]
+    draw: Option<PathBuf>,
     /// Exit with status 1 if the test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
@@ -33,13 +38,25 @@ impl Options {
             let there = if count == 0 { "none".to_owned() } else { format!("0 to {}", count - 1) };
             Error::Usage(format!("{} has no test {}, expected {there}", self.dir.display(), self.index))
         })?;
+        let target =
+            self.draw.as_ref().map(|file| Target::new(file, &[Kind::Svg, Kind::Png, Kind::Gif])).transpose()?;
         let mut driver = study.driver.build()?;
-        let (trial, trace) = simulate_trial(&study.program()?, &study, driver.as_mut(), self.index, &logged.test);
+        let mut record = Record::default();
+        let (program, watched) = (study.program()?, target.is_some());
+        let (trial, trace) = watch_trial(&program, &study, driver.as_mut(), self.index, &logged.test, |run| {
+            if watched {
+                record.see(run);
+            }
+        });
         if let Some(trace) = &trace {
             let default = || self.dir.join(format!("trace-{}.csv", self.index));
             let path = self.trace.clone().unwrap_or_else(default);
             write_trace(&path, trace)?;
             verbosity.note(format_args!("trace of {} ticks written to {}", trial.ticks, path.display()));
+        }
+        if let Some(target) = &target {
+            let caption = format!("{}, test {}: {}", study.scenario, trial.index, trial.verdict);
+            verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
         }
         if trial != *logged {
             return Err(difference(&study, logged, &trial).into());
@@ -49,6 +66,20 @@ impl Options {
             Format::Json => json(&trial),
         })?;
         Ok(if self.fail_on_violation && trial.is_failure() { Found::Violation } else { Found::Nothing })
+    }
+}
+
+/// Width of a film in pixels.
+const FILM: f64 = 800.0;
+
+/// The run from above.
+fn draw(record: &Record, kind: Kind, caption: &str) -> Result<Vec<u8>, Failure> {
+    let nothing = "its world could not be built, so that there was nothing to see";
+    let story = || record.story(caption).ok_or(nothing);
+    match kind {
+        Kind::Svg => Ok(story()?.svg().into_bytes()),
+        Kind::Png => plot::png(&story()?),
+        Kind::Gif => plot::gif(&record.film(FILM, caption).ok_or(nothing)?),
     }
 }
 

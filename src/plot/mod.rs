@@ -1,14 +1,19 @@
 //! Pictures, as SVG for papers and PNG for everything else.
 //!
-//! Both come from the same drawing code; the PNG is drawn at twice the size, so that it is sharp on any screen.
+//! Both come from the same drawing code; the PNG is drawn at twice the size, so that it is sharp on any screen. Failure
+//! maps and charts are plotters' (`raster.rs` and `animation.rs` are for the engine's pictures of worlds and runs).
 //! The font is in the program: pictures look the same on a machine without any.
 
+mod animation;
 mod log_axis;
 mod log_log;
 mod map;
+mod raster;
 
+pub(crate) use animation::gif;
 pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
 pub use map::{Axis, FailureMap};
+pub(crate) use raster::png;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -93,14 +98,7 @@ impl Picture {
         let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
         self.draw(&area, PNG_SCALE)?;
         drop(area);
-        let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, width, height);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_compression(png::Compression::Balanced);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&pixels)?;
-        writer.finish()?;
-        Ok(file)
+        encode_png(width, height, &pixels)
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
@@ -126,4 +124,16 @@ impl Picture {
         // The error borrows nothing, but plotters' type does not say so.
         drawn.map_err(|error| error.to_string().into())
     }
+}
+
+/// The contents of a PNG file with these pixels, red, green and blue of each.
+fn encode_png(width: u32, height: u32, pixels: &[u8]) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
+    let mut file = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut file, width, height);
+    encoder.set_color(::png::ColorType::Rgb);
+    encoder.set_compression(::png::Compression::Balanced);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(file)
 }

@@ -11,6 +11,7 @@ mod extend;
 mod generate;
 mod guilty;
 mod pedestrian_study;
+mod pictures;
 mod plan;
 mod reference_drivers;
 mod signals;

@@ -264,6 +264,11 @@ impl Ego {
         self.pose().turn_to_plane(self.dynamics.state().velocity)
     }
 
+    /// What is left of the way that it is to go; none where it is just to go straight on.
+    pub fn plan(&self) -> Option<Path> {
+        (self.remaining() > 1.0).then(|| self.car.way.piece(self.at, self.car.way.length()))
+    }
+
     /// How far it is to the left of its way, in metres.
     pub fn way_offset(&self) -> f64 {
         self.car.way.at(self.at).to_local(self.pose().position).y

@@ -212,6 +212,10 @@ impl Geometric for Moving {
         outputs.set(&self.shown.remaining, self.path.length() - self.at);
     }
 
+    fn plan(&self) -> Option<Path> {
+        Some(self.path.piece(self.at, self.path.length()))
+    }
+
     fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {
         let offset = tick.number(&self.offset_input)?;
         let before = (self.at, self.offset, self.pose.position);

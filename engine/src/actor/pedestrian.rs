@@ -1,6 +1,7 @@
 //! People on foot: they walk straight to a target, at the speed that their input says.
 
 use crate::object::{Body, Geometric, Input, Output, Outputs, Tick};
+use crate::road::Path;
 use crate::scenario::{Place, Pose, Scenario};
 use crate::stream::{Datum, Stream};
 use nalgebra::Vector2;
@@ -152,6 +153,10 @@ impl Geometric for Walking {
         outputs.set(&self.y, self.pose.position.y);
         outputs.set(&self.speed, self.velocity.norm());
         outputs.set(&self.remaining, self.remaining());
+    }
+
+    fn plan(&self) -> Option<Path> {
+        self.target.get().map(|target| Path::straight(self.pose.position, target))
     }
 
     /// Walks no further than to the target, which it then reaches exactly.

@@ -72,6 +72,7 @@ pub(crate) use draft::{Behaviour, ObjectSetup};
 pub(crate) use footprint::{crosses, gap};
 pub(crate) use wiring::Wiring;
 
+use crate::road::Path;
 use crate::scenario::Pose;
 use nalgebra::Vector2;
 
@@ -93,6 +94,11 @@ pub trait Geometric: 'static {
     /// Shows its outputs as they stand at the beginning of a tick. An output that is not shown is absent.
     fn show(&self, outputs: &mut Outputs<'_>) {
         let _ = outputs;
+    }
+
+    /// The way that it means to go from where it is, if it has decided on one: for pictures.
+    fn plan(&self) -> Option<Path> {
+        None
     }
 
     /// Reads its inputs and moves on by a tick.

@@ -16,31 +16,31 @@ pub struct Bounds {
 
 impl Bounds {
     /// The box of no point, which becomes that of what is included.
-    pub(super) fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self { min: Vector2::repeat(f64::INFINITY), max: Vector2::repeat(f64::NEG_INFINITY) }
     }
 
-    pub(super) fn around(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
+    pub(crate) fn around(points: impl IntoIterator<Item = Vector2<f64>>) -> Self {
         let mut bounds = Self::empty();
         points.into_iter().for_each(|point| bounds.include(point));
         bounds
     }
 
-    pub(super) fn include(&mut self, point: Vector2<f64>) {
+    pub(crate) fn include(&mut self, point: Vector2<f64>) {
         self.min = self.min.inf(&point);
         self.max = self.max.sup(&point);
     }
 
-    pub(super) fn union(&self, other: &Self) -> Self {
+    pub(crate) fn union(&self, other: &Self) -> Self {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
 
     /// The box with every side moved outward.
-    pub(super) fn grown(&self, by: f64) -> Self {
+    pub(crate) fn grown(&self, by: f64) -> Self {
         Self { min: self.min.add_scalar(-by), max: self.max.add_scalar(by) }
     }
 
-    pub(super) fn meets(&self, other: &Self) -> bool {
+    pub(crate) fn meets(&self, other: &Self) -> bool {
         let apart = |a: &Self, b: &Self| a.max.x < b.min.x || a.max.y < b.min.y;
         !apart(self, other) && !apart(other, self)
     }

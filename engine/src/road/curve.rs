@@ -129,7 +129,7 @@ impl Curve {
     }
 
     /// The smallest box with sides along the axes that it fits into.
-    pub(super) fn bounds(&self) -> Bounds {
+    pub(crate) fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::around([self.start.position, self.point(self.length)]);
         if self.curvature != 0.0 {
             let (centre, radius) = (self.centre(), 1.0 / self.curvature.abs());

@@ -45,6 +45,25 @@ impl Path {
         self.length
     }
 
+    /// The curves that it consists of.
+    pub fn curves(&self) -> impl ExactSizeIterator<Item = &Curve> {
+        self.pieces.iter().map(|(_, curve)| curve)
+    }
+
+    /// The piece of it between two distances along it, of which the first is not beyond the second. What would be beyond
+    /// its ends is left out.
+    pub fn piece(&self, from: f64, to: f64) -> Self {
+        let [from, to] = [from, to].map(|s| s.clamp(0.0, self.length));
+        // Where the piece is but a point, it is one of the curve that goes on from there, or of the last.
+        let last = self.pieces.partition_point(|(begin, _)| *begin < to).max(1) - 1;
+        let first = (self.pieces.partition_point(|(begin, _)| *begin <= from).max(1) - 1).min(last);
+        Self::new(
+            self.pieces[first..=last]
+                .iter()
+                .map(|(begin, curve)| curve.piece((from - begin).max(0.0), (to - begin).min(curve.length()))),
+        )
+    }
+
     /// The pose `s` metres along it; before its start and beyond its end it goes on straight.
     pub fn at(&self, s: f64) -> Pose {
         self.beside(s, 0.0)
@@ -54,7 +73,7 @@ impl Path {
     pub fn beside(&self, s: f64, offset: f64) -> Pose {
         // Beyond both ends it goes on straight.
         let inside = s.clamp(0.0, self.length);
-        let (from, curve) = &self.pieces[self.piece(inside)];
+        let (from, curve) = &self.pieces[self.index(inside)];
         let at = inside - from;
         let ahead = curve.at(at).forward() * (s - inside);
         Pose { position: curve.beside(at, offset) + ahead, heading: curve.heading(at) }
@@ -62,14 +81,14 @@ impl Path {
 
     /// How the path bends `s` metres along it, in 1/m, positive to the left.
     pub fn curvature(&self, s: f64) -> f64 {
-        self.pieces[self.piece(s)].1.curvature()
+        self.pieces[self.index(s)].1.curvature()
     }
 
     /// How many metres along the path the point lies that is nearest to `position`, among those near the point `s` metres
     /// along it: on the curve that `s` is on and those beside it. A path may cross itself; who goes along it does not
     /// jump from one branch to the other. Before its start and beyond its end the path goes on straight.
     pub fn nearest(&self, position: Vector2<f64>, s: f64) -> f64 {
-        let here = self.piece(s);
+        let here = self.index(s);
         let mut best = (f64::INFINITY, s);
         for piece in here.saturating_sub(1)..(here + 2).min(self.pieces.len()) {
             let (from, curve) = &self.pieces[piece];
@@ -88,7 +107,8 @@ impl Path {
         best.1
     }
 
-    fn piece(&self, s: f64) -> usize {
+    /// The curve that the point `s` metres along it is on.
+    fn index(&self, s: f64) -> usize {
         self.pieces.partition_point(|(from, _)| *from <= s).max(1) - 1
     }
 

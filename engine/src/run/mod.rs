@@ -14,7 +14,7 @@ use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Metric, Outcome};
 use crate::program::{Program, ProgramError, Test};
-use crate::road::{Network, wrapped};
+use crate::road::{Network, Path, wrapped};
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::Model;
 use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
@@ -55,6 +55,7 @@ pub struct Run {
     dt: f64,
     ticks: usize,
     tick: usize,
+    over: bool,
     /// Ticks between two questions to the driver.
     period: usize,
     supplied: bool,
@@ -112,6 +113,7 @@ impl Run {
             dt,
             ticks,
             tick: 0,
+            over: false,
             period: ((period / dt).round() as usize).max(1),
             supplied: false,
             graph,
@@ -137,7 +139,7 @@ impl Run {
     /// # Panics
     /// It was over already.
     pub fn advance(&mut self) -> Step<'_> {
-        assert!(self.tick <= self.ticks, "the run is over");
+        assert!(!self.over, "the run is over");
         if let Some(outcome) = self.unable.take() {
             return self.end(outcome);
         }
@@ -173,19 +175,38 @@ impl Run {
 
     /// Goes to the end with this driver, which is told that a new run begins.
     pub fn drive(&mut self, driver: &mut dyn Driver) -> Outcome {
+        self.watch(driver, |_| ())
+    }
+
+    /// Goes to the end with this driver, and lets `see` have a look whenever the driver is asked, and at the end.
+    pub fn watch(&mut self, driver: &mut dyn Driver, mut see: impl FnMut(&Self)) -> Outcome {
         driver.reset(&self.briefing());
         loop {
-            let control = match self.advance() {
-                Step::Need(observation) => driver.step(observation),
-                Step::Done(outcome) => return *outcome,
+            let (control, outcome) = match self.advance() {
+                Step::Need(observation) => (driver.step(observation), None),
+                Step::Done(outcome) => (Control::default(), Some(outcome)),
             };
-            self.supply(control);
+            see(self);
+            match outcome {
+                Some(outcome) => return *outcome,
+                None => self.supply(control),
+            }
         }
     }
 
     /// All bodies where they are now, the car under test first, the others in the order in which they were placed.
     pub fn bodies(&self) -> &[BodyState] {
         &self.scene.bodies
+    }
+
+    /// The ways that objects mean to go from where they are, each with the index of a body: that of the object.
+    pub fn plans(&self) -> Vec<(usize, Path)> {
+        self.scene.plans()
+    }
+
+    /// The index of the body that the car under test touches.
+    pub fn touched(&self) -> Option<usize> {
+        self.scene.contact.map(|contact| contact.body)
     }
 
     /// The roads.
@@ -198,8 +219,13 @@ impl Run {
         self.tick as f64 * self.dt
     }
 
+    /// Whether it has come to its end.
+    pub fn is_over(&self) -> bool {
+        self.over
+    }
+
     fn end(&mut self, outcome: Outcome) -> Step<'static> {
-        self.tick = self.ticks + 1;
+        self.over = true;
         Step::Done(Box::new(outcome))
     }
 
@@ -300,10 +326,21 @@ impl Setup {
 
 /// Runs a test to its end with a driver, in a car that this model moves; a world that cannot be built is an outcome too.
 pub fn simulate<'a>(program: &Program, test: impl Into<Test<'a>>, model: Model, driver: &mut dyn Driver) -> Outcome {
+    watch(program, test, model, driver, |_| ())
+}
+
+/// [`simulate`], with a look at the run whenever the driver is asked, and at the end: [`Run::watch`].
+pub fn watch<'a>(
+    program: &Program,
+    test: impl Into<Test<'a>>,
+    model: Model,
+    driver: &mut dyn Driver,
+    see: impl FnMut(&Run),
+) -> Outcome {
     let mut run = match Run::new(program, test, Setup { model, ..Setup::asking_every(driver.period()) }) {
         Ok(run) => run,
         Err(error @ ProgramError::World { .. }) => return Outcome::broken(Verdict::Invalid, error.to_string()),
         Err(error) => return Outcome::broken(Verdict::Error, error.to_string()),
     };
-    run.drive(driver)
+    run.watch(driver, see)
 }

@@ -2,7 +2,7 @@
 
 use crate::actor::Ego;
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
-use crate::road::Network;
+use crate::road::{Network, Path};
 use crate::scenario::{Pose, Scenario};
 use crate::stream::{Clock, Graph, Sample, Slot};
 use crate::vehicle::{GRAVITY, Model};
@@ -171,6 +171,16 @@ impl Scene {
             Some(contact) => -self.missing_distance(contact, friction),
         };
         Ok(())
+    }
+
+    /// The ways that objects mean to go, each with the index of the first body of its object.
+    pub fn plans(&self) -> Vec<(usize, Path)> {
+        let plan = |object: &Object| match &object.behaviour {
+            Behaviour::Geometric(behaviour) if object.own.0 < object.own.1 => Some((object.own.0, behaviour.plan()?)),
+            _ => None,
+        };
+        let own = self.ego.plan().map(|way| (0, way));
+        own.into_iter().chain(self.objects.iter().filter_map(plan)).collect()
     }
 
     /// The braking distance that was missing at a contact.

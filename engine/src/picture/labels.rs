@@ -1,0 +1,56 @@
+//! Labels that keep out of each other's way: one that finds no room is left out.
+
+use super::drawing::{Anchor, Mark, Pixel};
+use super::legend::{INK, PAPER, text_width};
+use nalgebra::Vector2;
+
+/// Where there are labels already.
+#[derive(Debug)]
+pub(super) struct Labels {
+    /// Width and height of the picture.
+    size: [f64; 2],
+    taken: Vec<[f64; 4]>,
+}
+
+/// The size of letters in pixels.
+const SIZE: f64 = 13.0;
+
+impl Labels {
+    /// No labels yet on a picture of this width and height.
+    pub fn on(size: [f64; 2]) -> Self {
+        Self { size, taken: Vec::new() }
+    }
+
+    /// Keeps labels away from here: a square with sides of twice these pixels.
+    pub fn keep_off(&mut self, [x, y]: Pixel, by: f64) {
+        self.taken.push([x - by, y - by, x + by, y + by]);
+    }
+
+    /// The label `gap` pixels beside `from`, in the first of these directions in which there is room.
+    pub fn place(
+        &mut self,
+        text: &str,
+        [x, y]: Pixel,
+        gap: f64,
+        directions: impl IntoIterator<Item = Vector2<f64>>,
+    ) -> Option<Mark> {
+        let (wide, high) = (0.5 * text_width(text, SIZE) + 3.0, 0.5 * SIZE + 1.0);
+        let room = |[x, y]: Pixel| [x - wide, y - high, x + wide, y + high];
+        let free = |room: &[f64; 4]| {
+            let inside = room[0] >= 0.0 && room[1] >= 0.0 && room[2] <= self.size[0] && room[3] <= self.size[1];
+            let apart = |taken: &[f64; 4]| {
+                taken[2] <= room[0] || room[2] <= taken[0] || taken[3] <= room[1] || room[3] <= taken[1]
+            };
+            inside && self.taken.iter().all(apart)
+        };
+        let place = |way: Vector2<f64>| {
+            let away = gap + wide * way.x.abs() + high * way.y.abs();
+            [x + away * way.x, y + away * way.y]
+        };
+        let at = directions.into_iter().map(place).find(|place| free(&room(*place)))?;
+        self.taken.push(room(at));
+        let at = [at[0], at[1] + 0.36 * SIZE];
+        let halo = Some(PAPER);
+        Some(Mark::Text { at, anchor: Anchor::Middle, size: SIZE, colour: INK, halo, text: text.to_owned() })
+    }
+}

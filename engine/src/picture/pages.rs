@@ -1,0 +1,124 @@
+//! How a run is cut into pages: stretches of time that each fit into one view of the same size, in which a car can still
+//! be told from a lorry.
+//!
+//! A page ends where the car under test drives out of the largest view, so that pages follow it as a reader's eyes
+//! follow a line of text. Pages on which it is all alone are left out, if there are others.
+
+use super::body::is_actor;
+use super::record::{Record, Scene};
+use super::view::{View, across, with_margin};
+use crate::object::Body;
+use crate::road::Bounds;
+use crate::scenario::Pose;
+use std::ops::Range;
+
+/// Metres that a page shows at most from left to right, and from top to bottom, unless there would be too many pages.
+const SPAN: [f64; 2] = [170.0, 100.0];
+/// By how much the span may be larger for the sake of having one page only.
+const ALONE: f64 = 1.6;
+/// How many pages there are at most, and how high they all are together, as a share of their width.
+const MOST: usize = 6;
+const HIGHEST: f64 = 1.5;
+/// How far from the car under test, in metres, others have to be seen: the first of these that gives one page.
+const REACHES: [f64; 4] = [f64::INFINITY, 200.0, 100.0, NEAR];
+/// How far others are seen in any case.
+const NEAR: f64 = 50.0;
+/// How often the span is halved or nearly so, in search of the least one that gives as many pages.
+const HALVINGS: usize = 7;
+/// Moments between two at which the edges of the road are looked for.
+const EDGES: usize = 10;
+
+/// A stretch of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Page {
+    pub view: View,
+    pub moments: Range<usize>,
+}
+
+/// A stretch and what has to be seen in it.
+type Stretch = (Bounds, Range<usize>);
+
+/// The pages of a run, each a picture of this width in pixels, all of one size and scale. There are moments.
+pub(super) fn pages(record: &Record, scene: &Scene, width: f64) -> Vec<Page> {
+    let all = 0..record.moments.len();
+    let whole = |reach: &f64| with_margin(&record.bounds(scene, all.clone(), *reach));
+    let one = REACHES.iter().map(whole).find(|bounds| fits(bounds, ALONE));
+    let mut stretches = one.map_or_else(|| several(record, scene), |bounds| vec![(bounds, all)]);
+    for (bounds, moments) in &mut stretches {
+        let cars = record.moments[moments.clone()].iter().step_by(EDGES).map(|moment| moment.poses[0].position);
+        *bounds = bounds.union(&across(&scene.network, cars));
+    }
+    // All views have the size of the one that fits all.
+    let extents = stretches.iter().map(|(bounds, _)| bounds.max - bounds.min);
+    let extent = extents.reduce(|a, b| a.sup(&b)).expect("there is a page");
+    let page = |(bounds, moments): Stretch| {
+        let centre = 0.5 * (bounds.min + bounds.max);
+        let bounds = Bounds { min: centre - 0.5 * extent, max: centre + 0.5 * extent };
+        Page { view: View::fit(&bounds, width), moments }
+    };
+    stretches.into_iter().map(page).collect()
+}
+
+/// As few pages as there have to be, each about as full as the others.
+fn several(record: &Record, scene: &Scene) -> Vec<Stretch> {
+    let cut = |zoom: f64| with_company(record, scene, cut(record, scene, zoom));
+    let mut zoom = 1.0;
+    let mut pages = cut(zoom);
+    while pages.len() > 1 && (pages.len() > MOST || height(&pages) > HIGHEST) {
+        zoom *= 2.0;
+        pages = cut(zoom);
+    }
+    let (mut too_small, mut enough) = (0.5 * zoom, zoom);
+    for _ in 0..HALVINGS {
+        let tried = 0.5 * (too_small + enough);
+        let found = cut(tried);
+        if found.len() <= pages.len() {
+            (enough, pages) = (tried, found);
+        } else {
+            too_small = tried;
+        }
+    }
+    pages
+}
+
+/// How high pages of one width are together, as a share of that width.
+fn height(pages: &[Stretch]) -> f64 {
+    let extents = pages.iter().map(|(bounds, _)| bounds.max - bounds.min);
+    extents.reduce(|a, b| a.sup(&b)).map_or(0.0, |extent| pages.len() as f64 * extent.y / extent.x)
+}
+
+fn fits(bounds: &Bounds, zoom: f64) -> bool {
+    let extent = bounds.max - bounds.min;
+    extent.x <= SPAN[0] * zoom && extent.y <= SPAN[1] * zoom
+}
+
+/// Each page as long as it fits.
+fn cut(record: &Record, scene: &Scene, zoom: f64) -> Vec<Stretch> {
+    let mut pages: Vec<Stretch> = Vec::new();
+    for i in 0..record.moments.len() {
+        let here = with_margin(&record.bounds(scene, i..i + 1, NEAR));
+        match pages.last_mut() {
+            Some((bounds, moments)) if fits(&bounds.union(&here), zoom) => {
+                *bounds = bounds.union(&here);
+                moments.end = i + 1;
+            }
+            // The new page begins where the one before it ends.
+            _ => pages.push((here, i.saturating_sub(1)..i + 1)),
+        }
+    }
+    pages
+}
+
+/// The pages on which other actors are to be seen near; all of them if there are none.
+fn with_company(record: &Record, scene: &Scene, pages: Vec<Stretch>) -> Vec<Stretch> {
+    let met = |(_, moments): &Stretch| {
+        record.moments[moments.clone()].iter().any(|moment| {
+            let near = |(pose, body): (&Pose, &Body)| {
+                is_actor(body.class) && (pose.position - moment.poses[0].position).norm() <= NEAR
+            };
+            moment.poses.iter().zip(&scene.bodies).skip(1).any(near)
+        })
+    };
+    let those: Vec<_> = pages.iter().filter(|page| met(page)).cloned().collect();
+    if those.is_empty() { pages } else { those }
+}

@@ -1,0 +1,113 @@
+//! A road network from above, with ways and bodies on it.
+
+use super::body::body;
+use super::drawing::{Colour, Contour, Drawing, Paint, Segment};
+use super::ground::{ground, lanes};
+use super::legend::scale_bar;
+use super::view::View;
+use crate::object::{Body, Class};
+use crate::road::{Bounds, Network, Route};
+use crate::scenario::Pose;
+
+/// Width or height of a picture in pixels, whichever is greater, without its margins.
+const SIZE: f64 = 1200.0;
+/// The largest number of pixels to a metre, for small networks.
+const LARGEST_SCALE: f64 = 16.0;
+/// Pixels around the network, and below it for the scale.
+const MARGIN: f64 = 28.0;
+const FOOT: f64 = 34.0;
+/// To how many metres the edges of the picture are right.
+const FAITHFUL: f64 = 0.1;
+
+/// A network from above, and what is shown on it.
+#[derive(Debug, Clone)]
+pub struct RoadPicture<'a> {
+    network: &'a Network,
+    lanes: bool,
+    routes: Vec<(Route, Colour)>,
+    bodies: Vec<(Pose, Body, Colour)>,
+}
+
+impl<'a> RoadPicture<'a> {
+    /// The network alone.
+    pub fn of(network: &'a Network) -> Self {
+        Self { network, lanes: false, routes: Vec::new(), bodies: Vec::new() }
+    }
+
+    /// Shows the middle of every lane with an arrow.
+    pub fn lanes(mut self) -> Self {
+        self.lanes = true;
+        self
+    }
+
+    /// Shows a way.
+    pub fn route(mut self, route: &Route, colour: Colour) -> Self {
+        self.routes.push((route.clone(), colour));
+        self
+    }
+
+    /// Shows a vehicle of this length and width in metres, with its front marked.
+    pub fn body(mut self, pose: Pose, length: f64, width: f64, colour: Colour) -> Self {
+        self.bodies.push((pose, Body::block(Class::Car, length, width, 1.0), colour));
+        self
+    }
+
+    /// The picture as the text of an SVG file.
+    pub fn svg(&self) -> String {
+        let strips = self.network.strips();
+        let sides = strips.iter().map(|strip| strip.sides(FAITHFUL));
+        let bounds = Bounds::around(sides.flat_map(|(right, left)| right.into_iter().chain(left)));
+        let scale = (SIZE / (bounds.max - bounds.min).max()).min(LARGEST_SCALE);
+        let mut bounds = bounds.grown(MARGIN / scale);
+        bounds.min.y -= FOOT / scale;
+        let view = View { bounds, scale };
+        let [width, height] = view.size();
+        let mut marks = ground(&view, self.network);
+        if self.lanes {
+            marks.extend(lanes(&view, self.network));
+        }
+        for (way, colour) in &self.routes {
+            let paint = Paint { colour: *colour, opacity: 0.85 };
+            marks.push(route(&view, self.network, way).stroke(paint, 1.3 * scale));
+        }
+        for (pose, of, colour) in &self.bodies {
+            marks.extend(body(&view, of, pose, *colour, 1.0));
+        }
+        scale_bar(&mut marks, [MARGIN, height - 0.5 * (MARGIN + FOOT)], scale);
+        Drawing { width, height, marks }.svg()
+    }
+}
+
+/// The way along the middles of its lanes; where it changes to a lane beside, over half of what is left of both.
+fn route(view: &View, network: &Network, route: &Route) -> Contour {
+    let curve = |index: usize| &network.lane(route.lanes[index]).curve;
+    let mut from = route.start / curve(0).length();
+    let mut contour = Contour { segments: vec![Segment::Move(view.at(curve(0).point(route.start)))] };
+    for index in 0..route.lanes.len() {
+        let here = curve(index);
+        match route.lanes.get(index + 1) {
+            Some(next) if network.lane(route.lanes[index]).beside().any(|beside| beside == *next) => {
+                let last = index + 2 == route.lanes.len();
+                let until = if last { route.end / curve(index + 1).length() } else { 1.0 };
+                let to = 0.5 * (from + until);
+                for (share, aside) in sideways() {
+                    let along = from + (to - from) * share;
+                    let [a, b] = [here, curve(index + 1)].map(|curve| curve.point(along * curve.length()));
+                    contour.segments.push(Segment::Line(view.at(a + (b - a) * aside)));
+                }
+                from = to;
+            }
+            next => {
+                let end = if next.is_some() { here.length() } else { route.end };
+                view.along(&mut contour, here, 0.0, [from * here.length(), end]);
+                from = 0.0;
+            }
+        }
+    }
+    contour
+}
+
+/// How far aside a lane change is at shares of its way: it begins and ends straight.
+fn sideways() -> impl Iterator<Item = (f64, f64)> {
+    (1..=16).map(|i| f64::from(i) / 16.0).map(|share| (share, share * share * (3.0 - 2.0 * share)))
+}

@@ -1,0 +1,100 @@
+//! Which part of the ground a picture shows, and how large.
+
+use super::drawing::{Contour, Pixel, Segment};
+use crate::road::{Bounds, Curve, Network, Surface};
+use nalgebra::Vector2;
+use std::f64::consts::FRAC_PI_4;
+
+/// A part of the ground, from above.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct View {
+    pub bounds: Bounds,
+    /// Pixels to a metre.
+    pub scale: f64,
+}
+
+/// Metres to the left and right of what has to be seen, and above and below it.
+pub(super) const MARGIN: [f64; 2] = [14.0, 6.0];
+/// How far in metres the edges of a road may be from who is on it.
+const ACROSS: f64 = 25.0;
+/// Metres beyond the edges of a road.
+const VERGE: f64 = 2.0;
+/// The least width in metres that a picture shows.
+const NARROWEST: f64 = 60.0;
+/// The least and the largest height of a picture, as shares of its width.
+const HEIGHTS: [f64; 2] = [0.12, 0.7];
+
+/// What has to be seen, with some ground around it.
+pub(super) fn with_margin(bounds: &Bounds) -> Bounds {
+    let margin = Vector2::from(MARGIN);
+    Bounds { min: bounds.min - margin, max: bounds.max + margin }
+}
+
+/// Across the road at each of these points, from edge to edge.
+pub(super) fn across(network: &Network, points: impl Iterator<Item = Vector2<f64>>) -> Bounds {
+    let mut strips = network.strips();
+    strips.retain(|strip| matches!(strip.surface, Surface::Sidewalk | Surface::Carriageway));
+    let edges = points.flat_map(|point| {
+        strips.iter().flat_map(move |strip| {
+            let s = strip.curve.nearest(point);
+            [strip.right, strip.left]
+                .map(|side| strip.curve.beside(s, side))
+                .into_iter()
+                .filter(move |edge| (edge - point).norm() <= ACROSS)
+        })
+    });
+    Bounds::around(edges).grown(VERGE)
+}
+
+impl View {
+    /// A picture of this width in pixels that shows all within some bounds, and around them what makes it neither too
+    /// flat nor too tall.
+    pub fn fit(bounds: &Bounds, width: f64) -> Self {
+        let extent = bounds.max - bounds.min;
+        let wide = extent.x.max(NARROWEST).max(extent.y / HEIGHTS[1]);
+        let high = extent.y.max(wide * HEIGHTS[0]);
+        let (centre, half) = (0.5 * (bounds.min + bounds.max), 0.5 * Vector2::new(wide, high));
+        Self { bounds: Bounds { min: centre - half, max: centre + half }, scale: width / wide }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [f64; 2] {
+        let extent = (self.bounds.max - self.bounds.min) * self.scale;
+        [extent.x.round(), extent.y.round()]
+    }
+
+    /// Where a point of the ground is on the picture.
+    pub fn at(&self, point: Vector2<f64>) -> Pixel {
+        [(point.x - self.bounds.min.x) * self.scale, (self.bounds.max.y - point.y) * self.scale]
+    }
+
+    /// Whether a point can be seen, or is this many metres beyond the edge at most.
+    pub fn shows(&self, point: Vector2<f64>, beyond: f64) -> bool {
+        Bounds { min: point, max: point }.meets(&self.bounds.grown(beyond))
+    }
+
+    /// The contour of a curve, `offset` metres to its left.
+    pub fn curve(&self, curve: &Curve, offset: f64) -> Contour {
+        let mut contour = Contour { segments: vec![Segment::Move(self.at(curve.beside(0.0, offset)))] };
+        self.along(&mut contour, curve, offset, [0.0, curve.length()]);
+        contour
+    }
+
+    /// On beside a curve: a line, or arcs of an eighth of a circle at most, which are right to a few millionths of the
+    /// radius.
+    pub fn along(&self, contour: &mut Contour, curve: &Curve, offset: f64, [from, to]: [f64; 2]) {
+        if curve.curvature() == 0.0 {
+            return contour.segments.push(Segment::Line(self.at(curve.beside(to, offset))));
+        }
+        let turn = curve.curvature() * (to - from);
+        let pieces = (turn.abs() / FRAC_PI_4).ceil().max(1.0);
+        let reach = 4.0 / 3.0 * libm::tan(0.25 * turn / pieces) * (1.0 / curve.curvature() - offset);
+        for piece in 1..=pieces as usize {
+            let [a, b] = [piece - 1, piece].map(|piece| from + (to - from) * piece as f64 / pieces);
+            let ahead = |s: f64| curve.at(s).forward() * reach;
+            let [start, end] = [a, b].map(|s| curve.beside(s, offset));
+            let points = [start + ahead(a), end - ahead(b), end].map(|point| self.at(point));
+            contour.segments.push(Segment::Cubic(points[0], points[1], points[2]));
+        }
+    }
+}

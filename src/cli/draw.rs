@@ -1,0 +1,73 @@
+//! The option `--draw` of `paracosm-fuzz describe` and `replay`.
+
+use crate::folder::{is_new, write_whole};
+use crate::{Error, Folder};
+use paracosm_coverage::{did_you_mean, nearest};
+use std::path::{Path, PathBuf};
+
+/// What a picture is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Svg,
+    Png,
+    Gif,
+}
+
+impl Kind {
+    fn ending(self) -> &'static str {
+        match self {
+            Kind::Svg => "svg",
+            Kind::Png => "png",
+            Kind::Gif => "gif",
+        }
+    }
+}
+
+/// A file for a picture, which does not exist yet.
+#[derive(Debug)]
+pub(super) struct Target {
+    path: PathBuf,
+    pub kind: Kind,
+}
+
+impl Target {
+    /// Checks, before anything takes time, that a picture of one of these kinds can be written there.
+    ///
+    /// # Errors
+    /// The file exists, belongs to a campaign, or has another ending.
+    pub fn new(path: &Path, kinds: &[Kind]) -> Result<Self, Error> {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let Some(kind) = kinds.iter().find(|kind| kind.ending() == ending) else {
+            let known: Vec<_> = kinds.iter().map(|kind| kind.ending()).collect();
+            let found = if ending.is_empty() { "no ending".to_owned() } else { format!("the ending `.{ending}`") };
+            let (path, meant) = (path.display(), did_you_mean(&nearest(&ending, known.iter().copied())));
+            let known: Vec<_> = known.iter().map(|ending| format!(".{ending}")).collect();
+            let message = format!("--draw {path}: found {found}, expected {}{meant}", known.join(" or "));
+            return Err(Error::Usage(message));
+        };
+        is_new(path, "a picture")?;
+        if path.file_name().is_some_and(Folder::owns) {
+            let message = format!("--draw {} has the name of a campaign's own file", path.display());
+            return Err(Error::Usage(message));
+        }
+        Ok(Self { path: path.to_owned(), kind: *kind })
+    }
+
+    /// Writes the picture that is drawn so; how large it is, in words.
+    ///
+    /// # Errors
+    /// It cannot be drawn or written.
+    pub fn write(
+        &self,
+        drawn: impl FnOnce(Kind) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>>,
+    ) -> Result<String, Error> {
+        let picture = |error: Box<dyn std::error::Error + Send + Sync>| Error::Picture {
+            path: self.path.clone(),
+            message: error.to_string(),
+        };
+        let contents = drawn(self.kind).map_err(picture)?;
+        is_new(&self.path, "a picture")?;
+        write_whole(&self.path, &contents)?;
+        Ok(format!("picture of {} kB written to {}", contents.len().div_ceil(1000), self.path.display()))
+    }
+}
