@@ -222,7 +222,7 @@ fn a_run_tells_when_and_what_it_ended_at() {
     let trace = outcome.trace.unwrap();
     assert_eq!((outcome.verdict, ends), (Verdict::Fail, 1));
     assert_eq!(run.touched(), Some(1), "the car drove into the one ahead");
-    assert_eq!(run.time(), (trace.len() - 1) as f64 * DEFAULT_DT);
+    assert_eq!(run.time(), (trace.len() - 1) as f64 * paracosm_engine::DEFAULT_DT);
     assert_eq!((times[0], *times.last().unwrap()), (0.0, run.time()));
     assert!(times.windows(2).all(|two| two[0] < two[1]), "every moment is seen once");
 }
