@@ -31,9 +31,6 @@ pub struct Monitor {
     scale: f64,
 }
 
-/// Speed in m/s below which a car stands.
-const STANDING: f64 = 0.1;
-
 impl Monitor {
     /// A statement about every run: its id, the unit of its robustness, and how much of it is a lot.
     pub fn new(id: &str, statement: Temporal, unit: &'static str, scale: f64) -> Self {
@@ -57,18 +54,17 @@ impl Monitor {
         Self::new("progress", eventually(car.travelled().at_least(metres)), "m", 0.5 * metres).text(text)
     }
 
-    /// The car reaches the end of the way that it is to go, to within so many metres.
+    /// The car reaches the end of the way that it is to go, to within so many metres. It never does where it is just to go
+    /// straight on.
     pub fn route_completion(car: &Car, metres: f64) -> Self {
         let text = format!("The car comes to within {metres} m of the end of its way.");
         Self::new("route-completion", eventually(car.remaining().at_most(metres)), "m", 50.0).text(text)
     }
 
-    /// The car does not stand still for so many seconds: its robustness is by how many m/s it was quicker than a car that
-    /// stands, in its worst span.
+    /// The car does not stand still for so many seconds.
     pub fn activity(car: &Car, seconds: f64) -> Self {
-        let stands = Temporal::from(car.speed().below(STANDING)).historically(0.0..=seconds);
         let text = format!("The car does not stand still for {seconds} s.");
-        Self::new("activity", never(stands), "m/s", 5.0).text(text)
+        Self::new("activity", never(car.standing_time().at_least(seconds)), "s", seconds).text(text)
     }
 
     /// The car keeps at least so many metres away from everything.

@@ -29,7 +29,8 @@ impl fmt::Display for Metric {
 pub struct Outcome {
     /// What became of it.
     pub verdict: Verdict,
-    /// The robustness of each requirement by its id; `None` where the run ended before it was decided.
+    /// The robustness of each requirement by its id; `None` where the run ended before it was decided: it is inconclusive
+    /// then, unless another was violated.
     pub robustness: Vec<(String, Option<f64>)>,
     /// `travelled` (m), `impact_speed` (the car's at the contact, m/s; 0 without one), `contact_face`, and
     /// `triggered`: whether the premise of the scenario came about.

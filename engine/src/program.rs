@@ -112,6 +112,9 @@ pub enum ProgramError {
     },
 }
 
+/// The most ticks that a run may have: three hours at 1 kHz. A trace is kept in memory.
+const MOST_TICKS: f64 = 1e7;
+
 impl Program {
     /// Runs the program without a test: what parameters and requirements it has.
     ///
@@ -168,6 +171,12 @@ impl Program {
             problems.push(format!(
                 "a tick takes {} s, expected a positive number up to the run's {}",
                 scenario.dt, scenario.duration
+            ));
+        }
+        if scenario.duration / scenario.dt > MOST_TICKS {
+            problems.push(format!(
+                "a run has {:.0} ticks, expected at most {MOST_TICKS:.0}",
+                scenario.duration / scenario.dt
             ));
         }
         let requirements = scenario.requirements.borrow();

@@ -78,7 +78,8 @@ fn activity_is_violated_by_a_car_that_stands_too_long_and_not_by_one_that_goes_o
     }
     let stops = drive(build, |_| (-1.0, 0.0));
     assert_eq!(stops.verdict, Verdict::Fail);
-    assert_near(robustness(&stops, "activity"), -0.1);
+    let standing = 5.0 - 10.0 / (0.8 * 9.80665);
+    assert!((robustness(&stops, "activity") - (2.0 - standing)).abs() < 0.05, "{:?}", stops.robustness);
     let goes_on = drive(build, |time| if time < 2.5 { (-1.0, 0.0) } else { (0.5, 0.0) });
     assert_eq!(goes_on.verdict, Verdict::Pass, "{:?}", goes_on.robustness);
     assert!(robustness(&goes_on, "activity") > 0.0);
@@ -158,4 +159,47 @@ fn the_right_of_way_is_taken_from_who_comes_soon_and_not_from_who_is_gone() {
     assert_eq!(soon.verdict, Verdict::Fail, "{:?} {:?}", soon.robustness, soon.error);
     let gone = run(|s| tee(s, 20.0));
     assert_eq!(gone.verdict, Verdict::Pass, "{:?} {:?}", gone.robustness, gone.error);
+}
+
+#[test]
+fn a_car_that_has_just_begun_to_stand_is_not_inactive() {
+    let outcome = drive(
+        |s| {
+            let road = s.place(RoadSegment::new(300.0));
+            s.duration(5.0);
+            let car = s.place(AutonomousVehicle::along(road.path(1)).starting(20.0));
+            s.monitor(Monitor::activity(&car, 2.0));
+        },
+        |time| (if time < 1.0 { 0.0 } else { 0.5 }, 0.0),
+    );
+    assert_eq!(outcome.verdict, Verdict::Pass, "{:?}", outcome.robustness);
+    assert!((robustness(&outcome, "activity") - 1.0).abs() < 0.1);
+}
+
+#[test]
+fn a_car_that_is_just_to_go_straight_on_completes_no_route() {
+    let outcome = drive(
+        |s| {
+            let road = s.place(RoadSegment::new(300.0));
+            s.duration(1.0);
+            let car = s.place(AutonomousVehicle::at(road.on_lane(1, 20.0)).speed(10.0));
+            s.monitor(Monitor::route_completion(&car, 5.0));
+        },
+        coast,
+    );
+    assert_eq!(outcome.verdict, Verdict::Fail);
+}
+
+#[test]
+fn a_run_that_a_contact_ends_before_anything_is_decided_is_inconclusive() {
+    let outcome = drive(
+        |s| {
+            let car = car(s);
+            let path = Path::straight([0.0, -1.75].into(), [300.0, -1.75].into());
+            s.place(Mover::car(path).starting(40.0));
+            s.monitor(Monitor::progress(&car, 100.0));
+        },
+        coast,
+    );
+    assert_eq!((outcome.verdict, outcome.robustness[0].1), (Verdict::Inconclusive, None));
 }

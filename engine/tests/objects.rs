@@ -6,8 +6,8 @@ use paracosm_engine::object::{Body, BodyState, Class, Input, Output, Outputs, Ph
 use paracosm_engine::road::{CrossIntersection, Path, RoadSegment};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{
-    AutonomousVehicle, Car, Environment, Fixture, Mover, Outcome, Pedestrian, Place, Pose, Program, Road, Scenario,
-    Side, Stream, Temporal, always, driver, eventually, never, simulate,
+    AutonomousVehicle, Car, Environment, Fixture, Mover, Outcome, Pedestrian, Place, Pose, Program, Road, Run,
+    Scenario, Setup, Side, Stream, Temporal, always, driver, eventually, never, simulate,
 };
 use paracosm_oracles::Verdict;
 
@@ -195,6 +195,49 @@ fn mistakes_are_named() {
         s.place(Fixture::new("sheet", Body::block(Class::Prop, 1.0, 0.0, 1.0), road.on_lane(2, 10.0)));
     });
     assert!(flat.contains("sheet is 1 m long, 0 m wide and 1 m tall"), "{flat}");
+}
+
+#[test]
+fn what_is_no_number_is_a_mistake_and_no_panic() {
+    let paths = refusal(|s| {
+        let (road, _) = rolling(s);
+        let here = Vector2::new(0.0, 30.0);
+        s.place(Mover::car(Path::straight(here, Vector2::new(f64::NAN, 0.0))));
+        s.place(Mover::truck(road.path(1)).starting(f64::NAN));
+        s.duration(1e12);
+    });
+    assert!(paths.contains("other has a path that has a piece NaN m long"), "{paths}");
+    assert!(paths.contains("truck starts NaN m along"), "{paths}");
+    assert!(paths.contains("a run has 100000000000000 ticks, expected at most 10000000"), "{paths}");
+    let car = refusal(|s| {
+        let road = s.place(RoadSegment::new(100.0));
+        let nowhere = Pose { position: Vector2::new(f64::NAN, 0.0), ..road.on_lane(1, 10.0) };
+        s.place(AutonomousVehicle::at(nowhere));
+        s.duration(-1.0);
+    });
+    assert!(car.contains("car has a way that has a piece"), "{car}");
+    let fog = run(|s| {
+        let (_, car) = rolling(s);
+        s.place(Environment::new().fog(car.speed()));
+        s.require("some", eventually(car.speed().above(1.0)));
+    });
+    assert_eq!(fog.error.unwrap(), "the fog is 10, expected 0 to 1 at 0.000 s");
+}
+
+#[test]
+fn time_is_that_of_the_run_whatever_the_tick() {
+    fn clock(s: &mut Scenario) {
+        let (_, car) = rolling(s);
+        s.require("late", eventually((Stream::time() + car.travelled() * 0.0).named("clock").at_least(4.995)));
+    }
+    let program = Program { name: "clock", about: "a clock", build: clock };
+    for dt in [0.01, 0.002, 0.05] {
+        let setup = Setup { dt: Some(dt), ..Setup::asking_every(0.05) };
+        let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
+        let outcome = Run::new(&program, &Values::default(), setup).unwrap().drive(driver.as_mut());
+        let last = *signal(&outcome, "clock").last().unwrap();
+        assert!((last - 5.0).abs() < 1e-9, "{last}");
+    }
 }
 
 #[test]

@@ -3,16 +3,14 @@
 //! Ranges are those of the public variations of the regulation's scenarios. The lane change begins at once; the gap is from
 //! bumper to bumper at that moment. A combination in which the other car would drive backwards is no world.
 
-use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario};
+use crate::LANE;
+use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario, Stream};
 
 pub(crate) const PROGRAM: Program = Program {
     name: "cut-in",
     about: "a slower car changes into the lane of the car, right before it (UN R157)",
     build: cut_in,
 };
-
-/// The width of a lane in metres.
-const LANE: f64 = 3.5;
 
 fn cut_in(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 20.0..=60.0).unit("km/h").default(50.0);
@@ -27,8 +25,8 @@ fn cut_in(s: &mut Scenario) {
     if other_speed < 0.0 {
         s.refuse("the other car would drive backwards");
     }
-    let aside = (s.time() * lateral.value()).min(LANE);
-    let start = 10.0 + gap.value() + 0.5 * (4.508 + 4.5);
+    let aside = (Stream::time() * lateral.value()).min(LANE);
+    let start = 10.0 + crate::middles(gap.value());
     let other = Mover::car(road.path(1)).starting(start).speed(other_speed.max(0.0)).offset(-aside);
     let other = s.place(other);
 

@@ -3,18 +3,15 @@
 //!
 //! The leader keeps the same speed at a time headway, and changes lanes when it is `gap` metres before the standing car.
 
-use paracosm_engine::{AutonomousVehicle, Fixture, Monitor, Mover, Program, RoadSegment, Scenario};
+use crate::{LANE, middles};
+use paracosm_engine::object::Body;
+use paracosm_engine::{AutonomousVehicle, Fixture, Monitor, Mover, Program, RoadSegment, Scenario, Stream};
 
 pub(crate) const PROGRAM: Program = Program {
     name: "cut-out",
     about: "the leader changes lanes and uncovers a car that stands (UN R157)",
     build: cut_out,
 };
-
-/// The width of a lane in metres.
-const LANE: f64 = 3.5;
-/// From the middle of one car to that of the next when their bumpers touch, in metres.
-const LENGTHS: f64 = 0.5 * (4.508 + 4.5);
 
 fn cut_out(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 20.0..=60.0).unit("km/h").default(50.0);
@@ -26,14 +23,15 @@ fn cut_out(s: &mut Scenario) {
     let road = s.place(RoadSegment::new(800.0).lanes(4).lane_width(LANE).friction(friction));
     let v = speed.value() / 3.6;
     let car = s.place(AutonomousVehicle::along(road.path(2)).starting(10.0).speed(v));
-    let lead = 10.0 + v * headway.value() + LENGTHS;
+    let lead = 10.0 + middles(v * headway.value());
     // The leader drives for 3 s before it changes lanes.
-    let stands = lead + 3.0 * v + gap.value() + 4.5;
-    let aside = ((s.time() - 3.0).max(0.0) * lateral.value()).min(LANE);
+    let stands = lead + 3.0 * v + gap.value() + 2.0 * Body::car().outline.half_extent().x;
+    let aside = ((Stream::time() - 3.0).max(0.0) * lateral.value()).min(LANE);
     s.place(Mover::car(road.path(2)).named("leader").starting(lead).speed(v).offset(aside));
     s.place(Fixture::parked_car(road.on_lane(2, stands)));
 
     s.duration(20.0);
+    s.premise(&car.time_to_collision().below(5.0));
     s.monitor(Monitor::no_collision(&car));
     s.monitor(Monitor::lane_keeping(&car));
 }

@@ -23,10 +23,11 @@ fn follow_leader(s: &mut Scenario) {
     let road = s.place(RoadSegment::new(1000.0));
     s.place(Environment::new().light(light).fog(fog).friction(friction));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(speed.value()));
-    let middles = gap.value() + 0.5 * (4.508 + 4.5);
-    s.place(Mover::car(road.path(1)).named("leader").starting(10.0 + middles).speed(leader_speed));
+    let leader = 10.0 + crate::middles(gap.value());
+    s.place(Mover::car(road.path(1)).named("leader").starting(leader).speed(leader_speed));
 
     s.duration(15.0);
     s.monitor(Monitor::no_collision(&car));
     s.monitor(Monitor::lane_keeping(&car));
+    s.monitor(Monitor::progress(&car, 10.0));
 }

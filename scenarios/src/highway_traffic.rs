@@ -38,7 +38,7 @@ fn highway_traffic(s: &mut Scenario) {
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
     // From the left of the car, which drives east, to its right.
     let crossing = streets.way(("north", -1, 60.0), ("south", 1, 140.0));
-    let start = s.time().at_least(delay);
+    let start = Stream::time().at_least(delay);
     s.place(Mover::truck(crossing).speed(Stream::from(truck_speed).skip_until(&start)));
     let lanes = [-3, -2, 2, 3].into_iter().zip([40.0, 75.0, 110.0, 145.0]);
     let cars = ["west", "east"].into_iter().flat_map(|road| lanes.clone().map(move |(lane, at)| (road, lane, at)));

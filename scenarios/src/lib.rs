@@ -13,6 +13,8 @@ mod t_loop;
 
 use paracosm_coverage::{did_you_mean, nearest};
 use paracosm_engine::Program;
+use paracosm_engine::object::Body;
+use paracosm_engine::vehicle::Vehicle;
 use thiserror::Error;
 
 /// Every scenario there is.
@@ -31,6 +33,14 @@ pub const ALL: [&Program; 13] = [
     &ncap::CCR,
     &highway_traffic::PROGRAM,
 ];
+
+/// The width of a lane in metres.
+const LANE: f64 = 3.5;
+
+/// From the middle of the car under test to that of a car ahead, in metres, when their bumpers are `gap` metres apart.
+fn middles(gap: f64) -> f64 {
+    gap + 0.5 * Vehicle::BMW_320I.length + Body::car().outline.half_extent().x
+}
 
 /// A name that no scenario has.
 #[derive(Debug, Error, PartialEq)]

@@ -5,6 +5,7 @@
 //! beside the way of the car, gathers speed evenly over the first metre or so, and walks on across. The run begins 6 s
 //! before the impact.
 
+use crate::middles;
 use paracosm_engine::object::Body;
 use paracosm_engine::road::Path;
 use paracosm_engine::vehicle::Vehicle;
@@ -76,9 +77,10 @@ fn approach(s: &mut Scenario, crossing: &Crossing, speed: &Param<f64>) -> (Road,
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(v));
     let radius = crossing.body.outline.half_extent().x;
     let lane = road.on_lane(1, START + v * TIME + 0.5 * Vehicle::BMW_320I.length + radius);
-    let walker = Mover::new(crossing.name, crossing.body, crossing.path(lane)).speed(crossing.speed(&s.time()));
+    let walker = Mover::new(crossing.name, crossing.body, crossing.path(lane)).speed(crossing.speed(&Stream::time()));
     s.place(walker);
     s.duration(TIME + 3.0);
+    s.premise(&car.time_to_collision().below(4.0));
     s.monitor(Monitor::no_collision(&car));
     (road, car)
 }
@@ -116,7 +118,8 @@ fn cpnco(s: &mut Scenario) {
 
 fn ccr(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 10.0..=80.0).unit("km/h").default(50.0);
-    let overlap = s.interval("overlap", -50.0..=50.0).unit("%").default(0.0);
+    // The share of the car's width that meets the target; a negative one is to the left of it.
+    let overlap = s.choice("overlap", [-50, -75, 100, 75, 50]).unit("%").default(100);
     let target = s.choice("target", ["standing", "moving", "braking"]).default("standing");
     let gap = s.nominal_choice("gap", [12, 40], 40).unit("m");
     let brake = s.nominal_choice("deceleration", [2, 6], 6).unit("m/s²");
@@ -128,13 +131,19 @@ fn ccr(s: &mut Scenario) {
     let slow = 20.0 / 3.6;
     let (ahead, driven) = match target.value() {
         "standing" => (v * TIME, Stream::constant(0.0)),
-        "moving" => ((v - slow).max(0.0) * TIME + 1.0, Stream::constant(slow)),
-        _ => (f64::from(gap.value()), (v - (s.time() - 1.0).max(0.0) * f64::from(brake.value())).max(0.0)),
+        "moving" => ((v - slow) * TIME, Stream::constant(slow)),
+        _ => (f64::from(gap.value()), (v - (Stream::time() - 1.0).max(0.0) * f64::from(brake.value())).max(0.0)),
     };
-    let shifted = road.path(1).shifted(0.01 * overlap.value() * Vehicle::BMW_320I.width);
-    let start = START + ahead + 0.5 * (Vehicle::BMW_320I.length + 4.5);
+    if ahead <= 0.0 {
+        s.refuse("the car is no quicker than the target, so that it never comes upon it");
+    }
+    let overlap = f64::from(overlap.value()) / 100.0;
+    let aside = (1.0 - overlap.abs()).copysign(overlap) * Vehicle::BMW_320I.width;
+    let shifted = road.path(1).shifted(aside);
+    let start = START + middles(ahead.max(0.0));
     s.place(Mover::car(shifted).named("target").starting(start).speed(driven));
 
     s.duration(15.0);
+    s.premise(&car.time_to_collision().below(TIME));
     s.monitor(Monitor::no_collision(&car));
 }

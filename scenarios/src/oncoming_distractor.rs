@@ -20,7 +20,7 @@ fn oncoming_distractor(s: &mut Scenario) {
     let road = s.place(RoadSegment::new(500.0));
     s.place(Environment::new().light(light).fog(fog));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(10.0));
-    let leader = 10.0 + gap.value() + 0.5 * (4.508 + 4.5);
+    let leader = 10.0 + crate::middles(gap.value());
     s.place(Mover::car(road.path(1)).named("leader").starting(leader).speed(leader_speed));
     let oncoming = Mover::car(road.path(-1)).named("oncoming");
     s.place(oncoming.starting(500.0 - 10.0 - distance.value()).speed(oncoming_speed));

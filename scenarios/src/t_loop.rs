@@ -38,10 +38,10 @@ fn way() -> Path {
 }
 
 fn t_loop(s: &mut Scenario) {
-    let fog = s.interval("fog", 0.0..=1.0).default(0.0);
     let speed = s.interval("speed", 3.0..=12.0).unit("m/s").default(8.0);
+    let friction = s.interval("friction", 0.2..=0.8).default(0.8);
+    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
     let light = s.nominal("light", 0.0..=1.0, 1.0);
-    let friction = s.nominal("friction", 0.2..=0.8, 0.8);
 
     let streets = s.place(LOOP.clone());
     s.place(Environment::new().light(light).fog(fog).friction(friction));

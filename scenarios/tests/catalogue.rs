@@ -2,7 +2,7 @@
 
 use paracosm_coverage::{Domain, Value, Values};
 use paracosm_engine::vehicle::{Model, Vehicle};
-use paracosm_engine::{Metric, Outcome, Program, driver, simulate};
+use paracosm_engine::{Metric, Outcome, Program, Run, Setup, Step, driver, simulate};
 use paracosm_oracles::Verdict;
 use paracosm_scenarios::{ALL, find};
 
@@ -76,6 +76,86 @@ fn the_same_test_has_the_same_trace_in_every_run_and_on_every_thread() {
         tests += alone.iter().flatten().count();
     }
     assert!(tests > 200, "{tests} tests have a trace");
+}
+
+/// Goes through runs in turns, a question to a driver at a time, as a batch would: the hash of each.
+fn in_turns(program: &Program, tests: &[Values], model: Model) -> Vec<Option<String>> {
+    let kind = driver::find("aeb").unwrap();
+    let mut drivers: Vec<_> = tests.iter().map(|_| kind.build(&[]).unwrap()).collect();
+    let setup = Setup { model, ..Setup::asking_every(drivers[0].period()) };
+    let mut runs: Vec<_> = tests.iter().map(|test| Run::new(program, test, setup).ok()).collect();
+    let mut hashes = vec![None; tests.len()];
+    for (run, driver) in runs.iter().zip(&mut drivers) {
+        run.iter().for_each(|run| driver.reset(&run.briefing()));
+    }
+    while runs.iter().any(Option::is_some) {
+        for ((slot, driver), hash) in runs.iter_mut().zip(&mut drivers).zip(&mut hashes) {
+            let Some(run) = slot else { continue };
+            match run.advance() {
+                Step::Need(observation) => {
+                    let control = driver.step(observation);
+                    run.supply(control);
+                }
+                Step::Done(outcome) => {
+                    *hash = outcome.trace.map(|trace| trace.hash());
+                    *slot = None;
+                }
+            }
+        }
+    }
+    hashes
+}
+
+#[test]
+fn runs_that_go_on_in_turns_are_those_that_go_on_alone() {
+    for program in ALL.into_iter().filter(|program| program.declare().unwrap().duration < 50.0) {
+        for model in Model::ALL {
+            let tests = diagonal(program, 4);
+            let alone = tests.iter().map(|test| run(program, test, model, "aeb").trace.map(|trace| trace.hash()));
+            assert_eq!(in_turns(program, &tests, model), alone.collect::<Vec<_>>(), "{} {model}", program.name);
+        }
+    }
+}
+
+#[test]
+fn a_car_that_does_not_brake_comes_upon_the_other_after_six_seconds_with_the_overlap_that_is_asked_for() {
+    let program = find("ncap-ccr").unwrap();
+    for (overlap, target, speed) in [(100, "standing", 50.0), (50, "standing", 10.0), (-75, "moving", 60.0)] {
+        let changes = [
+            ("ego_speed", Value::Number(speed)),
+            ("overlap", Value::Number(f64::from(overlap))),
+            ("target", Value::Word(target.to_owned())),
+        ];
+        let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+        let time = outcome.trace.as_ref().unwrap().len() as f64 * 0.01;
+        assert!((time - 6.0).abs() < 0.05, "{target} at {speed} km/h: {time} s");
+        let last = |name: &str| *signal(&outcome, name).last().unwrap();
+        let aside = last("target.y") - last("car.y");
+        let width = Vehicle::BMW_320I.width;
+        assert!((1.0 - aside.abs() / width - f64::from(overlap).abs() / 100.0).abs() < 1e-9, "{aside}");
+        assert!(overlap == 100 || aside.signum() == f64::from(overlap).signum());
+    }
+    let changes = [("ego_speed", Value::Number(15.0)), ("target", Value::Word("moving".to_owned()))];
+    let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+    assert_eq!(outcome.verdict, Verdict::Invalid);
+}
+
+#[test]
+fn the_leader_of_a_cut_out_leaves_its_lane_at_the_gap_before_the_car_that_stands() {
+    let program = find("cut-out").unwrap();
+    let test = nominal(program, &[("gap", Value::Number(25.0)), ("ego_speed", Value::Number(36.0))]);
+    let outcome = run(program, &test, Model::SingleTrack, "cruise");
+    let (x, y) = (signal(&outcome, "leader.x"), signal(&outcome, "leader.y"));
+    let leaves = y.iter().position(|y| (y - y_of_lane_2()).abs() > 1e-9).expect("it leaves");
+    // 10 m + 2 s at 10 m/s + the halves of two cars is where it begins, and it drives 3 s straight on.
+    let begun = 10.0 + 20.0 + 0.5 * (Vehicle::BMW_320I.length + 4.5);
+    assert!((x[leaves - 1] - (begun + 30.0)).abs() < 0.2, "{}", x[leaves - 1]);
+    let impact = *signal(&outcome, "car.x").last().unwrap() + 0.5 * Vehicle::BMW_320I.length;
+    assert!((impact - (begun + 30.0 + 0.5 * 4.5 + 25.0)).abs() < 0.2, "{impact}");
+}
+
+fn y_of_lane_2() -> f64 {
+    -1.5 * 3.5
 }
 
 /// Where the middle of a pedestrian is when the car has it: as a share of the car's width from its right side.

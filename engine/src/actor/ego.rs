@@ -3,18 +3,23 @@
 use super::quantity::{Asked, Quantity};
 use crate::object::{Body, BodyState, Class, Output, Outputs};
 use crate::observation::{Ahead, Briefing, Control, Way};
-use crate::road::{Network, Path, wrapped};
+use crate::road::{LaneId, Network, Path, wrapped};
 use crate::scenario::{Line, Place, Pose, Scenario};
 use crate::stream::Stream;
 use crate::vehicle::{Dynamics, Model, Pedals, Vehicle};
 use nalgebra::Vector2;
 use std::rc::Rc;
 
+/// Speed in m/s below which a car stands.
+const STANDING: f64 = 0.1;
+
 /// The car that the system under test drives, not placed yet: a [`Vehicle::BMW_320I`].
 #[derive(Debug, Clone)]
 pub struct AutonomousVehicle {
     vehicle: Vehicle,
     way: Path,
+    /// Whether it is just to go straight on, without an end.
+    endless: bool,
     start: f64,
     speed: f64,
 }
@@ -59,17 +64,20 @@ pub(crate) struct Ego {
     at: f64,
     /// How its acceleration ahead changed over the last tick, in m/s³.
     pub(super) jerk: f64,
+    /// For how many seconds it has been standing.
+    pub(super) standing: f64,
 }
 
 impl AutonomousVehicle {
     /// A car that stands at `start`, which is where its middle is, and is to go straight on.
     pub fn at(start: Pose) -> Self {
-        Self::along(Path::straight(start.position, start.position + start.forward()))
+        let ahead = Path::straight(start.position, start.position + start.forward());
+        Self { endless: true, ..Self::along(ahead) }
     }
 
     /// A car that stands at the beginning of a path, which is the way that it is to go.
     pub fn along(way: Path) -> Self {
-        Self { vehicle: Vehicle::BMW_320I, way, start: 0.0, speed: 0.0 }
+        Self { vehicle: Vehicle::BMW_320I, way, endless: false, start: 0.0, speed: 0.0 }
     }
 
     /// How many metres along its way its middle is at first.
@@ -104,6 +112,13 @@ impl Place for AutonomousVehicle {
         let mut draft = scenario.object("car");
         if let Some(problem) = self.vehicle.problem() {
             draft.problem(&format!("cannot be built: {problem}"));
+        }
+        if let Some(problem) = self.way.problem() {
+            draft.problem(&format!("has a way that {problem}"));
+        }
+        let length = self.way.length();
+        if !(0.0..=length).contains(&self.start) {
+            draft.problem(&format!("starts {} m along a way of {length} m", self.start));
         }
         if !(0.0..=most).contains(&speed) {
             draft.problem(&format!("has the speed {speed} m/s, expected 0 to {most}"));
@@ -225,7 +240,12 @@ impl Car {
         self.asked(Quantity::WayOffset)
     }
 
-    /// Metres to the end of the way that it is to go.
+    /// For how many seconds it has been standing: 0 while it moves.
+    pub fn standing_time(&self) -> Stream<f64> {
+        self.asked(Quantity::StandingTime)
+    }
+
+    /// Metres to the end of the way that it is to go; infinite where it is just to go straight on.
     pub fn remaining(&self) -> Stream<f64> {
         self.asked(Quantity::Remaining)
     }
@@ -240,7 +260,7 @@ impl Ego {
     pub fn new(setup: &EgoSetup, model: Model) -> Self {
         let EgoSetup { car, shown } = setup.clone();
         let dynamics = model.build(&car.vehicle, car.start(), car.speed);
-        Self { at: car.start, car, shown, dynamics, control: Control::default(), jerk: 0.0 }
+        Self { at: car.start, car, shown, dynamics, control: Control::default(), jerk: 0.0, standing: 0.0 }
     }
 
     /// What its driver has to know beforehand.
@@ -266,7 +286,7 @@ impl Ego {
 
     /// What is left of the way that it is to go; none where it is just to go straight on.
     pub fn plan(&self) -> Option<Path> {
-        (self.remaining() > 1.0).then(|| self.car.way.piece(self.at, self.car.way.length()))
+        (!self.car.endless).then(|| self.car.way.piece(self.at, self.car.way.length()))
     }
 
     /// How far it is to the left of its way, in metres.
@@ -274,9 +294,20 @@ impl Ego {
         self.car.way.at(self.at).to_local(self.pose().position).y
     }
 
-    /// Metres to the end of its way.
+    /// Metres to the end of its way; infinite where it is just to go straight on.
     pub fn remaining(&self) -> f64 {
-        self.car.way.length() - self.at
+        if self.car.endless { f64::INFINITY } else { self.car.way.length() - self.at }
+    }
+
+    /// The lanes that it is on, with how many metres along each: those of its way, from its rear to its front, or where its
+    /// way knows none the nearest that leads where it points.
+    pub fn lanes<'n>(&self, network: &'n Network) -> impl Iterator<Item = (LaneId, f64)> + use<'n> {
+        let half = 0.5 * self.car.vehicle.length;
+        let known = self.car.way.lanes(self.at - half, self.at + half);
+        let pose = self.pose();
+        let nearest = if known.len() == 0 { network.project_along(&pose) } else { None };
+        let lanes = known.chain(nearest.map(|seen| seen.lane));
+        lanes.map(move |lane| (lane, network.project_onto(lane, pose.position).s))
     }
 
     /// Where it is as seen from where it began.
@@ -326,6 +357,7 @@ impl Ego {
             return Err(format!("the state of the car is no number: {state:?}"));
         }
         self.jerk = (state.acceleration.x - before) / dt;
+        self.standing = if state.speed() < STANDING { self.standing + dt } else { 0.0 };
         self.at = self.car.way.nearest(state.position, self.at);
         Ok(())
     }

@@ -7,6 +7,7 @@ mod fleet;
 mod mover;
 mod pedestrian;
 mod quantity;
+mod right_of_way;
 
 pub use ego::{AutonomousVehicle, Car};
 pub use fixture::Fixture;

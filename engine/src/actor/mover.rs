@@ -119,6 +119,9 @@ impl Place for Mover {
     fn place(self, scenario: &mut Scenario) -> Actor {
         let mut draft = scenario.object(&self.name);
         let length = self.path.length();
+        if let Some(problem) = self.path.problem() {
+            draft.problem(&format!("has a path that {problem}"));
+        }
         if !(0.0..=length).contains(&self.start) {
             draft.problem(&format!("starts {} m along a path of {length} m", self.start));
         }

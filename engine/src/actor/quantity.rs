@@ -1,6 +1,7 @@
 //! What can be asked of the car under test besides what every trace records: measured only where a program asks for it.
 
 use super::ego::Ego;
+use super::right_of_way;
 use crate::object::{BodyState, Output, Outputs, Wiring};
 use crate::road::Network;
 use crate::stream::Stream;
@@ -16,6 +17,7 @@ pub(super) enum Quantity {
     WheelSlip,
     SlipAngle,
     WheelsOnRoad,
+    StandingTime,
     TimeToCollision,
     Headway,
     LaneMargin,
@@ -40,6 +42,7 @@ impl Quantity {
             Quantity::WheelSlip => "car.wheel_slip",
             Quantity::SlipAngle => "car.slip_angle",
             Quantity::WheelsOnRoad => "car.wheels_on_road",
+            Quantity::StandingTime => "car.standing_time",
             Quantity::TimeToCollision => "car.time_to_collision",
             Quantity::Headway => "car.headway",
             Quantity::LaneMargin => "car.lane_margin",
@@ -60,10 +63,11 @@ impl Quantity {
             Quantity::WheelSlip => wheels().map(|wheel| wheel.slip_ratio.abs()).fold(0.0, f64::max),
             Quantity::SlipAngle => wheels().map(|wheel| wheel.slip_angle.abs()).fold(0.0, f64::max),
             Quantity::WheelsOnRoad => wheels().filter(|wheel| wheel.contact).count() as f64,
+            Quantity::StandingTime => ego.standing,
             Quantity::TimeToCollision => least(bodies, time_to_collision),
             Quantity::Headway => least(bodies, headway),
             Quantity::LaneMargin => lane_margin(&bodies[0], network),
-            Quantity::RightOfWay => right_of_way(bodies, network),
+            Quantity::RightOfWay => right_of_way::of(ego, bodies, network),
             Quantity::WayOffset => ego.way_offset(),
             Quantity::Remaining => ego.remaining(),
         }
@@ -145,41 +149,6 @@ fn lane_margin(car: &BodyState, network: &Network) -> f64 {
     };
     let aside = car.body.outline.enclosing(car.pose.heading - seen.heading).y;
     0.5 * network.lane(seen.lane).width - seen.offset.abs() - aside
-}
-
-/// Seconds until the first of the others that have the right of way comes to a place of an intersection where the car is;
-/// infinite where none does, 0 where one is there already.
-///
-/// The places are the [conflicts](crate::road::Conflict) of the lane that the car is on, and of those its lane gives way to
-/// another. Of others that are still before the intersection, those are looked at whose lane leads to it.
-fn right_of_way(bodies: &[BodyState], network: &Network) -> f64 {
-    let (car, others) = (&bodies[0], &bodies[1..]);
-    let Some(here) = network.project_along(&car.pose) else { return f64::INFINITY };
-    let reach = car.body.outline.half_extent().x;
-    let entered = network.lane(here.lane).conflicts.iter();
-    let entered =
-        entered.filter(|conflict| conflict.gives_way && here.s + reach > conflict.from && here.s - reach < conflict.to);
-    let mut least = f64::INFINITY;
-    for conflict in entered {
-        // The stretch of the other lane is the conflict as it is seen from there.
-        let other_lane = network.lane(conflict.with);
-        let Some(theirs) = other_lane.conflicts.iter().find(|theirs| theirs.with == here.lane) else { continue };
-        for other in others.iter().filter(|other| other.present) {
-            let Some(there) = network.project_along(&other.pose) else { continue };
-            let half = other.body.outline.half_extent().x;
-            let along = if there.lane == conflict.with {
-                Some(there.s)
-            } else if other_lane.predecessors.contains(&there.lane) {
-                Some(there.s - network.lane(there.lane).length())
-            } else {
-                None
-            };
-            let Some(s) = along.filter(|s| s - half < theirs.to) else { continue };
-            let way = (theirs.from - s - half).max(0.0);
-            least = least.min(if way == 0.0 { 0.0 } else { way / other.velocity.norm() });
-        }
-    }
-    least
 }
 
 #[cfg(test)]

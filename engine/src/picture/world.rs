@@ -39,7 +39,8 @@ pub fn world(run: &Run, caption: &str) -> Drawing {
         if bodies.get(*index).is_some_and(|state| view.shows(state.pose.position, 0.0)) {
             shown.push(*index);
             let path = path.piece(0.0, reach);
-            marks.extend(plan(&view, &path, Paint { colour: class_colour(bodies[*index].body.class), opacity: FAINT }));
+            let colour = if *index == 0 { UNDER_TEST } else { class_colour(bodies[*index].body.class) };
+            marks.extend(plan(&view, &path, Paint { colour, opacity: FAINT }));
         }
     }
     marks.push(heading(&view, &bodies[0]));

@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub struct Path {
     /// Each with how many metres along the path it begins.
     pieces: Arc<[(f64, Curve)]>,
+    /// The lanes that the pieces are of, where they are of any.
+    lanes: Option<Arc<[LaneId]>>,
     length: f64,
 }
 
@@ -30,7 +32,29 @@ impl Path {
         };
         let pieces: Arc<[_]> = curves.into_iter().map(begun).collect();
         assert!(!pieces.is_empty(), "a path has at least one curve");
-        Self { pieces, length }
+        Self { pieces, lanes: None, length }
+    }
+
+    /// The same path, of which each piece is of one of these lanes.
+    fn on(self, lanes: impl IntoIterator<Item = LaneId>) -> Self {
+        Self { lanes: Some(lanes.into_iter().collect()), ..self }
+    }
+
+    /// What is wrong with it, if anything is.
+    pub(crate) fn problem(&self) -> Option<String> {
+        let broken = |(_, curve): &&(f64, Curve)| !(curve.length() >= 0.0 && curve.end().is_finite());
+        let curve = self.pieces.iter().find(broken)?;
+        Some(format!("has a piece {} m long, expected a number from 0 on", curve.1.length()))
+    }
+
+    /// The lanes that it leads over between two distances along it, in order; none where it is of no lanes.
+    pub(crate) fn lanes(&self, from: f64, to: f64) -> impl ExactSizeIterator<Item = LaneId> + use<> {
+        let range = match &self.lanes {
+            Some(_) => self.index(from)..self.index(to) + 1,
+            None => 0..0,
+        };
+        let lanes = self.lanes.clone();
+        range.map(move |index| lanes.as_ref().expect("it is of lanes")[index])
     }
 
     /// The straight path from one place to another. Where both are one, it faces along x.
@@ -53,15 +77,17 @@ impl Path {
     /// The piece of it between two distances along it, of which the first is not beyond the second. What would be beyond
     /// its ends is left out.
     pub fn piece(&self, from: f64, to: f64) -> Self {
-        let [from, to] = [from, to].map(|s| s.clamp(0.0, self.length));
+        let [from, to] = [from, to].map(|s| s.max(0.0).min(self.length));
         // Where the piece is but a point, it is one of the curve that goes on from there, or of the last.
         let last = self.pieces.partition_point(|(begin, _)| *begin < to).max(1) - 1;
         let first = (self.pieces.partition_point(|(begin, _)| *begin <= from).max(1) - 1).min(last);
-        Self::new(
-            self.pieces[first..=last]
-                .iter()
-                .map(|(begin, curve)| curve.piece((from - begin).max(0.0), (to - begin).min(curve.length()))),
-        )
+        let piece =
+            |(begin, curve): &(f64, Curve)| curve.piece((from - begin).max(0.0), (to - begin).min(curve.length()));
+        let path = Self::new(self.pieces[first..=last].iter().map(piece));
+        match &self.lanes {
+            Some(lanes) => path.on(lanes[first..=last].iter().copied()),
+            None => path,
+        }
     }
 
     /// The pose `s` metres along it; before its start and beyond its end it goes on straight.
@@ -72,7 +98,7 @@ impl Path {
     /// The pose `offset` metres to the left of the one `s` metres along it.
     pub fn beside(&self, s: f64, offset: f64) -> Pose {
         // Beyond both ends it goes on straight.
-        let inside = s.clamp(0.0, self.length);
+        let inside = s.max(0.0).min(self.length);
         let (from, curve) = &self.pieces[self.index(inside)];
         let at = inside - from;
         let ahead = curve.at(at).forward() * (s - inside);
@@ -81,7 +107,8 @@ impl Path {
 
     /// How the path bends `s` metres along it, in 1/m, positive to the left.
     pub fn curvature(&self, s: f64) -> f64 {
-        self.pieces[self.index(s)].1.curvature()
+        let inside = (0.0..=self.length).contains(&s);
+        if inside { self.pieces[self.index(s)].1.curvature() } else { 0.0 }
     }
 
     /// How many metres along the path the point lies that is nearest to `position`, among those near the point `s` metres
@@ -129,7 +156,7 @@ impl Network {
     /// # Panics
     /// There are none, or they are of another network.
     pub fn path(&self, lanes: &[LaneId]) -> Path {
-        Path::new(lanes.iter().map(|lane| self.lane(*lane).curve))
+        Path::new(lanes.iter().map(|lane| self.lane(*lane).curve)).on(lanes.iter().copied())
     }
 
     /// The path along a route, from its start to its end. None where the route changes lanes: that takes a while, and
@@ -142,6 +169,7 @@ impl Network {
             let to = if i == last { route.end } else { curve.length() };
             curve.piece(from, to)
         };
-        (route.changes == 0).then(|| Path::new(route.lanes.iter().enumerate().map(piece)))
+        let path = || Path::new(route.lanes.iter().enumerate().map(piece)).on(route.lanes.iter().copied());
+        (route.changes == 0).then(path)
     }
 }

@@ -103,7 +103,7 @@ impl Run {
         let ticks = ticks(scenario.duration, dt);
         let beginning = scenario.beginning();
         let mut scene = Scene::new(scenario, &graph, setup.model);
-        let begun = scene.begin(beginning, Clock { tick: 0, ticks });
+        let begun = scene.begin(beginning, Clock { tick: 0, ticks, dt });
         let overlap =
             scene.overlapping().map(|names| Outcome::broken(Verdict::Invalid, format!("{names} overlap at the start")));
         let fault = begun.err().map(|message| Outcome::broken(Verdict::Error, format!("{message} at 0.000 s")));
@@ -234,7 +234,7 @@ impl Run {
     /// No comparison with NaN holds, so that a signal without a value would satisfy every `never`.
     fn look(&mut self) -> Result<(), String> {
         self.scene.show();
-        self.graph.tick(Clock { tick: self.tick, ticks: self.ticks }, &self.scene.outputs);
+        self.graph.tick(Clock { tick: self.tick, ticks: self.ticks, dt: self.dt }, &self.scene.outputs);
         self.triggered |= self.premise.is_some_and(|slot| self.graph.value(slot) == Some(true));
         for (index, column) in self.columns.iter().enumerate() {
             let sample = match column {
@@ -276,16 +276,17 @@ impl Run {
             self.trace.finish();
         }
         let mut robustness = Vec::new();
-        let mut violated = false;
+        let (mut violated, mut open) = (false, false);
         for requirement in &self.requirements {
             let evaluation = requirement.judge(&self.trace).expect("its signal has a column");
             violated |= evaluation.truth == Truth::Violated;
             let decided = evaluation.truth != Truth::Undecided;
+            open |= !decided;
             robustness.push((requirement.id.clone(), decided.then_some(evaluation.robustness)));
         }
         let verdict = if violated {
             Verdict::Fail
-        } else if self.premise.is_some() && !self.triggered {
+        } else if open || self.premise.is_some() && !self.triggered {
             Verdict::Inconclusive
         } else {
             Verdict::Pass

@@ -33,6 +33,8 @@ pub(super) struct Scene {
     /// Where the values of their inputs stand.
     inputs: Vec<Slot>,
     friction: Slot,
+    /// Light and fog, if the program says anything of them.
+    weather: Vec<(&'static str, Slot)>,
     world: World,
     /// How the car touches another body.
     pub contact: Option<Contact>,
@@ -50,6 +52,7 @@ impl Scene {
     /// What a program has built and laid out, with a car that this model moves.
     pub fn new(mut scenario: Scenario, graph: &Graph, model: Model) -> Self {
         let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
+        let weather = scenario.weather().map(|(name, node)| (name, graph.slot(&node))).collect();
         let ego = Ego::new(&scenario.cars[0], model);
         let mut bodies = vec![ego.body()];
         let mut masses = Vec::new();
@@ -73,6 +76,7 @@ impl Scene {
             outputs: vec![Sample::Absent; scenario.wiring.samples()],
             wiring: scenario.wiring,
             friction: graph.slot(&scenario.conditions.friction.node),
+            weather,
             next: bodies.clone(),
             poses: Vec::with_capacity(objects.iter().map(|object| object.own.1 - object.own.0).max().unwrap_or(0)),
             pushes: Vec::with_capacity(masses.len()),
@@ -90,12 +94,15 @@ impl Scene {
         let inputs = self.wiring.slots(&graph);
         for object in &mut self.objects {
             let (first, end) = object.own;
-            let tick = Tick { dt: f64::NAN, graph: &graph, inputs: &inputs, bodies: &self.bodies, own: object.own };
+            let tick = Tick { dt: clock.dt, graph: &graph, inputs: &inputs, bodies: &self.bodies, own: object.own };
             if let Behaviour::Geometric(behaviour) = &mut object.behaviour {
                 self.velocities.clear();
                 self.velocities.resize(end - first, Vector2::zeros());
                 behaviour.begin(&tick, &mut self.velocities)?;
                 for (state, velocity) in self.next[first..end].iter_mut().zip(&self.velocities) {
+                    if !velocity.iter().all(|speed| speed.is_finite()) {
+                        return Err(format!("the velocity of {} is no number: {velocity:?}", object.name));
+                    }
                     state.velocity = *velocity;
                 }
             }
@@ -135,6 +142,12 @@ impl Scene {
         let friction: f64 = graph.value(self.friction).unwrap_or(f64::NAN);
         if !(0.0..f64::INFINITY).contains(&friction) {
             return Err(format!("the friction of the road is {friction}, expected a number from 0 on"));
+        }
+        for (name, slot) in &self.weather {
+            let value: f64 = graph.value(*slot).unwrap_or(f64::NAN);
+            if !(0.0..=1.0).contains(&value) {
+                return Err(format!("the {name} is {value}, expected 0 to 1"));
+            }
         }
         self.ego.step(friction, dt)?;
         self.next[0].move_to(Some(self.ego.pose()), dt);

@@ -225,12 +225,6 @@ impl Scenario {
         self.problem(why.to_owned());
     }
 
-    /// The time since the run began, in seconds.
-    pub fn time(&self) -> Stream<f64> {
-        let dt = self.dt;
-        Stream::tick().scan(-dt, move |time, ()| time + dt).named("time")
-    }
-
     /// How long a run takes in simulated seconds, unless a contact ends it before; 10 where nothing is said.
     pub fn duration(&mut self, seconds: f64) {
         self.duration = seconds;
@@ -241,14 +235,18 @@ impl Scenario {
         self.dt = seconds;
     }
 
+    /// Light and fog, if the program has said anything of them.
+    pub(crate) fn weather(&self) -> impl Iterator<Item = (&'static str, Rc<Node>)> {
+        let Conditions { light, fog, .. } = &self.conditions;
+        let weather = [("light", light.node.clone()), ("fog", fog.node.clone())];
+        weather.into_iter().filter(|_| self.said.weather)
+    }
+
     /// Everything in the world that reads a stream, with what it is called.
     fn readers(&self) -> Vec<(String, Rc<Node>)> {
-        let Conditions { light, fog, friction } = &self.conditions;
-        let mut conditions = vec![("road.friction".to_owned(), friction.node.clone())];
-        if self.said.weather {
-            conditions.push(("light".to_owned(), light.node.clone()));
-            conditions.push(("fog".to_owned(), fog.node.clone()));
-        }
+        let weather = self.weather().map(|(name, node)| (name.to_owned(), node));
+        let conditions =
+            std::iter::once(("road.friction".to_owned(), self.conditions.friction.node.clone())).chain(weather);
         let premise = self.premise.iter().map(|event| ("premise".to_owned(), event.node.clone()));
         let requirements = self.requirements.borrow();
         let read = |stated: &requirement::Stated| {
@@ -257,7 +255,7 @@ impl Scenario {
         };
         let requirements = requirements.iter().flat_map(read);
         let effects = self.effects.iter().map(|effect| ("for_each".to_owned(), effect.clone()));
-        conditions.into_iter().chain(self.wiring.readers()).chain(premise).chain(requirements).chain(effects).collect()
+        conditions.chain(self.wiring.readers()).chain(premise).chain(requirements).chain(effects).collect()
     }
 
     /// Lays out all streams that are read or defined; what is wrong with them is a problem of the scenario.

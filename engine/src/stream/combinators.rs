@@ -38,6 +38,13 @@ impl Stream<()> {
     }
 }
 
+impl Stream<f64> {
+    /// The time since the run began, in seconds.
+    pub fn time() -> Self {
+        Self::new(Kind::Time, [])
+    }
+}
+
 impl<T: Datum> Stream<T> {
     pub(crate) fn new(kind: Kind, inputs: impl Into<Vec<Rc<Node>>>) -> Self {
         let node = Node { kind, inputs: inputs.into(), width: T::WIDTH };

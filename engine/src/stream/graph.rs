@@ -11,11 +11,12 @@ use std::rc::Rc;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Slot(usize);
 
-/// When it is: the tick from 0, and how many there are until the end of the run.
+/// When it is: the tick from 0, how many there are until the end of the run, and how long each is in seconds.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Clock {
     pub tick: usize,
     pub ticks: usize,
+    pub dt: f64,
 }
 
 /// A node with what it remembers from tick to tick.
@@ -175,6 +176,10 @@ impl Operation {
         match (&node.kind, memory) {
             (Kind::Output { source, .. }, _) => {
                 copy(&outputs[source.0..][..width], output);
+                false
+            }
+            (Kind::Time, _) => {
+                output[0] = (clock.tick as f64 * clock.dt).into();
                 false
             }
             (Kind::Signal { shape, .. }, Memory::Numbers(numbers)) => {

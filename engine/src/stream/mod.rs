@@ -26,6 +26,7 @@
 //! | `e` | | | e | | e | |
 //! | `Stream::constant(6.0)` | 6 | 6 | 6 | 6 | 6 | |
 //! | `Stream::tick()` | () | () | () | () | () | |
+//! | `Stream::time()`, ticks of 0.5 s | 0 | 0.5 | 1 | 1.5 | 2 | |
 //! | `x.map(f)` | f(1) | f(2) | f(3) | f(4) | f(5) | over with `x` |
 //! | `x.filter(odd)` | 1 | | 3 | | 5 | over with `x` |
 //! | `x.when(e)` | | | 3 | | 5 | over with `x` or `e` |

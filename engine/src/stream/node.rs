@@ -65,6 +65,8 @@ pub(crate) enum Kind {
         shape: Shape,
         values: Vec<Sample>,
     },
+    /// Seconds since the run began.
+    Time,
     Output {
         source: Source,
         name: String,
@@ -201,6 +203,7 @@ impl Kind {
             Kind::Equal => "equals",
             Kind::Towards(_) => "distance",
             Kind::Constant { .. } | Kind::Signal { .. } | Kind::Output { .. } => "input",
+            Kind::Time => "time",
             Kind::Forward { .. } | Kind::Named(_) => "name",
             Kind::Unary(function) => function.word(),
             Kind::Binary(function) => function.word(),
@@ -295,6 +298,7 @@ impl fmt::Display for Node {
         match (&self.kind, self.inputs.as_slice()) {
             (Kind::Constant { value, .. }, _) => f.write_str(&value.iter().map(text).collect::<Vec<_>>().join(", ")),
             (Kind::Signal { parameter, .. }, _) => f.write_str(parameter),
+            (Kind::Time, _) => f.write_str("time"),
             (Kind::Output { name, .. } | Kind::Forward { name, .. } | Kind::Named(name), _) => f.write_str(name),
             (Kind::Unary(Unary::Negative), [input]) => write!(f, "-{input}"),
             (Kind::Towards(line), [position]) => write!(f, "distance({position}, {})", line.name),

@@ -23,7 +23,7 @@ fn over<T: Datum>(stream: &Stream<T>, ticks: &[(Option<f64>, Option<f64>)]) -> V
     let slot = graph.slot(&stream.node);
     let mut values = Vec::new();
     for (tick, (x, y)) in ticks.iter().enumerate() {
-        let clock = Clock { tick, ticks: ticks.len() - 1 };
+        let clock = Clock { tick, ticks: ticks.len() - 1, dt: 0.5 };
         graph.tick(clock, &[x, y].map(|output| output.map_or(Sample::Absent, Sample::Number)));
         values.push(graph.value(slot));
     }
@@ -53,6 +53,7 @@ const NONE: f64 = f64::NAN;
 fn every_row_of_the_table_is_as_the_documentation_says() {
     row(&Stream::constant(6.0), numbers([6.0; 5]));
     row(&Stream::tick(), [Some(()); 5]);
+    row(&Stream::time(), numbers([0.0, 0.5, 1.0, 1.5, 2.0]));
     row(&x().map(|x| 10.0 * x), numbers([10.0, 20.0, 30.0, 40.0, 50.0]));
     row(&x().filter(|x| x % 2.0 == 1.0), numbers([1.0, NONE, 3.0, NONE, 5.0]));
     row(&x().when(&e()), numbers([NONE, NONE, 3.0, NONE, 5.0]));
@@ -126,7 +127,7 @@ fn an_effect_takes_place_at_the_ticks_that_have_a_value() {
     let effect = y().for_each(move |y| sink.borrow_mut().push(y));
     let mut graph = Graph::new([&effect.0], &[]).unwrap();
     for (tick, y) in [None, Some(7.0), Some(8.0)].into_iter().enumerate() {
-        graph.tick(Clock { tick, ticks: 2 }, &[Sample::Absent, y.map_or(Sample::Absent, Sample::Number)]);
+        graph.tick(Clock { tick, ticks: 2, dt: 0.5 }, &[Sample::Absent, y.map_or(Sample::Absent, Sample::Number)]);
     }
     assert_eq!(*seen.borrow(), [7.0, 8.0]);
 }
