@@ -5,6 +5,10 @@
 //! van Hoeve, Hooker, *Decision Diagrams for Optimization*, 2016). Then nodes without a path to the end go, and
 //! nodes with the same children become one.
 
+mod chain;
+
+pub(super) use chain::Chain;
+
 use super::group::ClassClause;
 use std::collections::HashMap;
 

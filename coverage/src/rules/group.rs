@@ -4,7 +4,7 @@
 //! a constraint singles out one is, to the constraints, a parameter of two.
 
 use super::clause::Clause;
-use super::diagram::Diagram;
+use super::diagram::{Chain, Diagram};
 use super::search::Search;
 
 /// A literal over classes.
@@ -237,5 +237,24 @@ impl Group {
             Engine::Diagram(diagram) => Some(diagram.tests(&self.sizes)),
             Engine::Search(_) => None,
         }
+    }
+
+    /// Random ways to choose the members, all equally probable; none where they cannot be counted.
+    pub(super) fn chain(&self) -> Option<Chain> {
+        match &self.engine {
+            Engine::Diagram(diagram) => Some(Chain::new(diagram, &self.sizes)),
+            Engine::Search(_) => None,
+        }
+    }
+
+    /// The levels of each class of each member.
+    pub(super) fn levels_of_classes(&self) -> Vec<Vec<Vec<usize>>> {
+        let members = self.class_of.iter().zip(&self.sizes);
+        let levels = members.map(|(class_of, sizes)| {
+            let mut levels = vec![Vec::new(); sizes.len()];
+            class_of.iter().enumerate().for_each(|(level, &class)| levels[class].push(level));
+            levels
+        });
+        levels.collect()
     }
 }

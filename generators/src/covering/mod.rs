@@ -32,6 +32,7 @@ pub use optimise::optimise;
 
 use front::Family;
 use grow::Growth;
+use paracosm_coverage::Deadline;
 use paracosm_coverage::rules::{Companions, Rules};
 use rows::{Columns, OPEN, Rows};
 
@@ -48,12 +49,14 @@ pub struct CoveringRequest<'a> {
     pub existing: &'a [Vec<Option<usize>>],
     /// Where chance starts from.
     pub seed: u64,
+    /// When the construction is given up.
+    pub deadline: Deadline,
 }
 
 impl<'a> CoveringRequest<'a> {
     /// All valid combinations of `k` parameters, from nothing.
     pub fn new(rules: &'a Rules, k: usize) -> Self {
-        Self { rules, k, groups: &[], existing: &[], seed: 0 }
+        Self { rules, k, groups: &[], existing: &[], seed: 0, deadline: Deadline::never() }
     }
 }
 
@@ -76,7 +79,8 @@ pub struct CoveringArray {
 ///
 /// # Errors
 /// A strength is 0 or more than there are parameters to combine, a parameter has no level, a group names a parameter that does not exist
-/// or one twice, an existing test is none of this space, or the array would be too large.
+/// or one twice, an existing test is none of this space, the array would be too large, or the deadline has passed before
+/// it was complete.
 pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, CoveringError> {
     request.check()?;
     let lower_bound = request.lower_bound();
@@ -88,9 +92,12 @@ pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, Coveri
     let mut companions = Companions::new(request.rules, &columns.order);
     let (rows, invalid) = existing(request, &columns);
     let kept = rows.len();
-    let growth = Growth { columns: &columns, families: &families, seed: request.seed };
+    let growth = Growth { columns: &columns, families: &families, seed: request.seed, deadline: request.deadline };
+    // What is past the deadline leaves its work unfinished.
     let mut rows = grown(&growth, rows, &mut companions);
-    fill::fill(&columns, &mut rows);
+    request.check_time()?;
+    fill::fill(&columns, &mut rows, request.deadline);
+    request.check_time()?;
     let rows = (0..rows.len()).map(|index| columns.test(rows.row(index))).collect();
     let rows = optimise::polish(request, rows, kept, kept.max(lower_bound as usize));
     let rows = order::order(request.rules, request.k, rows, kept);
@@ -153,6 +160,10 @@ impl CoveringRequest<'_> {
             }
         }
         Ok(())
+    }
+
+    fn check_time(&self) -> Result<(), CoveringError> {
+        if self.deadline.passed() { Err(CoveringError::OutOfTime) } else { Ok(()) }
     }
 
     fn lower_bound(&self) -> u128 {
