@@ -11,8 +11,11 @@ use crate::{Generator, GeneratorError, Request, Strategy};
 use paracosm_coverage::dispersion::is_at_most;
 use paracosm_coverage::{Deadline, Point, PointSet, Space, empty_boxes::EmptyBoxes};
 
-/// How many boxes all rows keep together.
-const MOST_BOXES: usize = 2_000_000;
+/// How much memory the boxes of all rows take together, in bytes.
+const MOST_MEMORY: usize = 200_000_000;
+
+/// How many faces may have to be looked at when a point splits all boxes: a box has `2d` parts with `2d` faces each.
+const MOST_FACES: usize = 500_000_000;
 
 /// A row with the points that it has so far.
 struct Row {
@@ -51,7 +54,9 @@ impl Spread {
         }
         let cube = Space::unit_cube(request.space.dims());
         let rows: Vec<Vec<usize>> = rows.collect();
-        let most = (MOST_BOXES / rows.len().max(1)).max(100);
+        let dims = cube.dims();
+        let in_memory = MOST_MEMORY / (24 * dims + 8) / rows.len().max(1);
+        let most = in_memory.min(MOST_FACES / (2 * dims).saturating_mul(2 * dims).max(1)).max(100);
         let row = |(number, discrete): (usize, Vec<usize>)| {
             let of_row = request.existing.iter().filter(|test| test.discrete == discrete);
             let existing: Vec<Point> =

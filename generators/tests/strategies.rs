@@ -230,6 +230,35 @@ fn a_random_family_covers_all_pairs_at_least_as_often_as_promised() {
 }
 
 #[test]
+fn under_constraints_a_random_family_keeps_them_and_its_promise() {
+    let text = "constraints = [\"a == 0 implies b == 0\", \"b == 2 implies c == 1\"]
+        parameter = [{ name = \"a\", choice = [0, 1, 2] }, { name = \"b\", choice = [0, 1, 2] },
+        { name = \"c\", choice = [0, 1] }, { name = \"d\", choice = [0, 1, 2] }]";
+    let space = Space::from_toml(text).expect("a valid space");
+    let rules = space.rules().expect("constraints that can be kept");
+    let delta = 0.2;
+    let is_complete = |seed: u64| {
+        let request =
+            Request { seed: Some(seed), discrete: DiscreteFamily::Random { delta }, ..Request::new(&space, 1) };
+        let rows = rows(&request);
+        assert!(rows.iter().all(|row| (row[0] != 0 || row[1] == 0) && (row[1] != 2 || row[2] == 1)));
+        let found = kwise_coverage(&rules, 2, rows.iter().map(Vec::as_slice)).expect("rows of the space");
+        found.covered == found.valid
+    };
+    let seeds = 1000;
+    let complete = (0..seeds).filter(|&seed| is_complete(seed)).count();
+    assert!(complete as f64 >= (1.0 - delta) * seeds as f64, "{complete} of {seeds} families are complete");
+}
+
+#[test]
+fn the_search_for_epsilon_ends_with_its_time() {
+    let space = mixed(1, &[2, 2]);
+    let deadline = Deadline::after(std::time::Duration::ZERO);
+    let request = Request { epsilon: Some(0.1), deadline, ..Request::new(&space, 500) };
+    assert!(tests(Strategy::Halton, &request).is_empty());
+}
+
+#[test]
 fn the_random_family_has_as_many_rows_as_the_proposition_asks_for() {
     let (levels, delta) = ([2; 8], 0.2);
     let size = family_size(&levels, delta) as usize;
