@@ -148,3 +148,51 @@ fn where_one_combination_decides_the_guarantee_is_what_happens() {
     }
     assert_eq!(random.missed(0), 1.0);
 }
+
+/// Any two neighbours of many parameters are not both at level 0: more tests than a float can count.
+fn no_zeros_side_by_side(parameters: usize) -> Rules {
+    let other = |parameter| Literal { parameter, levels: (1..10).collect() };
+    let constraint = |first: usize| vec![Clause { literals: vec![other(first), other(first + 1)] }];
+    let constraints: Vec<_> = (0..parameters - 1).map(constraint).collect();
+    Rules::new(&vec![10; parameters], &constraints).unwrap()
+}
+
+#[test]
+fn more_tests_than_can_be_counted_still_have_probabilities() {
+    let parameters = 500;
+    let rules = no_zeros_side_by_side(parameters);
+    assert_eq!(rules.tests(), Some(f64::INFINITY));
+    // The share of zeros at the end of a row of n parameters: of a zero follow nine levels, of any other ten.
+    let mut zeros = vec![0.1];
+    for n in 1..parameters {
+        zeros.push((1.0 - zeros[n - 1]) / (10.0 - zeros[n - 1]));
+    }
+    let missed = |i: usize| {
+        // Zero at i, with those before and after it ending in no zero.
+        let (before, after) = (zeros[i], zeros[parameters - 1 - i]);
+        let odds = before * after / 0.1;
+        let zero = odds / (odds + (1.0 - before) * (1.0 - after) / 0.9);
+        libm::pow(1.0 - zero, 300.0) + 9.0 * libm::pow(1.0 - (1.0 - zero) / 9.0, 300.0)
+    };
+    let expected: f64 = (0..parameters).map(missed).sum();
+    let found = RandomRows::new(&rules, 1).unwrap().missed(300);
+    assert!(expected < 0.1 && (found - expected).abs() < 1e-9, "{found} {expected}");
+    let row = rules.uniform().unwrap().draw(numbers(1));
+    assert!(rules.allows(&row));
+}
+
+#[test]
+fn where_parameters_are_too_entangled_to_be_counted_nothing_is_promised() {
+    let mut numbers = numbers(7);
+    let clause = |_: usize| {
+        let mut parameters = BTreeSet::new();
+        while parameters.len() < 3 {
+            parameters.insert(numbers(100));
+        }
+        vec![Clause { literals: parameters.into_iter().map(|p| Literal { parameter: p, levels: vec![1] }).collect() }]
+    };
+    let constraints: Vec<_> = (0..380).map(clause).collect();
+    let rules = Rules::new(&[2; 100], &constraints).unwrap();
+    assert!(rules.uniform().is_none());
+    assert_eq!(RandomRows::new(&rules, 2), None);
+}

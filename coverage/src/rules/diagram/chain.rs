@@ -78,28 +78,32 @@ impl Chain {
     /// For each member and class, how probable it is that a path has it and the fixed classes.
     pub(in crate::rules) fn joint(&self, fixed: &[Option<usize>]) -> Vec<Vec<f64>> {
         let allows = |layer: &Layer, edge: &&Edge| fixed[layer.place].is_none_or(|class| class == edge.class);
-        // How probable the fixed classes are from each node on, the end's layer first.
-        let mut agree = vec![vec![1.0]];
-        for layer in self.layers.iter().rev() {
-            let below: &Vec<f64> = &agree[agree.len() - 1];
-            let from = |edges: &Vec<Edge>| {
-                edges.iter().filter(|edge| allows(layer, edge)).map(|edge| edge.share * below[edge.child]).sum()
-            };
-            let here = layer.nodes.iter().map(from).collect();
-            agree.push(here);
+        // How probable it is to come to each node by fixed classes.
+        let mut reached = vec![vec![1.0]];
+        for (i, layer) in self.layers.iter().enumerate() {
+            let nodes = self.layers.get(i + 1).map_or(1, |next| next.nodes.len());
+            let mut next = vec![0.0; nodes];
+            for (edges, reached) in layer.nodes.iter().zip(&reached[i]).filter(|(_, reached)| **reached > 0.0) {
+                edges
+                    .iter()
+                    .filter(|edge| allows(layer, edge))
+                    .for_each(|edge| next[edge.child] += reached * edge.share);
+            }
+            reached.push(next);
         }
         let mut joint: Vec<Vec<f64>> = self.classes.iter().map(|&classes| vec![0.0; classes]).collect();
-        let mut reached = vec![1.0];
-        for (layer, below) in self.layers.iter().zip(agree.iter().rev().skip(1)) {
-            let mut next = vec![0.0; below.len()];
-            for (edges, reached) in layer.nodes.iter().zip(&reached) {
+        // How probable it is to go on from each node that is reached by fixed classes.
+        let mut agree = vec![1.0];
+        for (layer, reached) in self.layers.iter().zip(&reached).rev() {
+            let mut here = vec![0.0; layer.nodes.len()];
+            for (node, edges) in layer.nodes.iter().enumerate().filter(|&(node, _)| reached[node] > 0.0) {
                 for edge in edges.iter().filter(|edge| allows(layer, edge)) {
-                    let through = reached * edge.share;
-                    next[edge.child] += through;
-                    joint[layer.place][edge.class] += through * below[edge.child];
+                    let on = edge.share * agree[edge.child];
+                    here[node] += on;
+                    joint[layer.place][edge.class] += reached[node] * on;
                 }
             }
-            reached = next;
+            agree = here;
         }
         joint
     }
