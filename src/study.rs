@@ -1,7 +1,9 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
-use crate::{Error, Extension, Trial};
-use paracosm_coverage::{Domain, Parameter, Point, Record, Shape, Space, Value, Values, did_you_mean, nearest};
+use crate::{Error, Extension, Promise, Trial};
+use paracosm_coverage::{
+    Deadline, Domain, Parameter, Point, Record, Shape, Space, Value, Values, did_you_mean, nearest,
+};
 use paracosm_engine::driver::{self, Driver};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{Declaration, Declared, Program, Test};
@@ -34,6 +36,8 @@ pub struct Study {
     pub driver: DriverChoice,
     strategy: String,
     discrete: String,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    delta: Option<f64>,
     k: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     epsilon: Option<f64>,
@@ -112,6 +116,7 @@ impl Study {
             driver: DriverChoice::new("aeb", &[])?,
             strategy: Strategy::Halton.name().to_owned(),
             discrete: "ipog".to_owned(),
+            delta: None,
             k: None,
             epsilon: None,
             measure: None,
@@ -160,6 +165,12 @@ impl Study {
         family.parse::<DiscreteFamily>()?;
         self.discrete = family.to_owned();
         Ok(self)
+    }
+
+    /// Lets random rows miss a combination with this probability at most; without it, with 0.05.
+    pub fn delta(mut self, delta: Option<f64>) -> Self {
+        self.delta = delta;
+        self
     }
 
     /// Covers any `k` parameters together; without it, two.
@@ -339,20 +350,37 @@ impl Study {
     /// The strategy cannot do what is asked of it, or the tests to extend have not been read.
     pub fn generator(&self) -> Result<Box<dyn Generator>, Error> {
         let existing = self.existing()?;
+        let (strategy, request) = self.request(&existing)?;
+        Ok(strategy.build(&request)?)
+    }
+
+    /// What the study's tests promise by theory; `None` where their rows are not random.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub fn promise(&self) -> Result<Option<Promise>, Error> {
+        let existing = self.existing()?;
+        let (strategy, request) = self.request(&existing)?;
+        Promise::of(strategy, &request, self.budget as u64)
+    }
+
+    fn request<'a>(&'a self, existing: &'a [Point]) -> Result<(Strategy, Request<'a>), Error> {
         let request = Request {
             space: &self.space,
             budget: self.budget,
             seed: self.seed,
             skip: self.skip,
-            discrete: self.discrete.parse()?,
+            discrete: self.discrete.parse::<DiscreteFamily>()?.with_delta(self.delta)?,
             k: self.k,
             epsilon: self.epsilon,
+            // A campaign has to propose the same tests when it is resumed.
+            deadline: Deadline::never(),
             groups: &[],
             rows: None,
             aim: self.measure.as_deref().map(str::parse).transpose()?,
-            existing: &existing,
+            existing,
         };
-        Ok(self.strategy.parse::<Strategy>()?.build(&request)?)
+        Ok((self.strategy.parse()?, request))
     }
 
     /// Checks that the study is written in the form that this software reads.

@@ -6,7 +6,9 @@
 use crate::covering::{CoveringRequest, covering_array};
 use crate::seeded::{Purpose, seeded};
 use crate::{GeneratorError, Request};
-use paracosm_coverage::{Point, nearest, rules::Rules, theory};
+use paracosm_coverage::rules::{Rules, UniformTests};
+use paracosm_coverage::theory::rows::RandomRows;
+use paracosm_coverage::{Point, nearest};
 use rand::Rng;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::str::FromStr;
@@ -21,8 +23,8 @@ pub enum DiscreteFamily {
     #[default]
     Ipog,
     /// As many uniformly random rows as Proposition 3.2 of the paper asks for: all combinations of values of any
-    /// k parameters are among them with probability at least `1 - delta`. Only without constraints, under which
-    /// combinations are not equally probable.
+    /// k parameters are among them with probability at least `1 - delta`. Under constraints rows are drawn from those
+    /// that keep them, and there are as many as the union bound asks for with every combination's own probability.
     Random {
         /// The probability, between 0 and 1, that one is missing.
         delta: f64,
@@ -36,6 +38,28 @@ impl DiscreteFamily {
 
     /// The probability with which a random family may miss a combination, where nothing is said.
     pub const DELTA: f64 = 0.05;
+
+    /// The name by which users ask for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ipog => Self::NAMES[0],
+            Self::Random { .. } => Self::NAMES[1],
+            Self::Cross => Self::NAMES[2],
+        }
+    }
+
+    /// The same family with this probability that it misses a combination, if one is given.
+    ///
+    /// # Errors
+    /// One is given, and the family is not random or it is no probability between 0 and 1.
+    pub fn with_delta(self, delta: Option<f64>) -> Result<Self, GeneratorError> {
+        match (self, delta) {
+            (family, None) => Ok(family),
+            (Self::Random { .. }, Some(delta)) if delta > 0.0 && delta < 1.0 => Ok(Self::Random { delta }),
+            (Self::Random { .. }, Some(delta)) => Err(GeneratorError::Delta(delta)),
+            (family, Some(_)) => Err(GeneratorError::NoDelta { family: family.name() }),
+        }
+    }
 }
 
 impl FromStr for DiscreteFamily {
@@ -61,7 +85,7 @@ pub(crate) struct Family {
 /// Where the rows come from.
 enum Source {
     /// Random ones of this seed.
-    Random(u64),
+    Random { tests: UniformTests, seed: u64 },
     /// All combinations, in order.
     Cross,
     /// These.
@@ -87,11 +111,12 @@ impl Family {
         let is_free = rules.groups() == 0;
         match request.discrete {
             DiscreteFamily::Random { delta } if !(delta > 0.0 && delta < 1.0) => Err(GeneratorError::Delta(delta)),
-            DiscreteFamily::Random { .. } if !is_free => Err(GeneratorError::RandomUnderConstraints),
             DiscreteFamily::Random { delta } if parameters > 0 => {
-                match theory::rows::random_family_size(levels, k, delta) {
+                let tests = rules.uniform().ok_or(GeneratorError::RandomUnderConstraints)?;
+                let rows = RandomRows::new(rules, k).ok_or(GeneratorError::RandomUnderConstraints)?;
+                match rows.family_size(delta) {
                     len if len > MOST_ROWS => too_large(len.to_string(), "use a smaller k, or the family ipog"),
-                    len => Ok(Self { levels: levels.to_vec(), len, rows: Source::Random(seed) }),
+                    len => Ok(Self { levels: levels.to_vec(), len, rows: Source::Random { tests, seed } }),
                 }
             }
             DiscreteFamily::Ipog if parameters > 0 => {
@@ -131,9 +156,9 @@ impl Family {
     /// The row at `index`, which is below [`Family::len`].
     pub(crate) fn row(&self, index: u64) -> Vec<usize> {
         match &self.rows {
-            Source::Random(seed) => {
+            Source::Random { tests, seed } => {
                 let mut rng = seeded(*seed, Purpose::Rows, index);
-                self.levels.iter().map(|&levels| rng.random_range(0..levels)).collect()
+                tests.draw(|levels| rng.random_range(0..levels))
             }
             Source::Cross => digits(index, &self.levels),
             Source::Listed(rows) => rows[index as usize].clone(),

@@ -8,11 +8,13 @@ use crate::coverage::{Domain, Shape, Value};
 use crate::generators::Strategy;
 use crate::oracles::Verdict;
 use crate::{
-    Campaign, Coverage, Error, FailureMap, Folder, LiveCoverage, Measure, Picture, Study, Summary, Tests, Trial,
+    Campaign, Coverage, Error, FailureMap, Folder, LiveCoverage, Measure, Picture, Promise, Study, Summary, Tests,
+    Trial,
 };
 use clap::Args;
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -129,11 +131,13 @@ impl Options {
         progress.bar.finish_and_clear();
         let coverage = coverage?;
         let guilt = Guilt::of(&study, &trials, &folder, self.locate)?;
+        let promise = study.promise()?;
         let report = Report {
             study: &study,
             trials: &trials,
             summary: &progress.summary,
             coverage: &coverage,
+            promise: promise.as_ref(),
             guilt: &guilt,
             out: &self.out,
         };
@@ -174,6 +178,7 @@ impl Options {
         let mut study = Study::of(&self.scenario)?
             .driver(&self.driver, &driver_settings)?
             .strategy(self.strategy())?
+            .delta(sampling.delta)
             .k(sampling.k)
             .epsilon(sampling.epsilon)
             .budget(self.budget)?
@@ -344,6 +349,7 @@ struct Report<'a> {
     trials: &'a [Trial],
     summary: &'a Summary,
     coverage: &'a Coverage,
+    promise: Option<&'a Promise>,
     guilt: &'a Guilt,
     out: &'a Path,
 }
@@ -375,6 +381,13 @@ impl Report<'_> {
             );
         }
         table.coverage(self.coverage);
+        if let Some(promise) = self.promise {
+            table.row("random rows", &format!("{}, {} of them different", promise.rows, self.different_rows()));
+            table.row("  guaranteed", &promise.words());
+            if let Some(Some(measured)) = &self.coverage.discrete {
+                table.row("  measured", &format!("{} of {} covered", measured.covered, measured.valid));
+            }
+        }
         self.guilt.show(&mut table);
         table.row("written to", &self.out.display().to_string());
         if let Some(worst) = summary.worst() {
@@ -400,8 +413,18 @@ impl Report<'_> {
         if let Some(known) = &self.study.extends {
             summary["extends"] = json!(known);
         }
+        if let Some(promise) = self.promise {
+            summary["random_rows"] = json!(promise);
+            summary["random_rows"]["different"] = self.different_rows().into();
+        }
         self.guilt.add_to(&mut summary);
         summary
+    }
+
+    /// How many different combinations of all discrete values were tested.
+    fn different_rows(&self) -> usize {
+        let points = self.trials.iter().filter_map(|trial| self.study.space.encode(&trial.test).ok());
+        points.map(|point| point.discrete).collect::<BTreeSet<_>>().len()
     }
 
     /// The command that runs a test again, with the program as it was called.

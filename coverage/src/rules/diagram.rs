@@ -5,6 +5,10 @@
 //! table has n squared entries. Nodes with the same children are one, and what does not matter is not asked
 //! (Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE Transactions on Computers 35, 1986).
 
+mod chain;
+
+pub(super) use chain::Chain;
+
 use super::compile::{self, Node};
 use super::group::ClassClause;
 use std::ops::Range;
