@@ -73,6 +73,17 @@ fn constrained() -> (Vec<usize>, Vec<Vec<Clause>>) {
     (vec![3, 3, 2, 2, 2, 3], constraints)
 }
 
+/// Three parameters of which each is at most the next, the last of them joined with a fourth, of which levels are alike.
+fn ascending() -> (Vec<usize>, Vec<Vec<Clause>>) {
+    let literal = |parameter, levels: Vec<usize>| Literal { parameter, levels };
+    let at_most = |first: usize, v: usize| Clause {
+        literals: vec![literal(first, (0..v).collect()), literal(first + 1, (v..7).collect())],
+    };
+    let ordered = (0..2).map(|first| (1..7).map(|v| at_most(first, v)).collect());
+    let last = Clause { literals: vec![literal(3, vec![0, 2, 3]), literal(2, vec![6])] };
+    (vec![7, 7, 7, 5], ordered.chain([vec![last]]).collect())
+}
+
 /// The last level of the first parameter goes with one level of the second only: of 13 tests one has it.
 fn rare_level() -> Vec<Clause> {
     let literals = [Literal { parameter: 0, levels: vec![0, 1, 2] }, Literal { parameter: 1, levels: vec![0] }];
@@ -86,19 +97,20 @@ fn drawn(tests: &UniformTests, rows: u64, seed: u64) -> Vec<Vec<usize>> {
 
 #[test]
 fn every_test_that_keeps_the_constraints_is_drawn_as_often_as_any_other() {
-    let (levels, constraints) = constrained();
-    let kept: BTreeSet<Vec<usize>> =
-        all_tests(&levels).into_iter().filter(|test| constraints.iter().all(|c| keeps(c, test))).collect();
-    let tests = Rules::new(&levels, &constraints).unwrap().uniform().unwrap();
-    let draws = 400 * kept.len() as u64;
-    let mut often: BTreeMap<Vec<usize>, f64> = kept.iter().map(|test| (test.clone(), 0.0)).collect();
-    for test in drawn(&tests, draws, 1) {
-        *often.get_mut(&test).expect("it keeps the constraints") += 1.0;
+    for (levels, constraints) in [constrained(), ascending()] {
+        let kept: BTreeSet<Vec<usize>> =
+            all_tests(&levels).into_iter().filter(|test| constraints.iter().all(|c| keeps(c, test))).collect();
+        let tests = Rules::new(&levels, &constraints).unwrap().uniform().unwrap();
+        let draws = 400 * kept.len() as u64;
+        let mut often: BTreeMap<Vec<usize>, f64> = kept.iter().map(|test| (test.clone(), 0.0)).collect();
+        for test in drawn(&tests, draws, 1) {
+            *often.get_mut(&test).expect("it keeps the constraints") += 1.0;
+        }
+        // Pearson's statistic has as mean the number of tests less one, and twice that as variance.
+        let statistic: f64 = often.values().map(|often| (often - 400.0) * (often - 400.0) / 400.0).sum();
+        let freedom = kept.len() as f64 - 1.0;
+        assert!((statistic - freedom).abs() < 4.0 * (2.0 * freedom).sqrt(), "{statistic} of {freedom}");
     }
-    // Pearson's statistic has as mean the number of tests less one, and twice that as variance.
-    let statistic: f64 = often.values().map(|often| (often - 400.0) * (often - 400.0) / 400.0).sum();
-    let freedom = kept.len() as f64 - 1.0;
-    assert!((statistic - freedom).abs() < 4.0 * (2.0 * freedom).sqrt(), "{statistic} of {freedom}");
 }
 
 #[test]
@@ -179,6 +191,25 @@ fn more_tests_than_can_be_counted_still_have_probabilities() {
     assert!(expected < 0.1 && (found - expected).abs() < 1e-9, "{found} {expected}");
     let row = rules.uniform().unwrap().draw(numbers(1));
     assert!(rules.allows(&row));
+}
+
+#[test]
+fn tests_that_are_too_small_a_share_for_a_float_still_have_probabilities() {
+    // All parameters have the same level: 10 tests of 10^400.
+    let same = |first: usize| {
+        let clause = |level: usize| {
+            let others = (0..10).filter(|&other| other != level).collect();
+            let literals = [(first, others), (first + 1, vec![level])];
+            Clause { literals: literals.map(|(parameter, levels)| Literal { parameter, levels }).to_vec() }
+        };
+        (0..10).map(clause).collect()
+    };
+    let rules = Rules::new(&[10; 400], &(0..399).map(same).collect::<Vec<_>>()).unwrap();
+    let expected = 4000.0 * libm::pow(0.9, 120.0);
+    let found = RandomRows::new(&rules, 1).unwrap().missed(120);
+    assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    let tests: BTreeSet<Vec<usize>> = drawn(&rules.uniform().unwrap(), 200, 1).into_iter().collect();
+    assert_eq!(tests, (0..10).map(|level| vec![level; 400]).collect());
 }
 
 #[test]

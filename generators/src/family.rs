@@ -16,6 +16,9 @@ use std::str::FromStr;
 /// Beyond it a family is a mistake rather than a plan.
 const MOST_ROWS: u64 = 10_000_000;
 
+/// Of so many possible rows at most each has a bit that says whether it is there.
+const MOST_BITS: u64 = 1 << 28;
+
 /// How the discrete parameters are covered.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum DiscreteFamily {
@@ -132,7 +135,7 @@ impl Family {
                 Ok(Self::listed(levels, array.rows))
             }
             // The product of no levels is the one empty row.
-            _ => match levels.iter().try_fold(1_u64, |rows, &n| rows.checked_mul(n as u64)) {
+            _ => match combinations(levels) {
                 None => too_large("over 10^19".to_owned(), "use the family ipog"),
                 Some(len) if len > MOST_ROWS => too_large(len.to_string(), "use the family ipog"),
                 Some(len) if is_free => Ok(Self { levels: levels.to_vec(), len, rows: Source::Cross }),
@@ -167,8 +170,29 @@ impl Family {
 
     /// The family without the rows that repeat an earlier one, or one of the tests that are there already.
     pub(crate) fn without(self, existing: &[Point]) -> Self {
-        let mut seen: HashSet<Vec<usize>> = existing.iter().map(|test| test.discrete.clone()).collect();
-        let rows = (0..self.len).map(|index| self.row(index)).filter(|row| seen.insert(row.clone())).collect();
+        let existing = existing.iter().map(|test| test.discrete.clone());
+        let rows = (0..self.len).map(|index| self.row(index));
+        let rows = match combinations(&self.levels) {
+            // Millions of rows that are drawn from fewer: a bit for each is at hand where a hash table is not.
+            Some(all) if all <= MOST_BITS => {
+                let mut seen = vec![0_u64; all.div_ceil(64) as usize];
+                let mut is_new = |row: &Vec<usize>| {
+                    let number = number(row, &self.levels);
+                    let (word, bit) = (&mut seen[(number / 64) as usize], 1 << (number % 64));
+                    let new = *word & bit == 0;
+                    *word |= bit;
+                    new
+                };
+                for row in existing {
+                    is_new(&row);
+                }
+                rows.filter(is_new).collect()
+            }
+            _ => {
+                let mut seen: HashSet<Vec<usize>> = existing.collect();
+                rows.filter(|row| seen.insert(row.clone())).collect()
+            }
+        };
         Self::listed(&self.levels, rows)
     }
 
@@ -183,6 +207,16 @@ impl Family {
         }
         (0..self.len).filter_map(|index| by_row.remove(&self.row(index)[..]).map(|points| (index, points))).collect()
     }
+}
+
+/// How many rows there are of parameters with so many levels; none where they cannot be counted in 64 bits.
+fn combinations(levels: &[usize]) -> Option<u64> {
+    levels.iter().try_fold(1, |rows: u64, &levels| rows.checked_mul(levels as u64))
+}
+
+/// The number whose digits are a row, as [`digits`] takes it apart.
+fn number(row: &[usize], levels: &[usize]) -> u64 {
+    row.iter().zip(levels).fold(0, |number, (&level, &levels)| number * levels as u64 + level as u64)
 }
 
 /// `index` as a number whose digits, the last one changing fastest, have these many values.

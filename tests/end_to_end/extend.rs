@@ -115,7 +115,7 @@ fn tests_of_other_parameters_are_refused_with_their_place() {
     let cases: [(&str, &[&str]); 5] = [
         (&OLD.replace("distance", "distanc"), &["old.csv, line 1", "`distance`", "is it `distanc`?"]),
         (&OLD.replace("3,20,2", "3,25,2"), &["old.csv, line 6", "`distance`", "found 25", "10, 20, 30, 40"]),
-        (&OLD.replace("3,20,2", "3,,2"), &["old.csv, line 6", "`distance`", "found ``, expected a value"]),
+        (&OLD.replace("3,20,2", "3,,2"), &["old.csv, line 6", "`distance`", "found an empty cell, expected a value"]),
         (
             "speed,distance,lanes,friction\n1,10,2,0.8\n3,10,2,0.5\n",
             &["old.csv, line 3", "found 0.5, but `friction` is fixed at 0.8", "--open friction"],

@@ -213,7 +213,10 @@ impl Group {
     pub(super) fn holds(&self, fixed: impl Fn(usize) -> Option<usize>) -> bool {
         let fixed = self.classes(fixed);
         match &self.engine {
-            Engine::Diagram(diagram) => diagram.holds(&fixed),
+            Engine::Diagram(diagram) => match fixed.iter().copied().collect::<Option<Vec<usize>>>() {
+                Some(all) => diagram.has(|place| all[place]),
+                None => diagram.holds(&fixed),
+            },
             Engine::Search(search) => search.holds(&fixed),
         }
     }
