@@ -161,9 +161,10 @@ impl Diagram {
         let mut depth = 0;
         for (&place, change) in self.order.iter().zip(unasked) {
             depth += change;
-            let some = depth > 0 || supported[place].contains(&true);
             match fixed[place] {
                 Some(class) => {
+                    // Every half that some path took has the class.
+                    let some = depth > 0 || supported[place][class];
                     supported[place].fill(false);
                     supported[place][class] = some;
                 }

@@ -30,19 +30,20 @@ impl OpenRows {
             }))
             .collect();
         let entries = first[column + 1];
-        let (has, open) = (vec![Vec::new(); entries], vec![Vec::new(); column + 1]);
-        let mut open = Self { columns: column + 1, first, rows: Vec::new(), has, open };
         let with_room = |row: &[u32]| row[..=column].contains(&OPEN) && (row[column] == OPEN || row[column] == level);
-        let found: Vec<usize> = (0..rows.len()).filter(|&index| with_room(rows.row(index))).collect();
-        for &index in &found[found.len().saturating_sub(MOST_BITS / entries)..] {
-            open.push(index, rows.row(index));
-        }
+        let newest = (0..rows.len()).rev().filter(|&index| with_room(rows.row(index)));
+        let mut found: Vec<usize> = newest.take(MOST_BITS / entries).collect();
+        found.reverse();
+        let sets = |number: usize| vec![vec![0; found.len().div_ceil(64)]; number];
+        let (has, open) = (sets(entries), sets(column + 1));
+        let mut open = Self { columns: column + 1, first, rows: Vec::new(), has, open };
+        found.into_iter().for_each(|index| open.push(index, rows.row(index)));
         open
     }
 
     fn push(&mut self, index: usize, row: &[u32]) {
         let (word, bit) = (self.rows.len() / 64, 1 << (self.rows.len() % 64));
-        if bit == 1 {
+        if word == self.open[0].len() {
             self.has.iter_mut().chain(&mut self.open).for_each(|set| set.push(0));
         }
         self.rows.push(index);
@@ -80,7 +81,8 @@ impl OpenRows {
 
     /// The first row with room.
     fn find(&self, columns: &Columns, rows: &Rows, combination: &[(usize, u32)]) -> Option<usize> {
-        let sets = |&(column, level): &(usize, u32)| (&self.has[self.first[column] + level as usize], &self.open[column]);
+        let sets =
+            |&(column, level): &(usize, u32)| (&self.has[self.first[column] + level as usize], &self.open[column]);
         let sets: Vec<(&Vec<u64>, &Vec<u64>)> = combination.iter().map(sets).collect();
         for word in 0..self.rows.len().div_ceil(64) {
             let mut fits = sets.iter().fold(u64::MAX, |fits, (has, open)| fits & (has[word] | open[word]));
