@@ -6,9 +6,10 @@
 use crate::Error;
 use paracosm_coverage::demand::Demand;
 use paracosm_coverage::dispersion::is_at_most;
-use paracosm_coverage::theory::{points, rows};
+use paracosm_coverage::theory::points;
+use paracosm_coverage::theory::rows::RandomRows;
 use paracosm_coverage::{Deadline, PointSet, Space};
-use paracosm_generators::covering::{CoveringRequest, covering_array};
+use paracosm_generators::covering::{CoveringError, CoveringRequest, covering_array};
 use paracosm_generators::{Generator, GeneratorError, Request, Strategy};
 use serde::{Serialize, Serializer};
 use std::time::Duration;
@@ -81,15 +82,15 @@ pub struct Plan {
 /// The strategies that are measured: a longer beginning of each is never worse.
 const MEASURED: [Strategy; 3] = [Strategy::Halton, Strategy::Sobol, Strategy::Greedy];
 
-/// No covering array is made that needs more rows than this.
-const MOST_ROWS_MADE: u64 = 20_000;
+/// No covering array of more combinations than this is made: it would take minutes, and gigabytes.
+const MOST_COMBINATIONS: u128 = 1 << 31;
 
 /// More points than this are not measured.
 const MOST_MEASURED: usize = 1 << 20;
 
 impl Plan {
-    /// The plan for a space, of whose discrete parameters `demand` may ask for more than all combinations of k values. The
-    /// measuring may take as long as `limit`, all together.
+    /// The plan for a space, of whose discrete parameters `demand` may ask for more than all combinations of k values.
+    /// Making a covering array may take half of `limit`, and the measuring what is left of it.
     ///
     /// # Errors
     /// The space is empty, `k` is not in 1 to the number of discrete parameters, or epsilon or delta not in (0, 1).
@@ -120,9 +121,15 @@ impl Plan {
             }
         };
         let (rules, kinds) = (space.rules()?, demand.kinds(space)?);
-        let request = CoveringRequest { kinds: &kinds, groups: &demand.groups, ..CoveringRequest::new(&rules, k) };
+        let deadline = Deadline::after(limit);
+        let request = CoveringRequest {
+            kinds: &kinds,
+            groups: &demand.groups,
+            deadline: deadline.part(if dims == 0 { 1.0 } else { 0.5 }),
+            ..CoveringRequest::new(&rules, k)
+        };
         let rows = if levels.is_empty() { None } else { Some(rows_needed(&request, delta)?) };
-        let points = if dims == 0 { None } else { Some(points_needed(dims, epsilon, delta, limit)?) };
+        let points = if dims == 0 { None } else { Some(points_needed(dims, epsilon, delta, deadline)?) };
         let tests = rows.as_ref().zip(points.as_ref()).map(|(rows, points)| joined(rows, points));
         Ok(Self { k: (!levels.is_empty()).then_some(k), epsilon, delta, rows, points, tests })
     }
@@ -131,45 +138,45 @@ impl Plan {
 /// How many rows cover discrete parameters k-wise, and groups as they ask for.
 fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error> {
     let &CoveringRequest { rules, k, .. } = request;
-    let levels = rules.levels();
-    let random = |name: &str, tests| Need {
-        of: format!("random rows, {name}"),
-        tests,
-        over: None,
-        guarantee: Guarantee::Probable,
-    };
+    let need = |of: &str, tests, guarantee| Need { of: of.into(), tests, over: None, guarantee };
     let countable = |tests| (tests < u64::MAX).then_some(tests);
     // No row has two combinations of the same parameters.
     let least = u64::try_from(request.lower_bound().map_err(GeneratorError::from)?).ok();
-    // An array of very many rows takes long to make.
-    let array = match least {
-        Some(..=MOST_ROWS_MADE) => Some(covering_array(request).map_err(GeneratorError::from)?),
-        _ => None,
+    let array = if request.combinations().map_err(GeneratorError::from)? > MOST_COMBINATIONS {
+        None
+    } else {
+        match covering_array(request) {
+            Ok(array) => Some(array.rows.len() as u64),
+            Err(CoveringError::OutOfTime | CoveringError::TooLarge { .. }) => None,
+            Err(error) => return Err(GeneratorError::from(error).into()),
+        }
     };
-    let array = array.map(|array| array.rows.len() as u64);
+    // One row fewer than are needed by any set is not enough for the array either.
+    let over = least.filter(|_| array.is_none()).map(|least| least - 1);
     let all = rules.tests().filter(|all| *all < 9e15).map(|all| all as u64);
-    let need = |of: &str, tests, guarantee| Need { of: of.into(), tests, over: None, guarantee };
     let mut needs = vec![
         need("any rows", least, Guarantee::NeededByAny),
-        Need { over: least.filter(|_| array.is_none()), ..need("ipog, the array of seed 0", array, Guarantee::Proved) },
+        Need { over, ..need("ipog, the array of seed 0", array, Guarantee::Proved) },
         need("all combinations", all, Guarantee::Proved),
     ];
     let has_negatives = request.kinds.iter().any(|kind| kind.negative().is_some());
-    let asks_more = has_negatives || request.groups.iter().any(|(_, strength)| *strength > k);
-    if rules.groups() > 0 || asks_more {
-        // Under constraints combinations are not equally probable, which the bounds for random rows rest on; and they are
-        // about any k parameters, no more.
+    if has_negatives || request.groups.iter().any(|(_, strength)| *strength > k) {
+        // The bounds for random rows are about any k parameters, no more.
         return Ok(needs);
     }
-    if levels.iter().all(|&v| v == 2) {
-        needs.push(random("Proposition 3.2", countable(rows::random_family_size(levels, k, delta))));
+    // Where constraints entangle too many parameters, nobody knows how probable a combination is.
+    if let Some(random) = RandomRows::new(rules, k) {
+        if rules.groups() == 0 && rules.levels().iter().all(|&v| v == 2) {
+            let of = "random rows, Proposition 3.2";
+            needs.push(need(of, countable(random.family_size(delta)), Guarantee::Probable));
+        }
+        needs.push(need("random rows, union bound", countable(random.union_bound(delta)), Guarantee::Probable));
     }
-    needs.push(random("union bound", countable(rows::union_bound(levels, k, delta))));
     Ok(needs)
 }
 
 /// How many points have a dispersion of at most epsilon.
-fn points_needed(dims: usize, epsilon: f64, delta: f64, limit: Duration) -> Result<Vec<Need>, Error> {
+fn points_needed(dims: usize, epsilon: f64, delta: f64, deadline: Deadline) -> Result<Vec<Need>, Error> {
     let need = |of: &str, tests, guarantee| Need { of: of.to_owned(), tests, over: None, guarantee };
     let mut needs = vec![
         need("any points", points::needed_by_any_set(dims, epsilon), Guarantee::NeededByAny),
@@ -178,7 +185,6 @@ fn points_needed(dims: usize, epsilon: f64, delta: f64, limit: Duration) -> Resu
         need("sobol, a-priori bound", points::enough_of_sobol(dims, epsilon), Guarantee::Proved),
         need("random, a-priori bound", points::enough_at_random(dims, epsilon, delta), Guarantee::Probable),
     ];
-    let deadline = Deadline::after(limit);
     for (i, strategy) in MEASURED.into_iter().enumerate().filter(|(_, strategy)| strategy.dims().contains(&dims)) {
         let share = 1.0 / (MEASURED.len() - i) as f64;
         let (tests, over) = match enough_of(strategy, dims, epsilon, deadline.part(share))? {
@@ -269,15 +275,13 @@ fn joined(rows: &[Need], points: &[Need]) -> Vec<Need> {
 mod tests {
     use super::*;
 
-    const LIMIT: Duration = Duration::from_secs(600);
-
     fn tests_of(needs: &[Need], of: &str) -> Option<u64> {
         needs.iter().find(|need| need.of == of).unwrap_or_else(|| panic!("no {of}")).tests
     }
 
     #[test]
     fn measured_numbers_are_the_least_that_do_and_lie_between_the_bounds() {
-        let points = points_needed(3, 0.1, 0.05, LIMIT).unwrap();
+        let points = points_needed(3, 0.1, 0.05, Deadline::never()).unwrap();
         let space = Space::unit_cube(3);
         for strategy in MEASURED {
             let n = tests_of(&points, strategy.name()).unwrap();
@@ -292,14 +296,14 @@ mod tests {
 
     #[test]
     fn the_reference_s_example_of_five_dimensions_comes_out() {
-        let points = points_needed(5, 0.1, 0.05, LIMIT).unwrap();
+        let points = points_needed(5, 0.1, 0.05, Deadline::never()).unwrap();
         assert_eq!(tests_of(&points, "halton, a-priori bound"), Some(739_200));
         assert_eq!(tests_of(&points, "halton"), Some(141));
     }
 
     #[test]
     fn what_was_not_measured_in_time_is_unknown() {
-        let points = points_needed(6, 0.01, 0.05, Duration::ZERO).unwrap();
+        let points = points_needed(6, 0.01, 0.05, Deadline::after(Duration::ZERO)).unwrap();
         assert_eq!(tests_of(&points, "halton"), None);
         assert_eq!(tests_of(&points, "any points"), Some(120));
     }

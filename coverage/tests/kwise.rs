@@ -6,7 +6,7 @@ use models::{all_tests, keeps, models};
 use paracosm_coverage::demand::Kind;
 use paracosm_coverage::kwise::{KwiseCounter, KwiseError, MISSING_LISTED, coverage_of_kinds, kwise_coverage};
 use paracosm_coverage::rules::{Clause, Rules};
-use paracosm_coverage::theory::rows::{proposition_3_2, random_family_size, union_bound};
+use paracosm_coverage::theory::rows::{RandomRows, proposition_3_2};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
@@ -202,6 +202,10 @@ fn what_cannot_be_counted_is_refused() {
     assert!(matches!(of(&[usize::MAX; 9], 9, &[0; 9]), KwiseError::TooMany { found: u128::MAX, .. }));
 }
 
+fn random_rows(levels: &[usize], k: usize) -> RandomRows {
+    RandomRows::new(&Rules::free(levels), k).expect("nothing is entangled")
+}
+
 /// The probability that `n` uniform draws out of `values` show each of them, by inclusion and exclusion.
 fn all_shown(values: u32, n: u64) -> f64 {
     let mut sum = 0.0;
@@ -220,12 +224,12 @@ fn a_random_family_of_the_promised_size_covers_with_the_promised_probability() {
         // One set of parameters: the rows draw out of all its combinations.
         for levels in [&[2][..], &[3], &[2, 2], &[2, 3], &[2, 2, 2], &[3, 4]] {
             let values = levels.iter().product::<usize>() as u32;
-            let n = random_family_size(levels, levels.len(), delta);
+            let n = random_rows(levels, levels.len()).family_size(delta);
             assert!(all_shown(values, n) >= 1.0 - delta, "{levels:?} {delta}: {n}");
         }
         // k = 1: each parameter on its own.
         for levels in [&[2, 2, 2][..], &[2, 3, 4], &[1, 5]] {
-            let n = random_family_size(levels, 1, delta);
+            let n = random_rows(levels, 1).family_size(delta);
             let shown: f64 = levels.iter().map(|&v| all_shown(v as u32, n)).product();
             assert!(shown >= 1.0 - delta, "{levels:?} {delta}: {n}");
         }
@@ -242,7 +246,7 @@ fn missed(levels: &[usize], k: usize, n: u64) -> f64 {
 #[test]
 fn with_too_many_different_products_the_union_bound_still_is_one() {
     let levels: Vec<usize> = (2..=90).collect();
-    let n = union_bound(&levels, 3, 0.05);
+    let n = random_rows(&levels, 3).union_bound(0.05);
     assert!(missed(&levels, 3, n) <= 0.05);
     assert!(missed(&levels, 3, (n as f64 / 1.025) as u64) > 0.05);
 }
@@ -252,7 +256,7 @@ fn the_union_bound_is_the_least_number_that_meets_its_sum() {
     for levels in [&[2, 2, 2, 2][..], &[3, 2, 5, 2], &[1, 4, 4], &[1, 1]] {
         for k in 1..=levels.len() {
             for delta in [0.7, 0.05, 1e-9] {
-                let n = union_bound(levels, k, delta);
+                let n = random_rows(levels, k).union_bound(delta);
                 assert!(
                     missed(levels, k, n) <= delta && missed(levels, k, n - 1) > delta,
                     "{levels:?} {k} {delta}: {n}"
@@ -269,8 +273,8 @@ fn the_papers_formula_is_4_percent_above_the_union_bound_at_k_3_and_36_at_k_6() 
         for parameters in [10, 20, 50, 100] {
             let levels = vec![2; parameters];
             let paper = proposition_3_2(parameters, k, 0.05);
-            assert_eq!(random_family_size(&levels, k, 0.05), paper.ceil() as u64);
-            above.push(paper / union_bound(&levels, k, 0.05) as f64);
+            assert_eq!(random_rows(&levels, k).family_size(0.05), paper.ceil() as u64);
+            above.push(paper / random_rows(&levels, k).union_bound(0.05) as f64);
         }
     }
     let (least, most) = (above.iter().copied().fold(f64::MAX, f64::min), above.iter().copied().fold(0.0, f64::max));
@@ -280,12 +284,12 @@ fn the_papers_formula_is_4_percent_above_the_union_bound_at_k_3_and_36_at_k_6() 
 #[test]
 fn where_the_papers_formula_falls_short_the_union_bound_is_taken() {
     assert_eq!(proposition_3_2(1, 1, 0.9).ceil(), 1.0);
-    assert_eq!(union_bound(&[2], 1, 0.9), 2);
-    assert_eq!(random_family_size(&[2], 1, 0.9), 2);
+    assert_eq!(random_rows(&[2], 1).union_bound(0.9), 2);
+    assert_eq!(random_rows(&[2], 1).family_size(0.9), 2);
 }
 
 #[test]
 fn numbers_of_rows_beyond_counting_saturate() {
-    assert_eq!(union_bound(&[1_000_000; 40], 40, 0.1), u64::MAX);
-    assert!(union_bound(&[2; 2000], 8, 0.1) > 10_000);
+    assert_eq!(random_rows(&[1_000_000; 40], 40).union_bound(0.1), u64::MAX);
+    assert!(random_rows(&[2; 2000], 8).union_bound(0.1) > 10_000);
 }

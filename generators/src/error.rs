@@ -131,8 +131,11 @@ pub enum GeneratorError {
         /// The number of discrete parameters.
         parameters: usize,
     },
-    /// Random rows where values do not go together as they like.
-    #[error("under constraints combinations are not equally probable, and a random family promises nothing; use ipog")]
+    /// Random rows where nobody knows how probable a combination is.
+    #[error(
+        "the constraints join too many parameters to tell how probable a combination is, and a random family would \
+         promise nothing; use ipog"
+    )]
     RandomUnderConstraints,
     /// A covering array that cannot be.
     #[error(transparent)]
@@ -143,6 +146,12 @@ pub enum GeneratorError {
     /// A probability of failure that is none.
     #[error("delta is {0}; a probability of failure must be above 0 and below 1")]
     Delta(f64),
+    /// A probability of failure for a family that cannot fail.
+    #[error("delta is the probability that random rows miss a combination; `{family}` misses none, use random")]
+    NoDelta {
+        /// The family's name.
+        family: &'static str,
+    },
     /// A family too large to run.
     #[error("the discrete family has {rows} rows, more than 10,000,000; {advice}")]
     FamilyTooLarge {

@@ -6,13 +6,18 @@
 use crate::covering::{CoveringRequest, covering_array};
 use crate::seeded::{Purpose, seeded};
 use crate::{GeneratorError, Request};
-use paracosm_coverage::{Point, nearest, rules::Rules, theory};
+use paracosm_coverage::rules::{Rules, UniformTests};
+use paracosm_coverage::theory::rows::RandomRows;
+use paracosm_coverage::{Point, nearest};
 use rand::Rng;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::str::FromStr;
 
 /// Beyond it a family is a mistake rather than a plan.
 const MOST_ROWS: u64 = 10_000_000;
+
+/// Of so many possible rows at most each has a bit that says whether it is there.
+const MOST_BITS: u64 = 1 << 28;
 
 /// How the discrete parameters are covered.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,8 +26,8 @@ pub enum DiscreteFamily {
     #[default]
     Ipog,
     /// As many uniformly random rows as Proposition 3.2 of the paper asks for: all combinations of values of any
-    /// k parameters are among them with probability at least `1 - delta`. Only without constraints, under which
-    /// combinations are not equally probable.
+    /// k parameters are among them with probability at least `1 - delta`. Under constraints rows are drawn from those
+    /// that keep them, and there are as many as the union bound asks for with every combination's own probability.
     Random {
         /// The probability, between 0 and 1, that one is missing.
         delta: f64,
@@ -36,6 +41,28 @@ impl DiscreteFamily {
 
     /// The probability with which a random family may miss a combination, where nothing is said.
     pub const DELTA: f64 = 0.05;
+
+    /// The name by which users ask for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ipog => Self::NAMES[0],
+            Self::Random { .. } => Self::NAMES[1],
+            Self::Cross => Self::NAMES[2],
+        }
+    }
+
+    /// The same family with this probability that it misses a combination, if one is given.
+    ///
+    /// # Errors
+    /// One is given, and the family is not random or it is no probability between 0 and 1.
+    pub fn with_delta(self, delta: Option<f64>) -> Result<Self, GeneratorError> {
+        match (self, delta) {
+            (family, None) => Ok(family),
+            (Self::Random { .. }, Some(delta)) if delta > 0.0 && delta < 1.0 => Ok(Self::Random { delta }),
+            (Self::Random { .. }, Some(delta)) => Err(GeneratorError::Delta(delta)),
+            (family, Some(_)) => Err(GeneratorError::NoDelta { family: family.name() }),
+        }
+    }
 }
 
 impl FromStr for DiscreteFamily {
@@ -61,7 +88,7 @@ pub(crate) struct Family {
 /// Where the rows come from.
 enum Source {
     /// Random ones of this seed.
-    Random(u64),
+    Random { tests: UniformTests, seed: u64 },
     /// All combinations, in order.
     Cross,
     /// These.
@@ -87,11 +114,12 @@ impl Family {
         let is_free = rules.groups() == 0;
         match request.discrete {
             DiscreteFamily::Random { delta } if !(delta > 0.0 && delta < 1.0) => Err(GeneratorError::Delta(delta)),
-            DiscreteFamily::Random { .. } if !is_free => Err(GeneratorError::RandomUnderConstraints),
             DiscreteFamily::Random { delta } if parameters > 0 => {
-                match theory::rows::random_family_size(levels, k, delta) {
+                let tests = rules.uniform().ok_or(GeneratorError::RandomUnderConstraints)?;
+                let rows = RandomRows::new(rules, k).ok_or(GeneratorError::RandomUnderConstraints)?;
+                match rows.family_size(delta) {
                     len if len > MOST_ROWS => too_large(len.to_string(), "use a smaller k, or the family ipog"),
-                    len => Ok(Self { levels: levels.to_vec(), len, rows: Source::Random(seed) }),
+                    len => Ok(Self { levels: levels.to_vec(), len, rows: Source::Random { tests, seed } }),
                 }
             }
             DiscreteFamily::Ipog if parameters > 0 => {
@@ -107,7 +135,7 @@ impl Family {
                 Ok(Self::listed(levels, array.rows))
             }
             // The product of no levels is the one empty row.
-            _ => match levels.iter().try_fold(1_u64, |rows, &n| rows.checked_mul(n as u64)) {
+            _ => match combinations(levels) {
                 None => too_large("over 10^19".to_owned(), "use the family ipog"),
                 Some(len) if len > MOST_ROWS => too_large(len.to_string(), "use the family ipog"),
                 Some(len) if is_free => Ok(Self { levels: levels.to_vec(), len, rows: Source::Cross }),
@@ -131,9 +159,9 @@ impl Family {
     /// The row at `index`, which is below [`Family::len`].
     pub(crate) fn row(&self, index: u64) -> Vec<usize> {
         match &self.rows {
-            Source::Random(seed) => {
+            Source::Random { tests, seed } => {
                 let mut rng = seeded(*seed, Purpose::Rows, index);
-                self.levels.iter().map(|&levels| rng.random_range(0..levels)).collect()
+                tests.draw(|levels| rng.random_range(0..levels))
             }
             Source::Cross => digits(index, &self.levels),
             Source::Listed(rows) => rows[index as usize].clone(),
@@ -142,8 +170,29 @@ impl Family {
 
     /// The family without the rows that repeat an earlier one, or one of the tests that are there already.
     pub(crate) fn without(self, existing: &[Point]) -> Self {
-        let mut seen: HashSet<Vec<usize>> = existing.iter().map(|test| test.discrete.clone()).collect();
-        let rows = (0..self.len).map(|index| self.row(index)).filter(|row| seen.insert(row.clone())).collect();
+        let existing = existing.iter().map(|test| test.discrete.clone());
+        let rows = (0..self.len).map(|index| self.row(index));
+        let rows = match combinations(&self.levels) {
+            // Millions of rows that are drawn from fewer: a bit for each is at hand where a hash table is not.
+            Some(all) if all <= MOST_BITS => {
+                let mut seen = vec![0_u64; all.div_ceil(64) as usize];
+                let mut is_new = |row: &Vec<usize>| {
+                    let number = number(row, &self.levels);
+                    let (word, bit) = (&mut seen[(number / 64) as usize], 1 << (number % 64));
+                    let new = *word & bit == 0;
+                    *word |= bit;
+                    new
+                };
+                for row in existing {
+                    is_new(&row);
+                }
+                rows.filter(is_new).collect()
+            }
+            _ => {
+                let mut seen: HashSet<Vec<usize>> = existing.collect();
+                rows.filter(|row| seen.insert(row.clone())).collect()
+            }
+        };
         Self::listed(&self.levels, rows)
     }
 
@@ -158,6 +207,16 @@ impl Family {
         }
         (0..self.len).filter_map(|index| by_row.remove(&self.row(index)[..]).map(|points| (index, points))).collect()
     }
+}
+
+/// How many rows there are of parameters with so many levels; none where they cannot be counted in 64 bits.
+fn combinations(levels: &[usize]) -> Option<u64> {
+    levels.iter().try_fold(1, |rows: u64, &levels| rows.checked_mul(levels as u64))
+}
+
+/// The number whose digits are a row, as [`digits`] takes it apart.
+fn number(row: &[usize], levels: &[usize]) -> u64 {
+    row.iter().zip(levels).fold(0, |number, (&level, &levels)| number * levels as u64 + level as u64)
 }
 
 /// `index` as a number whose digits, the last one changing fastest, have these many values.

@@ -3,15 +3,19 @@
 //! Section 3.1 asks of every row that its own continuous points leave no empty box above epsilon. How many points that
 //! takes no bound tells, so it is measured: every row has a copy of the sequence of its own, randomly shifted but for the
 //! first, and the largest empty box of its points at hand. The next test goes to the row with the largest hole. It ends
-//! when none is above epsilon; cut short earlier, it has spread the tests so that the worst row is as good as it can be.
+//! when none is above epsilon; cut short earlier, by the number of tests or by the clock, it has spread the tests so that
+//! the worst row is as good as it can be.
 
 use crate::seeded::mix;
 use crate::{Generator, GeneratorError, Request, Strategy};
 use paracosm_coverage::dispersion::is_at_most;
 use paracosm_coverage::{Deadline, Point, PointSet, Space, empty_boxes::EmptyBoxes};
 
-/// How many boxes all rows keep together.
-const MOST_BOXES: usize = 2_000_000;
+/// How much memory the boxes of all rows take together, in bytes.
+const MOST_MEMORY: usize = 200_000_000;
+
+/// How many faces may have to be looked at when a point splits all boxes: a box has `2d` parts with `2d` faces each.
+const MOST_FACES: usize = 500_000_000;
 
 /// A row with the points that it has so far.
 struct Row {
@@ -28,6 +32,7 @@ struct Row {
 pub(crate) struct Spread {
     rows: Vec<Row>,
     epsilon: f64,
+    deadline: Deadline,
 }
 
 impl Spread {
@@ -49,7 +54,9 @@ impl Spread {
         }
         let cube = Space::unit_cube(request.space.dims());
         let rows: Vec<Vec<usize>> = rows.collect();
-        let most = (MOST_BOXES / rows.len().max(1)).max(100);
+        let dims = cube.dims();
+        let in_memory = MOST_MEMORY / (24 * dims + 8) / rows.len().max(1);
+        let most = in_memory.min(MOST_FACES / (2 * dims).saturating_mul(2 * dims).max(1)).max(100);
         let row = |(number, discrete): (usize, Vec<usize>)| {
             let of_row = request.existing.iter().filter(|test| test.discrete == discrete);
             let existing: Vec<Point> =
@@ -67,16 +74,16 @@ impl Spread {
             })?;
             let holes = EmptyBoxes::at_most(cube.dims(), most).expect("there is an axis");
             let mut row = Row { discrete, more, points: Vec::new(), holes, look_at: 1, enough: false };
-            existing.into_iter().for_each(|point| row.add(point.continuous, epsilon));
+            existing.into_iter().for_each(|point| row.add(point.continuous, epsilon, request.deadline));
             Ok(row)
         };
         let rows = rows.into_iter().enumerate().map(row).collect::<Result<_, GeneratorError>>()?;
-        Ok(Self { rows, epsilon })
+        Ok(Self { rows, epsilon, deadline: request.deadline })
     }
 }
 
 impl Row {
-    fn add(&mut self, point: Vec<f64>, epsilon: f64) {
+    fn add(&mut self, point: Vec<f64>, epsilon: f64, deadline: Deadline) {
         self.holes.add(&point).expect("a point of the cube");
         self.points.push(point);
         let hole = self.holes.dispersion();
@@ -84,7 +91,7 @@ impl Row {
         if !self.enough && hole.lower <= epsilon && self.points.len() >= self.look_at {
             // Boxes were forgotten that may be larger: search.
             let points = PointSet::new(self.points[0].len(), &self.points).expect("points of the cube");
-            self.enough = is_at_most(&points, epsilon, Deadline::never()) == Some(true);
+            self.enough = is_at_most(&points, epsilon, deadline) == Some(true);
             self.look_at = self.points.len() + self.points.len().div_ceil(20);
         }
     }
@@ -93,14 +100,14 @@ impl Row {
 impl Generator for Spread {
     fn ask(&mut self, n: usize) -> Vec<Point> {
         let mut tests = Vec::new();
-        while tests.len() < n {
+        while tests.len() < n && !self.deadline.passed() {
             let open = self.rows.iter_mut().filter(|row| !row.enough);
             let hole = |row: &Row| row.holes.largest().volume();
             // Of rows alike the one with the fewest points, then the first.
             let worst = open.min_by(|a, b| hole(b).total_cmp(&hole(a)).then(a.points.len().cmp(&b.points.len())));
             let Some(row) = worst else { break };
             let Some(point) = row.more.ask(1).pop() else { break };
-            row.add(point.continuous.clone(), self.epsilon);
+            row.add(point.continuous.clone(), self.epsilon, self.deadline);
             tests.push(Point { continuous: point.continuous, discrete: row.discrete.clone() });
         }
         tests

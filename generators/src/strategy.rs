@@ -13,7 +13,7 @@ use crate::{
     },
     spread::Spread,
 };
-use paracosm_coverage::{Point, Space, nearest};
+use paracosm_coverage::{Deadline, Point, Space, nearest};
 use std::{fmt, ops::RangeInclusive, str::FromStr};
 
 /// In how many dimensions greedy points take seconds at most.
@@ -76,6 +76,8 @@ pub struct Request<'a> {
     /// Go on until the points of every row of the discrete family leave no empty box above this volume, and give the
     /// next test to the row with the largest until then. None is equal shares of the budget.
     pub epsilon: Option<f64>,
+    /// When the search for tests that reach epsilon ends, whatever it has found.
+    pub deadline: Deadline,
     /// What `greedy` is to make small. None is the dispersion in a continuous space, and the k-wise dispersion where
     /// there are discrete parameters too.
     pub aim: Option<Aim>,
@@ -99,6 +101,7 @@ impl<'a> Request<'a> {
             discrete: DiscreteFamily::default(),
             k: None,
             epsilon: None,
+            deadline: Deadline::never(),
             aim: None,
             existing: &[],
             groups: &[],
@@ -177,6 +180,21 @@ impl Strategy {
         matches!(self, Self::Halton | Self::Sobol | Self::Kronecker | Self::Hammersley | Self::Fibonacci)
     }
 
+    /// Whether the tests of a request have rows of the discrete family; `greedy` may look at discrete and continuous
+    /// parameters together instead.
+    pub fn has_rows(self, request: &Request) -> bool {
+        let &Request { space, k, aim, .. } = request;
+        let (dims, parameters) = (space.dims(), space.levels().len());
+        let default = if parameters == 0 { Aim::Dispersion } else { Aim::KwiseDispersion };
+        // Of all parameters together, the k-wise dispersion is the dispersion.
+        let is_dispersion = parameters == 0 && k.unwrap_or(2.min(dims)) == dims;
+        self != Self::Greedy
+            || dims == 0
+            || request.epsilon.is_some()
+            || is_dispersion
+            || aim.unwrap_or(default) == Aim::Dispersion
+    }
+
     /// A generator of this strategy.
     ///
     /// In a space with discrete parameters it is exhausted after the budget, or without continuous ones after
@@ -204,15 +222,10 @@ impl Strategy {
         let dims = space.dims();
         let rules = space.rules()?;
         check_existing(space, existing)?;
-        if self == Self::Greedy && dims > 0 {
+        if !self.has_rows(request) {
             let k = k.unwrap_or(2.min(dims + rules.levels().len()));
-            // Of all parameters together, the k-wise dispersion is the dispersion.
-            let is_dispersion = rules.levels().is_empty() && k == dims;
-            let aim = aim.unwrap_or(if rules.levels().is_empty() { Aim::Dispersion } else { Aim::KwiseDispersion });
-            if aim == Aim::KwiseDispersion && !is_dispersion && request.epsilon.is_none() {
-                let rng = seeded(seed_or_0, Purpose::Greedy, 0);
-                return Ok(Box::new(KwiseGreedy::new(dims, &rules, k, rng, existing)?));
-            }
+            let rng = seeded(seed_or_0, Purpose::Greedy, 0);
+            return Ok(Box::new(KwiseGreedy::new(dims, &rules, k, rng, existing)?));
         }
         let family = Family::new(&rules, request)?;
         if dims == 0 {

@@ -224,3 +224,13 @@ fn what_cannot_be_covered_is_refused() {
     let rules = Rules::free(&[100_000; 2]);
     assert_eq!(refused(&CoveringRequest::new(&rules, 2)), CoveringError::TooLarge { rows: 10_000_000_000 });
 }
+
+#[test]
+fn an_array_that_takes_longer_than_there_is_time_is_given_up() {
+    let rules = Rules::free(&[10; 16]);
+    for (k, limit) in [(2, 0), (5, 50)] {
+        let deadline = Deadline::after(Duration::from_millis(limit));
+        let request = CoveringRequest { deadline, ..CoveringRequest::new(&rules, k) };
+        assert_eq!(covering_array(&request).unwrap_err(), CoveringError::OutOfTime);
+    }
+}

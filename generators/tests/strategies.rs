@@ -2,7 +2,7 @@
 
 use paracosm_coverage::{
     Deadline, Domain, Parameter, Point, PointSet, Space, Value, dispersion::dispersion, kwise::kwise_coverage,
-    kwise_dispersion::kwise_dispersion, rules::Rules, theory,
+    kwise_dispersion::kwise_dispersion, rules::Rules, theory::rows::RandomRows,
 };
 use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Request, Strategy};
 use std::collections::BTreeSet;
@@ -201,6 +201,10 @@ fn sets_end_with_their_budget_and_sequences_go_on() {
     }
 }
 
+fn family_size(levels: &[usize], delta: f64) -> u64 {
+    RandomRows::new(&Rules::free(levels), 2).expect("nothing is entangled").family_size(delta)
+}
+
 #[test]
 fn a_random_family_covers_all_pairs_at_least_as_often_as_promised() {
     for levels in [vec![2; 8], vec![3, 2, 4, 2, 3]] {
@@ -210,7 +214,7 @@ fn a_random_family_covers_all_pairs_at_least_as_often_as_promised() {
             let discrete = DiscreteFamily::Random { delta };
             let rows = rows(&Request { seed: Some(seed), discrete, k: Some(2), ..Request::new(&space, 1) });
             // Rows that repeat one are left out: they would be the same test again.
-            assert!(rows.len() as u64 <= theory::rows::random_family_size(&levels, 2, delta));
+            assert!(rows.len() as u64 <= family_size(&levels, delta));
             assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len());
             (0..levels.len()).all(|i| {
                 (0..i).all(|j| {
@@ -226,9 +230,38 @@ fn a_random_family_covers_all_pairs_at_least_as_often_as_promised() {
 }
 
 #[test]
+fn under_constraints_a_random_family_keeps_them_and_its_promise() {
+    let text = "constraints = [\"a == 0 implies b == 0\", \"b == 2 implies c == 1\"]
+        parameter = [{ name = \"a\", choice = [0, 1, 2] }, { name = \"b\", choice = [0, 1, 2] },
+        { name = \"c\", choice = [0, 1] }, { name = \"d\", choice = [0, 1, 2] }]";
+    let space = Space::from_toml(text).expect("a valid space");
+    let rules = space.rules().expect("constraints that can be kept");
+    let delta = 0.2;
+    let is_complete = |seed: u64| {
+        let request =
+            Request { seed: Some(seed), discrete: DiscreteFamily::Random { delta }, ..Request::new(&space, 1) };
+        let rows = rows(&request);
+        assert!(rows.iter().all(|row| (row[0] != 0 || row[1] == 0) && (row[1] != 2 || row[2] == 1)));
+        let found = kwise_coverage(&rules, 2, rows.iter().map(Vec::as_slice)).expect("rows of the space");
+        found.covered == found.valid
+    };
+    let seeds = 1000;
+    let complete = (0..seeds).filter(|&seed| is_complete(seed)).count();
+    assert!(complete as f64 >= (1.0 - delta) * seeds as f64, "{complete} of {seeds} families are complete");
+}
+
+#[test]
+fn the_search_for_epsilon_ends_with_its_time() {
+    let space = mixed(1, &[2, 2]);
+    let deadline = Deadline::after(std::time::Duration::ZERO);
+    let request = Request { epsilon: Some(0.1), deadline, ..Request::new(&space, 500) };
+    assert!(tests(Strategy::Halton, &request).is_empty());
+}
+
+#[test]
 fn the_random_family_has_as_many_rows_as_the_proposition_asks_for() {
     let (levels, delta) = ([2; 8], 0.2);
-    let size = theory::rows::random_family_size(&levels, 2, delta) as usize;
+    let size = family_size(&levels, delta) as usize;
     let space = mixed(1, &levels);
     let request = Request { discrete: DiscreteFamily::Random { delta }, ..Request::new(&space, 3 * size) };
     let tests = Strategy::Halton.build(&request).expect("a generator").ask(3 * size);

@@ -1,18 +1,16 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
-use super::output::{Format, Table, digits, json, percent, plural, shell_word, short_bracket, value_words};
+use super::output::{Format, json, plural};
+use super::progress::Progress;
+use super::report::Report;
 use super::sampling::Sampling;
 use super::suspects::Guilt;
-use super::{Failure, Found, Verbosity, complain, print};
+use super::{Failure, Found, Verbosity, print};
 use crate::coverage::{Domain, Shape, Value};
 use crate::generators::Strategy;
 use crate::oracles::Verdict;
-use crate::{
-    Campaign, Coverage, Error, FailureMap, Folder, LiveCoverage, Measure, Picture, Study, Summary, Tests, Trial,
-};
+use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Study, Tests, Trial};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
-use serde_json::json;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -129,11 +127,13 @@ impl Options {
         progress.bar.finish_and_clear();
         let coverage = coverage?;
         let guilt = Guilt::of(&study, &trials, &folder, self.locate)?;
+        let promise = study.promise()?;
         let report = Report {
             study: &study,
             trials: &trials,
             summary: &progress.summary,
             coverage: &coverage,
+            promise: promise.as_ref(),
             guilt: &guilt,
             out: &self.out,
         };
@@ -174,6 +174,7 @@ impl Options {
         let mut study = Study::of(&self.scenario)?
             .driver(&self.driver, &driver_settings)?
             .strategy(self.strategy())?
+            .delta(sampling.delta)
             .k(sampling.k)
             .epsilon(sampling.epsilon)
             .budget(self.budget)?
@@ -270,143 +271,4 @@ fn signal(text: &str, shape: &str, study: &Study) -> Result<Option<Shape>, Error
 /// An error that ended the campaign, with what is left of it.
 fn cut_short(error: &Error, out: &Path, safe: usize) -> Failure {
     format!("{error}\n  the first {safe} trials are safe in {}; --resume goes on from there", out.display()).into()
-}
-
-/// The progress bar, with the counts that it shows.
-struct Progress {
-    bar: ProgressBar,
-    summary: Summary,
-    coverage: Option<LiveCoverage>,
-    verbose: bool,
-}
-
-impl Progress {
-    fn new(study: &Study, verbosity: Verbosity, known: usize) -> Result<Self, Error> {
-        let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(study.budget as u64) };
-        let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {rate} tests/s  {eta} left  {msg}";
-        let style = ProgressStyle::with_template(template).expect("the template is one");
-        let style = style.with_key("rate", |state: &ProgressState, text: &mut dyn std::fmt::Write| {
-            let _ = write!(text, "{:.0}", state.per_sec());
-        });
-        let bar = bar.with_style(style).with_position(known as u64);
-        // The rate is that of this session, not of what was there before.
-        bar.reset_eta();
-        let mut coverage = LiveCoverage::new(&study.space, study.strength()).ok();
-        if let Some(coverage) = coverage.as_mut().filter(|_| !bar.is_hidden()) {
-            study.existing()?.iter().try_for_each(|test| coverage.add(test))?;
-        }
-        Ok(Self { bar, summary: Summary::default(), coverage, verbose: verbosity.verbose })
-    }
-
-    fn count(&mut self, study: &Study, trial: &Trial) {
-        self.summary.add(study, trial);
-        // Where nobody sees the bar, it need not be known.
-        if trial.covers()
-            && !self.bar.is_hidden()
-            && let Some(coverage) = &mut self.coverage
-            && let Ok(point) = study.space.encode(&trial.test)
-        {
-            coverage.add(&point).expect("a point of the space");
-        }
-    }
-
-    fn show(&mut self, study: &Study, trial: &Trial) {
-        self.count(study, trial);
-        let coverage = self.coverage.as_ref();
-        let dispersion = coverage.and_then(LiveCoverage::dispersion);
-        let dispersion =
-            dispersion.map(|volume| format!("  dispersion {}", short_bracket(&volume))).unwrap_or_default();
-        let combinations = coverage.and_then(LiveCoverage::combinations);
-        let combinations = combinations.map(|(covered, valid)| format!("  {covered}/{valid} combinations"));
-        let combinations = combinations.unwrap_or_default();
-        self.bar.set_message(format!("{} fail{dispersion}{combinations}", self.summary.count(Verdict::Fail)));
-        self.bar.inc(1);
-        if self.verbose && trial.verdict != Verdict::Pass {
-            let line = format!("test {}: {}, {}", trial.index, trial.verdict, in_words(study, trial));
-            self.bar.suspend(|| complain(&line));
-        }
-    }
-}
-
-/// Where a test is: its values with their units.
-fn in_words(study: &Study, trial: &Trial) -> String {
-    let value = |(name, value): (&str, &Value)| {
-        let value = value_words(value);
-        let unit = study.space.parameter(name).ok().and_then(|p| p.unit.as_deref()).unwrap_or_default();
-        format!("{name} {value} {unit}").trim_end().to_owned()
-    };
-    trial.test.iter().map(value).collect::<Vec<_>>().join(", ")
-}
-
-/// What is printed at the end.
-struct Report<'a> {
-    study: &'a Study,
-    trials: &'a [Trial],
-    summary: &'a Summary,
-    coverage: &'a Coverage,
-    guilt: &'a Guilt,
-    out: &'a Path,
-}
-
-const VERDICTS: [Verdict; 5] = [Verdict::Fail, Verdict::Pass, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
-
-impl Report<'_> {
-    fn table(&self) -> String {
-        let Self { study, summary, .. } = self;
-        let mut table = Table::default();
-        table.heading(&format!(
-            "{}, driver {}, strategy {}: {} tests",
-            study.scenario,
-            study.driver.name,
-            study.strategy_label(),
-            summary.tests()
-        ));
-        for verdict in VERDICTS {
-            let count = summary.count(verdict);
-            if count > 0 || matches!(verdict, Verdict::Fail | Verdict::Pass) {
-                let share = percent(count as f64 / summary.tests().max(1) as f64);
-                table.row(&verdict.to_string(), &format!("{count:<6}{share}"));
-            }
-        }
-        if let Some(known) = &study.extends {
-            table.row(
-                "extends",
-                &format!("{} of {}, which the coverage counts", plural(known.tests, "test"), known.name),
-            );
-        }
-        table.coverage(self.coverage);
-        self.guilt.show(&mut table);
-        table.row("written to", &self.out.display().to_string());
-        if let Some(worst) = summary.worst() {
-            let trial = &self.trials[worst.index];
-            let requirement = study.requirements.iter().find(|r| r.id == worst.requirement);
-            let robustness = trial.robustness(&worst.requirement).map(digits).unwrap_or_default();
-            let unit = requirement.map(|r| r.unit.as_str()).unwrap_or_default();
-            table.row("worst test", &format!("{}: {} {robustness} {unit}", worst.index, worst.requirement));
-            table.row("  where", &in_words(study, trial));
-            table.row("  replay", &self.replay(worst.index));
-        }
-        table.finish()
-    }
-
-    fn json(&self) -> serde_json::Value {
-        let counts = VERDICTS.map(|verdict| (verdict.to_string(), self.summary.count(verdict).into()));
-        let worst = self.summary.worst().map(|worst| {
-            json!({"index": worst.index, "requirement": worst.requirement, "test": self.trials[worst.index].test,
-                "robustness": self.trials[worst.index].robustness(&worst.requirement), "replay": self.replay(worst.index)})
-        });
-        let mut summary = json!({"tests": self.summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
-            "coverage": self.coverage, "out": self.out, "worst": worst});
-        if let Some(known) = &self.study.extends {
-            summary["extends"] = json!(known);
-        }
-        self.guilt.add_to(&mut summary);
-        summary
-    }
-
-    /// The command that runs a test again, with the program as it was called.
-    fn replay(&self, index: usize) -> String {
-        let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
-        format!("{} replay {} {index}", shell_word(&program), shell_word(&self.out.to_string_lossy()))
-    }
 }

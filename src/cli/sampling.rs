@@ -1,6 +1,6 @@
 //! The options that say how tests are chosen, which `paracosm-fuzz run` and `paracosm-cover generate` share.
 
-use crate::generators::{Aim, Strategy};
+use crate::generators::{Aim, DiscreteFamily, GeneratorError, Strategy};
 use clap::Args;
 
 /// How a strategy chooses tests.
@@ -16,6 +16,9 @@ pub(super) struct Sampling {
     /// [default: ipog]
     #[arg(long, value_name = "FAMILY")]
     pub discrete: Option<String>,
+    /// The probability with which random rows may miss a combination [default: 0.05]
+    #[arg(long, value_name = "D")]
+    pub delta: Option<f64>,
     /// How many parameters are covered together [default: 2]
     #[arg(long, value_name = "K")]
     pub k: Option<usize>,
@@ -29,6 +32,12 @@ pub(super) struct Sampling {
 }
 
 impl Sampling {
+    /// The family of rows that is asked for.
+    pub fn family(&self) -> Result<DiscreteFamily, GeneratorError> {
+        let family: Option<DiscreteFamily> = self.discrete.as_deref().map(str::parse).transpose()?;
+        family.unwrap_or_default().with_delta(self.delta)
+    }
+
     /// The measure that the strategy is to make small, if that is said or follows: who names a family wants its rows.
     pub fn measure(&self, strategy: &str) -> Option<&str> {
         let rows = self.discrete.as_ref().filter(|_| strategy == Strategy::Greedy.name());

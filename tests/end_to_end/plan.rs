@@ -20,6 +20,30 @@ fn a_plan_says_of_every_number_what_it_guarantees() {
 }
 
 #[test]
+fn under_constraints_random_rows_are_planned_with_the_probabilities_that_these_leave() {
+    let dir = tempfile::tempdir().unwrap();
+    let space = format!("constraints = [\"lanes == 2 implies lit == 'no'\"]\n{SPACE}");
+    fs::write(dir.path().join("SPACE.toml"), space).unwrap();
+    let plan = ["plan", "--space", "SPACE.toml", "--format", "table"];
+    golden("plan-constraints.txt", &stdout(&succeeds(cover(dir.path(), &plan))));
+}
+
+#[test]
+fn an_array_that_is_not_made_in_time_is_given_up_and_its_bounds_are_said() {
+    let dir = tempfile::tempdir().unwrap();
+    let parameter = |i| format!("[[parameter]]\nname = \"p{i}\"\nchoice = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]\n");
+    fs::write(dir.path().join("SPACE.toml"), (0..16).map(parameter).collect::<String>()).unwrap();
+    let plan = |more: &[&str]| {
+        let plan = ["plan", "--space", "SPACE.toml", "--format", "table"];
+        stdout(&succeeds(cover(dir.path(), &[&plan, more].concat())))
+    };
+    golden("plan-given-up.txt", &plan(&["--k", "5", "--time-limit", "0.1"]));
+    // So many combinations are not even tried.
+    let not_tried = plan(&["--k", "8"]);
+    assert!(not_tried.contains("over 99999999  not made"), "{not_tried}");
+}
+
+#[test]
 fn beyond_three_dimensions_one_is_told_to_rely_on_what_was_measured() {
     let dir = tempfile::tempdir().unwrap();
     let plan = |dims: &str| succeeds(cover(dir.path(), &["plan", "--dims", dims, "--epsilon", "0.2"]));

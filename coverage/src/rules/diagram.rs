@@ -5,6 +5,10 @@
 //! table has n squared entries. Nodes with the same children are one, and what does not matter is not asked
 //! (Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE Transactions on Computers 35, 1986).
 
+mod chain;
+
+pub(super) use chain::Chain;
+
 use super::compile::{self, Node};
 use super::group::ClassClause;
 use std::ops::Range;
@@ -157,9 +161,10 @@ impl Diagram {
         let mut depth = 0;
         for (&place, change) in self.order.iter().zip(unasked) {
             depth += change;
-            let some = depth > 0 || supported[place].contains(&true);
             match fixed[place] {
                 Some(class) => {
+                    // Every half that some path took has the class.
+                    let some = depth > 0 || supported[place][class];
                     supported[place].fill(false);
                     supported[place][class] = some;
                 }

@@ -4,9 +4,10 @@
 //! a constraint singles out one is, to the constraints, a parameter of two.
 
 use super::clause::Clause;
-use super::diagram::Diagram;
+use super::diagram::{Chain, Diagram};
 use super::encoding::Undecided;
 use super::search::Search;
+use std::sync::Arc;
 
 /// A literal over classes.
 #[derive(Debug, Clone)]
@@ -132,7 +133,7 @@ fn number_by_first_levels(class_of: &mut [usize], sizes: &mut [usize]) {
 /// How questions about a group are answered.
 #[derive(Debug)]
 enum Engine {
-    Diagram(Diagram),
+    Diagram(Arc<Diagram>),
     Search(Box<Search>),
 }
 
@@ -165,7 +166,7 @@ impl Group {
         }
         let engine = match Diagram::new(&members, &sizes, &clauses) {
             Some(diagram) if diagram.is_empty() => return Ok(None),
-            Some(diagram) => Engine::Diagram(diagram),
+            Some(diagram) => Engine::Diagram(Arc::new(diagram)),
             None => match Search::new(&members, &sizes, &clauses)? {
                 Some(search) => Engine::Search(Box::new(search)),
                 None => return Ok(None),
@@ -212,7 +213,10 @@ impl Group {
     pub(super) fn holds(&self, fixed: impl Fn(usize) -> Option<usize>) -> bool {
         let fixed = self.classes(fixed);
         match &self.engine {
-            Engine::Diagram(diagram) => diagram.holds(&fixed),
+            Engine::Diagram(diagram) => match fixed.iter().copied().collect::<Option<Vec<usize>>>() {
+                Some(all) => diagram.has(|place| all[place]),
+                None => diagram.holds(&fixed),
+            },
             Engine::Search(search) => search.holds(&fixed),
         }
     }
@@ -255,5 +259,23 @@ impl Group {
             Engine::Diagram(diagram) => Some(diagram.tests(&self.sizes)),
             Engine::Search(_) => None,
         }
+    }
+
+    /// Random ways to choose the members, all equally probable; none where they cannot be counted.
+    pub(super) fn chain(&self) -> Option<Chain> {
+        match &self.engine {
+            Engine::Diagram(diagram) => Some(Chain::new(diagram.clone(), &self.sizes)),
+            Engine::Search(_) => None,
+        }
+    }
+
+    /// The levels of each member in the order of their classes.
+    pub(super) fn levels_by_class(&self) -> Vec<Vec<usize>> {
+        let by_class = |class_of: &Vec<usize>| {
+            let mut levels: Vec<usize> = (0..class_of.len()).collect();
+            levels.sort_by_key(|&level| class_of[level]);
+            levels
+        };
+        self.class_of.iter().map(by_class).collect()
     }
 }

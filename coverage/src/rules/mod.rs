@@ -16,11 +16,13 @@ mod diagram;
 mod encoding;
 mod group;
 mod search;
+mod uniform;
 
 pub use clause::{Clause, Literal};
 pub use companions::Companions;
 pub use conflict::Conflict;
 pub use count::TupleCount;
+pub use uniform::{Alike, UniformTests};
 
 use encoding::Undecided;
 use group::{Group, Model};

@@ -58,6 +58,9 @@ pub enum CoveringError {
         /// How many levels the parameter has.
         levels: usize,
     },
+    /// The construction was given up.
+    #[error("the covering array was not complete in time")]
+    OutOfTime,
     /// More tests than can be run.
     #[error("at least {rows} tests are needed, more than {}; lower the strength", Self::MOST_ROWS)]
     TooLarge {

@@ -5,14 +5,18 @@
 //! parameters than were asked for.
 
 use super::rows::{Columns, OPEN, Rows};
+use paracosm_coverage::Deadline;
 
 /// With more levels altogether, the pairs of them are not counted, only the levels.
 const MOST_LEVELS: usize = 1 << 11;
 
-/// Gives every open entry a level that constraints allow.
-pub(super) fn fill(columns: &Columns, rows: &mut Rows) {
+/// Gives every open entry a level that constraints allow, unless the deadline passes.
+pub(super) fn fill(columns: &Columns, rows: &mut Rows, deadline: Deadline) {
     let mut seen = Seen::new(&columns.levels);
     for index in 0..rows.len() {
+        if deadline.passed() {
+            return;
+        }
         for column in 0..columns.len() {
             if rows.row(index)[column] != OPEN {
                 continue;

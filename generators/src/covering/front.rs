@@ -6,6 +6,7 @@
 //! columns stand side by side, what a row would cover is counted a machine word at a time.
 
 use super::rows::{Columns, OPEN};
+use paracosm_coverage::Deadline;
 use paracosm_coverage::rules::Companions;
 
 /// Columns whose combinations of so many are to be covered.
@@ -63,8 +64,15 @@ pub(super) struct Front {
 }
 
 impl Front {
-    /// The front of a family at one of its columns; none where there are too few columns before.
-    pub(super) fn new(columns: &Columns, companions: &mut Companions, family: &Family, column: usize) -> Option<Self> {
+    /// The front of a family at one of its columns; none where there are too few columns before. After the deadline it
+    /// is of no use.
+    pub(super) fn new(
+        columns: &Columns,
+        companions: &mut Companions,
+        family: &Family,
+        column: usize,
+        deadline: Deadline,
+    ) -> Option<Self> {
         let others: Vec<usize> = family.members.iter().copied().filter(|&other| other < column).collect();
         if others.len() + 1 < family.strength {
             return None;
@@ -84,6 +92,9 @@ impl Front {
         };
         let heads = if strength == 1 { vec![Vec::new()] } else { choices(&front.others, strength - 2) };
         for head in heads {
+            if deadline.passed() {
+                break;
+            }
             front.open(columns, companions, head);
         }
         Some(front)

@@ -9,6 +9,7 @@ use super::front::{Bits, Family, Front, Position};
 use super::open_rows::OpenRows;
 use super::rows::{Columns, OPEN, Rows};
 use crate::seeded::mix;
+use paracosm_coverage::Deadline;
 use paracosm_coverage::rules::Companions;
 use rayon::prelude::*;
 use std::cmp::Reverse;
@@ -40,15 +41,19 @@ pub(super) struct Growth<'a> {
     pub(super) columns: &'a Columns<'a>,
     pub(super) families: &'a [Family],
     pub(super) seed: u64,
+    pub(super) deadline: Deadline,
 }
 
 impl Growth<'_> {
-    /// Grows the columns from `begin` on.
+    /// Grows the columns from `begin` on, unless the deadline passes: then the rows are not of use.
     pub(super) fn grow(&self, rows: &mut Rows, companions: &mut Companions, begin: usize) {
         for column in begin..self.columns.len() {
             let with_column = self.families.iter().filter(|family| family.members.contains(&column));
-            let mut fronts: Vec<Front> =
-                with_column.filter_map(|family| Front::new(self.columns, companions, family, column)).collect();
+            let front = |family| Front::new(self.columns, companions, family, column, self.deadline);
+            let mut fronts: Vec<Front> = with_column.filter_map(front).collect();
+            if self.deadline.passed() {
+                return;
+            }
             pulp::Arch::new().dispatch(|| self.grow_right(rows, &mut fronts, column));
             self.grow_down(rows, &mut fronts, column);
         }
@@ -71,7 +76,9 @@ impl Growth<'_> {
         }
         let first_choice = |bits: &mut [Bits], gains: &mut [u32], index: usize| {
             let row = rows.row(index);
-            (row[column] == OPEN).then(|| self.choice(row, index, fronts, bits, gains, column)).flatten()
+            (row[column] == OPEN && !self.deadline.passed())
+                .then(|| self.choice(row, index, fronts, bits, gains, column))
+                .flatten()
         };
         let mut waiting: BinaryHeap<Choice> = if rows.len() < ROWS_FOR_ALL_CORES {
             (0..rows.len()).filter_map(|index| first_choice(&mut bits, &mut gains, index)).collect()
@@ -83,7 +90,7 @@ impl Growth<'_> {
             choices.collect::<Vec<_>>().into_iter().flatten().collect()
         };
         let patience = if rows.len() > HURRY { 2 } else { 1 };
-        while let Some(choice) = waiting.pop() {
+        while let Some(choice) = waiting.pop().filter(|_| !self.deadline.passed()) {
             let index = choice.index();
             let Some(choice) = self.choice(rows.row(index), index, fronts, &mut bits, &mut gains, column) else {
                 continue;
@@ -139,6 +146,9 @@ impl Growth<'_> {
             for leader in 0..fronts.len() {
                 let mut position = Position::default();
                 while let Some(found) = fronts[leader].next_left(self.columns, level, position, &mut entries) {
+                    if self.deadline.passed() {
+                        return;
+                    }
                     position = found;
                     entries.push((column, level as u32));
                     let index = open.place(self.columns, rows, &entries);

@@ -31,6 +31,7 @@ mod task;
 pub use error::CoveringError;
 pub use optimise::optimise;
 
+use paracosm_coverage::Deadline;
 use paracosm_coverage::demand::Kind;
 use paracosm_coverage::rules::Rules;
 use task::Task;
@@ -51,12 +52,14 @@ pub struct CoveringRequest<'a> {
     pub existing: &'a [Vec<Option<usize>>],
     /// Where chance starts from.
     pub seed: u64,
+    /// When the construction is given up.
+    pub deadline: Deadline,
 }
 
 impl<'a> CoveringRequest<'a> {
     /// All valid combinations of `k` parameters, from nothing.
     pub fn new(rules: &'a Rules, k: usize) -> Self {
-        Self { rules, kinds: &[], k, groups: &[], existing: &[], seed: 0 }
+        Self { rules, kinds: &[], k, groups: &[], existing: &[], seed: 0, deadline: Deadline::never() }
     }
 }
 
@@ -79,7 +82,8 @@ pub struct CoveringArray {
 ///
 /// # Errors
 /// A strength is 0 or more than there are parameters to combine, a parameter has no level, a group names a parameter that does not exist
-/// or one twice, an existing test is none of this space, or the array would be too large.
+/// or one twice, an existing test is none of this space, the array would be too large, or the deadline has passed before
+/// it was complete.
 pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, CoveringError> {
     request.check()?;
     let (tasks, invalid) = Task::all(request);
@@ -87,8 +91,8 @@ pub fn covering_array(request: &CoveringRequest) -> Result<CoveringArray, Coveri
     if lower_bound > CoveringError::MOST_ROWS {
         return Err(CoveringError::TooLarge { rows: lower_bound });
     }
-    let parts = tasks.iter().map(|task| (task.rows(), task.existing.len()));
-    let (rows, kept) = joined(&tasks, parts.collect());
+    let parts = tasks.iter().map(|task| Ok((task.rows(request.deadline)?, task.existing.len())));
+    let (rows, kept) = joined(&tasks, parts.collect::<Result<_, CoveringError>>()?);
     Ok(CoveringArray { rows, kept, invalid, lower_bound: lower_bound as u64 })
 }
 
@@ -150,5 +154,15 @@ impl CoveringRequest<'_> {
     pub fn lower_bound(&self) -> Result<u128, CoveringError> {
         self.check()?;
         Ok(bound(&Task::all(self).0))
+    }
+
+    /// How many combinations an array has to have; what exceeds `u128` saturates.
+    ///
+    /// # Errors
+    /// As [`covering_array`], but for the size.
+    pub fn combinations(&self) -> Result<u128, CoveringError> {
+        self.check()?;
+        let (tasks, _) = Task::all(self);
+        Ok(tasks.iter().map(Task::combinations).fold(0, u128::saturating_add))
     }
 }

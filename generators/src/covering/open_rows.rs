@@ -1,7 +1,7 @@
 //! Finding a row that has room for a combination.
 //!
-//! For each entry there is a set of the rows that have it or could get it, a bit each: the rows with room for a
-//! combination are those in the sets of all its entries.
+//! For each entry there is a set of the rows that have it, for each column one of the rows in which it is open, a bit
+//! each: the rows with room for a combination are those in either set for all its entries.
 
 use super::rows::{Columns, OPEN, Rows};
 
@@ -15,8 +15,10 @@ pub(super) struct OpenRows {
     first: Vec<usize>,
     /// Positions of rows.
     rows: Vec<usize>,
-    /// For each entry, the rows in which it fits.
-    fits: Vec<Vec<u64>>,
+    /// For each entry, the rows that have it.
+    has: Vec<Vec<u64>>,
+    /// For each column, the rows in which it is open.
+    open: Vec<Vec<u64>>,
 }
 
 impl OpenRows {
@@ -28,27 +30,29 @@ impl OpenRows {
             }))
             .collect();
         let entries = first[column + 1];
-        let mut open = Self { columns: column + 1, first, rows: Vec::new(), fits: vec![Vec::new(); entries] };
         let with_room = |row: &[u32]| row[..=column].contains(&OPEN) && (row[column] == OPEN || row[column] == level);
-        let found: Vec<usize> = (0..rows.len()).filter(|&index| with_room(rows.row(index))).collect();
-        for &index in &found[found.len().saturating_sub(MOST_BITS / entries)..] {
-            open.push(index, rows.row(index));
-        }
+        let newest = (0..rows.len()).rev().filter(|&index| with_room(rows.row(index)));
+        let mut found: Vec<usize> = newest.take(MOST_BITS / entries).collect();
+        found.reverse();
+        let sets = |number: usize| vec![vec![0; found.len().div_ceil(64)]; number];
+        let (has, open) = (sets(entries), sets(column + 1));
+        let mut open = Self { columns: column + 1, first, rows: Vec::new(), has, open };
+        found.into_iter().for_each(|index| open.push(index, rows.row(index)));
         open
     }
 
     fn push(&mut self, index: usize, row: &[u32]) {
         let (word, bit) = (self.rows.len() / 64, 1 << (self.rows.len() % 64));
-        if bit == 1 {
-            self.fits.iter_mut().for_each(|fits| fits.push(0));
+        if word == self.open[0].len() {
+            self.has.iter_mut().chain(&mut self.open).for_each(|set| set.push(0));
         }
         self.rows.push(index);
         for (column, &level) in row[..self.columns].iter().enumerate() {
-            let entries = match level {
-                OPEN => self.first[column]..self.first[column + 1],
-                level => self.first[column] + level as usize..self.first[column] + level as usize + 1,
+            let set = match level {
+                OPEN => &mut self.open[column],
+                level => &mut self.has[self.first[column] + level as usize],
             };
-            self.fits[entries].iter_mut().for_each(|fits| fits[word] |= bit);
+            set[word] |= bit;
         }
     }
 
@@ -59,10 +63,9 @@ impl OpenRows {
             for &(column, level) in combination {
                 if rows.row(index)[column] == OPEN {
                     rows.row_mut(index)[column] = level;
-                    let entries = self.first[column]..self.first[column + 1];
-                    for entry in entries.filter(|entry| entry - self.first[column] != level as usize) {
-                        self.fits[entry][place / 64] &= !(1 << (place % 64));
-                    }
+                    let (word, bit) = (place / 64, 1 << (place % 64));
+                    self.open[column][word] &= !bit;
+                    self.has[self.first[column] + level as usize][word] |= bit;
                 }
             }
             return index;
@@ -78,9 +81,11 @@ impl OpenRows {
 
     /// The first row with room.
     fn find(&self, columns: &Columns, rows: &Rows, combination: &[(usize, u32)]) -> Option<usize> {
-        let entry = |&(column, level): &(usize, u32)| self.first[column] + level as usize;
+        let sets =
+            |&(column, level): &(usize, u32)| (&self.has[self.first[column] + level as usize], &self.open[column]);
+        let sets: Vec<(&Vec<u64>, &Vec<u64>)> = combination.iter().map(sets).collect();
         for word in 0..self.rows.len().div_ceil(64) {
-            let mut fits = combination.iter().fold(u64::MAX, |fits, pair| fits & self.fits[entry(pair)][word]);
+            let mut fits = sets.iter().fold(u64::MAX, |fits, (has, open)| fits & (has[word] | open[word]));
             while fits != 0 {
                 let place = word * 64 + fits.trailing_zeros() as usize;
                 if keeps(columns, rows.row(self.rows[place]), combination) {

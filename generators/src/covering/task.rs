@@ -5,7 +5,8 @@ use super::grow::Growth;
 use super::optimise::polish;
 use super::rows::{Columns, OPEN, Rows};
 use super::search::Cells;
-use super::{CoveringRequest, fill, orthogonal};
+use super::{CoveringError, CoveringRequest, fill, orthogonal};
+use paracosm_coverage::Deadline;
 use paracosm_coverage::demand::Kind;
 use paracosm_coverage::rules::{Companions, Rules};
 
@@ -70,6 +71,12 @@ impl<'a> Task<'a> {
         self.families.iter().map(|(members, strength)| self.rules.count(members, *strength).largest).fold(0, u128::max)
     }
 
+    /// The number of valid combinations of all families.
+    pub(super) fn combinations(&self) -> u128 {
+        let valid = self.families.iter().map(|(members, strength)| self.rules.count(members, *strength).valid);
+        valid.fold(0, u128::saturating_add)
+    }
+
     /// What is to be covered, numbered; none where there is too much of it.
     pub(super) fn cells(&self) -> Option<Vec<Cells>> {
         let numbered = |(members, strength): &(Vec<usize>, usize)| Cells::new(self.rules.levels(), members, *strength);
@@ -77,7 +84,12 @@ impl<'a> Task<'a> {
     }
 
     /// Rows that cover everything, the existing ones first.
-    pub(super) fn rows(&self) -> Vec<Vec<usize>> {
+    ///
+    /// # Errors
+    /// The deadline has passed before they did.
+    pub(super) fn rows(&self, deadline: Deadline) -> Result<Vec<Vec<usize>>, CoveringError> {
+        // What is past the deadline leaves its work unfinished.
+        let in_time = || if deadline.passed() { Err(CoveringError::OutOfTime) } else { Ok(()) };
         let columns = Columns::new(&self.rules);
         let families = self.families.iter().map(|(members, strength)| {
             let mut members: Vec<usize> = members.iter().map(|&parameter| columns.column(parameter)).collect();
@@ -91,12 +103,14 @@ impl<'a> Task<'a> {
             let level = |&parameter: &usize| test[parameter].map_or(OPEN, |level| level as u32);
             rows.push(&columns.order.iter().map(level).collect::<Vec<u32>>());
         }
-        let growth = Growth { columns: &columns, families: &families, seed: self.seed };
+        let growth = Growth { columns: &columns, families: &families, seed: self.seed, deadline };
         let mut rows = grown(&growth, rows, &mut companions);
-        fill::fill(&columns, &mut rows);
+        in_time()?;
+        fill::fill(&columns, &mut rows, deadline);
+        in_time()?;
         let rows = (0..rows.len()).map(|index| columns.test(rows.row(index))).collect();
         let kept = self.existing.len();
-        polish(self, rows, kept, kept.max(self.lower_bound() as usize))
+        Ok(polish(self, rows, kept, kept.max(self.lower_bound() as usize)))
     }
 }
 

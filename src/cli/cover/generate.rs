@@ -2,18 +2,19 @@
 
 use super::array::ArrayOptions;
 use super::space_file::SpaceFile;
-use super::strength;
+use super::{strength, time_limit};
 use crate::cli::output::digits;
 use crate::cli::sampling::Sampling;
-use crate::cli::{Failure, Verbosity};
+use crate::cli::{Failure, Verbosity, complain};
 use crate::coverage::demand::Demand;
+use crate::coverage::kwise::KwiseError;
 use crate::coverage::kwise_dispersion::row_dispersion;
-use crate::coverage::theory::rows::random_family_size;
 use crate::coverage::{Deadline, Point, Space};
-use crate::generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
-use crate::{Error, Measure, Tests};
+use crate::generators::{DiscreteFamily, Generator, Request, Strategy};
+use crate::{Error, Measure, Promise, Tests};
 use clap::{ArgGroup, Args};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeSet;
 use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -54,6 +55,9 @@ pub(super) struct Options {
     /// Time to make the covering array smaller
     #[arg(long, value_name = "SECONDS")]
     optimise: Option<f64>,
+    /// Time that --epsilon may take from the first test on; the tests of that time are printed [default: 60]
+    #[arg(long, value_name = "SECONDS", requires = "epsilon")]
+    time_limit: Option<f64>,
     /// Tests that are there already; those printed are the ones to add. Without a space its columns are in [0,1]
     #[arg(long, value_name = "TESTS.csv", group = "of")]
     extend: Option<PathBuf>,
@@ -96,17 +100,14 @@ impl Options {
             None => Strategy::Halton,
         };
         let request = self.request(&space, strategy, &existing)?;
-        // Where greedy looks at all parameters at once, there are no rows.
-        let has_rows = strategy != Strategy::Greedy
-            || space.dims() == 0
-            || self.sampling.epsilon.is_some()
-            || request.aim.is_some();
-        let uses_array = request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && has_rows;
+        let limit = time_limit("--time-limit", self.time_limit.unwrap_or(TIME_LIMIT))?;
+        let uses_array =
+            request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && strategy.has_rows(&request);
         let options = ArrayOptions { k: self.sampling.k, seed: self.sampling.seed, optimise: self.optimise };
         // What is wrong with the rest is said before an array is made, which may take long.
         let any_row = [vec![0; space.levels().len()]];
         strategy.build(&Request { rows: Some(&any_row), ..request }).map_err(Error::from)?;
-        let rows = match uses_array && request.aim != Some(Aim::KwiseDispersion) {
+        let rows = match uses_array {
             true => Some(options.rows(&space, &demand, existing_rows, verbosity)?),
             false if !self.strength.is_empty() || self.optimise.is_some() => {
                 let message = "--strength and --optimise are about the rows of a covering array, and there are none";
@@ -114,32 +115,41 @@ impl Options {
             }
             false => None,
         };
-        let generator = strategy.build(&Request { rows: rows.as_deref(), ..request }).map_err(Error::from)?;
-        if let DiscreteFamily::Random { delta } = request.discrete
-            && !space.levels().is_empty()
-        {
-            if demand != Demand::default() {
-                let message = "random rows promise nothing of sub-models and negative values (`~`); use ipog";
-                return Err(Error::Usage(message.into()).into());
-            }
-            verbosity.note(promise(&space.levels(), self.sampling.k, delta, self.budget));
+        let is_random = matches!(request.discrete, DiscreteFamily::Random { .. });
+        if is_random && !space.levels().is_empty() && demand != Demand::default() {
+            let message = "random rows promise nothing of sub-models and negative values (`~`); use ipog";
+            return Err(Error::Usage(message.into()).into());
         }
         let most = match self.budget {
             Some(budget) => budget,
             None if space.dims() == 0 || self.sampling.epsilon.is_some() => usize::MAX,
             None => DEFAULT_BUDGET,
         };
+        let is_random = matches!(request.discrete, DiscreteFamily::Random { .. });
+        let deadline = if self.sampling.epsilon.is_some() { Deadline::after(limit) } else { Deadline::never() };
+        let request = Request { rows: rows.as_deref(), deadline, ..request };
+        let generator = strategy.build(&request).map_err(Error::from)?;
         let mut points = existing.clone();
         let written = write(generator, &space, most, verbosity, |tests| {
-            if self.sampling.epsilon.is_some() {
+            if self.sampling.epsilon.is_some() || is_random {
                 points.extend(tests);
             }
         })?;
+        let ran_out = written < most && deadline.passed();
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
         verbosity.note(format_args!("{written} tests{by}{}", after.unwrap_or_default()));
-        if self.sampling.epsilon.is_some() {
-            verbosity.note(reached(&Tests { k: self.sampling.k, ..Tests::new(space, points) })?);
+        let promise = Promise::of(strategy, &request, if ran_out { written } else { most } as u64)?;
+        let tests = Tests { k: self.sampling.k, ..Tests::new(space.clone(), points) };
+        if let Some(promise) = promise {
+            verbosity.note(kept(&promise, &tests, existing.len())?);
+        }
+        if let Some(epsilon) = self.sampling.epsilon {
+            if ran_out {
+                // The set is not what was asked for: that has to be known.
+                complain(&format_args!("the time limit of {} s came before epsilon {epsilon}", limit.as_secs_f64()));
+            }
+            verbosity.note(reached(&tests)?);
         }
         Ok(())
     }
@@ -153,9 +163,7 @@ impl Options {
             existing,
             ..Request::new(space, self.budget.unwrap_or(DEFAULT_BUDGET))
         };
-        if let Some(family) = &self.sampling.discrete {
-            request.discrete = family.parse()?;
-        }
+        request.discrete = self.sampling.family()?;
         request.aim = self.sampling.measure(strategy.name()).map(str::parse).transpose()?;
         Ok(request)
     }
@@ -163,17 +171,25 @@ impl Options {
 
 const DEFAULT_BUDGET: usize = 500;
 
-/// What a random family promises, and whether the budget is enough for it.
-fn promise(levels: &[usize], k: Option<usize>, delta: f64, budget: Option<usize>) -> String {
-    let k = k.unwrap_or(levels.len().min(2));
-    let rows = random_family_size(levels, k, delta);
-    let kept = match budget {
-        Some(budget) if (budget as u64) < rows => {
-            format!("; {budget} tests are fewer, and nothing is promised of them")
+/// How long tests are looked for that reach epsilon.
+const TIME_LIMIT: f64 = 60.0;
+
+/// What random rows promise, and beside it what the tests do.
+fn kept(promise: &Promise, tests: &Tests, existing: usize) -> Result<String, Error> {
+    let rows: BTreeSet<&Vec<usize>> = tests.points[existing..].iter().map(|test| &test.discrete).collect();
+    let measured = match tests.measure(&[Measure::KWise], Some(promise.k), Some(Duration::ZERO)) {
+        Ok(coverage) => {
+            coverage.discrete.flatten().map(|found| format!("{} of {} covered", found.covered, found.valid))
         }
-        _ => String::new(),
+        Err(Error::Kwise(error @ KwiseError::TooMany { .. })) => Some(format!("not, for {error}")),
+        Err(error) => return Err(error),
     };
-    format!("{rows} random rows have all {k}-wise combinations with probability at least {}{kept}", 1.0 - delta)
+    let (drawn, different) = (promise.rows, rows.len());
+    let measured = measured.expect("there are discrete parameters");
+    Ok(format!(
+        "{drawn} random rows, {different} of them different; guaranteed: {}; measured: {measured}",
+        promise.words()
+    ))
 }
 
 /// What the tests are good for, measured.

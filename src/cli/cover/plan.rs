@@ -40,7 +40,7 @@ pub(super) struct Options {
     /// The probability with which a random set may fail
     #[arg(long, value_name = "D", default_value_t = 0.05)]
     delta: f64,
-    /// Time that the measuring may take, all together
+    /// Time that making a covering array and the measuring may take, all together
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
     /// How to print it [default: table on a terminal, json elsewhere]
@@ -105,7 +105,7 @@ fn needs(table: &mut Table, needs: &[Need]) {
         };
         let guarantee = match (over, guarantee) {
             (Some(_), Guarantee::Measured) => "measured until the time limit",
-            (Some(_), _) => "not made, for it takes long",
+            (Some(_), _) => "not made, for it takes too long",
             (None, _) => guarantee.words(),
         };
         table.line(&format!("{of:<width$}  {tests:>20}  {guarantee}"));

@@ -1,10 +1,12 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
-use crate::{Error, Extension, Trial};
-use paracosm_coverage::{Domain, Parameter, Point, Record, Shape, Space, Value, Values, did_you_mean, nearest};
+mod parameters;
+
+use crate::{Error, Extension, Promise, Trial};
+use paracosm_coverage::{Deadline, Point, Record, Space, Value, Values};
 use paracosm_engine::driver::{self, Driver};
 use paracosm_engine::vehicle::Model;
-use paracosm_engine::{Declaration, Declared, Program, Test};
+use paracosm_engine::{Declaration, Program};
 use paracosm_generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
@@ -34,6 +36,8 @@ pub struct Study {
     pub driver: DriverChoice,
     strategy: String,
     discrete: String,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    delta: Option<f64>,
     k: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     epsilon: Option<f64>,
@@ -112,6 +116,7 @@ impl Study {
             driver: DriverChoice::new("aeb", &[])?,
             strategy: Strategy::Halton.name().to_owned(),
             discrete: "ipog".to_owned(),
+            delta: None,
             k: None,
             epsilon: None,
             measure: None,
@@ -162,6 +167,12 @@ impl Study {
         Ok(self)
     }
 
+    /// Lets random rows miss a combination with this probability at most; without it, with 0.05.
+    pub fn delta(mut self, delta: Option<f64>) -> Self {
+        self.delta = delta;
+        self
+    }
+
     /// Covers any `k` parameters together; without it, two.
     pub fn k(mut self, k: Option<usize>) -> Self {
         self.k = k;
@@ -208,52 +219,6 @@ impl Study {
         self
     }
 
-    /// Opens a parameter: lets the tests vary it, over its declared domain or over this part of it.
-    ///
-    /// # Errors
-    /// There is no such parameter, or `over` is no part of its domain.
-    pub fn open(mut self, name: &str, over: Option<Domain>) -> Result<Self, Error> {
-        let mut parameter = self.declared(name)?;
-        if let Some(domain) = over {
-            let ends = match &domain {
-                Domain::Interval { lo, hi } => vec![Value::Number(*lo), Value::Number(*hi)],
-                Domain::Choice(levels) => levels.clone(),
-            };
-            // Of a wrong interval the order of its ends is reported first, then that they lie outside.
-            Space::new(vec![Parameter::new(name, domain.clone())])?;
-            for end in &ends {
-                parameter.check(end)?;
-            }
-            if matches!((&parameter.domain, &domain), (Domain::Choice(_), Domain::Interval { .. })) {
-                let message = format!("parameter `{name}` takes {}, which is no interval", parameter.domain);
-                return Err(Error::Usage(message));
-            }
-            parameter.domain = domain;
-            parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
-        }
-        self.fixed = self.fixed.iter().filter(|(key, _)| *key != name).map(owned).collect();
-        self.rebuild(|other| other.name == name, Some(parameter))?;
-        Ok(self)
-    }
-
-    /// Lets an open parameter vary over time in this shape, or not at all.
-    ///
-    /// # Errors
-    /// It is not open, does not vary in such a shape, or the world is built with one value of it.
-    pub fn vary(mut self, name: &str, signal: Option<Shape>) -> Result<Self, Error> {
-        let mut parameter = self.space.parameter(name)?.clone();
-        parameter.signal = signal;
-        parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
-        self.rebuild(|other| other.name == name, Some(parameter))?;
-        let program = self.program()?;
-        let mut test = program.declare()?.nominal();
-        for parameter in self.space.parameters() {
-            test.set(&parameter.name, Declared { parameter: parameter.clone(), open: true }.nominal());
-        }
-        program.check(Test::new(&test, &self.space))?;
-        Ok(self)
-    }
-
     /// Counts the tests in a CSV as done, so that those of the study complete them. To be called when all parameters are
     /// opened, fixed and varied.
     ///
@@ -278,47 +243,6 @@ impl Study {
         (self.duration / self.dt).round() as usize
     }
 
-    /// Fixes a parameter at a value; a signal at a value or at a list of them.
-    ///
-    /// # Errors
-    /// There is no such parameter, it does not take the value, or it was the last open one.
-    pub fn set(mut self, name: &str, value: Value) -> Result<Self, Error> {
-        self.declared(name)?.check(&value)?;
-        self.rebuild(|other| other.name == name, None)?;
-        if self.space.parameters().is_empty() {
-            return Err(Error::Usage(format!(
-                "with `{name}` fixed no parameter is left open, so there is nothing to test"
-            )));
-        }
-        self.fixed.set(name, value);
-        Ok(self)
-    }
-
-    /// Replaces the open parameters that match, keeping the order in which the scenario declares them.
-    fn rebuild(&mut self, matches: impl Fn(&Parameter) -> bool, with: Option<Parameter>) -> Result<(), Error> {
-        if self.extends.is_some() {
-            let message = "open, fix and vary parameters before tests of them are counted as done";
-            return Err(Error::Usage(message.into()));
-        }
-        let declared = self.program()?.declare()?.parameters;
-        let kept = self.space.parameters().iter().filter(|parameter| !matches(parameter)).cloned();
-        let mut open: Vec<Parameter> = kept.chain(with).collect();
-        open.sort_by_key(|parameter| declared.iter().position(|other| other.parameter.name == parameter.name));
-        self.space = Space::new(open)?;
-        Ok(())
-    }
-
-    fn declared(&self, name: &str) -> Result<Parameter, Error> {
-        let declared = self.program()?.declare()?.parameters;
-        let found = declared.iter().find(|declared| declared.parameter.name == name);
-        found.map(|declared| declared.parameter.clone()).ok_or_else(|| {
-            let names = declared.iter().map(|declared| declared.parameter.name.as_str());
-            let hint = did_you_mean(&nearest(name, names.clone()));
-            let all = names.collect::<Vec<_>>().join(", ");
-            Error::Usage(format!("scenario `{}` has no parameter `{name}`{hint}; it has {all}", self.scenario))
-        })
-    }
-
     /// The program that is run.
     ///
     /// # Errors
@@ -339,20 +263,37 @@ impl Study {
     /// The strategy cannot do what is asked of it, or the tests to extend have not been read.
     pub fn generator(&self) -> Result<Box<dyn Generator>, Error> {
         let existing = self.existing()?;
+        let (strategy, request) = self.request(&existing)?;
+        Ok(strategy.build(&request)?)
+    }
+
+    /// What the study's tests promise by theory; `None` where their rows are not random.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub fn promise(&self) -> Result<Option<Promise>, Error> {
+        let existing = self.existing()?;
+        let (strategy, request) = self.request(&existing)?;
+        Promise::of(strategy, &request, self.budget as u64)
+    }
+
+    fn request<'a>(&'a self, existing: &'a [Point]) -> Result<(Strategy, Request<'a>), Error> {
         let request = Request {
             space: &self.space,
             budget: self.budget,
             seed: self.seed,
             skip: self.skip,
-            discrete: self.discrete.parse()?,
+            discrete: self.discrete.parse::<DiscreteFamily>()?.with_delta(self.delta)?,
             k: self.k,
             epsilon: self.epsilon,
+            // A campaign has to propose the same tests when it is resumed.
+            deadline: Deadline::never(),
             groups: &[],
             rows: None,
             aim: self.measure.as_deref().map(str::parse).transpose()?,
-            existing: &existing,
+            existing,
         };
-        Ok(self.strategy.parse::<Strategy>()?.build(&request)?)
+        Ok((self.strategy.parse()?, request))
     }
 
     /// Checks that the study is written in the form that this software reads.
