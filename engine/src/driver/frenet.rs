@@ -4,9 +4,10 @@
 //! Street Scenarios in a Frenét Frame", ICRA 2010).
 //!
 //! The way is known as points every few metres. Between two of them it is taken for their chord, along which its direction
-//! turns evenly; before the first and beyond the last it goes on straight. The car is expected to keep its offset from
-//! the way: what is beside is measured from the parallel on which the car is. Where all points lie ahead in a line nothing
-//! is changed but for the angle at which the car stands to it.
+//! turns evenly; before the first and beyond the last it goes on straight, so that on a long bend whoever is further away than
+//! the last point may seem to come over. The car is expected to keep its offset from the way: what is beside is measured
+//! from the parallel on which the car is. Where all points lie ahead in a line nothing is changed but for the angle at which
+//! the car stands to it.
 
 use crate::observation::{Observation, Other, Way};
 use nalgebra::Vector2;
