@@ -4,8 +4,8 @@ use nalgebra::Vector2;
 use paracosm_engine::driver::{Driver, find};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{
-    AutonomousVehicle, Briefing, Control, Observation, Outcome, Pedestrian, Program, RoadSegment, Scenario, Side,
-    Stream, never, simulate,
+    AutonomousVehicle, Briefing, Control, Mover, Observation, Outcome, Pedestrian, Program, RoadSegment, Scenario,
+    Side, Stream, never, simulate,
 };
 use paracosm_oracles::Verdict;
 
@@ -31,6 +31,28 @@ fn outcome(driver: &mut dyn Driver, pace: f64) -> Outcome {
     simulate(&PROGRAM, &test, Model::SingleTrack, driver)
 }
 
+/// A car stands 60 m ahead of one that comes at 12 m/s, and drives on with 5 m/s when it has stood long enough.
+fn standing(s: &mut Scenario) {
+    let leaves = s.interval("leaves", 0.0..=100.0).unit("s");
+    let road = s.place(RoadSegment::new(600.0));
+    let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(12.0));
+    let speed = (s.time() - leaves.value()).max(0.0).min(5.0);
+    s.place(Mover::car(road.path(1)).starting(75.0).speed(speed));
+    s.duration(60.0);
+    s.require("no-collision", never(car.collides()));
+}
+
+const STANDING: Program = Program { name: "standing", about: "a car stands in the way", build: standing };
+
+fn behind_a_standing_car(name: &str, leaves: f64) -> Outcome {
+    let mut test = STANDING.declare().unwrap().nominal();
+    test.set("leaves", leaves);
+    simulate(&STANDING, &test, Model::SingleTrack, find(name).unwrap().build(&[]).unwrap().as_mut())
+}
+
+/// Seconds from one sample to the next.
+const TICK: f64 = paracosm_engine::DEFAULT_DT;
+
 fn driven_by(name: &str, pace: f64) -> Outcome {
     outcome(find(name).unwrap().build(&[]).unwrap().as_mut(), pace)
 }
@@ -49,6 +71,45 @@ fn every_reference_driver_spares_somebody_who_crosses_slowly_and_would_be_hit() 
         let outcome = driven_by(name, pace);
         assert_eq!(outcome.verdict, Verdict::Pass, "{name}");
         assert!(speeds(&outcome).into_iter().any(|speed| speed < 11.0), "{name} did not brake");
+    }
+}
+
+#[test]
+fn every_reference_driver_waits_behind_a_standing_car_for_as_long_as_it_stands() {
+    for name in NAMES {
+        let outcome = behind_a_standing_car(name, 100.0);
+        assert_eq!(outcome.verdict, Verdict::Pass, "{name}");
+        let speeds = speeds(&outcome);
+        let stops = speeds.iter().position(|speed| *speed < 1e-3).unwrap_or_else(|| panic!("{name} does not stop"));
+        let waits = &speeds[stops..];
+        assert!(waits.len() as f64 * TICK > 30.0, "{name} stops too late");
+        assert!(waits.iter().all(|speed| *speed < 1e-3), "{name} takes up speed again");
+    }
+}
+
+#[test]
+fn every_reference_driver_follows_a_car_that_drives_on_and_does_not_run_into_it() {
+    for name in NAMES {
+        let outcome = behind_a_standing_car(name, 40.0);
+        assert_eq!(outcome.verdict, Verdict::Pass, "{name}");
+        let speeds = speeds(&outcome);
+        let waits = (30.0 / TICK) as usize..(40.0 / TICK) as usize;
+        assert!(speeds[waits].iter().all(|speed| *speed < 1e-3), "{name} does not wait");
+        assert!(*speeds.last().unwrap() > 4.5, "{name} does not drive on");
+    }
+}
+
+#[test]
+fn every_reference_driver_waits_for_somebody_who_crosses_and_goes_on_when_the_way_is_free() {
+    let pace = 0.4;
+    // From 2.75 m to the right to 0.805 m and 0.25 m to the left of the middle of the lane.
+    let free = (2.75 + 0.805 + 0.25) / pace;
+    for name in NAMES {
+        let speeds = speeds(&driven_by(name, pace));
+        let brakes = speeds.iter().position(|speed| *speed < 11.9).unwrap();
+        let before = &speeds[brakes..((free - 0.1) / TICK) as usize];
+        assert!(before.windows(2).all(|pair| pair[1] < pair[0] + 1e-6), "{name} takes up speed in front of somebody");
+        assert!(*speeds.last().unwrap() > 11.0, "{name} does not go on: {:?}", speeds.last());
     }
 }
 

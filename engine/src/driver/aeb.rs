@@ -1,8 +1,8 @@
 //! The driver `aeb`: cruise control with autonomous emergency braking for pedestrians.
 //!
 //! Twenty times a second it looks through a modelled sensor ([`perception`](super::perception)), predicts that
-//! every body it has made out and the car itself go on as they do now, and brakes when the two paths meet
-//! within the time to collision it is set to. The brake builds up and lets go at a limited jerk. Once braking,
+//! every body it has made out and the car itself go on as they do now [along the way](super::frenet), and brakes when the
+//! two paths meet within the time to collision it is set to. The brake builds up and lets go at a limited jerk. Once braking,
 //! it goes on until nothing has been in the way for a while, looking further ahead than before, so that it does
 //! not let go in front of a person who is still crossing; then it takes up its speed again.
 //!
@@ -21,9 +21,10 @@
 //! The defaults for which no source is given are a study's to vary: `--set driver.NAME=VALUE`.
 
 use super::cruise::{Cruise, PERIOD};
+use super::frenet::Frenet;
 use super::perception::{Perception, Sensor, Track};
 use super::{Driver, Kind, Setting, Settings, setting, whole};
-use crate::observation::{Briefing, Control, Observation};
+use crate::observation::{Briefing, Control, Observation, Other};
 
 pub(super) const KIND: Kind = Kind {
     name: "aeb",
@@ -97,11 +98,12 @@ impl Aeb {
     }
 
     /// Seconds until the paths of the car at this speed and of the body meet, if both go on as they do.
-    fn time_to_collision(&self, track: &Track, speed: f64) -> Option<f64> {
-        let side = self.half_width + track.half_extent.y + self.margin;
-        let end = self.half_length + track.half_extent.x;
-        let beside = while_between(track.position.y, track.velocity.y, -side, side)?;
-        let along = while_between(track.position.x, track.velocity.x - speed, -end, end)?;
+    fn time_to_collision(&self, body: &Other, speed: f64) -> Option<f64> {
+        let half_extent = body.half_extent();
+        let side = self.half_width + half_extent.y + self.margin;
+        let end = self.half_length + half_extent.x;
+        let beside = while_between(body.position.y, body.velocity.y, -side, side)?;
+        let along = while_between(body.position.x, body.velocity.x - speed, -end, end)?;
         let meeting = beside.0.max(along.0);
         (meeting <= beside.1.min(along.1)).then_some(meeting)
     }
@@ -136,7 +138,11 @@ impl Driver for Aeb {
         self.perception.see(observation, self.half_length);
         let (horizon, speed) =
             if self.braking { (self.clear_ttc, observation.speed.max(CREEP)) } else { (self.ttc, observation.speed) };
-        let ahead = |track: Track| self.time_to_collision(&track, speed).is_some_and(|ttc| ttc <= horizon);
+        let way = Frenet::of(observation);
+        let ahead = |track: Track| {
+            let ttc = self.time_to_collision(&way.straightened(&track.body, track.age), speed);
+            ttc.is_some_and(|ttc| ttc <= horizon)
+        };
         if self.perception.tracks(observation).any(ahead) {
             self.braking = true;
             self.blocked = observation.time;

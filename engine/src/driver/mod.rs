@@ -5,6 +5,7 @@
 
 mod aeb;
 mod cruise;
+mod frenet;
 mod perception;
 pub mod reference;
 

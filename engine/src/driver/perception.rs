@@ -39,15 +39,13 @@ const OUT_OF_SIGHT: f64 = 0.5;
 /// Fewest detections that give a velocity worth acting on.
 const FEWEST: usize = 3;
 
-/// A body as the driver believes it to be now: relative to the car's middle, x ahead, y to the left.
+/// A body as the driver believes it to be now, if it has gone straight on since it was seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Track {
-    /// Metres.
-    pub position: Vector2<f64>,
-    /// Metres per second over the ground.
-    pub velocity: Vector2<f64>,
-    /// Half of its extent along the car and across it, in metres.
-    pub half_extent: Vector2<f64>,
+    /// The body.
+    pub body: Other,
+    /// How long ago it was seen, in seconds: the mean of the detections.
+    pub age: f64,
 }
 
 /// A position that was seen, from where the car began.
@@ -113,16 +111,17 @@ impl Perception {
             let known = observation.time - self.sensor.latency + 1e-9;
             let count = seen.iter().take_while(|detection| detection.time <= known).count();
             let fitted = seen.iter().take(count).skip(count.saturating_sub(self.sensor.samples));
-            let (position, velocity) = fit(fitted, observation.time)?;
+            let (position, velocity, age) = fit(fitted, observation.time)?;
             let odometry = observation.odometry;
             let (position, velocity) = (odometry.to_local(position), odometry.turn_to_local(velocity));
-            Some(Track { position, velocity, half_extent: body.half_extent() })
+            Some(Track { body: Other { position, velocity, ..*body }, age })
         })
     }
 }
 
-/// Whether something large stands between the middle of a body and the sensor at the car's front.
-fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
+/// Whether something large stands between the middle of a body and the car's front, which is `front` metres from the car's
+/// middle.
+pub(super) fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
     let sensor = Vector2::new(front, 0.0);
     let large = |other: &&Other| matches!(other.class, Class::Car | Class::Truck | Class::Building);
     observation.others.iter().filter(|other| other.id != body.id).filter(large).any(|other| {
@@ -131,11 +130,11 @@ fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
     })
 }
 
-/// The straight line through the detections by least squares: position at `now` and velocity.
+/// The straight line through the detections by least squares: position at `now`, velocity, and the detections' mean age.
 fn fit<'a>(
     detections: impl ExactSizeIterator<Item = &'a Detection> + Clone,
     now: f64,
-) -> Option<(Vector2<f64>, Vector2<f64>)> {
+) -> Option<(Vector2<f64>, Vector2<f64>, f64)> {
     let n = detections.len();
     if n < FEWEST {
         return None;
@@ -150,7 +149,8 @@ fn fit<'a>(
         along += (detection.position - mean_position) * t;
     }
     let velocity = along / spread;
-    Some((mean_position + velocity * (now - mean_time), velocity))
+    let age = now - mean_time;
+    Some((mean_position + velocity * age, velocity, age))
 }
 
 /// Two independent standard normal numbers (Box and Muller 1958), from libm so that they are the same everywhere.

@@ -14,7 +14,8 @@
 //! What is our reading, where a source leaves something open, is said where the model stands.
 //!
 //! Each is a [`BrakingModel`](crate::kinematic::BrakingModel) of one other road user, which the kinematic world runs as it
-//! is and an adapter lets drive a whole simulated car. Both ask it ten times a second. A time that is no multiple of that
+//! is and an adapter lets drive a whole simulated car, which has to go on again when the way is free. Both ask it ten times a
+//! second. A time that is no multiple of that
 //! step is rounded up: no driver reacts faster than its reaction time.
 
 mod adapter;

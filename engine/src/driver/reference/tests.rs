@@ -306,6 +306,31 @@ fn a_car_that_stands_across_the_road_counts_with_its_length() {
     }
 }
 
+/// Whether the driver ever brakes at 15 m/s while a car that stands 58 m ahead comes nearer, and perhaps another drives away
+/// at 20 m/s between the two.
+fn brakes_behind(driver: &str, leader: bool) -> bool {
+    let mut driver = find(driver).unwrap().build(&[]).unwrap();
+    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I });
+    (0..22).map(|i| f64::from(i) * DT).any(|time| {
+        let standing = Other { class: Class::Car, ..car(58.0 - 15.0 * time, 0.0, Vector2::zeros()) };
+        let leader =
+            leader.then(|| Other { id: 1, class: Class::Car, ..car(9.0 + 5.0 * time, 0.0, Vector2::new(20.0, 0.0)) });
+        let others = std::iter::once(standing).chain(leader).collect();
+        let travelled = 15.0 * time;
+        let odometry = odometry(travelled);
+        let observation = Observation { time, speed: 15.0, travelled, odometry, others, ..Observation::default() };
+        driver.step(&observation).throttle < 0.0
+    })
+}
+
+#[test]
+fn no_reference_driver_brakes_for_what_a_car_ahead_hides() {
+    for name in NAMES {
+        assert!(!brakes_behind(name, true), "{name}");
+        assert!(brakes_behind(name, false), "{name}");
+    }
+}
+
 #[test]
 fn a_reference_driver_that_was_reset_does_the_same_again() {
     for name in NAMES {

@@ -1,0 +1,113 @@
+//! The world as it would look if the way of the car were straight: how far along the way a body is and how far beside it,
+//! instead of how far ahead of the bumper and beside the doors. Drivers whose models know only straight lanes drive
+//! through bends with it (Frenet coordinates: Werling, Ziegler, Kammel, Thrun, "Optimal Trajectory Generation for Dynamic
+//! Street Scenarios in a Frenét Frame", ICRA 2010).
+//!
+//! The way is known as points every few metres. Between two of them it is taken for their chord, along which its direction
+//! turns evenly; before the first and beyond the last it goes on straight, so that on a long bend whoever is further away than
+//! the last point may seem to come over. The car is expected to keep its offset from the way: what is beside is measured
+//! from the parallel on which the car is. Where all points lie ahead in a line nothing is changed but for the angle at which
+//! the car stands to it.
+
+use crate::observation::{Observation, Other, Way};
+use nalgebra::Vector2;
+
+/// How far in metres the points of a straight way may be off their line.
+const STRAIGHT: f64 = 1e-6;
+/// Number of points: the one beside the car and those ahead.
+const POINTS: usize = 17;
+
+/// A point of the way with the way's direction, a unit vector; both as the car sees them.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    position: Vector2<f64>,
+    tangent: Vector2<f64>,
+}
+
+/// The nearest point of the way.
+#[derive(Debug, Clone, Copy)]
+struct Foot {
+    /// Metres along the way from the point beside the car, negative behind it.
+    along: f64,
+    point: Point,
+}
+
+/// The coordinates along a way and across it.
+#[derive(Debug, Clone)]
+pub(super) struct Frenet {
+    offset: f64,
+    points: [Point; POINTS],
+    straight: bool,
+}
+
+impl Frenet {
+    /// Those of the way that the car is on.
+    pub fn of(observation: &Observation) -> Self {
+        let Way { offset, heading, ahead } = observation.way;
+        let (sin, cos) = libm::sincos(heading);
+        let (tangent, left) = (Vector2::new(cos, -sin), Vector2::new(sin, cos));
+        let mut points = [Point { position: -left * offset, tangent }; POINTS];
+        for (point, ahead) in points[1..].iter_mut().zip(&ahead) {
+            point.position = ahead.position;
+        }
+        let straight = ahead.iter().all(|point| (left.dot(&point.position) + offset).abs() < STRAIGHT);
+        // A point without a way to the next has the direction of the one before.
+        for i in 1..POINTS {
+            let before = points[i - 1].tangent;
+            let chord = |i: usize| (points[i].position - points[i - 1].position).try_normalize(STRAIGHT);
+            let came = chord(i).unwrap_or(before);
+            points[i].tangent = if i + 1 < POINTS {
+                (came + chord(i + 1).unwrap_or(came)).try_normalize(STRAIGHT).unwrap_or(came)
+            } else {
+                // The chord of an arc has the mean of the directions at its ends.
+                came * (2.0 * came.dot(&before)) - before
+            };
+        }
+        Self { offset, points, straight }
+    }
+
+    /// The body as the car would see it if the way were straight and the car pointed along it. Where the body is known from
+    /// `age` seconds ago and has only been thought to go straight on since, it is thought to have gone along the way.
+    pub fn straightened(&self, body: &Other, age: f64) -> Other {
+        let turned = |tangent: Vector2<f64>, v: &Vector2<f64>| Vector2::new(tangent.dot(v), tangent.perp(v));
+        let here = if self.straight { self.points[0].tangent } else { self.foot(body.position).point.tangent };
+        let (position, velocity) = if self.straight {
+            (turned(here, &body.position), turned(here, &body.velocity))
+        } else {
+            let then = body.position - body.velocity * age;
+            let Foot { along, point } = self.foot(then);
+            let from_way = then - point.position;
+            let beside = from_way.norm().copysign(point.tangent.perp(&from_way));
+            let velocity = turned(point.tangent, &body.velocity);
+            (Vector2::new(along, beside - self.offset) + velocity * age, velocity)
+        };
+        Other { position, velocity, heading: body.heading - libm::atan2(here.y, here.x), ..*body }
+    }
+
+    /// The point of the way nearest to a position.
+    fn foot(&self, position: Vector2<f64>) -> Foot {
+        let (first, last) = (self.points[0], self.points[POINTS - 1]);
+        let beyond = |point: Point| point.tangent.dot(&(position - point.position));
+        let straight_on =
+            |point: Point, metres: f64| Point { position: point.position + point.tangent * metres, ..point };
+        let (behind, onward) = (beyond(first).min(0.0), beyond(last).max(0.0));
+        let ends = [
+            Foot { along: behind, point: straight_on(first, behind) },
+            Foot { along: Way::SPACING * (POINTS - 1) as f64 + onward, point: straight_on(last, onward) },
+        ];
+        let chords = self.points.windows(2).enumerate().filter_map(|(i, ends)| {
+            let way = ends[1].position - ends[0].position;
+            let length = way.norm_squared();
+            let share = ((position - ends[0].position).dot(&way) / length).clamp(0.0, 1.0);
+            let tangent = ends[0].tangent.lerp(&ends[1].tangent, share).try_normalize(STRAIGHT)?;
+            let point = Point { position: ends[0].position + way * share, tangent };
+            (length > 0.0).then_some(Foot { along: Way::SPACING * (i as f64 + share), point })
+        });
+        let distance = |foot: &Foot| (position - foot.point.position).norm_squared();
+        let nearest = |a: Foot, b: Foot| if distance(&b) < distance(&a) { b } else { a };
+        chords.chain([ends[1]]).fold(ends[0], nearest)
+    }
+}
+
+#[cfg(test)]
+mod tests;
