@@ -19,6 +19,7 @@
 //! # Ok::<(), paracosm_generators::GeneratorError>(())
 //! ```
 
+mod adaptive;
 pub mod covering;
 mod deal;
 mod error;

@@ -2,6 +2,7 @@
 
 use crate::{
     DiscreteFamily, Generator, GeneratorError,
+    adaptive::Adaptive,
     deal::Deal,
     family::Family,
     greedy::{Aim, GreedyRows, KwiseGreedy},
@@ -46,6 +47,18 @@ pub enum Strategy {
     Lhs,
     /// A Latin hypercube of points at the centres of their cells.
     LhsCentred,
+    /// Simulated annealing on the robustness.
+    Anneal,
+    /// Particle swarms on the robustness.
+    Pso,
+    /// Nelder and Mead's simplices on the robustness.
+    NelderMead,
+    /// CMA-ES with restarts (BIPOP) on the robustness.
+    Cmaes,
+    /// Bayesian optimisation of the robustness in a trust region.
+    Bayes,
+    /// The boundary between passing and failing, by a Gaussian process.
+    Boundary,
 }
 
 /// What a generator is built for.
@@ -109,7 +122,7 @@ impl<'a> Request<'a> {
 
 impl Strategy {
     /// All strategies.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 18] = [
         Self::Random,
         Self::Halton,
         Self::HaltonShifted,
@@ -122,6 +135,12 @@ impl Strategy {
         Self::Greedy,
         Self::Lhs,
         Self::LhsCentred,
+        Self::Anneal,
+        Self::Pso,
+        Self::NelderMead,
+        Self::Cmaes,
+        Self::Bayes,
+        Self::Boundary,
     ];
 
     /// The name by which users ask for it.
@@ -139,6 +158,12 @@ impl Strategy {
             Self::Greedy => "greedy",
             Self::Lhs => "lhs",
             Self::LhsCentred => "lhs-centred",
+            Self::Anneal => "anneal",
+            Self::Pso => "pso",
+            Self::NelderMead => "nelder-mead",
+            Self::Cmaes => "cmaes",
+            Self::Bayes => "bayes",
+            Self::Boundary => "boundary",
         }
     }
 
@@ -157,6 +182,12 @@ impl Strategy {
             Self::Greedy => "every test into the largest holes: the lowest dispersion, at some milliseconds a test",
             Self::Lhs => "Latin hypercube: each parameter on its own covered evenly, by exactly the budget of tests",
             Self::LhsCentred => "Latin hypercube with tests in the middle of their cells: no two close on any axis",
+            Self::Anneal => "random walks towards failures, uphill now and then: rough robustness, cheap tests",
+            Self::Pso => "swarms drawn to the worst tests so far: rough robustness, many tests at a time",
+            Self::NelderMead => "simplices downhill to a failure: few parameters and a robustness that slopes",
+            Self::Cmaes => "a distribution that learns where failures lie: hundreds of tests, narrow valleys",
+            Self::Bayes => "a model of the robustness says which test is likely to fail: few, costly tests",
+            Self::Boundary => "a model says where passing turns into failing: maps the border instead of one failure",
         }
     }
 
@@ -177,10 +208,20 @@ impl Strategy {
         matches!(self, Self::Halton | Self::Sobol | Self::Kronecker | Self::Hammersley | Self::Fibonacci)
     }
 
+    /// Whether it learns from the robustness of the tests, and so has to be told how they went.
+    pub fn is_adaptive(self) -> bool {
+        matches!(
+            self,
+            Self::Anneal | Self::Pso | Self::NelderMead | Self::Cmaes | Self::Bayes | Self::Boundary
+        )
+    }
+
     /// A generator of this strategy.
     ///
     /// In a space with discrete parameters it is exhausted after the budget, or without continuous ones after
-    /// all rows of the family. In a continuous space a sequence goes on.
+    /// all rows of the family. In a continuous space a sequence goes on. An adaptive strategy goes on in every space, in
+    /// one without continuous parameters until every row that the constraints allow has been tested; the family's rows
+    /// are those that it begins with.
     ///
     /// # Errors
     /// The space is empty, the budget 0, `k` or `delta` out of range, the family too large, an existing test none of
@@ -204,6 +245,9 @@ impl Strategy {
         let dims = space.dims();
         let rules = space.rules()?;
         check_existing(space, existing)?;
+        if self.is_adaptive() {
+            return Ok(Box::new(Adaptive::new(self, request, rules)?));
+        }
         if self == Self::Greedy && dims > 0 {
             let k = k.unwrap_or(2.min(dims + rules.levels().len()));
             // Of all parameters together, the k-wise dispersion is the dispersion.
@@ -246,6 +290,9 @@ impl Strategy {
             }
             Self::Lhs => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Random)?)),
             Self::LhsCentred => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Centre)?)),
+            Self::Anneal | Self::Pso | Self::NelderMead | Self::Cmaes | Self::Bayes | Self::Boundary => {
+                unreachable!("adaptive strategies were built above")
+            }
         };
         let (end, len) = (first.saturating_add(deal.indices()), sequence.len());
         if end > len {
@@ -256,7 +303,7 @@ impl Strategy {
 
     /// Whether its points can be asked for one by one, without saying beforehand how many there will be.
     pub(crate) fn goes_on(self) -> bool {
-        !matches!(self, Self::Hammersley | Self::Fibonacci | Self::Lhs | Self::LhsCentred)
+        !self.is_adaptive() && !matches!(self, Self::Hammersley | Self::Fibonacci | Self::Lhs | Self::LhsCentred)
     }
 
     /// Where a sequence starts by default; None for sets of points without an order.
@@ -264,7 +311,7 @@ impl Strategy {
         match self {
             Self::Halton | Self::HaltonShifted => Some(1),
             Self::HaltonScrambled | Self::Sobol | Self::SobolOwen | Self::Kronecker => Some(0),
-            Self::Random | Self::Hammersley | Self::Fibonacci | Self::Greedy | Self::Lhs | Self::LhsCentred => None,
+            _ => None,
         }
     }
 

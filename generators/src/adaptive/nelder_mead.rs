@@ -1,0 +1,70 @@
+//! The simplex search of Nelder and Mead (1965), by argmin: quick where the robustness slopes towards the failure.
+//!
+//! A simplex has a corner at its start and the others a quarter of the axis away, towards the middle. It may wander beyond
+//! the cube, which is mirrored there: the function stays continuous, and a failure in a corner of the box can be surrounded.
+//! A simplex whose costs have become alike, or that had its share of tests, gives way to the next. Discrete coordinates
+//! move along their axes like others; where they make steps a simplex ends early, and what finds the right level is the
+//! opening and the next start.
+
+use super::chains::{Chains, Start};
+use super::cube::{Axis, mirrored};
+use super::solver::{Cost, Solver};
+use argmin::core::{CostFunction, Error, Executor, IterState};
+use argmin::solver::neldermead::NelderMead;
+use rand::Rng;
+use rand_pcg::Pcg64;
+use std::borrow::Borrow;
+
+/// How many simplices move at a time.
+const SIMPLICES: usize = 4;
+
+/// The first edge, as a share of the axis.
+const EDGE: f64 = 0.25;
+
+/// Costs with a smaller standard deviation, in multiples of the spread of all so far, are alike.
+const ALIKE: f64 = 1e-4;
+
+/// How often a simplex moves for each axis.
+const MOVES: u64 = 25;
+
+/// The search.
+pub(super) fn nelder_mead(axes: Vec<Axis>, rng: Pcg64) -> Chains {
+    Chains::new(axes, simplex, SIMPLICES, rng)
+}
+
+fn simplex(start: Start) -> Solver {
+    let Start { at, trials, mut rng, .. } = start;
+    let mut corners = vec![at.clone()];
+    for axis in 0..at.len() {
+        let mut corner = at.clone();
+        // A little chance, or simplices from neighbouring starts would see the same.
+        let edge = EDGE * (0.8 + 0.4 * rng.random::<f64>());
+        corner[axis] += if corner[axis] < 0.5 { edge } else { -edge };
+        corners.push(corner);
+    }
+    let costs: Vec<f64> = trials.iter().filter_map(|trial| trial.robustness).collect();
+    let spread = costs.first().zip(costs.last()).map_or(1.0, |(best, worst)| worst - best);
+    let moves = MOVES * (at.len() as u64 + 1);
+    Solver::start(move |cost| {
+        let Ok(solver) = NelderMead::new(corners).with_sd_tolerance((ALIKE * spread).max(1e-12)) else { return };
+        // It ends by itself or with the generator; what it found has been tested.
+        let executor = Executor::new(Mirrored(cost), solver);
+        let _ = executor.configure(|state: IterState<Vec<f64>, (), (), (), (), f64>| state.max_iters(moves)).run();
+    })
+}
+
+/// The cost function beyond the cube.
+struct Mirrored(Cost);
+
+impl CostFunction for Mirrored {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, at: &Vec<f64>) -> Result<f64, Error> {
+        self.0.cost(&at.iter().copied().map(mirrored).collect())
+    }
+
+    fn bulk_cost<P: Borrow<Vec<f64>>>(&self, places: &[P]) -> Result<Vec<f64>, Error> {
+        places.iter().map(|at| self.cost(at.borrow())).collect()
+    }
+}
