@@ -13,7 +13,8 @@ use argmin::core::{CostFunction, Error, Executor, IterState};
 use argmin::solver::neldermead::NelderMead;
 use rand::Rng;
 use rand_pcg::Pcg64;
-use std::borrow::Borrow;
+use std::sync::{Mutex, PoisonError};
+use std::vec::IntoIter;
 
 /// How many simplices move at a time.
 const SIMPLICES: usize = 4;
@@ -46,25 +47,34 @@ fn simplex(start: Start) -> Solver {
     let spread = costs.first().zip(costs.last()).map_or(1.0, |(best, worst)| worst - best);
     let moves = MOVES * (at.len() as u64 + 1);
     Solver::start(move |cost| {
+        // All corners are one batch; the solver asks for them one by one.
+        let places: Vec<Vec<f64>> = corners.iter().map(|at| at.iter().copied().map(mirrored).collect()).collect();
+        let Ok(known) = cost.bulk_cost(&places) else { return };
+        let known = Mutex::new(known.into_iter());
         let Ok(solver) = NelderMead::new(corners).with_sd_tolerance((ALIKE * spread).max(1e-12)) else { return };
         // It ends by itself or with the generator; what it found has been tested.
-        let executor = Executor::new(Mirrored(cost), solver);
+        let executor = Executor::new(Mirrored { cost, known }, solver);
         let _ = executor.configure(|state: IterState<Vec<f64>, (), (), (), (), f64>| state.max_iters(moves)).run();
     })
 }
 
 /// The cost function beyond the cube.
-struct Mirrored(Cost);
+struct Mirrored {
+    cost: Cost,
+    /// What the first calls will ask for.
+    known: Mutex<IntoIter<f64>>,
+}
 
 impl CostFunction for Mirrored {
     type Param = Vec<f64>;
     type Output = f64;
 
     fn cost(&self, at: &Vec<f64>) -> Result<f64, Error> {
-        self.0.cost(&at.iter().copied().map(mirrored).collect())
-    }
-
-    fn bulk_cost<P: Borrow<Vec<f64>>>(&self, places: &[P]) -> Result<Vec<f64>, Error> {
-        places.iter().map(|at| self.cost(at.borrow())).collect()
+        if let Some(known) = self.known.lock().unwrap_or_else(PoisonError::into_inner).next() {
+            return Ok(known);
+        }
+        let cost = self.cost.cost(&at.iter().copied().map(mirrored).collect());
+        // The solver takes no failure for an answer. When nobody listens any more all costs are alike, and it ends soon.
+        Ok(cost.unwrap_or(f64::INFINITY))
     }
 }
