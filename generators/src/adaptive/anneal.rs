@@ -7,13 +7,13 @@
 use super::chains::{Chains, Start};
 use super::cube::{Axis, mirrored};
 use super::normal;
-use super::solver::{Cost, Solver};
+use super::solver::{Cost, Solver, lock};
 use argmin::core::{CostFunction, Error, Executor, IterState};
 use argmin::solver::simulatedannealing::{Anneal, SATempFunc, SimulatedAnnealing};
 use rand::Rng;
 use rand_pcg::Pcg64;
 use std::borrow::Borrow;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// How many walks go on at a time.
 const WALKS: usize = 4;
@@ -79,7 +79,7 @@ impl Anneal for Walk {
     type Float = f64;
 
     fn anneal(&self, from: &Vec<f64>, temperature: f64) -> Result<Vec<f64>, Error> {
-        let rng = &mut *self.steps.lock().unwrap_or_else(PoisonError::into_inner);
+        let rng = &mut *lock(&self.steps);
         let heat = (temperature / self.temperature).clamp(0.0, 1.0);
         let length = LAST_STEP + (FIRST_STEP - LAST_STEP) * heat.sqrt();
         let one = rng.random_range(0..from.len());

@@ -4,7 +4,7 @@
 //! and rank-mu updates, all constants as given there. It knows nothing of the cube: samples are moved into it by whoever
 //! tests them, and the places that were tested are what it learns from.
 
-use super::normal;
+use super::{are_alike, normal};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand::Rng;
 
@@ -13,6 +13,9 @@ const LEAST_STEP: f64 = 1e-9;
 
 /// A covariance longer by this factor than wide, squared, is one that rounding has spoilt.
 const MOST_CONDITION: f64 = 1e14;
+
+/// Over so many generations the best costs, and all of the last one, have to be alike for the run to end.
+const WINDOW: usize = 10;
 
 /// The distribution with its paths.
 pub(super) struct Evolution {
@@ -129,12 +132,10 @@ impl Evolution {
 
     fn note(&mut self, generation: &[(&[f64], f64)]) {
         self.recent.push(generation[0].1);
-        let window = 10 + (30 * self.mean.len()).div_ceil(self.lambda);
-        if self.recent.len() > window {
+        if self.recent.len() > WINDOW {
             self.recent.remove(0);
             let all = self.recent.iter().copied().chain(generation.iter().map(|sample| sample.1));
-            let (least, most) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), cost| (a.min(cost), b.max(cost)));
-            self.over |= most - least <= 1e-12 * least.abs().max(1e-12);
+            self.over |= are_alike(all);
         }
     }
 

@@ -45,6 +45,9 @@ const MOST_ROBUSTNESS: f64 = 1e6;
 /// What searches that only compare numbers take an errored test for: worse than any other.
 const ERRORED: f64 = 1e9;
 
+/// Costs that differ by less than this share of the best are alike.
+const ALIKE: f64 = 0.01;
+
 /// How often in a row a search may come back to tests whose outcomes are known.
 const MOST_ROUNDS: usize = 20;
 
@@ -238,6 +241,12 @@ impl Generator for Adaptive {
 
 fn key(point: &Point) -> Key {
     (point.continuous.iter().map(|u| u.to_bits()).collect(), point.discrete.clone())
+}
+
+/// Whether costs differ by less than they are away from 0, by far: then what is near them will hardly fail.
+fn are_alike(costs: impl Iterator<Item = f64>) -> bool {
+    let (least, most) = costs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), cost| (a.min(cost), b.max(cost)));
+    most - least <= ALIKE * least.abs()
 }
 
 /// A uniformly random place.

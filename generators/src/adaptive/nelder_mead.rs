@@ -8,12 +8,12 @@
 
 use super::chains::{Chains, Start};
 use super::cube::{Axis, mirrored};
-use super::solver::{Cost, Solver};
+use super::solver::{Cost, Solver, lock};
 use argmin::core::{CostFunction, Error, Executor, IterState};
 use argmin::solver::neldermead::NelderMead;
 use rand::Rng;
 use rand_pcg::Pcg64;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::vec::IntoIter;
 
 /// How many simplices move at a time.
@@ -22,11 +22,11 @@ const SIMPLICES: usize = 4;
 /// The first edge, as a share of the axis.
 const EDGE: f64 = 0.25;
 
-/// Costs with a smaller standard deviation, in multiples of the spread of all so far, are alike.
-const ALIKE: f64 = 1e-4;
+/// For how many tests, for each of its corners, costs may be alike before it ends.
+const PATIENCE: usize = 2;
 
-/// How often a simplex moves for each axis.
-const MOVES: u64 = 25;
+/// How often a simplex moves for each of its corners.
+const MOVES: u64 = 50;
 
 /// The search.
 pub(super) fn nelder_mead(axes: Vec<Axis>, rng: Pcg64) -> Chains {
@@ -34,7 +34,7 @@ pub(super) fn nelder_mead(axes: Vec<Axis>, rng: Pcg64) -> Chains {
 }
 
 fn simplex(start: Start) -> Solver {
-    let Start { at, trials, mut rng, .. } = start;
+    let Start { at, mut rng, .. } = start;
     let mut corners = vec![at.clone()];
     for axis in 0..at.len() {
         let mut corner = at.clone();
@@ -43,17 +43,15 @@ fn simplex(start: Start) -> Solver {
         corner[axis] += if corner[axis] < 0.5 { edge } else { -edge };
         corners.push(corner);
     }
-    let costs: Vec<f64> = trials.iter().filter_map(|trial| trial.robustness).collect();
-    let spread = costs.first().zip(costs.last()).map_or(1.0, |(best, worst)| worst - best);
-    let moves = MOVES * (at.len() as u64 + 1);
+    let (moves, patience) = (MOVES * corners.len() as u64, PATIENCE * corners.len());
     Solver::start(move |cost| {
         // All corners are one batch; the solver asks for them one by one.
         let places: Vec<Vec<f64>> = corners.iter().map(|at| at.iter().copied().map(mirrored).collect()).collect();
         let Ok(known) = cost.bulk_cost(&places) else { return };
         let known = Mutex::new(known.into_iter());
-        let Ok(solver) = NelderMead::new(corners).with_sd_tolerance((ALIKE * spread).max(1e-12)) else { return };
         // It ends by itself or with the generator; what it found has been tested.
-        let executor = Executor::new(Mirrored { cost, known }, solver);
+        let cost = cost.with_patience(patience);
+        let executor = Executor::new(Mirrored { cost, known }, NelderMead::new(corners));
         let _ = executor.configure(|state: IterState<Vec<f64>, (), (), (), (), f64>| state.max_iters(moves)).run();
     })
 }
@@ -70,11 +68,10 @@ impl CostFunction for Mirrored {
     type Output = f64;
 
     fn cost(&self, at: &Vec<f64>) -> Result<f64, Error> {
-        if let Some(known) = self.known.lock().unwrap_or_else(PoisonError::into_inner).next() {
+        if let Some(known) = lock(&self.known).next() {
             return Ok(known);
         }
-        let cost = self.cost.cost(&at.iter().copied().map(mirrored).collect());
-        // The solver takes no failure for an answer. When nobody listens any more all costs are alike, and it ends soon.
-        Ok(cost.unwrap_or(f64::INFINITY))
+        // The first calls are those where the solver takes no failure for an answer.
+        self.cost.cost(&at.iter().copied().map(mirrored).collect())
     }
 }

@@ -1,8 +1,8 @@
 //! Particle swarm optimisation (Kennedy and Eberhart 1995; the weights of Clerc's standard), by argmin.
 //!
 //! Every particle is drawn to the best place it has seen and to the best that any has; a whole swarm is one batch. A swarm
-//! starts at the best tests so far, which are not tested again. After
-//! a number of moves the next one starts, later ones at random places. A discrete coordinate flies along its axis, and is the level whose slice it is in.
+//! starts at the best tests so far, which are not tested again. One
+//! whose moves bring nothing better gives way to the next, later ones at random places. A discrete coordinate flies along its axis, and is the level whose slice it is in.
 
 use super::chains::{Chains, Start};
 use super::cube::Axis;
@@ -13,7 +13,10 @@ use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use rand_pcg::Pcg64;
 
 /// How often a swarm moves before the next one starts: by then it has come to rest or never will.
-const MOVES: u64 = 25;
+const MOVES: u64 = 40;
+
+/// For how many moves the best costs may be alike before it does.
+const PATIENCE: usize = 5;
 
 /// The standard deviation of the first velocities.
 const FIRST_STEP: f64 = 0.2;
@@ -43,7 +46,7 @@ fn swarm(start: Start) -> Solver {
         }
         let solver = ParticleSwarm::new(bounds, size).with_rng_generator(rng);
         // It ends by itself or with the generator; what it found has been tested.
-        let executor = Executor::new(cost, solver);
+        let executor = Executor::new(cost.with_patience(PATIENCE), solver);
         let _ = executor.configure(|state: PopulationState<_, _>| state.population(particles).max_iters(MOVES)).run();
     })
 }

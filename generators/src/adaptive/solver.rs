@@ -4,8 +4,11 @@
 //! up its mind, which takes microseconds and no outcome; so what is proposed depends on what was told and never on time.
 //! Dropped, it lets the cost function fail, which ends the solver, and waits for its thread.
 
+use super::are_alike;
 use argmin::core::{CostFunction, Error};
 use std::borrow::Borrow;
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::{Builder, JoinHandle};
 
@@ -22,7 +25,7 @@ impl Solver {
     pub(super) fn start(run: impl FnOnce(Cost) + Send + 'static) -> Self {
         let (to_us, batches) = channel();
         let (costs, from_us) = channel();
-        let cost = Cost { batches: to_us, costs: from_us };
+        let cost = Cost { batches: to_us, costs: from_us, patience: None };
         // Where no thread can be had, its end of the channels is gone: a solver that has nothing to propose.
         let thread = Builder::new().name("solver".to_owned()).spawn(move || run(cost)).ok();
         Self { batches, costs: Some(costs), thread }
@@ -55,13 +58,51 @@ impl Drop for Solver {
 pub(super) struct Cost {
     batches: Sender<Vec<Vec<f64>>>,
     costs: Receiver<Vec<f64>>,
+    patience: Option<Mutex<Patience>>,
+}
+
+/// When a solver has been given long enough.
+struct Patience {
+    batches: usize,
+    /// The best costs of the last batches.
+    recent: VecDeque<f64>,
 }
 
 impl Cost {
-    fn of(&self, batch: Vec<Vec<f64>>) -> Result<Vec<f64>, Error> {
-        self.batches.send(batch)?;
-        Ok(self.costs.recv()?)
+    /// Fails as soon as the best costs of so many batches in a row are alike, which ends the solver.
+    pub(super) fn with_patience(self, batches: usize) -> Self {
+        Self { patience: Some(Mutex::new(Patience { batches, recent: VecDeque::new() })), ..self }
     }
+
+    fn of(&self, batch: Vec<Vec<f64>>) -> Result<Vec<f64>, Error> {
+        if self.patience.as_ref().is_some_and(|patience| lock(patience).is_over()) {
+            return Err(Error::msg("nothing better is to be expected"));
+        }
+        self.batches.send(batch)?;
+        let costs = self.costs.recv()?;
+        if let Some(patience) = &self.patience {
+            lock(patience).learn(&costs);
+        }
+        Ok(costs)
+    }
+}
+
+impl Patience {
+    fn learn(&mut self, costs: &[f64]) {
+        self.recent.extend(costs.iter().copied().min_by(f64::total_cmp));
+        if self.recent.len() > self.batches {
+            self.recent.pop_front();
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.recent.len() == self.batches && are_alike(self.recent.iter().copied())
+    }
+}
+
+/// What a mutex guards, also where a thread broke while it held it.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl CostFunction for Cost {
@@ -116,6 +157,24 @@ mod tests {
         assert_eq!(solver.batch(), None);
         assert_eq!(solver.batch(), None);
         solver.answer(vec![0.0]);
+    }
+
+    #[test]
+    fn patience_ends_a_solver_whose_costs_are_alike_but_not_one_that_comes_near_0() {
+        let batches = |costs: fn(f64) -> f64| {
+            let solver = Solver::start(|cost| {
+                let cost = cost.with_patience(4);
+                (0..20).try_for_each(|i| cost.cost(&vec![f64::from(i)]).map(|_| ())).ok();
+            });
+            let mut count = 0;
+            while let Some(batch) = solver.batch() {
+                count += 1;
+                solver.answer(vec![costs(batch[0][0])]);
+            }
+            count
+        };
+        assert_eq!(batches(|i| if i < 5.0 { 9.0 - i } else { 1.0 }), 9);
+        assert_eq!(batches(|i| libm::exp(-i)), 20);
     }
 
     #[test]
