@@ -59,6 +59,8 @@ pub enum Strategy {
     Bayes,
     /// The boundary between passing and failing, by a Gaussian process.
     Boundary,
+    /// Several of these side by side: what to use where nothing is known.
+    Auto,
 }
 
 /// What a generator is built for.
@@ -122,7 +124,7 @@ impl<'a> Request<'a> {
 
 impl Strategy {
     /// All strategies.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Random,
         Self::Halton,
         Self::HaltonShifted,
@@ -141,6 +143,7 @@ impl Strategy {
         Self::Cmaes,
         Self::Bayes,
         Self::Boundary,
+        Self::Auto,
     ];
 
     /// The name by which users ask for it.
@@ -164,6 +167,7 @@ impl Strategy {
             Self::Cmaes => "cmaes",
             Self::Bayes => "bayes",
             Self::Boundary => "boundary",
+            Self::Auto => "auto",
         }
     }
 
@@ -188,6 +192,7 @@ impl Strategy {
             Self::Cmaes => "a distribution that learns where failures lie: hundreds of tests, narrow valleys",
             Self::Bayes => "a model of the robustness says which test is likely to fail: few, costly tests",
             Self::Boundary => "a model says where passing turns into failing: maps the border instead of one failure",
+            Self::Auto => "bayes, nelder-mead and cmaes side by side, learning from each other: where nothing is known",
         }
     }
 
@@ -212,7 +217,7 @@ impl Strategy {
     pub fn is_adaptive(self) -> bool {
         matches!(
             self,
-            Self::Anneal | Self::Pso | Self::NelderMead | Self::Cmaes | Self::Bayes | Self::Boundary
+            Self::Anneal | Self::Pso | Self::NelderMead | Self::Cmaes | Self::Bayes | Self::Boundary | Self::Auto
         )
     }
 
@@ -290,9 +295,7 @@ impl Strategy {
             }
             Self::Lhs => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Random)?)),
             Self::LhsCentred => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Centre)?)),
-            Self::Anneal | Self::Pso | Self::NelderMead | Self::Cmaes | Self::Bayes | Self::Boundary => {
-                unreachable!("adaptive strategies were built above")
-            }
+            _ => unreachable!("adaptive strategies were built above"),
         };
         let (end, len) = (first.saturating_add(deal.indices()), sequence.len());
         if end > len {

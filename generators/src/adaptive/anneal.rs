@@ -1,7 +1,7 @@
 //! Simulated annealing (Kirkpatrick, Gelatt and Vecchi 1983), by argmin: a walk that goes downhill, and uphill now and then.
 //!
 //! A step changes each coordinate with some probability, by a normally distributed number that shrinks with the temperature
-//! and is mirrored at the ends of the axis; a word is drawn anew. The temperature starts at half the spread of the costs so
+//! and stops at the ends of the axis, so that these are tested too; a word is drawn anew. The temperature starts at half the spread of the costs so
 //! far and falls as one over the number of steps. A walk that finds nothing better for long ends, and another starts.
 
 use super::chains::{Chains, Start};
@@ -89,7 +89,7 @@ impl Anneal for Walk {
                 return x;
             }
             match *axis {
-                Axis::Continuous => mirrored(x + length * normal(rng)),
+                Axis::Continuous => (x + length * normal(rng)).clamp(0.0, 1.0),
                 // To another level at least.
                 Axis::Ordered(levels) => {
                     let by = length.max(1.0 / levels as f64);

@@ -12,6 +12,7 @@
 //!   search; infinities and very large numbers are cut off at a million.
 
 mod anneal;
+mod auto;
 mod bayes;
 mod boundary;
 mod chains;
@@ -132,6 +133,7 @@ impl Adaptive {
             Strategy::Cmaes => Box::new(cmaes::Cmaes::new(axes, rng)),
             Strategy::Bayes => Box::new(bayes::Bayes::new(axes, rng)),
             Strategy::Boundary => Box::new(boundary::Boundary::new(axes, rng)),
+            Strategy::Auto => Box::new(auto::Auto::new(axes, rng)),
             _ => unreachable!("`{strategy}` is open-loop"),
         };
         let opening = Opening::new(request, family);

@@ -71,7 +71,7 @@ impl Region {
         self.side >= SHORTEST
     }
 
-    /// Places to choose from: most in the box, some near the best, some anywhere.
+    /// Places to choose from: most in the box, some near the best, some on edges, some anywhere.
     pub(super) fn candidates(&self, n: usize, axes: &[Axis], lengths: &[f64], rng: &mut impl Rng) -> Vec<Vec<f64>> {
         let Some(best) = &self.best else { return Vec::new() };
         let mean_log = lengths.iter().map(|&length| libm::log(length)).sum::<f64>() / lengths.len() as f64;
@@ -87,10 +87,22 @@ impl Region {
             .map(|index| match index % 10 {
                 0..6 => inside(rng),
                 6..8 => nudged(axes, &best.at, 0.1 * self.side, rng),
+                8 => to_ends(axes, inside(rng), rng),
                 _ => snapped(axes, anywhere(axes, rng)),
             })
             .collect()
     }
+}
+
+/// A place with some of its continuous coordinates, any share of them, at the nearer end: failures like corners and edges.
+fn to_ends(axes: &[Axis], mut at: Vec<f64>, rng: &mut impl Rng) -> Vec<f64> {
+    let share: f64 = rng.random();
+    for (u, _) in at.iter_mut().zip(axes).filter(|(_, axis)| **axis == Axis::Continuous) {
+        if rng.random::<f64>() < share {
+            *u = u.round();
+        }
+    }
+    snapped(axes, at)
 }
 
 /// A coordinate within a side, or as it is.
