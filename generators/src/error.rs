@@ -82,7 +82,9 @@ pub enum GeneratorError {
         strategy: &'static str,
     },
     /// Rows without large holes, from a strategy that goes where tests fail.
-    #[error("`{strategy}` goes where tests fail and leaves holes elsewhere; epsilon asks for none: use halton or greedy")]
+    #[error(
+        "`{strategy}` goes where tests fail and leaves holes elsewhere; epsilon asks for none: use halton or greedy"
+    )]
     NoEpsilon {
         /// The strategy's name.
         strategy: &'static str,

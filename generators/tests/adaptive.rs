@@ -122,9 +122,8 @@ fn one_combination_of_words_in_sixty_four_with_a_disc_is_found() {
 #[test]
 fn where_nothing_is_continuous_the_one_failing_row_in_a_thousand_is_found_by_its_neighbours() {
     let space = with_words(0, &[4, 4, 4, 4, 4]);
-    let robustness = |test: &Point| {
-        test.discrete.iter().zip([1, 3, 0, 2, 2]).filter(|(a, b)| **a != *b).count() as f64 - 0.5
-    };
+    let robustness =
+        |test: &Point| test.discrete.iter().zip([1, 3, 0, 2, 2]).filter(|(a, b)| **a != *b).count() as f64 - 0.5;
     for strategy in [Strategy::Anneal, Strategy::Cmaes, Strategy::Bayes, Strategy::Boundary, Strategy::Auto] {
         let tests = first_failures(strategy, &space, robustness);
         assert!(tests[5] < 200, "{strategy}: {tests:?}");

@@ -192,7 +192,8 @@ fn no_adaptive_strategy_proposes_a_test_twice_and_all_rows_come_out_where_nothin
     let spaces = spaces();
     for (strategy, request) in cases(&spaces).filter(|(strategy, _)| strategy.is_adaptive()) {
         let tests = run(&mut *build(strategy, &request), BUDGET);
-        let bits = |test: &Point| (test.continuous.iter().map(|u| u.to_bits()).collect::<Vec<_>>(), test.discrete.clone());
+        let bits =
+            |test: &Point| (test.continuous.iter().map(|u| u.to_bits()).collect::<Vec<_>>(), test.discrete.clone());
         let different: std::collections::BTreeSet<_> = tests.iter().map(bits).collect();
         assert_eq!(different.len(), tests.len(), "{strategy}");
         if request.space.dims() == 0 {

@@ -51,9 +51,8 @@ impl Auto {
         for _ in 0..n {
             self.members.iter_mut().for_each(|member| member.owed += member.share);
             // Of those owed as much the first.
-            let most = (0..self.members.len()).rev().max_by(|&a, &b| {
-                self.members[a].owed.total_cmp(&self.members[b].owed)
-            });
+            let most =
+                (0..self.members.len()).rev().max_by(|&a, &b| self.members[a].owed.total_cmp(&self.members[b].owed));
             let most = most.expect("there are members");
             self.members[most].owed -= 1.0;
             quotas[most] += 1;

@@ -128,7 +128,8 @@ impl Run {
         let weights = self.evolution.weights().to_vec();
         for (index, probabilities) in self.levels.iter_mut().enumerate() {
             let levels = probabilities.len();
-            let seen = told.iter().zip(&weights).map(|(trial, &weight)| (level(trial.at[dims + index], levels), weight));
+            let seen =
+                told.iter().zip(&weights).map(|(trial, &weight)| (level(trial.at[dims + index], levels), weight));
             follow(probabilities, seen, RATE);
         }
         let generation: Vec<(&[f64], f64)> = told.iter().map(|trial| (&trial.at[..dims], trial.cost())).collect();

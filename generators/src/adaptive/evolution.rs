@@ -201,7 +201,9 @@ mod tests {
     #[test]
     fn rosenbrocks_valley_is_followed_to_its_end() {
         let valley = |x: &[f64]| -> f64 {
-            x.windows(2).map(|x| 100.0 * (x[1] - x[0] * x[0]) * (x[1] - x[0] * x[0]) + (1.0 - x[0]) * (1.0 - x[0])).sum()
+            x.windows(2)
+                .map(|x| 100.0 * (x[1] - x[0] * x[0]) * (x[1] - x[0] * x[0]) + (1.0 - x[0]) * (1.0 - x[0]))
+                .sum()
         };
         // Now and then a run ends in the other minimum, near x1 = -1.
         let all: Vec<_> = (0..9).filter_map(|seed| evaluations(valley, &[0.0; 10], 0.1, 1e-9, seed)).collect();

@@ -134,8 +134,7 @@ impl Process {
     /// What it says of places.
     pub(super) fn posterior(&self, places: Vec<Vec<f64>>) -> Posterior<'_> {
         let n = self.places.len();
-        let mut whitened =
-            Mat::from_fn(n, places.len(), |i, j| self.kernel.correlation(&self.places[i], &places[j]));
+        let mut whitened = Mat::from_fn(n, places.len(), |i, j| self.kernel.correlation(&self.places[i], &places[j]));
         let mean = (0..places.len())
             .map(|j| self.mean + (0..n).map(|i| whitened[(i, j)] * self.pull[i]).sum::<f64>())
             .collect();
@@ -234,7 +233,8 @@ mod tests {
     /// Mean and variance at a place, straight from the formulas.
     fn naive(kernel: &Kernel, places: &[Vec<f64>], values: &[f64], at: &[f64]) -> (f64, f64) {
         let n = places.len();
-        let entry = |i: usize, j: usize| matern(kernel, &places[i], &places[j]) + if i == j { kernel.noise } else { 0.0 };
+        let entry =
+            |i: usize, j: usize| matern(kernel, &places[i], &places[j]) + if i == j { kernel.noise } else { 0.0 };
         let inverse = inverse((0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect());
         let form = |a: &[f64], b: &[f64]| -> f64 {
             (0..n).map(|i| (0..n).map(|j| a[i] * inverse[i][j] * b[j]).sum::<f64>()).sum()
@@ -248,7 +248,8 @@ mod tests {
     }
 
     fn cases() -> impl Strategy<Value = (Kernel, Vec<Vec<f64>>, Vec<f64>, Vec<Vec<f64>>)> {
-        let place = || (0.0..1.0_f64, 0.0..1.0_f64, 0..3_usize).prop_map(|(a, b, c)| vec![a, b, (c as f64 + 0.5) / 3.0]);
+        let place =
+            || (0.0..1.0_f64, 0.0..1.0_f64, 0..3_usize).prop_map(|(a, b, c)| vec![a, b, (c as f64 + 0.5) / 3.0]);
         let lengths = prop::collection::vec(0.1..2.0_f64, 3);
         let tests = prop::collection::vec((place(), -3.0..3.0_f64), 2..20);
         (lengths, 1e-3..0.1_f64, tests, prop::collection::vec(place(), 3..6)).prop_map(|(lengths, noise, tests, at)| {

@@ -78,16 +78,20 @@ impl Region {
         let sides: Vec<f64> = lengths.iter().map(|length| self.side * length / libm::exp(mean_log)).collect();
         let share = (20.0 / axes.len() as f64).min(1.0);
         let inside = |rng: &mut _| {
-            let place = best.at.iter().zip(&sides).zip(axes).map(|((&middle, &side), axis)| {
-                in_side(*axis, middle, side, share, rng)
-            });
+            let place = best
+                .at
+                .iter()
+                .zip(&sides)
+                .zip(axes)
+                .map(|((&middle, &side), axis)| in_side(*axis, middle, side, share, rng));
             snapped(axes, place.collect())
         };
         (0..n)
             .map(|index| match index % 10 {
                 0..6 => inside(rng),
                 6..8 => nudged(axes, &best.at, 0.1 * self.side, rng),
-                8 => to_ends(axes, inside(rng), rng),
+                8 if index % 20 < 10 => to_ends(axes, inside(rng), rng),
+                8 => to_ends(axes, best.at.clone(), rng),
                 _ => snapped(axes, anywhere(axes, rng)),
             })
             .collect()

@@ -8,8 +8,8 @@ use super::are_alike;
 use argmin::core::{CostFunction, Error};
 use std::borrow::Borrow;
 use std::collections::VecDeque;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 
 /// A solver at work.

@@ -177,9 +177,9 @@ impl Surrogate {
                 worth(bend, posterior.mean(index), posterior.deviation(index), runs[index])
             };
             // Of equal worth the first.
-            let best = (0..open.len()).rev().max_by(|&a, &b| {
-                value(&posterior, open[a]).total_cmp(&value(&posterior, open[b]))
-            });
+            let best = (0..open.len())
+                .rev()
+                .max_by(|&a, &b| value(&posterior, open[a]).total_cmp(&value(&posterior, open[b])));
             let Some(best) = best else { break };
             let index = open.swap_remove(best);
             posterior.believe(index);
