@@ -37,8 +37,18 @@ fn run(
 /// After how many tests each of ten campaigns fails for the first time, in ascending order; the budget where none does.
 fn first_failures(strategy: Strategy, space: &Space, robustness: impl Fn(&Point) -> f64) -> Vec<usize> {
     let of = |seed| {
-        let tests = run(strategy, space, seed, BUDGET, |test| Some(robustness(test)));
-        tests.iter().position(|(_, told)| told.is_some_and(|r| r < 0.0)).map_or(BUDGET, |index| index + 1)
+        let mut generator = generator(strategy, space, seed);
+        let mut done = 0;
+        while done < BUDGET {
+            let tests = generator.ask(8.min(BUDGET - done));
+            let told: Vec<Option<f64>> = tests.iter().map(|test| Some(robustness(test))).collect();
+            if let Some(index) = told.iter().position(|told| told.is_some_and(|r| r < 0.0)) {
+                return done + index + 1;
+            }
+            generator.tell(&tests, &told);
+            done += tests.len();
+        }
+        BUDGET
     };
     let mut all: Vec<usize> = (0..SEEDS).map(of).collect();
     all.sort_unstable();

@@ -18,6 +18,9 @@ use rand_pcg::Pcg64;
 /// So many candidates for each axis, within limits.
 const CANDIDATES: usize = 80;
 
+/// So many candidates for the first places of a new region.
+const DESIGNS: usize = 200;
+
 /// The search.
 pub(super) struct Bayes {
     surrogate: Surrogate,
@@ -35,13 +38,15 @@ impl Bayes {
         Self { surrogate: Surrogate::new(axes), region: Region::new(), since: 0, design: 0, batch: 0, rng }
     }
 
-    /// Random places for a new region to begin with.
+    /// Places for a new region to begin with: those least known of some random ones.
     fn design(&mut self, n: usize) -> Vec<Vec<f64>> {
-        let n = n.min(self.design);
-        self.design -= n;
         let axes = self.surrogate.axes();
-        let places: Vec<Vec<f64>> = (0..n).map(|_| snapped(axes, anywhere(axes, &mut self.rng))).collect();
-        self.surrogate.send(&places);
+        let candidates = (0..DESIGNS).map(|_| snapped(axes, anywhere(axes, &mut self.rng))).collect();
+        let near = anywhere(axes, &mut self.rng);
+        let n = n.min(self.design);
+        let places = self.surrogate.choose(n, View::Near(&near), candidates, |_, _, deviation, runs| deviation * runs);
+        // A discrete space may have fewer left.
+        self.design = if places.len() < n { 0 } else { self.design - n };
         places
     }
 }

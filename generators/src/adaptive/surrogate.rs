@@ -1,7 +1,7 @@
 //! What strategies with a model have in common: the tests so far, the model of them, and the choice of a batch.
 //!
 //! Two Gaussian processes: one through the robustness, bent so that it fits (`Bend`), and, once tests ended in errors,
-//! one through 0 where a test ran and 1 where it did not, with the same lengths: the hidden constraint. Far from all
+//! one through 0 where a test ran and 1 where it did not, with lengths that are not fitted: the hidden constraint. Far from all
 //! errors it expects none. The model sees the few hundred tests that matter most to whoever asks, so a proposal costs the
 //! same after a thousand tests as after three hundred.
 //!
@@ -9,6 +9,7 @@
 
 use super::cube::{Axis, level, middle};
 use super::fit::{fit, prior};
+use super::log_ei::normal_below;
 use super::process::{Kernel, Mean, Posterior, Process};
 use super::{Trial, normal};
 use rand::Rng;
@@ -21,9 +22,15 @@ const MOST_TESTS: usize = 220;
 const FIRST_FIT: usize = 40;
 const LATER_FIT: usize = 8;
 
-/// What the process of errors leaves to chance, and the least probability that a test runs.
+/// What the process of errors leaves to chance.
 const ERROR_NOISE: f64 = 1e-2;
-const LEAST_PROBABLE: f64 = 1e-3;
+
+/// A test that runs with less probability is not chosen where there is another: deep in a region of errors much is unknown
+/// and nothing to be learnt.
+const WORTH_TRYING: f64 = 0.25;
+
+/// Less probable than this makes no difference.
+const LEAST_PROBABLE: f64 = 1e-12;
 
 /// How many tests a batch has at most: those beyond it would be chosen by nothing but beliefs.
 const MOST_BATCH: usize = 32;
@@ -165,13 +172,16 @@ impl Surrogate {
             None => vec![1.0; places.len()],
             Some(errors) => {
                 let errors = errors.posterior(places.clone());
-                (0..errors.len()).map(|index| (1.0 - errors.mean(index)).clamp(LEAST_PROBABLE, 1.0)).collect()
+                (0..errors.len()).map(|index| runs(errors.mean(index), errors.deviation(index))).collect()
             }
         };
         let mut posterior = process.posterior(places);
         (0..believed).for_each(|index| posterior.believe(index));
         let mut chosen = Vec::new();
         let mut open: Vec<usize> = (believed..posterior.len()).collect();
+        if open.iter().any(|&index| runs[index] >= WORTH_TRYING) {
+            open.retain(|&index| runs[index] >= WORTH_TRYING);
+        }
         while chosen.len() < n.min(MOST_BATCH) && !open.is_empty() {
             let value = |posterior: &Posterior, index: usize| {
                 worth(bend, posterior.mean(index), posterior.deviation(index), runs[index])
@@ -225,13 +235,18 @@ impl Surrogate {
             Process::new(kernel, places.clone(), &values, Mean::Unknown)
         })?;
         let errors = (!failed.is_empty()).then(|| {
-            let kernel = Kernel { noise: ERROR_NOISE, ..self.kernel.clone() };
+            let kernel = Kernel { noise: ERROR_NOISE, ..prior(&self.axes) };
             let ran = places.iter().take(MOST_TESTS / 2).map(|at| (at.clone(), 0.0));
             let (places, labels): (Vec<_>, Vec<f64>) = ran.chain(failed.iter().map(|t| (t.at.clone(), 1.0))).unzip();
             Process::new(kernel, places, &labels, Mean::Known(0.0))
         });
         Some((bend, process, errors.flatten()))
     }
+}
+
+/// The probability that a label, 0 where a test runs and 1 where it does not, is the former's side of a half.
+fn runs(mean: f64, deviation: f64) -> f64 {
+    normal_below((0.5 - mean) / deviation.max(ERROR_NOISE)).max(LEAST_PROBABLE)
 }
 
 /// The same place with its discrete coordinates in the middle of their slices.
