@@ -247,7 +247,10 @@ mod tests {
         (mean + form(&near, &left), variance * (1.0 - form(&near, &near)))
     }
 
-    fn cases() -> impl Strategy<Value = (Kernel, Vec<Vec<f64>>, Vec<f64>, Vec<Vec<f64>>)> {
+    /// A kernel, places, their values, and other places.
+    type Case = (Kernel, Vec<Vec<f64>>, Vec<f64>, Vec<Vec<f64>>);
+
+    fn cases() -> impl Strategy<Value = Case> {
         let place =
             || (0.0..1.0_f64, 0.0..1.0_f64, 0..3_usize).prop_map(|(a, b, c)| vec![a, b, (c as f64 + 0.5) / 3.0]);
         let lengths = prop::collection::vec(0.1..2.0_f64, 3);
@@ -285,9 +288,9 @@ mod tests {
                 naive(&kernel, places, values, at).1 / naive(&kernel, places, values, &far).1
             };
             let any: Vec<f64> = (0..all.len()).map(|i| (i * i % 7) as f64).collect();
-            for index in 0..at.len() {
+            for (index, place) in at.iter().enumerate() {
                 let found = posterior.deviation(index) * posterior.deviation(index) / process.variance;
-                prop_assert!((found - share(&all, &any, &at[index])).abs() < 1e-6);
+                prop_assert!((found - share(&all, &any, place)).abs() < 1e-6);
             }
         }
 
