@@ -101,7 +101,7 @@ fn stream_nodes(bencher: Bencher) {
 
 /// Points in five dimensions, the building of the generator included. `greedy`, which thinks for milliseconds about
 /// each, is asked for fewer.
-#[divan::bench(args = Strategy::ALL.into_iter().filter(|s| s.dims().contains(&5)), sample_count = 20)]
+#[divan::bench(args = Strategy::ALL.into_iter().filter(|s| s.dims().contains(&5) && !s.is_adaptive()), sample_count = 20)]
 fn points(bencher: Bencher, strategy: Strategy) {
     let points = if strategy == Strategy::Greedy { 100 } else { 10_000 };
     let space = Space::unit_cube(5);

@@ -13,7 +13,7 @@ use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::available_parallelism;
 
-/// How many tests are asked for at a time: enough to keep many cores busy, few enough to keep in memory.
+/// How many tests are asked for at a time, where it does not matter to the strategy: enough to keep many cores busy, few enough to keep in memory.
 const BATCH: usize = 4096;
 
 /// A study being run.
@@ -57,7 +57,7 @@ impl<'a> Campaign<'a> {
         let mut generator = study.generator()?;
         let mut done = 0;
         while done < study.budget {
-            let points = generator.ask(BATCH.min(study.budget - done));
+            let points = generator.ask(study.batch_size().unwrap_or(BATCH).min(study.budget - done));
             if points.is_empty() {
                 break;
             }

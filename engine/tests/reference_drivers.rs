@@ -36,7 +36,7 @@ fn standing(s: &mut Scenario) {
     let leaves = s.interval("leaves", 0.0..=100.0).unit("s");
     let road = s.place(RoadSegment::new(600.0));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(12.0));
-    let speed = (s.time() - leaves.value()).max(0.0).min(5.0);
+    let speed = (Stream::time() - leaves.value()).max(0.0).min(5.0);
     s.place(Mover::car(road.path(1)).starting(75.0).speed(speed));
     s.duration(60.0);
     s.require("no-collision", never(car.collides()));

@@ -81,6 +81,14 @@ pub enum GeneratorError {
         /// The strategy's name.
         strategy: &'static str,
     },
+    /// Rows without large holes, from a strategy that goes where tests fail.
+    #[error(
+        "`{strategy}` goes where tests fail and leaves holes elsewhere; epsilon asks for none: use halton or greedy"
+    )]
+    NoEpsilon {
+        /// The strategy's name.
+        strategy: &'static str,
+    },
     /// A strategy that does not look at what is there.
     #[error("`{strategy}` does not look at existing tests and cannot extend them; use greedy")]
     NoExtension {

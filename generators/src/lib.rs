@@ -5,7 +5,10 @@
 //! parameters k-wise, and every row gets a set of points of its own that leaves no large hole in the continuous
 //! ones.
 //!
-//! The same request always gives the same tests, on every machine: all chance comes from the seed.
+//! The same request always gives the same tests, on every machine: all chance comes from the seed. Adaptive strategies
+//! also go by what they are told, in which order, and how many tests they are asked for at a time. Those with a model
+//! (`bayes boundary auto`) repeat their tests to the last bit on processors of one kind only, and those by argmin
+//! (`anneal`) where the mathematical library of the system is the same.
 //!
 //! ```
 //! use paracosm_coverage::Space;
@@ -19,6 +22,7 @@
 //! # Ok::<(), paracosm_generators::GeneratorError>(())
 //! ```
 
+mod adaptive;
 pub mod covering;
 mod deal;
 mod error;
@@ -48,6 +52,6 @@ pub trait Generator: Send {
     /// How tests went: one robustness for each, below 0 where a requirement was violated, `None` where the test
     /// ended in an error.
     ///
-    /// Open-loop strategies ignore it.
+    /// Open-loop strategies ignore it; adaptive ones go by it, whatever it is. A test may stay untold.
     fn tell(&mut self, _tests: &[Point], _robustness: &[Option<f64>]) {}
 }

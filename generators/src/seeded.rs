@@ -22,6 +22,10 @@ pub(crate) enum Purpose {
     Scramble = 4,
     /// The candidates of greedy points.
     Greedy = 5,
+    /// The order of the corners with which adaptive strategies begin.
+    Corners = 6,
+    /// What an adaptive strategy leaves to chance.
+    Search = 7,
 }
 
 /// The generator for one purpose and, within it, one `number`.

@@ -2,6 +2,7 @@
 
 use crate::{
     DiscreteFamily, Generator, GeneratorError,
+    adaptive::Adaptive,
     deal::Deal,
     family::Family,
     greedy::{Aim, GreedyRows, KwiseGreedy},
@@ -46,6 +47,20 @@ pub enum Strategy {
     Lhs,
     /// A Latin hypercube of points at the centres of their cells.
     LhsCentred,
+    /// Simulated annealing on the robustness.
+    Anneal,
+    /// Particle swarms on the robustness.
+    Pso,
+    /// Nelder and Mead's simplices on the robustness.
+    NelderMead,
+    /// CMA-ES with restarts (BIPOP) on the robustness.
+    Cmaes,
+    /// Bayesian optimisation of the robustness in a trust region.
+    Bayes,
+    /// The boundary between passing and failing, by a Gaussian process.
+    Boundary,
+    /// Several of these side by side: what to use where nothing is known.
+    Auto,
 }
 
 /// What a generator is built for.
@@ -112,7 +127,7 @@ impl<'a> Request<'a> {
 
 impl Strategy {
     /// All strategies.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 19] = [
         Self::Random,
         Self::Halton,
         Self::HaltonShifted,
@@ -125,6 +140,13 @@ impl Strategy {
         Self::Greedy,
         Self::Lhs,
         Self::LhsCentred,
+        Self::Anneal,
+        Self::Pso,
+        Self::NelderMead,
+        Self::Cmaes,
+        Self::Bayes,
+        Self::Boundary,
+        Self::Auto,
     ];
 
     /// The name by which users ask for it.
@@ -142,6 +164,13 @@ impl Strategy {
             Self::Greedy => "greedy",
             Self::Lhs => "lhs",
             Self::LhsCentred => "lhs-centred",
+            Self::Anneal => "anneal",
+            Self::Pso => "pso",
+            Self::NelderMead => "nelder-mead",
+            Self::Cmaes => "cmaes",
+            Self::Bayes => "bayes",
+            Self::Boundary => "boundary",
+            Self::Auto => "auto",
         }
     }
 
@@ -160,6 +189,13 @@ impl Strategy {
             Self::Greedy => "every test into the largest holes: the lowest dispersion, at some milliseconds a test",
             Self::Lhs => "Latin hypercube: each parameter on its own covered evenly, by exactly the budget of tests",
             Self::LhsCentred => "Latin hypercube with tests in the middle of their cells: no two close on any axis",
+            Self::Anneal => "random walks towards failures, uphill now and then: rough robustness, cheap tests",
+            Self::Pso => "swarms drawn to the worst tests so far: rough robustness, many tests at a time",
+            Self::NelderMead => "simplices downhill to a failure: few parameters and a robustness that slopes",
+            Self::Cmaes => "a distribution that learns where failures lie: hundreds of tests, narrow valleys",
+            Self::Bayes => "a model of the robustness says which test is likely to fail: few, costly tests",
+            Self::Boundary => "a model says where passing turns into failing: maps the border instead of one failure",
+            Self::Auto => "bayes, nelder-mead and cmaes side by side, learning from each other: where nothing is known",
         }
     }
 
@@ -181,24 +217,32 @@ impl Strategy {
     }
 
     /// Whether the tests of a request have rows of the discrete family; `greedy` may look at discrete and continuous
-    /// parameters together instead.
+    /// parameters together instead, and adaptive strategies do.
     pub fn has_rows(self, request: &Request) -> bool {
         let &Request { space, k, aim, .. } = request;
         let (dims, parameters) = (space.dims(), space.levels().len());
         let default = if parameters == 0 { Aim::Dispersion } else { Aim::KwiseDispersion };
         // Of all parameters together, the k-wise dispersion is the dispersion.
         let is_dispersion = parameters == 0 && k.unwrap_or(2.min(dims)) == dims;
-        self != Self::Greedy
-            || dims == 0
-            || request.epsilon.is_some()
-            || is_dispersion
-            || aim.unwrap_or(default) == Aim::Dispersion
+        let greedy_has =
+            || dims == 0 || request.epsilon.is_some() || is_dispersion || aim.unwrap_or(default) == Aim::Dispersion;
+        !self.is_adaptive() && (self != Self::Greedy || greedy_has())
+    }
+
+    /// Whether it learns from the robustness of the tests, and so has to be told how they went.
+    pub fn is_adaptive(self) -> bool {
+        matches!(
+            self,
+            Self::Anneal | Self::Pso | Self::NelderMead | Self::Cmaes | Self::Bayes | Self::Boundary | Self::Auto
+        )
     }
 
     /// A generator of this strategy.
     ///
     /// In a space with discrete parameters it is exhausted after the budget, or without continuous ones after
-    /// all rows of the family. In a continuous space a sequence goes on.
+    /// all rows of the family. In a continuous space a sequence goes on. An adaptive strategy goes on in every space, in
+    /// one without continuous parameters until every row that the constraints allow has been tested; the family's rows
+    /// are those that it begins with.
     ///
     /// # Errors
     /// The space is empty, the budget 0, `k` or `delta` out of range, the family too large, an existing test none of
@@ -222,6 +266,9 @@ impl Strategy {
         let dims = space.dims();
         let rules = space.rules()?;
         check_existing(space, existing)?;
+        if self.is_adaptive() {
+            return Ok(Box::new(Adaptive::new(self, request, rules)?));
+        }
         if !self.has_rows(request) {
             let k = k.unwrap_or(2.min(dims + rules.levels().len()));
             let rng = seeded(seed_or_0, Purpose::Greedy, 0);
@@ -259,6 +306,7 @@ impl Strategy {
             }
             Self::Lhs => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Random)?)),
             Self::LhsCentred => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Centre)?)),
+            _ => unreachable!("adaptive strategies were built above"),
         };
         let (end, len) = (first.saturating_add(deal.indices()), sequence.len());
         if end > len {
@@ -269,7 +317,7 @@ impl Strategy {
 
     /// Whether its points can be asked for one by one, without saying beforehand how many there will be.
     pub(crate) fn goes_on(self) -> bool {
-        !matches!(self, Self::Hammersley | Self::Fibonacci | Self::Lhs | Self::LhsCentred)
+        !self.is_adaptive() && !matches!(self, Self::Hammersley | Self::Fibonacci | Self::Lhs | Self::LhsCentred)
     }
 
     /// Where a sequence starts by default; None for sets of points without an order.
@@ -277,7 +325,7 @@ impl Strategy {
         match self {
             Self::Halton | Self::HaltonShifted => Some(1),
             Self::HaltonScrambled | Self::Sobol | Self::SobolOwen | Self::Kronecker => Some(0),
-            Self::Random | Self::Hammersley | Self::Fibonacci | Self::Greedy | Self::Lhs | Self::LhsCentred => None,
+            _ => None,
         }
     }
 

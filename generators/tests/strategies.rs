@@ -196,6 +196,10 @@ fn sets_end_with_their_budget_and_sequences_go_on() {
     let space = Space::unit_cube(2);
     for strategy in Strategy::ALL {
         let mut generator = strategy.build(&Request::new(&space, 10)).expect("a generator");
+        if strategy.is_adaptive() {
+            // It goes on too, a batch at a time.
+            continue;
+        }
         let ends = [Hammersley, Fibonacci, Greedy, Lhs, LhsCentred].contains(&strategy);
         assert_eq!(generator.ask(1000).len(), if ends { 10 } else { 1000 }, "{strategy}");
     }
@@ -284,7 +288,7 @@ fn the_cross_family_is_all_combinations_the_first_parameter_slowest() {
 fn a_budget_below_the_number_of_rows_gives_its_first_rows_one_test_each() {
     let space = mixed(2, &[10, 10]);
     let request = Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 7) };
-    for strategy in Strategy::ALL {
+    for strategy in Strategy::ALL.into_iter().filter(|strategy| !strategy.is_adaptive()) {
         let aim = (strategy == Strategy::Greedy).then_some(Aim::Dispersion);
         let discrete: Vec<_> =
             tests(strategy, &Request { aim, ..request }).into_iter().map(|test| test.discrete).collect();
@@ -475,6 +479,14 @@ fn what_cannot_be_extended_or_aimed_is_refused_by_name() {
         (refused(Strategy::Greedy, &test(1.5, 1), None, None), "existing test 0 is none of the space"),
         (refused(Strategy::Greedy, &test(0.5, 2), None, None), "existing test 0 is none of the space"),
         (refused(Strategy::Lhs, &[], Some(Aim::Dispersion), None), "`lhs` aims at no measure; greedy does"),
+        (
+            refused(Strategy::Cmaes, &test(0.5, 1), None, None),
+            "`cmaes` does not look at existing tests and cannot extend them; use greedy",
+        ),
+        (
+            refusal(Strategy::Bayes, &Request { epsilon: Some(0.1), ..Request::new(&space, 5) }).to_string(),
+            "`bayes` goes where tests fail and leaves holes elsewhere; epsilon asks for none: use halton or greedy",
+        ),
         (
             refused(Strategy::Greedy, &[], None, Some(4)),
             "k is 4, but the space has 3 parameters; k must be from 1 to their number",

@@ -34,6 +34,10 @@ pub(super) struct Options {
     budget: usize,
     #[command(flatten)]
     sampling: Sampling,
+    /// How many tests an adaptive strategy is asked for at a time: fewer learn from more, more keep more cores busy
+    /// [default: 16]
+    #[arg(long, value_name = "N")]
+    batch: Option<usize>,
     /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one. With a SHAPE each test
     /// lets it vary over time: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES, per-tick,
     /// constant
@@ -174,6 +178,7 @@ impl Options {
         let mut study = Study::of(&self.scenario)?
             .driver(&self.driver, &driver_settings)?
             .strategy(self.strategy())?
+            .batch(self.batch)?
             .delta(sampling.delta)
             .k(sampling.k)
             .epsilon(sampling.epsilon)

@@ -93,6 +93,13 @@ fn look(strategy: Strategy) -> Look {
         Strategy::Hammersley => (0xcc_79a7, Shape::Triangle, true),
         Strategy::Fibonacci => (0x8c_510a, Shape::Tip, false),
         Strategy::Greedy => (0x00_0000, Shape::Triangle, true),
+        Strategy::Anneal => (0xf0_8080, Shape::Tip, false),
+        Strategy::Pso => (0xf0_8080, Shape::Square, false),
+        Strategy::NelderMead => (0xf0_8080, Shape::Triangle, false),
+        Strategy::Cmaes => (0xa0_1c1c, Shape::Diamond, true),
+        Strategy::Bayes => (0x7b_3294, Shape::Circle, true),
+        Strategy::Boundary => (0x7b_3294, Shape::Circle, false),
+        Strategy::Auto => (0x7b_3294, Shape::Diamond, true),
     };
     let byte = |shift: u32| (colour >> shift) as u8;
     Look { colour: (byte(16), byte(8), byte(0)), shape, filled }

@@ -12,6 +12,9 @@ use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
+/// How many tests an adaptive strategy is asked for at a time where nothing is said.
+const ADAPTIVE_BATCH: usize = 16;
+
 /// The version of the files that this software writes.
 const FORMAT: u32 = 1;
 
@@ -45,6 +48,8 @@ pub struct Study {
     measure: Option<String>,
     skip: Option<u64>,
     seed: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    batch: Option<usize>,
     /// How many tests are run.
     pub budget: usize,
     dt: f64,
@@ -122,6 +127,7 @@ impl Study {
             measure: None,
             skip: None,
             seed: None,
+            batch: None,
             budget: 500,
             dt,
             duration,
@@ -153,7 +159,9 @@ impl Study {
     /// # Errors
     /// There is no such strategy.
     pub fn strategy(mut self, name: &str) -> Result<Self, Error> {
-        self.strategy = name.parse::<Strategy>()?.name().to_owned();
+        let strategy = name.parse::<Strategy>()?;
+        self.strategy = strategy.name().to_owned();
+        self.batch = strategy.is_adaptive().then_some(ADAPTIVE_BATCH);
         Ok(self)
     }
 
@@ -211,6 +219,24 @@ impl Study {
     pub fn seed(mut self, seed: Option<u64>) -> Self {
         self.seed = seed;
         self
+    }
+
+    /// Asks the strategy for this many tests at a time, which changes what an adaptive one proposes; without it, for 16,
+    /// and an open-loop one for as many as fit in memory. To be called when the strategy is chosen.
+    ///
+    /// # Errors
+    /// It is 0.
+    pub fn batch(mut self, tests: Option<usize>) -> Result<Self, Error> {
+        if tests == Some(0) {
+            return Err(Error::Usage("the batch is 0, expected at least 1 test".into()));
+        }
+        self.batch = tests.or(self.batch);
+        Ok(self)
+    }
+
+    /// How many tests the strategy is asked for at a time, where that matters.
+    pub(crate) fn batch_size(&self) -> Option<usize> {
+        self.batch
     }
 
     /// Starts a sequence at this index.

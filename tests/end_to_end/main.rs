@@ -1,5 +1,6 @@
 //! The product from outside: its programs as users call them, and campaigns as users of the library run them.
 
+mod adaptive;
 mod bad_input;
 mod campaign;
 mod certificate;

@@ -81,8 +81,11 @@ impl Path {
         // Where the piece is but a point, it is one of the curve that goes on from there, or of the last.
         let last = self.pieces.partition_point(|(begin, _)| *begin < to).max(1) - 1;
         let first = (self.pieces.partition_point(|(begin, _)| *begin <= from).max(1) - 1).min(last);
-        let piece =
-            |(begin, curve): &(f64, Curve)| curve.piece((from - begin).max(0.0), (to - begin).min(curve.length()));
+        let piece = |(begin, curve): &(f64, Curve)| {
+            // Lengths are sums, so that an end may be a rounding beyond the curve's.
+            let from = (from - begin).max(0.0).min(curve.length());
+            curve.piece(from, (to - begin).min(curve.length()).max(from))
+        };
         let path = Self::new(self.pieces[first..=last].iter().map(piece));
         match &self.lanes {
             Some(lanes) => path.on(lanes[first..=last].iter().copied()),

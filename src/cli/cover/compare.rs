@@ -1,6 +1,6 @@
 //! `paracosm-cover compare`: the study of strategies, with everything that watches it.
 
-use super::time_limit;
+use super::{open_loop, time_limit};
 use crate::cli::output::{Format, json};
 use crate::cli::{Failure, Verbosity, print};
 use crate::compare::{Compared, Comparison};
@@ -98,13 +98,9 @@ impl Options {
         let most = |numbers: &[usize]| numbers.iter().copied().max().unwrap_or_default();
         let (dims, budget) = (most(&self.dims), most(&self.budgets));
         Tests::check_size(budget, dims)?;
-        let strategies: Vec<Strategy> = self
-            .strategies
-            .iter()
-            .map(|name| name.parse())
-            .collect::<Result<_, paracosm_generators::GeneratorError>>()?;
+        let strategies: Vec<Strategy> = self.strategies.iter().map(|name| open_loop(name)).collect::<Result<_, _>>()?;
         let defaults = Comparison::of(&strategies)?;
-        let baseline = self.baseline.as_ref().map(|name| name.parse::<Strategy>()).transpose()?;
+        let baseline = self.baseline.as_ref().map(|name| open_loop(name)).transpose()?;
         Ok(Comparison {
             dims: self.dims.clone(),
             budgets: self.budgets.clone(),

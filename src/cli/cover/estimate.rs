@@ -1,11 +1,11 @@
 //! `paracosm-cover estimate`: how well tests cover their space.
 
 use super::space_file::SpaceFile;
-use super::{certificate, strength, time_limit};
+use super::{certificate, open_loop, strength, time_limit};
 use crate::cli::output::{Format, Table, json, short_bracket};
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::{Bracket, Parameter, Space};
-use crate::generators::{Request, Strategy};
+use crate::generators::Request;
 use crate::{Error, Measure, Tests};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -128,7 +128,7 @@ impl Options {
         Tests::check_size(budget, dims)?;
         let space = Space::unit_cube(dims);
         let request = Request { seed: self.seed, skip: self.skip, ..Request::new(&space, budget) };
-        let points = name.parse::<Strategy>()?.build(&request)?.ask(budget);
+        let points = open_loop(name)?.build(&request)?.ask(budget);
         Ok(Tests::new(space, points))
     }
 }

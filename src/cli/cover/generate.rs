@@ -2,7 +2,7 @@
 
 use super::array::ArrayOptions;
 use super::space_file::SpaceFile;
-use super::{strength, time_limit};
+use super::{open_loop, strength, time_limit};
 use crate::cli::output::digits;
 use crate::cli::sampling::Sampling;
 use crate::cli::{Failure, Verbosity, complain};
@@ -95,7 +95,7 @@ impl Options {
         };
         demand.groups.extend(strength::groups(&self.strength, &space)?);
         let strategy = match &self.strategy {
-            Some(name) => name.parse::<Strategy>().map_err(Error::from)?,
+            Some(name) => open_loop(name)?,
             None if self.extend.is_some() => Strategy::Greedy,
             None => Strategy::Halton,
         };

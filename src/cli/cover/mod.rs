@@ -11,6 +11,7 @@ mod strength;
 
 use super::{Failure, Verbosity};
 use crate::Error;
+use crate::generators::Strategy;
 use clap::{Parser, Subcommand};
 use std::time::Duration;
 
@@ -34,6 +35,17 @@ pub(super) struct Command {
     verb: Verb,
     #[command(flatten)]
     verbosity: Verbosity,
+}
+
+/// The open-loop strategy of that name: the others go by how tests went, and here none is run.
+fn open_loop(name: &str) -> Result<Strategy, Error> {
+    match name.parse::<Strategy>()? {
+        strategy if strategy.is_adaptive() => {
+            let message = "goes by how tests went, and here none is run; it is a strategy for `paracosm-fuzz run`";
+            Err(Error::Usage(format!("`{strategy}` {message}")))
+        }
+        strategy => Ok(strategy),
+    }
 }
 
 #[derive(Debug, Subcommand)]

@@ -1,0 +1,86 @@
+//! Bayesian optimisation: the next test where it is expected to improve most on the best one.
+//!
+//! A Gaussian process (`process`, fitted by `fit`) stands for the robustness, and one for errors (`surrogate`); the worth
+//! of a test is the logarithm of its expected improvement (`log_ei`) times its probability to run; candidates come from a
+//! trust region (`region`) and some from everywhere. Frazier's tutorial (arXiv 1807.02811) has the method; Eriksson et
+//! al. (NeurIPS 2019) the region, Gelbart et al. (UAI 2014) the unknown constraint.
+//!
+//! Discrete coordinates are distances in the kernel, an order by its steps and a word by 0 or 1; candidates are
+//! always valid levels, never between two.
+
+use super::cube::Axis;
+use super::log_ei::log_expected_improvement;
+use super::region::Region;
+use super::surrogate::{Surrogate, View, snapped};
+use super::{Search, Trial, anywhere};
+use rand_pcg::Pcg64;
+
+/// So many candidates for each axis, within limits.
+const CANDIDATES: usize = 80;
+
+/// So many candidates for the first places of a new region.
+const DESIGNS: usize = 200;
+
+/// The search.
+pub(super) struct Bayes {
+    surrogate: Surrogate,
+    region: Region,
+    /// From which proposal on tests belong to the region.
+    since: usize,
+    /// How many tests the region's design still lacks.
+    design: usize,
+    batch: usize,
+    rng: Pcg64,
+}
+
+impl Bayes {
+    pub(super) fn new(axes: Vec<Axis>, rng: Pcg64) -> Self {
+        Self { surrogate: Surrogate::new(axes), region: Region::new(), since: 0, design: 0, batch: 0, rng }
+    }
+
+    /// Places for a new region to begin with: those least known of some random ones.
+    fn design(&mut self, n: usize) -> Vec<Vec<f64>> {
+        let axes = self.surrogate.axes();
+        let candidates = (0..DESIGNS).map(|_| snapped(axes, anywhere(axes, &mut self.rng))).collect();
+        let near = anywhere(axes, &mut self.rng);
+        let n = n.min(self.design);
+        let places = self.surrogate.choose(n, View::Near(&near), candidates, |_, _, deviation, runs| deviation * runs);
+        // A discrete space may have fewer left.
+        self.design = if places.len() < n { 0 } else { self.design - n };
+        places
+    }
+}
+
+impl Search for Bayes {
+    fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
+        if self.design > 0 {
+            return self.design(n);
+        }
+        let Some((best, cost)) = self.region.best().and_then(|best| Some((best.at.clone(), best.robustness?))) else {
+            return Vec::new();
+        };
+        let axes = self.surrogate.axes();
+        let candidates = (CANDIDATES * axes.len()).clamp(200, 480);
+        let candidates = self.region.candidates(candidates, axes, self.surrogate.lengths(), &mut self.rng);
+        let places = self.surrogate.choose(n, View::Near(&best), candidates, |bend, mean, deviation, runs| {
+            log_expected_improvement(bend.apply(cost), mean, deviation) + libm::log(runs)
+        });
+        self.batch += places.len();
+        places
+    }
+
+    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+        self.surrogate.learn(proposal, trial);
+        if proposal.map_or(self.since == 0, |proposal| proposal >= self.since) {
+            self.region.learn(trial);
+        }
+        if proposal.is_some() && self.surrogate.is_idle() && self.batch > 0 {
+            let batch = std::mem::take(&mut self.batch);
+            if !self.region.is_worth_it_after(batch, self.surrogate.axes().len()) {
+                self.region = Region::new();
+                self.since = self.surrogate.proposals();
+                self.design = 2 * self.surrogate.axes().len().clamp(2, 10);
+            }
+        }
+    }
+}

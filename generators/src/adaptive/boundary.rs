@@ -1,0 +1,75 @@
+//! Level-set search: tests that tell where passing turns into failing, rather than one more failure.
+//!
+//! The next test is where the model of the robustness is least sure on which side of 0 it is: the straddle
+//! heuristic, `1.96 deviation - |mean|` (Bryan et al., NIPS 2005). Candidates are places anywhere, places between a test that
+//! failed and one that passed, as a bisection would choose them, and places near tests that were close calls. What the model
+//! takes for an error is worth that much less. As long as nothing failed the same rule leads to where a failure is likely or
+//! little is known.
+
+use super::cube::Axis;
+use super::surrogate::{Surrogate, View, nudged, snapped};
+use super::{Search, Trial, anywhere};
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+/// So many candidates for each axis, within limits.
+const CANDIDATES: usize = 120;
+
+/// How many deviations make a place interesting: the 95 % interval.
+const DEVIATIONS: f64 = 1.96;
+
+/// What a place that will be in error for certain is worth less.
+const ERROR: f64 = 3.0;
+
+/// Of how many close calls the neighbourhood is looked at.
+const CLOSE_CALLS: usize = 20;
+
+/// How near to them.
+const STEP: f64 = 0.1;
+
+/// The search.
+pub(super) struct Boundary {
+    surrogate: Surrogate,
+    rng: Pcg64,
+}
+
+impl Boundary {
+    pub(super) fn new(axes: Vec<Axis>, rng: Pcg64) -> Self {
+        Self { surrogate: Surrogate::new(axes), rng }
+    }
+
+    fn candidates(&mut self) -> Vec<Vec<f64>> {
+        let axes = self.surrogate.axes();
+        let rng = &mut self.rng;
+        let mut ran: Vec<&Trial> = self.surrogate.trials().iter().filter(|trial| trial.robustness.is_some()).collect();
+        let (failed, passed): (Vec<&Trial>, Vec<&Trial>) = ran.iter().partition(|trial| trial.cost() < 0.0);
+        ran.sort_by(|a, b| a.cost().abs().total_cmp(&b.cost().abs()));
+        ran.truncate(CLOSE_CALLS);
+        (0..(CANDIDATES * axes.len()).clamp(240, 600))
+            .map(|index| match index % 4 {
+                0 if !failed.is_empty() && !passed.is_empty() => {
+                    let a = failed[rng.random_range(0..failed.len())];
+                    let b = passed[rng.random_range(0..passed.len())];
+                    let t: f64 = rng.random();
+                    let between = |(a, b): (&f64, &f64)| a + t * (b - a);
+                    snapped(axes, a.at.iter().zip(&b.at).map(between).collect())
+                }
+                1 if !ran.is_empty() => nudged(axes, &ran[rng.random_range(0..ran.len())].at, STEP, rng),
+                _ => snapped(axes, anywhere(axes, rng)),
+            })
+            .collect()
+    }
+}
+
+impl Search for Boundary {
+    fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
+        let candidates = self.candidates();
+        self.surrogate.choose(n, View::Level, candidates, |_, mean, deviation, runs| {
+            DEVIATIONS * deviation - mean.abs() - ERROR * (1.0 - runs)
+        })
+    }
+
+    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+        self.surrogate.learn(proposal, trial);
+    }
+}

@@ -1,0 +1,144 @@
+//! Several solvers side by side, each from another start: what makes batches of methods that move one place at a time.
+//!
+//! A solver is started only when those at work have nothing more to propose: asked for one test at a time a single
+//! one goes its way, asked for many up to a fixed number of them. One that has ended gives room to the next. The first start
+//! is at the best test so far, the second at the next best that is not near, and after a few of these at random.
+
+use super::cube::Axis;
+use super::solver::Solver;
+use super::{Search, Trial, anywhere};
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+/// From how many of the best tests solvers start, before they start at random.
+const BEST: usize = 3;
+
+/// Tests nearer than this on every axis are no two starts.
+const NEAR: f64 = 0.1;
+
+/// What a solver starts from.
+pub(super) struct Start<'a> {
+    /// The kinds of the axes.
+    pub axes: &'a [Axis],
+    /// The place to start from.
+    pub at: Vec<f64>,
+    /// All tests so far, the best ones first.
+    pub trials: &'a [Trial],
+    /// A source of chance of its own.
+    pub rng: Pcg64,
+}
+
+/// How a solver is started.
+pub(super) type Launch = fn(Start) -> Solver;
+
+/// The solvers at work.
+pub(super) struct Chains {
+    axes: Vec<Axis>,
+    launch: Launch,
+    most: usize,
+    running: Vec<Chain>,
+    launched: usize,
+    started_at: Vec<Vec<f64>>,
+    trials: Vec<Trial>,
+    proposals: usize,
+    rng: Pcg64,
+}
+
+/// A solver with its batch.
+struct Chain {
+    solver: Solver,
+    /// The places of the batch that are still to be proposed, the last one first.
+    open: Vec<Vec<f64>>,
+    /// The proposals of the batch in order, with their costs once they are told.
+    costs: Vec<(usize, Option<f64>)>,
+}
+
+impl Chains {
+    /// At most so many solvers at a time.
+    pub(super) fn new(axes: Vec<Axis>, launch: Launch, most: usize, rng: Pcg64) -> Self {
+        Self {
+            axes,
+            launch,
+            most,
+            running: Vec::new(),
+            launched: 0,
+            started_at: Vec::new(),
+            trials: Vec::new(),
+            proposals: 0,
+            rng,
+        }
+    }
+
+    /// Starts another solver.
+    fn start(&mut self) -> Chain {
+        let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < NEAR);
+        let far = |trial: &&Trial| self.started_at.iter().all(|start| !near(start, &trial.at));
+        let best = self.trials.iter().filter(|_| self.launched < BEST).find(far).map(|trial| trial.at.clone());
+        let at = best.unwrap_or_else(|| anywhere(&self.axes, &mut self.rng));
+        self.started_at.push(at.clone());
+        self.launched += 1;
+        let rng = crate::seeded::seeded(self.rng.random(), crate::seeded::Purpose::Search, 0);
+        let solver = (self.launch)(Start { axes: &self.axes, at, trials: &self.trials, rng });
+        Chain { solver, open: Vec::new(), costs: Vec::new() }
+    }
+}
+
+impl Chain {
+    /// Whether there is a place to propose or an outcome to wait for: it takes the next batch where the last is answered.
+    fn goes_on(&mut self) -> bool {
+        if self.open.is_empty() && self.costs.is_empty() {
+            self.open = self.solver.batch().unwrap_or_default();
+            self.open.reverse();
+        }
+        !self.open.is_empty() || !self.costs.is_empty()
+    }
+
+    fn learn(&mut self, proposal: usize, cost: f64) {
+        if let Some(own) = self.costs.iter_mut().find(|own| own.0 == proposal) {
+            own.1 = Some(cost);
+        }
+        if self.open.is_empty()
+            && let Some(costs) = self.costs.iter().map(|own| own.1).collect::<Option<Vec<f64>>>()
+            && !costs.is_empty()
+        {
+            self.solver.answer(costs);
+            self.costs.clear();
+        }
+    }
+}
+
+impl Search for Chains {
+    fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
+        let mut places = Vec::new();
+        self.running.retain_mut(Chain::goes_on);
+        for index in 0..self.most {
+            if places.len() == n {
+                break;
+            }
+            if index == self.running.len() {
+                let mut chain = self.start();
+                if !chain.goes_on() {
+                    break;
+                }
+                self.running.push(chain);
+            }
+            let chain = &mut self.running[index];
+            while places.len() < n
+                && let Some(at) = chain.open.pop()
+            {
+                chain.costs.push((self.proposals, None));
+                self.proposals += 1;
+                places.push(at);
+            }
+        }
+        places
+    }
+
+    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+        if let Some(proposal) = proposal {
+            self.running.iter_mut().for_each(|chain| chain.learn(proposal, trial.cost()));
+        }
+        let place = self.trials.partition_point(|other| other.cost() <= trial.cost());
+        self.trials.insert(place, trial.clone());
+    }
+}

@@ -1,0 +1,177 @@
+//! CMA-ES with restarts of two kinds (BIPOP; Hansen, GECCO workshop 2009): a population at a time, robust on rough ground.
+//!
+//! The first run starts at the best test so far. After it runs alternate so that both kinds have spent as many tests: ones
+//! whose population is doubled each time, which see the coarse shape, and short ones of small populations and
+//! small steps, which look for a way in. Later starts are random.
+//!
+//! Continuous coordinates are sampled from the normal distribution (`evolution`) and moved to the nearest place of
+//! the cube, so that its corners are tested as such. Discrete ones are sampled from a probability of each level, which
+//! moves to the levels of the better half as the mean does and never falls below a floor (estimation of distribution,
+//! as in Hamano et al., "CatCMA", GECCO 2024, without its natural gradient).
+
+use super::cube::{Axis, level, middle};
+use super::evolution::{Evolution, default_lambda};
+use super::{Search, Trial, anywhere};
+use rand::Rng;
+use rand_pcg::Pcg64;
+
+/// The first step size.
+const SIGMA: f64 = 0.25;
+
+/// How fast the probabilities of levels follow.
+const RATE: f64 = 0.3;
+
+/// How often a population is doubled at most.
+const MOST_DOUBLED: u32 = 9;
+
+/// The search.
+pub(super) struct Cmaes {
+    axes: Vec<Axis>,
+    dims: usize,
+    run: Option<Run>,
+    /// How many runs had a large population, and what each kind has spent.
+    doubled: u32,
+    spent: [usize; 2],
+    best: Option<Trial>,
+    proposals: usize,
+    rng: Pcg64,
+}
+
+/// One run.
+struct Run {
+    evolution: Evolution,
+    /// For each discrete axis the probabilities of its levels.
+    levels: Vec<Vec<f64>>,
+    /// Small or large.
+    kind: usize,
+    /// What it may spend.
+    most: usize,
+    spent: usize,
+    generation: Vec<Sample>,
+}
+
+struct Sample {
+    proposal: usize,
+    told: Option<Trial>,
+}
+
+impl Cmaes {
+    pub(super) fn new(axes: Vec<Axis>, rng: Pcg64) -> Self {
+        let dims = axes.iter().filter(|axis| **axis == Axis::Continuous).count();
+        Self { axes, dims, run: None, doubled: 0, spent: [0; 2], best: None, proposals: 0, rng }
+    }
+
+    fn start(&mut self) -> Run {
+        let default = default_lambda(self.axes.len());
+        let is_first = self.doubled == 0;
+        let large = default << self.doubled.min(MOST_DOUBLED);
+        let kind = usize::from(is_first || self.spent[1] <= self.spent[0]);
+        let (lambda, sigma, most) = if kind == 1 {
+            self.doubled += 1;
+            (large, SIGMA, usize::MAX)
+        } else {
+            let (u, v): (f64, f64) = (self.rng.random(), self.rng.random());
+            let ratio = 0.5 * large as f64 / default as f64;
+            let lambda = default as f64 * libm::pow(ratio.max(1.0), u * u);
+            (lambda as usize, SIGMA * libm::pow(10.0, -2.0 * v), self.spent[1] / 2 + default)
+        };
+        let random = anywhere(&self.axes, &mut self.rng);
+        let at = self.best.as_ref().filter(|_| is_first).map_or(random, |best| best.at.clone());
+        let probabilities = |(u, axis): (&f64, &Axis)| match *axis {
+            Axis::Continuous => None,
+            Axis::Ordered(levels) | Axis::Nominal(levels) => {
+                let mut all = vec![1.0 / levels as f64; levels];
+                if is_first && self.best.is_some() {
+                    // As if the best had been learnt from.
+                    follow(&mut all, [(level(*u, levels), 1.0)].into_iter(), RATE);
+                }
+                Some(all)
+            }
+        };
+        let levels = at.iter().zip(&self.axes).filter_map(probabilities).collect();
+        let evolution = Evolution::new(at[..self.dims].to_vec(), sigma, lambda);
+        Run { evolution, levels, kind, most, spent: 0, generation: Vec::new() }
+    }
+}
+
+/// Moves probabilities towards weighted levels; none falls below a floor.
+fn follow(probabilities: &mut [f64], levels: impl Iterator<Item = (usize, f64)>, rate: f64) {
+    let mut seen = vec![0.0; probabilities.len()];
+    levels.for_each(|(level, weight)| seen[level] += weight);
+    let floor = 0.1 / probabilities.len() as f64;
+    for (probability, seen) in probabilities.iter_mut().zip(seen) {
+        *probability = (*probability + rate * (seen - *probability)).max(floor);
+    }
+    let sum: f64 = probabilities.iter().sum();
+    probabilities.iter_mut().for_each(|probability| *probability /= sum);
+}
+
+impl Run {
+    fn sample(&self, rng: &mut Pcg64) -> Vec<f64> {
+        let mut at: Vec<f64> = self.evolution.sample(rng).iter().map(|u| u.clamp(0.0, 1.0)).collect();
+        for probabilities in &self.levels {
+            let mut left: f64 = rng.random();
+            let drawn = probabilities.iter().position(|probability| {
+                left -= probability;
+                left < 0.0
+            });
+            at.push(middle(drawn.unwrap_or(probabilities.len() - 1), probabilities.len()));
+        }
+        at
+    }
+
+    /// Learns from a generation that has been told.
+    fn update(&mut self, dims: usize) {
+        let mut told: Vec<Trial> = self.generation.drain(..).filter_map(|sample| sample.told).collect();
+        told.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
+        self.spent += told.len();
+        let weights = self.evolution.weights().to_vec();
+        for (index, probabilities) in self.levels.iter_mut().enumerate() {
+            let levels = probabilities.len();
+            let seen =
+                told.iter().zip(&weights).map(|(trial, &weight)| (level(trial.at[dims + index], levels), weight));
+            follow(probabilities, seen, RATE);
+        }
+        let generation: Vec<(&[f64], f64)> = told.iter().map(|trial| (&trial.at[..dims], trial.cost())).collect();
+        self.evolution.update(&generation);
+    }
+
+    fn is_over(&self) -> bool {
+        self.evolution.is_over() || self.spent >= self.most
+    }
+}
+
+impl Search for Cmaes {
+    fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
+        if self.run.as_ref().is_none_or(Run::is_over) {
+            if let Some(run) = self.run.take() {
+                self.spent[run.kind] += run.spent;
+            }
+            self.run = Some(self.start());
+        }
+        let run = self.run.as_mut().expect("one was started");
+        let places: Vec<Vec<f64>> = (run.generation.len()..run.evolution.lambda())
+            .take(n)
+            .map(|_| {
+                run.generation.push(Sample { proposal: self.proposals, told: None });
+                self.proposals += 1;
+                run.sample(&mut self.rng)
+            })
+            .collect();
+        places
+    }
+
+    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+        if self.best.as_ref().is_none_or(|best| trial.cost() < best.cost()) {
+            self.best = Some(trial.clone());
+        }
+        let Some((run, proposal)) = self.run.as_mut().zip(proposal) else { return };
+        if let Some(sample) = run.generation.iter_mut().find(|sample| sample.proposal == proposal) {
+            sample.told = Some(trial.clone());
+        }
+        let is_full = run.generation.len() == run.evolution.lambda();
+        if is_full && run.generation.iter().all(|sample| sample.told.is_some()) {
+            run.update(self.dims);
+        }
+    }
+}

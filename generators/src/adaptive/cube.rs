@@ -1,0 +1,138 @@
+//! The cube in which adaptive strategies search: every test of a mixed space as one vector.
+//!
+//! A discrete coordinate is an axis too, cut into slices of equal width, one for each level. So a search that knows only
+//! numbers moves in it, and one that knows better asks what kind an axis is: levels that are numbers in order are near to
+//! each other as their slices are, levels that are words are equally far from each other.
+//!
+//! A row that the constraints exclude is repaired: parameter by parameter the level is kept, or replaced by the nearest one
+//! that a valid test has together with those before it. What is tested keeps all constraints; a search is told how
+//! the repaired test went as the outcome of what it proposed.
+
+use paracosm_coverage::{Point, Space, Value, rules::Rules};
+
+/// What the numbers along an axis mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Axis {
+    /// Themselves.
+    Continuous,
+    /// So many levels in order.
+    Ordered(usize),
+    /// So many levels without an order.
+    Nominal(usize),
+}
+
+/// The cube of a space.
+pub(super) struct Cube {
+    axes: Vec<Axis>,
+    dims: usize,
+    rules: Rules,
+}
+
+impl Cube {
+    pub(super) fn new(space: &Space, rules: Rules) -> Self {
+        let dims = space.dims();
+        let discrete = space.discrete().filter_map(|coordinate| coordinate.parameter.levels()).map(axis_of);
+        Self { axes: std::iter::repeat_n(Axis::Continuous, dims).chain(discrete).collect(), dims, rules }
+    }
+
+    /// The kinds of all axes, the continuous ones first.
+    pub(super) fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The number of continuous axes.
+    pub(super) fn dims(&self) -> usize {
+        self.dims
+    }
+
+    /// The test at a place, moved to the nearest one of the cube and repaired where constraints exclude it.
+    pub(super) fn point(&self, at: &[f64]) -> Point {
+        let (continuous, discrete) = at.split_at(self.dims);
+        let row: Vec<usize> = discrete.iter().zip(self.rules.levels()).map(|(&u, &levels)| level(u, levels)).collect();
+        Point {
+            continuous: continuous.iter().map(|u| u.clamp(0.0, 1.0_f64.next_down())).collect(),
+            discrete: if self.rules.allows(&row) { row } else { self.repaired(&row) },
+        }
+    }
+
+    /// The place of a test: a level is in the middle of its slice.
+    pub(super) fn place(&self, point: &Point) -> Vec<f64> {
+        let middle = |(&level, &levels): (&usize, &usize)| middle(level, levels);
+        let discrete = point.discrete.iter().zip(self.rules.levels()).map(middle);
+        point.continuous.iter().copied().chain(discrete).collect()
+    }
+
+    fn repaired(&self, row: &[usize]) -> Vec<usize> {
+        let mut fixed = vec![None; row.len()];
+        for (parameter, &wanted) in row.iter().enumerate() {
+            let supported = self.rules.supported_at(parameter, |other| fixed[other]);
+            let valid = (0..supported.len()).filter(|&level| supported[level]);
+            fixed[parameter] = valid.min_by_key(|level| level.abs_diff(wanted));
+        }
+        fixed.into_iter().map(|level| level.expect("what is fixed so far is part of a valid test")).collect()
+    }
+}
+
+fn axis_of(levels: &[Value]) -> Axis {
+    let numbers: Option<Vec<f64>> = levels.iter().map(Value::number).collect();
+    // Two levels have an order whatever they are.
+    let is_ordered = levels.len() <= 2 || numbers.is_some_and(|numbers| numbers.is_sorted());
+    if is_ordered { Axis::Ordered(levels.len()) } else { Axis::Nominal(levels.len()) }
+}
+
+/// The level in whose slice a number lies.
+pub(super) fn level(u: f64, levels: usize) -> usize {
+    ((u.max(0.0) * levels as f64) as usize).min(levels - 1)
+}
+
+/// The middle of a level's slice.
+pub(super) fn middle(level: usize, levels: usize) -> f64 {
+    (level as f64 + 0.5) / levels as f64
+}
+
+/// A number mirrored at 0 and 1 until it is between them.
+pub(super) fn mirrored(x: f64) -> f64 {
+    let x = x.rem_euclid(2.0);
+    if x > 1.0 { 2.0 - x } else { x }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn space() -> Space {
+        let text = "constraints = [\"lanes == 2 implies weather != 'fog'\", \"cars > lanes\"]
+            parameter = [{ name = \"lanes\", choice = [2, 4, 6] }, { name = \"x\", interval = [0, 9] },
+            { name = \"weather\", choice = [\"clear\", \"rain\", \"fog\"] }, { name = \"cars\", choice = [1, 3, 5, 7] }]";
+        Space::from_toml(text).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn every_place_has_a_test_that_keeps_the_constraints_and_valid_tests_stay_as_they_are(
+            at in prop::collection::vec(-1.0..2.0_f64, 4)
+        ) {
+            let space = space();
+            let cube = Cube::new(&space, space.rules().unwrap());
+            let point = cube.point(&at);
+            prop_assert!(space.allows(&point));
+            prop_assert!((0.0..1.0).contains(&point.continuous[0]));
+            prop_assert_eq!(cube.point(&cube.place(&point)), point);
+        }
+
+        #[test]
+        fn mirrors_bring_every_number_between_them(x in -9.0..9.0_f64) {
+            prop_assert!((0.0..=1.0).contains(&mirrored(x)));
+            prop_assert!((mirrored(-x) - mirrored(x)).abs() < 1e-12);
+            prop_assert!((mirrored(2.0 + x) - mirrored(x)).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn words_have_no_order_and_numbers_have_the_one_they_stand_in() {
+        let space = space();
+        let cube = Cube::new(&space, space.rules().unwrap());
+        assert_eq!(cube.axes(), [Axis::Continuous, Axis::Ordered(3), Axis::Nominal(3), Axis::Ordered(4)]);
+    }
+}

@@ -1,0 +1,126 @@
+//! The most probable lengths and noise of a Gaussian process: maximum likelihood, with a weak prior that keeps what
+//! few tests say nothing of at sensible values (as in Hvarfner et al., ICML 2024, lengths grow with the root of the
+//! number of axes).
+//!
+//! The climb is Rprop (Riedmiller and Braun 1993): a step of its own for each parameter, longer while the slope keeps
+//! its sign. It needs no line search, starts from the last fit, and looks at no more than the first hundred tests.
+
+use super::cube::Axis;
+use super::process::{Kernel, Mean, Process};
+
+/// So many tests tell the lengths.
+const MOST_TESTS: usize = 96;
+
+/// The prior: normal in the logarithms.
+const LENGTH: f64 = 0.5;
+const LENGTH_DEVIATION: f64 = 1.0;
+const NOISE: f64 = 1e-5;
+const NOISE_DEVIATION: f64 = 2.0;
+
+/// How a climb steps, in logarithms.
+const FIRST_STEP: f64 = 0.2;
+const LONGEST_STEP: f64 = 1.0;
+const SHORTEST_STEP: f64 = 1e-3;
+
+/// The bounds.
+const LENGTHS: (f64, f64) = (0.01, 30.0);
+const NOISES: (f64, f64) = (1e-8, 0.3);
+
+/// What is assumed before any test.
+pub(super) fn prior(axes: &[Axis]) -> Kernel {
+    let length = LENGTH * (axes.len() as f64).sqrt();
+    Kernel { axes: axes.to_vec(), lengths: vec![length; axes.len()], noise: NOISE }
+}
+
+/// A better kernel than `from` for these values, by so many steps.
+pub(super) fn fit(from: &Kernel, places: &[Vec<f64>], values: &[f64], steps: usize) -> Kernel {
+    let n = places.len().min(MOST_TESTS);
+    let (places, values) = (&places[..n], &values[..n]);
+    let axes = from.lengths.len();
+    let middle = prior(&from.axes);
+    let mut at: Vec<f64> = from.lengths.iter().chain([&from.noise]).map(|&x| libm::log(x)).collect();
+    let kernel_at = |at: &[f64]| Kernel {
+        axes: from.axes.clone(),
+        lengths: at[..axes].iter().map(|&x| libm::exp(x)).collect(),
+        noise: libm::exp(at[axes]),
+    };
+    let mut lengths = vec![FIRST_STEP; axes + 1];
+    let mut before = vec![0.0; axes + 1];
+    let mut best = (f64::NEG_INFINITY, from.clone());
+    for _ in 0..steps {
+        let kernel = kernel_at(&at);
+        let Some(process) = Process::new(kernel.clone(), places.to_vec(), values, Mean::Unknown) else { break };
+        let mut value = process.log_likelihood();
+        let mut gradient = process.log_likelihood_gradient();
+        for (index, slope) in gradient.iter_mut().enumerate() {
+            let (mean, deviation) = match index {
+                _ if index < axes => (libm::log(middle.lengths[index]), LENGTH_DEVIATION),
+                _ => (libm::log(NOISE), NOISE_DEVIATION),
+            };
+            let off = (at[index] - mean) / deviation;
+            value -= 0.5 * off * off;
+            *slope -= off / deviation;
+        }
+        if value > best.0 {
+            best = (value, kernel);
+        }
+        for (index, &slope) in gradient.iter().enumerate() {
+            let agrees = slope * before[index];
+            if agrees > 0.0 {
+                lengths[index] = (lengths[index] * 1.5).min(LONGEST_STEP);
+            } else if agrees < 0.0 {
+                lengths[index] = (lengths[index] * 0.5).max(SHORTEST_STEP);
+            }
+            before[index] = slope;
+            let (least, most) = if index < axes { LENGTHS } else { NOISES };
+            let step = if slope == 0.0 { 0.0 } else { lengths[index].copysign(slope) };
+            at[index] = (at[index] + step).clamp(libm::log(least), libm::log(most));
+        }
+    }
+    best.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Request, Strategy};
+    use paracosm_coverage::Space;
+
+    fn places(n: usize) -> Vec<Vec<f64>> {
+        let space = Space::unit_cube(2);
+        let tests = Strategy::Halton.build(&Request::new(&space, n)).unwrap().ask(n);
+        tests.into_iter().map(|test| test.continuous).collect()
+    }
+
+    #[test]
+    fn an_axis_that_does_not_matter_gets_the_greater_length() {
+        let places = places(40);
+        let values: Vec<f64> = places.iter().map(|at| libm::sin(9.0 * at[0])).collect();
+        let fitted = fit(&prior(&[Axis::Continuous; 2]), &places, &values, 40);
+        assert!(fitted.lengths[1] > 3.0 * fitted.lengths[0], "{:?}", fitted.lengths);
+        assert!(fitted.noise < 1e-3);
+    }
+
+    #[test]
+    fn noise_is_seen_as_such() {
+        let places = places(80);
+        // Chance for all that a length can tell: the last digits of a product.
+        let noise = |at: &[f64]| (at[0] * 9871.0 + at[1] * 7919.0).fract() - 0.5;
+        let values: Vec<f64> = places.iter().map(|at| at[0] + noise(at)).collect();
+        let fitted = fit(&prior(&[Axis::Continuous; 2]), &places, &values, 60);
+        assert!(fitted.noise > 1e-2, "{fitted:?}");
+    }
+
+    #[test]
+    fn a_climb_leads_far_from_a_bad_start() {
+        let places = places(30);
+        let values: Vec<f64> = places.iter().map(|at| libm::cos(5.0 * at[0] * at[1])).collect();
+        // Far from what is true of such a smooth function.
+        let start = Kernel { lengths: vec![0.05; 2], noise: 1e-2, ..prior(&[Axis::Continuous; 2]) };
+        let likelihood = |steps| {
+            let kernel = fit(&start, &places, &values, steps);
+            Process::new(kernel, places.clone(), &values, Mean::Unknown).unwrap().log_likelihood()
+        };
+        assert!(likelihood(40) > likelihood(1) + 5.0);
+    }
+}

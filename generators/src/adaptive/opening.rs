@@ -1,0 +1,134 @@
+//! The first tests of every adaptive strategy: some corners of the box, then points of the Halton sequence.
+//!
+//! Several famous benchmarks fail at a corner: full throttle and no brake. A corner here has every continuous
+//! *parameter* at one of its ends, all coordinates of a signal at the same one. With up to three such parameters all
+//! corners are tested, with more eight of them: of an orthogonal array, so that any two of the first seven parameters
+//! meet all four combinations of their ends. Which are tested first is up to the seed. Then follow `d + 3` points of
+//! the shifted Halton sequence, from 4 to 16, and as many more as it takes to see up to 32 rows of the discrete
+//! family, which the tests take in turn. The opening is at most a third of the budget.
+
+use crate::{
+    Request,
+    family::Family,
+    seeded::{Purpose, seeded},
+    sequence::{Halton, Sequence},
+};
+use paracosm_coverage::Point;
+use rand::Rng;
+
+/// At most so many corners.
+const MOST_CORNERS: usize = 8;
+
+/// Up to so many rows of the discrete family are part of the opening.
+const MOST_ROWS: usize = 32;
+
+/// The points to begin with, and the low-dispersion points that go on after them.
+pub(super) struct Opening {
+    family: Family,
+    halton: Halton,
+    corners: Vec<Vec<f64>>,
+    len: usize,
+    next: usize,
+}
+
+impl Opening {
+    pub(super) fn new(request: &Request, family: Family) -> Self {
+        let dims = request.space.dims();
+        let seed = request.seed.unwrap_or(0);
+        let corners = if dims == 0 { Vec::new() } else { corners(request, seed) };
+        let points = if dims == 0 { 0 } else { (dims + 3).clamp(4, 16) };
+        let rows = family.len().min(MOST_ROWS as u64) as usize;
+        let len = (corners.len() + points).max(rows).min(request.budget.div_ceil(3));
+        Self { family, halton: Halton::new(dims, Some(seed)), corners, len, next: 0 }
+    }
+
+    /// Whether all of the opening has been proposed.
+    pub(super) fn is_over(&self) -> bool {
+        self.next >= self.len
+    }
+
+    /// The next point; beyond the opening the sequence goes on.
+    pub(super) fn next(&mut self) -> Point {
+        let index = self.next;
+        self.next += 1;
+        let continuous = match self.corners.get(index) {
+            Some(corner) => corner.clone(),
+            None => self.halton.point((index - self.corners.len()) as u64 + 1),
+        };
+        Point { continuous, discrete: self.family.row(index as u64 % self.family.len()) }
+    }
+}
+
+/// Corners of the box, in an order that the seed decides.
+fn corners(request: &Request, seed: u64) -> Vec<Vec<f64>> {
+    let names: Vec<&str> = request.space.continuous().map(|coordinate| coordinate.parameter.name.as_str()).collect();
+    let mut parameters = names.clone();
+    parameters.dedup();
+    let number = |name: &str| parameters.iter().position(|other| *other == name).expect("a parameter of the list");
+    let all = if parameters.len() < 3 { 1 << parameters.len() } else { MOST_CORNERS };
+    let mut corners: Vec<Vec<f64>> = (0..all)
+        .map(|corner| {
+            let end = |name: &&str| if is_high(corner, number(name)) { 1.0_f64.next_down() } else { 0.0 };
+            names.iter().map(end).collect()
+        })
+        .collect();
+    let mut rng = seeded(seed, Purpose::Corners, 0);
+    for last in (1..corners.len()).rev() {
+        corners.swap(last, rng.random_range(0..=last));
+    }
+    corners
+}
+
+/// Whether a parameter is at its upper end: the columns are all sums modulo 2 of three that are independent. Beyond seven
+/// parameters they repeat, upside down every other time.
+fn is_high(corner: usize, parameter: usize) -> bool {
+    // The three independent columns first, then their sums.
+    const COLUMNS: [usize; 7] = [1, 2, 4, 3, 5, 6, 7];
+    let odd = (corner & COLUMNS[parameter % 7]).count_ones() % 2 == 1;
+    odd ^ (parameter / 7 % 2 == 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use paracosm_coverage::Space;
+    use std::collections::BTreeSet;
+
+    fn corners_of(space: &Space, seed: u64) -> Vec<Vec<bool>> {
+        let corners = corners(&Request::new(space, 100), seed);
+        corners.iter().map(|corner| corner.iter().map(|&u| u > 0.5).collect()).collect()
+    }
+
+    #[test]
+    fn up_to_three_parameters_all_corners_are_tested() {
+        for dims in 1..=3 {
+            let corners: BTreeSet<_> = corners_of(&Space::unit_cube(dims), 5).into_iter().collect();
+            assert_eq!(corners.len(), 1 << dims);
+        }
+    }
+
+    #[test]
+    fn with_seven_parameters_any_two_meet_all_combinations_of_their_ends() {
+        let corners = corners_of(&Space::unit_cube(7), 1);
+        assert_eq!(corners.len(), 8);
+        for i in 0..7 {
+            for j in 0..i {
+                let pairs: BTreeSet<_> = corners.iter().map(|corner| (corner[i], corner[j])).collect();
+                assert_eq!(pairs.len(), 4, "{i}, {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn all_coordinates_of_a_signal_are_at_the_same_end() {
+        let text = "parameter = [{ name = \"throttle\", interval = [0, 100], signal = { shape = \"piecewise-constant\",
+            pieces = 5 } }, { name = \"brake\", interval = [0, 325], signal = { shape = \"polynomial\", degree = 2 } }]";
+        let corners = corners_of(&Space::from_toml(text).unwrap(), 3);
+        let ends: BTreeSet<_> = corners.iter().map(|corner| (corner[0], corner[5])).collect();
+        assert_eq!(ends.len(), 4);
+        for corner in corners {
+            assert!(corner[..5].iter().all(|&end| end == corner[0]));
+            assert!(corner[5..].iter().all(|&end| end == corner[5]));
+        }
+    }
+}

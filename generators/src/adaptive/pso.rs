@@ -1,0 +1,52 @@
+//! Particle swarm optimisation (Kennedy and Eberhart 1995; the weights of Clerc's standard), by argmin.
+//!
+//! Every particle is drawn to the best place it has seen and to the best that any has; a whole swarm is one batch. A swarm
+//! starts at the best tests so far, which are not tested again. One
+//! whose moves bring nothing better gives way to the next, later ones at random places. A discrete coordinate flies along its axis, and is the level whose slice it is in.
+
+use super::chains::{Chains, Start};
+use super::cube::Axis;
+use super::solver::{Cost, Solver};
+use super::{anywhere, normal};
+use argmin::core::{CostFunction, Executor, PopulationState};
+use argmin::solver::particleswarm::{Particle, ParticleSwarm};
+use rand_pcg::Pcg64;
+
+/// How often a swarm moves before the next one starts: by then it has come to rest or never will.
+const MOVES: u64 = 40;
+
+/// For how many moves the best costs may be alike before it does.
+const PATIENCE: usize = 5;
+
+/// The standard deviation of the first velocities.
+const FIRST_STEP: f64 = 0.2;
+
+/// The search: one swarm at a time, as large as `10 + 2 sqrt(d)`, of which 16 are about a batch.
+pub(super) fn pso(axes: Vec<Axis>, rng: Pcg64) -> Chains {
+    Chains::new(axes, swarm, 1, rng)
+}
+
+fn swarm(start: Start) -> Solver {
+    let Start { axes, at, trials, mut rng } = start;
+    let size = 10 + (2.0 * (axes.len() as f64).sqrt()) as usize;
+    let mut velocity = || -> Vec<f64> { axes.iter().map(|_| FIRST_STEP * normal(&mut rng)).collect() };
+    // The first swarms start where the tests are that went best; a later one's start is a random place.
+    let is_first = trials.first().is_some_and(|best| best.at == at);
+    let known = trials.iter().filter(|_| is_first).take(size);
+    let known: Vec<_> = known.map(|trial| Particle::new(trial.at.clone(), trial.cost(), velocity())).collect();
+    let velocities: Vec<Vec<f64>> = (known.len()..size).map(|_| velocity()).collect();
+    let places: Vec<Vec<f64>> = (known.len()..size).map(|_| anywhere(axes, &mut rng)).collect();
+    let bounds = (vec![0.0; axes.len()], vec![1.0; axes.len()]);
+    Solver::start(move |cost: Cost| {
+        let mut particles = known;
+        if !places.is_empty() {
+            let Ok(costs) = cost.bulk_cost(&places) else { return };
+            let new = places.into_iter().zip(costs).zip(velocities);
+            particles.extend(new.map(|((at, cost), velocity)| Particle::new(at, cost, velocity)));
+        }
+        let solver = ParticleSwarm::new(bounds, size).with_rng_generator(rng);
+        // It ends by itself or with the generator; what it found has been tested.
+        let executor = Executor::new(cost.with_patience(PATIENCE), solver);
+        let _ = executor.configure(|state: PopulationState<_, _>| state.population(particles).max_iters(MOVES)).run();
+    })
+}

@@ -1,0 +1,280 @@
+//! What strategies with a model have in common: the tests so far, the model of them, and the choice of a batch.
+//!
+//! Two Gaussian processes: one through the robustness, bent so that it fits (`Bend`), and, once tests ended in errors,
+//! one through 0 where a test ran and 1 where it did not, with lengths that are not fitted: the hidden constraint. Far from all
+//! errors it expects none. The model sees the few hundred tests that matter most to whoever asks, so a proposal costs the
+//! same after a thousand tests as after three hundred.
+//!
+//! The tests of a batch, and those that are still out, are believed to come out as the model expects: so a batch spreads.
+
+use super::cube::{Axis, level, middle};
+use super::fit::{fit, prior};
+use super::log_ei::normal_below;
+use super::process::{Kernel, Mean, Posterior, Process};
+use super::{Trial, normal};
+use rand::Rng;
+use std::collections::BTreeMap;
+
+/// So many tests the model sees.
+const MOST_TESTS: usize = 220;
+
+/// How many steps the first fit takes, and those after it.
+const FIRST_FIT: usize = 40;
+const LATER_FIT: usize = 8;
+
+/// What the process of errors leaves to chance.
+const ERROR_NOISE: f64 = 1e-2;
+
+/// A test that runs with less probability is not chosen where there is another: deep in a region of errors much is unknown
+/// and nothing to be learnt.
+const WORTH_TRYING: f64 = 0.25;
+
+/// Less probable than this makes no difference.
+const LEAST_PROBABLE: f64 = 1e-12;
+
+/// How many tests a batch has at most: those beyond it would be chosen by nothing but beliefs.
+const MOST_BATCH: usize = 32;
+
+/// How a robustness enters the model.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Bend {
+    /// In multiples of the spread below the median; above it only its logarithm counts: what is worst need not be known well.
+    Low { median: f64, scale: f64 },
+    /// Bent alike on both sides of 0, which stays 0.
+    Signed { scale: f64 },
+}
+
+impl Bend {
+    fn low(values: &[f64]) -> Self {
+        let median = median(values.to_vec());
+        Self::Low { median, scale: scale(values.iter().map(|value| (value - median).abs()).collect()) }
+    }
+
+    fn signed(values: &[f64]) -> Self {
+        Self::Signed { scale: scale(values.iter().map(|value| value.abs()).collect()) }
+    }
+
+    pub(super) fn apply(self, value: f64) -> f64 {
+        match self {
+            Self::Low { median, scale } => {
+                let z = (value - median) / scale;
+                if z > 0.0 { libm::log1p(z) } else { z }
+            }
+            Self::Signed { scale } => libm::asinh(value / scale),
+        }
+    }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// The median of these, or their mean where that is 0, or 1.
+fn scale(values: Vec<f64>) -> f64 {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    [median(values), mean].into_iter().find(|&scale| scale > 1e-12).unwrap_or(1.0)
+}
+
+/// Which tests matter, and how.
+pub(super) enum View<'a> {
+    /// Low values, near a place.
+    Near(&'a [f64]),
+    /// Values near 0.
+    Level,
+}
+
+/// The tests so far.
+pub(super) struct Surrogate {
+    axes: Vec<Axis>,
+    kernel: Kernel,
+    is_fitted: bool,
+    trials: Vec<Trial>,
+    /// The proposals that are out.
+    out: BTreeMap<usize, Vec<f64>>,
+    /// Places whose tests are those of other places.
+    repaired: Vec<Vec<f64>>,
+    proposals: usize,
+}
+
+impl Surrogate {
+    pub(super) fn new(axes: Vec<Axis>) -> Self {
+        let kernel = prior(&axes);
+        let (trials, out, repaired) = (Vec::new(), BTreeMap::new(), Vec::new());
+        Self { axes, kernel, is_fitted: false, trials, out, repaired, proposals: 0 }
+    }
+
+    pub(super) fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    pub(super) fn trials(&self) -> &[Trial] {
+        &self.trials
+    }
+
+    /// Along each axis how far places are alike.
+    pub(super) fn lengths(&self) -> &[f64] {
+        &self.kernel.lengths
+    }
+
+    /// Whether no proposal is out.
+    pub(super) fn is_idle(&self) -> bool {
+        self.out.is_empty()
+    }
+
+    /// The number of the next proposal.
+    pub(super) fn proposals(&self) -> usize {
+        self.proposals
+    }
+
+    pub(super) fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+        if let Some(at) = proposal.and_then(|proposal| self.out.remove(&proposal))
+            && at != trial.at
+        {
+            self.repaired.push(at);
+        }
+        if self.trials.iter().all(|known| known.at != trial.at) {
+            self.trials.push(trial.clone());
+        }
+    }
+
+    /// Whether a test there would be one that is known or out.
+    fn is_known(&self, at: &[f64]) -> bool {
+        let known = self.trials.iter().map(|trial| &trial.at).chain(self.out.values()).chain(&self.repaired);
+        known.into_iter().any(|known| known == at)
+    }
+
+    /// Counts places as proposed.
+    pub(super) fn send(&mut self, places: &[Vec<f64>]) {
+        for at in places {
+            self.out.insert(self.proposals, at.clone());
+            self.proposals += 1;
+        }
+    }
+
+    /// The candidates with the greatest worth, one after the other, at most `n`; none before two tests have come out.
+    ///
+    /// `worth` is given how the robustness was bent, the expected value, its deviation, and the probability that the test
+    /// runs.
+    pub(super) fn choose(
+        &mut self,
+        n: usize,
+        view: View,
+        candidates: Vec<Vec<f64>>,
+        worth: impl Fn(Bend, f64, f64, f64) -> f64,
+    ) -> Vec<Vec<f64>> {
+        let Some((bend, process, errors)) = self.model(view) else { return Vec::new() };
+        let out: Vec<Vec<f64>> = self.out.values().cloned().collect();
+        let believed = out.len();
+        let candidates = candidates.into_iter().filter(|at| !self.is_known(at));
+        let places: Vec<Vec<f64>> = out.into_iter().chain(candidates).collect();
+        let runs: Vec<f64> = match &errors {
+            None => vec![1.0; places.len()],
+            Some(errors) => {
+                let errors = errors.posterior(places.clone());
+                (0..errors.len()).map(|index| runs(errors.mean(index), errors.deviation(index))).collect()
+            }
+        };
+        let mut posterior = process.posterior(places);
+        (0..believed).for_each(|index| posterior.believe(index));
+        let mut chosen = Vec::new();
+        let mut open: Vec<usize> = (believed..posterior.len()).collect();
+        if open.iter().any(|&index| runs[index] >= WORTH_TRYING) {
+            open.retain(|&index| runs[index] >= WORTH_TRYING);
+        }
+        while chosen.len() < n.min(MOST_BATCH) && !open.is_empty() {
+            let value = |posterior: &Posterior, index: usize| {
+                worth(bend, posterior.mean(index), posterior.deviation(index), runs[index])
+            };
+            // Of equal worth the first.
+            let best = (0..open.len())
+                .rev()
+                .max_by(|&a, &b| value(&posterior, open[a]).total_cmp(&value(&posterior, open[b])));
+            let Some(best) = best else { break };
+            let index = open.swap_remove(best);
+            posterior.believe(index);
+            let at = posterior.place(index).to_vec();
+            open.retain(|&other| posterior.place(other) != at);
+            chosen.push(at);
+        }
+        self.send(&chosen);
+        chosen
+    }
+
+    /// The bend, the process of robustness and that of errors.
+    fn model(&mut self, view: View) -> Option<(Bend, Process, Option<Process>)> {
+        let mut ran: Vec<(&Trial, f64)> = self.trials.iter().filter_map(|t| t.robustness.map(|r| (t, r))).collect();
+        if ran.len() < 2 {
+            return None;
+        }
+        let all: Vec<f64> = ran.iter().map(|trial| trial.1).collect();
+        let mut failed: Vec<&Trial> = self.trials.iter().filter(|trial| trial.robustness.is_none()).collect();
+        let kernel = self.kernel.clone();
+        let bend = match view {
+            View::Near(at) => {
+                let distance = |trial: &Trial| kernel.scaled_distance(&trial.at, at);
+                ran.sort_by(|a, b| distance(a.0).total_cmp(&distance(b.0)));
+                failed.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+                Bend::low(&all)
+            }
+            View::Level => {
+                ran.sort_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+                Bend::signed(&all)
+            }
+        };
+        ran.truncate(MOST_TESTS);
+        failed.truncate(MOST_TESTS / 2);
+        let places: Vec<Vec<f64>> = ran.iter().map(|trial| trial.0.at.clone()).collect();
+        let values: Vec<f64> = ran.iter().map(|trial| bend.apply(trial.1)).collect();
+        let steps = if self.is_fitted { LATER_FIT } else { FIRST_FIT };
+        self.kernel = fit(&kernel, &places, &values, steps);
+        self.is_fitted = true;
+        // Without noise places that are almost one have no factor; with some they do.
+        let process = [1.0, 1e2, 1e4].into_iter().find_map(|more| {
+            let kernel = Kernel { noise: self.kernel.noise * more, ..self.kernel.clone() };
+            Process::new(kernel, places.clone(), &values, Mean::Unknown)
+        })?;
+        let errors = (!failed.is_empty()).then(|| {
+            let kernel = Kernel { noise: ERROR_NOISE, ..prior(&self.axes) };
+            let ran = places.iter().take(MOST_TESTS / 2).map(|at| (at.clone(), 0.0));
+            let (places, labels): (Vec<_>, Vec<f64>) = ran.chain(failed.iter().map(|t| (t.at.clone(), 1.0))).unzip();
+            Process::new(kernel, places, &labels, Mean::Known(0.0))
+        });
+        Some((bend, process, errors.flatten()))
+    }
+}
+
+/// The probability that a label, 0 where a test runs and 1 where it does not, is the former's side of a half.
+fn runs(mean: f64, deviation: f64) -> f64 {
+    normal_below((0.5 - mean) / deviation.max(ERROR_NOISE)).max(LEAST_PROBABLE)
+}
+
+/// The same place with its discrete coordinates in the middle of their slices.
+pub(super) fn snapped(axes: &[Axis], mut at: Vec<f64>) -> Vec<f64> {
+    for (u, axis) in at.iter_mut().zip(axes) {
+        *u = match *axis {
+            Axis::Continuous => u.clamp(0.0, 1.0_f64.next_down()),
+            Axis::Ordered(levels) | Axis::Nominal(levels) => middle(level(*u, levels), levels),
+        };
+    }
+    at
+}
+
+/// A place near another: some axes moved by normally distributed steps, now and then a word replaced.
+pub(super) fn nudged(axes: &[Axis], from: &[f64], step: f64, rng: &mut impl Rng) -> Vec<f64> {
+    let share = (3.0 / axes.len() as f64).clamp(0.3, 1.0);
+    let one = rng.random_range(0..axes.len());
+    let mut at = from.to_vec();
+    for (index, (u, axis)) in at.iter_mut().zip(axes).enumerate() {
+        if index != one && rng.random::<f64>() >= share {
+            continue;
+        }
+        *u = match *axis {
+            Axis::Continuous => *u + step * normal(rng),
+            Axis::Ordered(levels) => *u + step.max(0.7 / levels as f64) * normal(rng),
+            Axis::Nominal(_) if rng.random::<f64>() < 0.3 => rng.random(),
+            Axis::Nominal(_) => *u,
+        };
+    }
+    snapped(axes, at)
+}
