@@ -121,9 +121,9 @@ fn whatever_it_is_told_it_goes_on_inside_the_domains() {
     let spaces = spaces();
     let told = [None, Some(f64::NAN), Some(f64::INFINITY), Some(f64::NEG_INFINITY), Some(-1.0), Some(0.5)];
     for (strategy, request) in cases(&spaces) {
-        for untold in 0..3 {
+        for untold in [0, 2] {
             let mut generator = build(strategy, &request);
-            for round in 0..12 {
+            for round in 0..8 {
                 let told = [&told[..], &[None; 6], &[Some(f64::NAN); 6], &[Some(f64::INFINITY); 6]][round % 4];
                 let mut tests = generator.ask(told.len());
                 // Some are never told, and the others in another order; one is told twice, and one nobody asked for.
@@ -136,6 +136,7 @@ fn whatever_it_is_told_it_goes_on_inside_the_domains() {
             }
             let more = generator.ask(6);
             assert!(more.iter().flat_map(|test| &test.continuous).all(|u| (0.0..1.0).contains(u)));
+            // Within the budget; adaptive strategies may have been told of all rows there are.
             assert!(request.space.dims() == 0 || !more.is_empty(), "{strategy}");
         }
     }
