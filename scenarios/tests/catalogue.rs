@@ -1,8 +1,9 @@
 //! Every scenario of the catalogue: that it can be run, is the same whenever it is run, and is what its documentation says.
 
 use paracosm_coverage::{Domain, Value, Values};
+use paracosm_engine::object::{BodyState, Class};
 use paracosm_engine::vehicle::{Model, Vehicle};
-use paracosm_engine::{Metric, Outcome, Program, driver, simulate};
+use paracosm_engine::{Metric, Outcome, Program, Run, Setup, driver, simulate};
 use paracosm_oracles::Verdict;
 use paracosm_scenarios::{ALL, find};
 
@@ -129,7 +130,7 @@ fn a_cut_in_begins_at_the_gap_from_bumper_to_bumper_and_moves_across_as_fast_as_
     let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
     let clearance = signal(&outcome, "car.clearance")[0];
     let beside: f64 = 3.5 - 0.5 * (Vehicle::BMW_320I.width + 1.8);
-    assert!((clearance - beside.hypot(30.0)).abs() < 1e-9, "{clearance}");
+    assert!((clearance - (beside * beside + 30.0 * 30.0).sqrt()).abs() < 1e-9, "{clearance}");
     let y = signal(&outcome, "other.y");
     assert!((y[101] - y[1] + 1.5).abs() < 1e-9);
 }
@@ -152,4 +153,71 @@ fn the_loop_is_gone_round_on_its_way() {
         let travelled = *signal(&outcome, "car.travelled").last().unwrap();
         assert!(travelled > 1000.0, "{model}: {travelled} m");
     }
+}
+
+/// All bodies as a test begins.
+fn beginning(program: &Program, test: &Values) -> Vec<BodyState> {
+    Run::new(program, test, Setup::asking_every(0.1)).unwrap_or_else(|error| panic!("{error}")).bodies().to_vec()
+}
+
+#[test]
+fn the_city_has_as_many_cars_as_it_says_away_from_the_car_under_test() {
+    let program = find("grid-traffic").unwrap();
+    for (seed, cars) in
+        [(1, 100), (2, 100), (3, 100), (4, 100), (5, 100), (6, 100), (7, 100), (8, 100), (1, 10), (8, 30)]
+    {
+        let number = |value: i32| Value::Number(f64::from(value));
+        let test = nominal(program, &[("traffic_seed", number(seed)), ("cars", number(cars))]);
+        let bodies = beginning(program, &test);
+        assert_eq!(bodies.len(), 1 + cars as usize);
+        let near = |body: &BodyState| (body.pose.position - bodies[0].pose.position).norm();
+        assert!(bodies[1..].iter().all(|body| near(body) > 12.0));
+    }
+}
+
+#[test]
+fn on_the_highway_all_kinds_of_vehicles_are_under_way_and_the_truck_is_white() {
+    let program = find("highway-traffic").unwrap();
+    for seed in 1..=4 {
+        let test = nominal(program, &[("traffic_seed", Value::Number(f64::from(seed)))]);
+        let bodies = beginning(program, &test);
+        let (truck, others) = (&bodies[1], &bodies[2..]);
+        assert!(truck.body.class == Class::Truck && truck.body.colour.iter().all(|share| *share > 230), "{truck:?}");
+        assert!(others.len() > 30 && others.iter().all(|other| other.velocity.norm() > 9.0));
+        let length = |other: &BodyState| 2.0 * other.body.outline.half_extent().x;
+        let longer = |least: f64| others.iter().filter(|other| length(other) > least).count();
+        assert!((3..20).contains(&longer(7.0)) && longer(5.2) > longer(7.0) + 3, "lorries, and vans besides");
+        let mut sizes: Vec<u64> = others.iter().map(|other| length(other).to_bits()).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        assert_eq!(sizes.len(), others.len(), "no two are alike");
+    }
+}
+
+#[test]
+fn the_distractor_has_the_colour_of_the_leader() {
+    let program = find("oncoming-distractor").unwrap();
+    let bodies = beginning(program, &nominal(program, &[]));
+    let [red, green, blue] = bodies[1].body.colour;
+    assert!(bodies[1].body.colour == bodies[2].body.colour && red > 150 && green < 60 && blue < 60);
+}
+
+#[test]
+fn in_the_roundabout_nobody_runs_into_the_car_from_behind() {
+    let program = find("roundabout-entry").unwrap();
+    let mut within = 0;
+    for lead in [-4.0, -3.0, -2.0, -1.0] {
+        for (speed, other) in [(4.0, 9.0), (6.0, 9.0), (8.0, 9.0), (8.0, 6.0)] {
+            let changes = [("lead", lead), ("approach_speed", speed), ("other_speed", other)];
+            let changes = changes.map(|(name, value)| (name, Value::Number(value)));
+            let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+            if outcome.verdict == Verdict::Invalid {
+                continue;
+            }
+            let face = outcome.metrics.iter().find(|(metric, _)| metric == "contact_face").map(|(_, face)| face);
+            assert_ne!(face, Some(&Metric::Word(Some("rear".to_owned()))), "{changes:?}");
+            within += 1;
+        }
+    }
+    assert!(within > 8, "{within} tests are valid");
 }

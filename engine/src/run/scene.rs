@@ -90,7 +90,14 @@ impl Scene {
         let inputs = self.wiring.slots(&graph);
         for object in &mut self.objects {
             let (first, end) = object.own;
-            let tick = Tick { dt: f64::NAN, graph: &graph, inputs: &inputs, bodies: &self.bodies, own: object.own };
+            let tick = Tick {
+                dt: f64::NAN,
+                friction: f64::NAN,
+                graph: &graph,
+                inputs: &inputs,
+                bodies: &self.bodies,
+                own: object.own,
+            };
             if let Behaviour::Geometric(behaviour) = &mut object.behaviour {
                 self.velocities.clear();
                 self.velocities.resize(end - first, Vector2::zeros());
@@ -142,7 +149,7 @@ impl Scene {
         self.pushes.clear();
         for object in &mut self.objects {
             let (first, end) = object.own;
-            let tick = Tick { dt, graph, inputs: &self.inputs, bodies: &self.bodies, own: object.own };
+            let tick = Tick { dt, friction, graph, inputs: &self.inputs, bodies: &self.bodies, own: object.own };
             match &mut object.behaviour {
                 Behaviour::Geometric(behaviour) => {
                     behaviour.step(&tick)?;
