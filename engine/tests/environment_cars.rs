@@ -169,7 +169,7 @@ fn city<const SEED: u64>(s: &mut Scenario) {
     let streets = s.place(grid_city(3, 3, 80.0, 2).build().unwrap());
     let start = streets.on_lane("street 1,0 east", 1, 10.0);
     s.place(AutonomousVehicle::at(start));
-    let fleet = s.place(EnvironmentCars::scattered(&streets, 20, SEED).away_from(start.position, 30.0));
+    let fleet = s.place(EnvironmentCars::scattered(&streets, 20, SEED).away_from(start.position, 80.0));
     assert_eq!(fleet.count(), 20, "those that would be too near start elsewhere");
 }
 
@@ -182,7 +182,6 @@ fn chance_is_the_seed_s() {
     let once = places(city::<1>);
     assert_eq!(once, places(city::<1>));
     assert_ne!(once[0], places(city::<2>)[0]);
-    assert!(once[0].iter().all(|pose| (pose.position - once[0][0].position).norm() < 300.0));
 }
 
 #[test]

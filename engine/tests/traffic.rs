@@ -747,6 +747,25 @@ fn a_given_speed_is_kept_unless_something_is_in_the_way() {
 }
 
 #[test]
+fn who_is_given_a_speed_at_a_stroke_still_stops_before_an_intersection_that_others_have_claimed() {
+    let net = tee();
+    let across = route(&net, place(&net, "west", -1, 60.0), place(&net, "east", 1, 95.0));
+    let from_side = route(&net, place(&net, "south", -1, 30.0), place(&net, "west", 1, 95.0));
+    for wait in 0..16 {
+        let cars = [&across, &from_side].map(|route| TrafficCar::following(route).desired_speed(8.0));
+        let mut traffic = Traffic::new(net.clone(), vec![cars[0].clone().moving(), cars[1].clone()], 0).unwrap();
+        // It creeps up to within 20 m of the line, and is off.
+        let off = 2.0 + 0.5 * f64::from(wait);
+        for tick in 0..ticks(30.0) {
+            traffic.set_speed(1, Some(if (tick as f64) * DT < off { 2.0 } else { 15.0 }));
+            traffic.step(DT, &[]);
+            assert_eq!(collision(&traffic), None, "off after {off} s");
+        }
+        assert!(traffic.cars().all(|car| car.travelled > 80.0));
+    }
+}
+
+#[test]
 fn where_the_network_ends_cars_leave_it() {
     let net = road(100.0);
     let cars = [20.0, 60.0].map(|s| TrafficCar::at(place(&net, "road", 1, s)));

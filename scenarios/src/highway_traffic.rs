@@ -4,10 +4,10 @@
 //! Cars, vans and lorries of different sizes and tempers drive both ways beside the car; who can changes lanes, also to
 //! that of the car. Lorries keep to the middle lanes, which lead straight on.
 
-use paracosm_engine::object::{Body, Colour};
+use paracosm_engine::object::Colour;
 use paracosm_engine::road::{CrossIntersection, Network, RoadSegment};
 use paracosm_engine::traffic::TrafficCar;
-use paracosm_engine::{AutonomousVehicle, Environment, EnvironmentCars, Monitor, Mover, Program, Scenario, Stream};
+use paracosm_engine::{AutonomousVehicle, Environment, EnvironmentCars, Monitor, Program, Scenario, Stream};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -44,11 +44,11 @@ fn highway_traffic(s: &mut Scenario) {
     s.place(Environment::new().light(light).fog(fog));
     let way = streets.way(("west", -1, 240.0), ("east", 1, 140.0));
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
-    // From the left of the car, which drives east, to its right.
-    let crossing = streets.way(("north", -1, 60.0), ("south", 1, 140.0));
-    let start = s.time().at_least(delay);
-    let truck = Mover::new("truck", Body::truck().coloured(WHITE), crossing);
-    s.place(truck.speed(Stream::from(truck_speed).skip_until(&start)));
+    // From the left of the car, which drives east, to its right. It minds the traffic, but not the car.
+    let [from, to] =
+        [("north", -1, 25.0), ("south", 1, 140.0)].map(|(road, lane, at)| streets.place_on(road, lane, at));
+    let crossing = from.zip(to).and_then(|(from, to)| ROADS.route(from, to, 0.0)).expect("the roads are longer");
+    let truck = TrafficCar::following(&crossing).size(10.0, 2.5).heedless().coloured(WHITE);
     let seed = seed.value() as u64;
     let places = TRAFFIC.into_iter().flat_map(|(road, count)| {
         [-3, -2, 2, 3].into_iter().flat_map(move |lane| (0..count).map(move |i| (road, lane, i)))
@@ -63,7 +63,10 @@ fn highway_traffic(s: &mut Scenario) {
         };
         Some(car.varied(100 * seed + index as u64).moving())
     });
-    s.place(EnvironmentCars::on(&streets, cars.collect()).seed(seed));
+    let all = [truck].into_iter().chain(cars).collect();
+    let fleet = s.place(EnvironmentCars::on(&streets, all).seed(seed));
+    let start = s.time().at_least(delay);
+    fleet.drive(0, Stream::from(truck_speed).skip_until(&start).hold(0.0));
 
     s.duration(25.0);
     s.monitor(Monitor::no_collision(&car));

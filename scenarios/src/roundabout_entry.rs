@@ -50,7 +50,7 @@ fn roundabout_entry(s: &mut Scenario) {
     let other = TrafficCar::following(&ROUNDABOUT.rest_of(&other, start));
     s.place(EnvironmentCars::on(&streets, vec![other])).drive(0, other_speed);
 
-    s.duration(25.0);
+    s.duration(45.0);
     s.monitor(Monitor::no_collision(&car));
     s.monitor(Monitor::right_of_way(&car, 0.5));
     s.monitor(Monitor::route_completion(&car, 60.0));

@@ -3,7 +3,7 @@
 use paracosm_coverage::{Domain, Value, Values};
 use paracosm_engine::object::{BodyState, Class};
 use paracosm_engine::vehicle::{Model, Vehicle};
-use paracosm_engine::{Metric, Outcome, Program, Run, Setup, driver, simulate};
+use paracosm_engine::{Metric, Outcome, Program, Run, Setup, driver, simulate, watch};
 use paracosm_oracles::Verdict;
 use paracosm_scenarios::{ALL, find};
 
@@ -203,6 +203,30 @@ fn the_distractor_has_the_colour_of_the_leader() {
 }
 
 #[test]
+fn in_the_roundabout_the_other_car_keeps_its_speed_where_nobody_is_in_its_way() {
+    let program = find("roundabout-entry").unwrap();
+    for (lead, other) in [(4.0, 6.0), (3.0, 9.0), (2.5, 3.0)] {
+        let test = nominal(program, &[("lead", Value::Number(lead)), ("other_speed", Value::Number(other))]);
+        let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
+        let mut seen = 0;
+        let _ = watch(program, &test, Model::SingleTrack, driver.as_mut(), |run| {
+            let body = run.bodies()[1];
+            // Until both would be there, 60 m after 8 m/s.
+            if run.time() < 7.5 - lead {
+                assert!(
+                    (body.velocity.norm() - other).abs() < 0.02,
+                    "{} m/s after {} s",
+                    body.velocity.norm(),
+                    run.time()
+                );
+                seen += 1;
+            }
+        });
+        assert!(seen > 30, "{seen} looks");
+    }
+}
+
+#[test]
 fn in_the_roundabout_nobody_runs_into_the_car_from_behind() {
     let program = find("roundabout-entry").unwrap();
     let mut within = 0;
@@ -220,4 +244,36 @@ fn in_the_roundabout_nobody_runs_into_the_car_from_behind() {
         }
     }
     assert!(within > 8, "{within} tests are valid");
+}
+
+/// Whether some of many points of a body are within another.
+fn overlap(one: &BodyState, other: &BodyState) -> bool {
+    let (half, room) = (one.body.outline.half_extent(), other.body.outline.half_extent());
+    let shares = || (-4..=4).map(|share| f64::from(share) / 4.0);
+    let points = shares().flat_map(|x| shares().map(move |y| (x * half.x, y * half.y)));
+    let mut points = points.map(|(x, y)| one.pose.position + one.pose.forward() * x + one.pose.left() * y);
+    points.any(|point| {
+        let local = other.pose.to_local(point);
+        local.x.abs() < room.x && local.y.abs() < room.y
+    })
+}
+
+#[test]
+fn on_the_highway_the_truck_drives_through_nobody() {
+    let program = find("highway-traffic").unwrap();
+    let mut crossed = 0;
+    for (seed, delay, speed) in [(1, 0.0, 15.0), (1, 9.0, 9.0), (2, 6.0, 15.0), (3, 6.0, 12.0), (4, 3.0, 15.0)] {
+        let changes = [("traffic_seed", f64::from(seed)), ("truck_delay", delay), ("truck_speed", speed)];
+        let test = nominal(program, &changes.map(|(name, value)| (name, Value::Number(value))));
+        let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
+        let mut y = f64::INFINITY;
+        let _ = watch(program, &test, Model::SingleTrack, driver.as_mut(), |run| {
+            let (truck, others) = (&run.bodies()[1], &run.bodies()[2..]);
+            let through = others.iter().find(|other| other.present && overlap(truck, other));
+            assert_eq!(through, None, "after {} s of {changes:?}", run.time());
+            y = truck.pose.position.y;
+        });
+        crossed += i32::from(y < -20.0);
+    }
+    assert!(crossed >= 3, "{crossed} trucks cross in time");
 }

@@ -103,10 +103,12 @@ impl Place for EnvironmentCars {
         let mut fleet = Fleet { name, count, sound: false, wiring, problems, told: told.clone() };
         // A network that cannot be built has been reported.
         let Some(network) = self.streets.network() else { return fleet };
+        let colours: Vec<_> = self.cars.iter().map(|car| car.colour).collect();
         match Traffic::new(network.clone(), self.cars, self.seed) {
             Ok(traffic) => {
-                for car in traffic.cars() {
-                    draft.body(body(&car), car.pose);
+                for (car, colour) in traffic.cars().zip(colours) {
+                    let body = body(&car);
+                    draft.body(body.coloured(colour.unwrap_or(body.colour)), car.pose);
                 }
                 draft.geometric(Driving { traffic, obstacles: Vec::new(), told });
                 fleet.sound = true;

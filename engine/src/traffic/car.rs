@@ -3,6 +3,7 @@
 use super::error::TrafficError;
 use super::idm::Idm;
 use super::map::Map;
+use crate::object::Colour;
 use crate::road::{LaneId, LaneKind, Network, Place, Route};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -29,6 +30,7 @@ pub struct TrafficCar {
     pub(super) offset: f64,
     pub(super) changes_lanes: bool,
     pub(super) heedless: bool,
+    pub(crate) colour: Option<Colour>,
 }
 
 /// Where a car drives to.
@@ -54,6 +56,7 @@ impl TrafficCar {
             offset: 0.0,
             changes_lanes: false,
             heedless: false,
+            colour: None,
         }
     }
 
@@ -126,6 +129,12 @@ impl TrafficCar {
     /// It takes no notice of what is no part of the traffic.
     pub fn heedless(mut self) -> Self {
         self.heedless = true;
+        self
+    }
+
+    /// The colour that it has, as an object of a scenario, instead of the usual one.
+    pub fn coloured(mut self, colour: Colour) -> Self {
+        self.colour = Some(colour);
         self
     }
 

@@ -329,7 +329,7 @@ impl View<'_> {
                         let gap = self.joining_gap(base + length - car.half, rival, rear);
                         gap > 0.0 && car.idm.following(car.speed, car.desired, gap, speed) > -car.deceleration()
                     } else {
-                        let arrival = time(base + rival.from - car.half, car.speed, car.idm.acceleration);
+                        let arrival = time(base + rival.from - car.half, car.soon(), car.idm.acceleration);
                         let way = rival.other.1 - rear;
                         let pace = self.cars[other].desired.min(self.map.speed(rival.lane) * car.grip).max(1.0);
                         claim.sure && arrival > time(way, speed, TRUSTED.min(car.braking)).max(way / pace)

@@ -203,6 +203,7 @@ impl Traffic {
             "car {index} is to drive at {speed:?} m/s"
         );
         self.cars[index].given = speed;
+        self.cars[index].extend_path(&self.map);
     }
 
     /// Lets a car go at this speed in m/s right away: for the beginning.

@@ -132,14 +132,22 @@ impl Car {
         self.idm.deceleration.min(self.braking)
     }
 
+    /// The greatest speed in m/s that it may have after the next step, but for some acceleration: who is given one does
+    /// not come to it little by little.
+    pub fn soon(&self) -> f64 {
+        self.given.unwrap_or(0.0).max(self.speed)
+    }
+
     /// How far ahead it looks, in metres.
     pub fn horizon(&self) -> f64 {
-        self.half + 30.0 + self.speed * (2.0 + 0.6 * self.speed / self.deceleration())
+        let speed = self.soon();
+        self.half + 30.0 + speed * (2.0 + 0.6 * speed / self.deceleration())
     }
 
     /// How far from a line it asks for leave to pass it, so that it need not brake where it gets it at once.
     pub fn asking_distance(&self) -> f64 {
-        5.0 + self.speed * (1.0 + 0.5 * self.speed / self.deceleration())
+        let speed = self.soon();
+        5.0 + speed * (1.0 + 0.5 * speed / self.deceleration())
     }
 
     /// Adds lanes to the path up to the horizon.
