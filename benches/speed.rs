@@ -40,6 +40,34 @@ fn tests(bencher: Bencher, driver: &str) {
     });
 }
 
+/// The same with the car of joints, that the physics moves.
+#[divan::bench(sample_count = 20)]
+fn jointed_tests(bencher: Bencher) {
+    const TESTS: usize = 20;
+    let study = Study::of("pedestrian-crossing").unwrap();
+    let program = study.program().unwrap();
+    let points = study.generator().unwrap().ask(TESTS);
+    let tests: Vec<_> = points.iter().map(|point| study.complete(&study.space.decode(point))).collect();
+    let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
+    bencher.counter(ItemsCount::new(TESTS)).bench_local(|| {
+        for test in &tests {
+            black_box(simulate(&program, test, Model::Jointed, driver.as_mut()).trace.map(|trace| trace.hash()));
+        }
+    });
+}
+
+/// Simulated seconds of `grid-traffic`: a car under test on its way among a hundred.
+#[divan::bench(sample_count = 20)]
+fn grid_traffic(bencher: Bencher) {
+    let study = Study::of("grid-traffic").unwrap();
+    let program = study.program().unwrap();
+    let test = program.declare().unwrap().nominal();
+    let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
+    let mut run = || simulate(&program, &test, Model::SingleTrack, driver.as_mut()).trace.map(|trace| trace.len());
+    let seconds = run().unwrap() as f64 * 0.02;
+    bencher.counter(ItemsCount::new(seconds as usize)).bench_local(run);
+}
+
 /// Cut-ins of UN R157 in the plain kinematic world, each with a reference driver.
 #[divan::bench(args = reference::ALL.map(|(name, _)| name), sample_count = 20)]
 fn cut_ins(bencher: Bencher, driver: &str) {

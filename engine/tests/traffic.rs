@@ -238,6 +238,57 @@ fn they_do_with_bicycles_and_vans_among_them() {
 }
 
 #[test]
+fn they_do_on_slippery_roads() {
+    let net = grid_city(5, 5, 80.0, 4).build().unwrap();
+    for friction in [0.2, 0.4] {
+        let mut traffic = scattered(&net, 100, 10, |_, car| car.changing_lanes());
+        traffic.set_friction(friction);
+        let way = drive_on(&mut traffic, 300.0, 60.0);
+        assert!(way > 1500.0, "{way} m a car in 5 minutes with a friction of {friction}");
+    }
+}
+
+#[test]
+fn who_begins_fast_on_a_slippery_road_claims_the_intersection_that_it_cannot_stop_before() {
+    let net = tee();
+    // With 14 m/s and 2 m/s² one stops in 50 m: the car on the side road does, the one on the main road need not.
+    let across = route(&net, place(&net, "west", -1, 60.0), place(&net, "east", 1, 95.0));
+    let from_side = route(&net, place(&net, "south", -1, 20.0), place(&net, "west", 1, 95.0));
+    let start = |route| TrafficCar::following(route).desired_speed(14.0).moving();
+    let mut traffic = Traffic::new(net.clone(), vec![start(&across), start(&from_side)], 0).unwrap();
+    traffic.set_friction(0.2);
+    for _ in 0..ticks(60.0) {
+        traffic.step(DT, &[]);
+        assert_eq!(collision(&traffic), None);
+        assert!(traffic.cars().all(|car| car.acceleration > -0.2 * 9.80665 - 1e-6));
+    }
+    assert!(traffic.cars().all(|car| car.travelled > 100.0));
+}
+
+#[test]
+fn the_rest_of_a_way_ends_where_it_does_and_is_shorter_by_what_was_left_out() {
+    let net = grid_city(3, 3, 80.0, 4).build().unwrap();
+    let way = route(&net, place(&net, "street 1,0 east", 1, 10.0), place(&net, "street 0,1 south", 2, 50.0));
+    assert!(way.lanes.len() > 2);
+    let length = |way: &Route| {
+        let beside = |pair: &[_]| net.lane(pair[0]).beside().any(|lane| lane == pair[1]);
+        let left: f64 = way.lanes.windows(2).filter(|pair| !beside(pair)).map(|pair| net.lane(pair[0]).length()).sum();
+        left + way.end - way.start
+    };
+    for metres in [0.0, 1.0, 30.0, 75.0, 90.0, 100.0, way.length - 0.5] {
+        let rest = net.rest_of(&way, metres);
+        assert!(
+            (rest.length - (way.length - metres)).abs() < 1e-9 && (length(&rest) - rest.length).abs() < 0.5,
+            "{rest:?}"
+        );
+        assert!(way.lanes.ends_with(&rest.lanes) && rest.end == way.end);
+        assert!((0.0..=net.lane(rest.lanes[0]).length()).contains(&rest.start));
+    }
+    let end = net.rest_of(&way, 1e9);
+    assert_eq!((end.lanes.len(), end.start, end.length), (1, way.end, 0.0));
+}
+
+#[test]
 fn t_intersections_alone_come_to_no_standstill() {
     // Two rows: corners and T-intersections only.
     let net = grid_city(2, 8, 60.0, 2).build().unwrap();
@@ -259,12 +310,13 @@ proptest! {
     #[test]
     fn no_two_cars_ever_touch(
         rows in 2..5_usize, columns in 2..5_usize, block in 30.0..120.0, both_ways in 1..4, share in 0.05..0.4,
-        seed in 0..1000_u64, changing: bool,
+        friction in 0.2..0.8, seed in 0..1000_u64, changing: bool,
     ) {
         let net = grid_city(rows, columns, block, 2 * both_ways).build().unwrap();
         let most = TrafficCar::scattered(&net, usize::MAX, seed).len();
         let count = (share * most as f64) as usize;
         let mut traffic = scattered(&net, count, seed, |_, car| if changing { car.changing_lanes() } else { car });
+        traffic.set_friction(friction);
         for tick in 0..ticks(60.0) {
             traffic.step(DT, &[]);
             if tick % 5 == 0 {
@@ -283,7 +335,7 @@ proptest! {
             (0.3..4.0, 0.5..5.0, 0.1..3.0, 0.6..5.0, 1.0..8.0, 2.0..12.0, 5.0..40.0), 6,
         ),
         leader in prop::collection::vec(0.0..35.0_f64, 6),
-        dt in 0.01..0.1_f64,
+        friction in 0.05..1.0_f64, dt in 0.01..0.1_f64,
     ) {
         let net = RoadSegment::new(20_000.0).named("road").build().unwrap();
         let cars = drivers.iter().enumerate().map(|(i, &(acceleration, deceleration, headway, gap, exponent, length, desired))| {
@@ -291,16 +343,20 @@ proptest! {
             TrafficCar::at(place(&net, "road", 1, 500.0 - 15.0 * i as f64)).idm(idm).size(length, 1.8).desired_speed(desired)
         });
         let mut traffic = Traffic::new(net.clone(), cars.collect(), 0).unwrap();
+        traffic.set_friction(friction);
+        let braking = (9.80665 * friction).min(8.0);
         for wanted in leader {
             for _ in 0..(10.0 / dt) as usize {
-                // The leader does what a car can: 3 m/s² up, 8 m/s² down.
+                // The leader does what a car can: 3 m/s² up, 8 m/s² down, or what the road gives.
                 let now = traffic.car(0).speed;
-                traffic.set_speed(0, Some(wanted.clamp((now - 8.0 * dt).max(0.0), now + 3.0 * dt)));
+                traffic.set_speed(0, Some(wanted.clamp((now - braking * dt).max(0.0), now + 3.0 * dt)));
                 traffic.step(dt, &[]);
                 let cars: Vec<CarState> = traffic.cars().collect();
                 for pair in cars.windows(2) {
                     let gap = pair[0].s - pair[1].s - 0.5 * (pair[0].length + pair[1].length);
                     prop_assert!(gap > 0.0, "{} m", gap);
+                    let least = pair[1].acceleration;
+                    prop_assert!(least > -braking - 1e-6, "{} m/s² with a friction of {}", least, friction);
                 }
             }
         }
@@ -688,6 +744,25 @@ fn a_given_speed_is_kept_unless_something_is_in_the_way() {
     traffic.set_desired_speed(0, 10.0);
     run(&mut traffic, 20.0, &[]);
     assert!((traffic.car(0).speed - 10.0).abs() < 0.5 && traffic.car(1).speed > 8.0);
+}
+
+#[test]
+fn who_is_given_a_speed_at_a_stroke_still_stops_before_an_intersection_that_others_have_claimed() {
+    let net = tee();
+    let across = route(&net, place(&net, "west", -1, 60.0), place(&net, "east", 1, 95.0));
+    let from_side = route(&net, place(&net, "south", -1, 30.0), place(&net, "west", 1, 95.0));
+    for wait in 0..16 {
+        let cars = [&across, &from_side].map(|route| TrafficCar::following(route).desired_speed(8.0));
+        let mut traffic = Traffic::new(net.clone(), vec![cars[0].clone().moving(), cars[1].clone()], 0).unwrap();
+        // It creeps up to within 20 m of the line, and is off.
+        let off = 2.0 + 0.5 * f64::from(wait);
+        for tick in 0..ticks(30.0) {
+            traffic.set_speed(1, Some(if (tick as f64) * DT < off { 2.0 } else { 15.0 }));
+            traffic.step(DT, &[]);
+            assert_eq!(collision(&traffic), None, "off after {off} s");
+        }
+        assert!(traffic.cars().all(|car| car.travelled > 80.0));
+    }
 }
 
 #[test]

@@ -1,9 +1,13 @@
 //! The road of the paper's section 4.2.1: six lanes with all kinds of traffic, and a crossing on which a white truck passes
 //! from left to right while the car comes along the innermost lane.
+//!
+//! Cars, vans and lorries of different sizes and tempers drive both ways beside the car; who can changes lanes, also to
+//! that of the car. Lorries keep to the middle lanes, which lead straight on.
 
+use paracosm_engine::object::Colour;
 use paracosm_engine::road::{CrossIntersection, Network, RoadSegment};
 use paracosm_engine::traffic::TrafficCar;
-use paracosm_engine::{AutonomousVehicle, Environment, EnvironmentCars, Monitor, Mover, Program, Scenario, Stream};
+use paracosm_engine::{AutonomousVehicle, Environment, EnvironmentCars, Monitor, Program, Scenario, Stream};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -11,6 +15,10 @@ pub(crate) const PROGRAM: Program = Program {
     about: "six lanes of traffic, and a truck that crosses them",
     build: highway_traffic,
 };
+
+const WHITE: Colour = [245, 245, 245];
+/// The roads with traffic, and the cars on each of their lanes: 40 m apart.
+const TRAFFIC: [(&str, i32); 2] = [("west", 6), ("east", 3)];
 
 static ROADS: LazyLock<Arc<Network>> = LazyLock::new(|| {
     let arm = |name: &str, length: f64| RoadSegment::new(length).lanes(6).named(name);
@@ -36,14 +44,29 @@ fn highway_traffic(s: &mut Scenario) {
     s.place(Environment::new().light(light).fog(fog));
     let way = streets.way(("west", -1, 240.0), ("east", 1, 140.0));
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
-    // From the left of the car, which drives east, to its right.
-    let crossing = streets.way(("north", -1, 60.0), ("south", 1, 140.0));
+    // From the left of the car, which drives east, to its right. It minds the traffic, but not the car.
+    let [from, to] =
+        [("north", -1, 25.0), ("south", 1, 140.0)].map(|(road, lane, at)| streets.place_on(road, lane, at));
+    let crossing = from.zip(to).and_then(|(from, to)| ROADS.route(from, to, 0.0)).expect("the roads are longer");
+    let truck = TrafficCar::following(&crossing).size(10.0, 2.5).heedless().coloured(WHITE);
+    let seed = seed.value() as u64;
+    let places = TRAFFIC.into_iter().flat_map(|(road, count)| {
+        [-3, -2, 2, 3].into_iter().flat_map(move |lane| (0..count).map(move |i| (road, lane, i)))
+    });
+    let cars = places.enumerate().filter_map(|(index, (road, lane, i))| {
+        let at = 30.0 + 40.0 * f64::from(i) + if lane % 2 == 0 { 0.0 } else { 15.0 };
+        let start = streets.place_on(road, lane, at)?;
+        let car = match (index as u64 + seed) % 3 {
+            0 if lane % 2 == 0 => TrafficCar::lorry(start),
+            0 => TrafficCar::van(start).changing_lanes(),
+            _ => TrafficCar::at(start).changing_lanes(),
+        };
+        Some(car.varied(100 * seed + index as u64).moving())
+    });
+    let all = [truck].into_iter().chain(cars).collect();
+    let fleet = s.place(EnvironmentCars::on(&streets, all).seed(seed));
     let start = Stream::time().at_least(delay);
-    s.place(Mover::truck(crossing).speed(Stream::from(truck_speed).skip_until(&start)));
-    let lanes = [-3, -2, 2, 3].into_iter().zip([40.0, 75.0, 110.0, 145.0]);
-    let cars = ["west", "east"].into_iter().flat_map(|road| lanes.clone().map(move |(lane, at)| (road, lane, at)));
-    let cars = cars.filter_map(|(road, lane, at)| streets.place_on(road, lane, at)).map(TrafficCar::at);
-    s.place(EnvironmentCars::on(&streets, cars.collect()).seed(seed.value() as u64));
+    fleet.drive(0, Stream::from(truck_speed).skip_until(&start).hold(0.0));
 
     s.duration(25.0);
     s.monitor(Monitor::no_collision(&car));

@@ -1,6 +1,7 @@
 //! The car follows a leader of constant speed while another car, of the same colour, comes the other way: a driver that
 //! follows what it sees must not take the one for the other (section 4.2.2 of the paper).
 
+use paracosm_engine::object::{Body, Colour};
 use paracosm_engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -8,6 +9,8 @@ pub(crate) const PROGRAM: Program = Program {
     about: "the car follows a leader while another car comes the other way",
     build: oncoming_distractor,
 };
+
+const RED: Colour = [190, 25, 30];
 
 fn oncoming_distractor(s: &mut Scenario) {
     let distance = s.interval("distance", 40.0..=200.0).unit("m").default(120.0);
@@ -21,8 +24,9 @@ fn oncoming_distractor(s: &mut Scenario) {
     s.place(Environment::new().light(light).fog(fog));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(10.0));
     let leader = 10.0 + crate::middles(gap.value());
-    s.place(Mover::car(road.path(1)).named("leader").starting(leader).speed(leader_speed));
-    let oncoming = Mover::car(road.path(-1)).named("oncoming");
+    let red = Body::car().coloured(RED);
+    s.place(Mover::new("leader", red, road.path(1)).starting(leader).speed(leader_speed));
+    let oncoming = Mover::new("oncoming", red, road.path(-1));
     s.place(oncoming.starting(500.0 - 10.0 - distance.value()).speed(oncoming_speed));
 
     s.duration(15.0);

@@ -1,10 +1,11 @@
 //! The car comes to a roundabout while another one is in it: it has to let that one pass, or be well ahead of it.
 //!
 //! The other car goes round from the arm at the left to the arm opposite, past the entry of the car under test. `lead` is
-//! by how many seconds it would be there before the car if neither changed its speed.
+//! by how many seconds it would be there before the car if neither changed its speed; it slows down only for who is in its way.
 
 use paracosm_engine::road::{Network, RoadSegment, Roundabout};
-use paracosm_engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, Scenario};
+use paracosm_engine::traffic::TrafficCar;
+use paracosm_engine::{AutonomousVehicle, Environment, EnvironmentCars, Monitor, Program, Scenario};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -36,7 +37,9 @@ fn roundabout_entry(s: &mut Scenario) {
     // Roads lead away from the roundabout, so that lane -1 leads to it. Both cars reach the ring after 60 m.
     let way = streets.way(("south", -1, 60.0), ("north", 1, 100.0));
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
-    let other = streets.way(("west", -1, 110.0), ("north", 1, 100.0));
+    let from = streets.place_on("west", -1, 110.0).expect("the road is longer");
+    let to = streets.place_on("north", 1, 100.0).expect("the road is longer");
+    let other = ROUNDABOUT.route(from, to, 0.0).expect("the ring leads there");
     // From the entry of the other car to that of the car under test it is a quarter of the ring.
     let meeting = 110.0 + 20.0;
     let time = 60.0 / speed.value();
@@ -44,9 +47,10 @@ fn roundabout_entry(s: &mut Scenario) {
     if start < 0.0 {
         s.refuse("the other car would have to start before the beginning of its road");
     }
-    s.place(Mover::car(other).starting(start.max(0.0)).speed(other_speed));
+    let other = TrafficCar::following(&ROUNDABOUT.rest_of(&other, start));
+    s.place(EnvironmentCars::on(&streets, vec![other])).drive(0, other_speed);
 
-    s.duration(25.0);
+    s.duration(45.0);
     s.monitor(Monitor::no_collision(&car));
     s.monitor(Monitor::right_of_way(&car, 0.5));
     s.monitor(Monitor::route_completion(&car, 60.0));

@@ -1,8 +1,9 @@
 //! Every scenario of the catalogue: that it can be run, is the same whenever it is run, and is what its documentation says.
 
 use paracosm_coverage::{Domain, Value, Values};
+use paracosm_engine::object::{BodyState, Class};
 use paracosm_engine::vehicle::{Model, Vehicle};
-use paracosm_engine::{Metric, Outcome, Program, Run, Setup, Step, driver, simulate};
+use paracosm_engine::{Metric, Outcome, Program, Run, Setup, Step, driver, simulate, watch};
 use paracosm_oracles::Verdict;
 use paracosm_scenarios::{ALL, find};
 
@@ -232,4 +233,127 @@ fn the_loop_is_gone_round_on_its_way() {
         let travelled = *signal(&outcome, "car.travelled").last().unwrap();
         assert!(travelled > 1000.0, "{model}: {travelled} m");
     }
+}
+
+/// All bodies as a test begins.
+fn beginning(program: &Program, test: &Values) -> Vec<BodyState> {
+    Run::new(program, test, Setup::asking_every(0.1)).unwrap_or_else(|error| panic!("{error}")).bodies().to_vec()
+}
+
+#[test]
+fn the_city_has_as_many_cars_as_it_says_away_from_the_car_under_test() {
+    let program = find("grid-traffic").unwrap();
+    for (seed, cars) in
+        [(1, 100), (2, 100), (3, 100), (4, 100), (5, 100), (6, 100), (7, 100), (8, 100), (1, 10), (8, 30)]
+    {
+        let number = |value: i32| Value::Number(f64::from(value));
+        let test = nominal(program, &[("traffic_seed", number(seed)), ("cars", number(cars))]);
+        let bodies = beginning(program, &test);
+        assert_eq!(bodies.len(), 1 + cars as usize);
+        let near = |body: &BodyState| (body.pose.position - bodies[0].pose.position).norm();
+        assert!(bodies[1..].iter().all(|body| near(body) > 12.0));
+    }
+}
+
+#[test]
+fn on_the_highway_all_kinds_of_vehicles_are_under_way_and_the_truck_is_white() {
+    let program = find("highway-traffic").unwrap();
+    for seed in 1..=4 {
+        let test = nominal(program, &[("traffic_seed", Value::Number(f64::from(seed)))]);
+        let bodies = beginning(program, &test);
+        let (truck, others) = (&bodies[1], &bodies[2..]);
+        assert!(truck.body.class == Class::Truck && truck.body.colour.iter().all(|share| *share > 230), "{truck:?}");
+        assert!(others.len() > 30 && others.iter().all(|other| other.velocity.norm() > 9.0));
+        let length = |other: &BodyState| 2.0 * other.body.outline.half_extent().x;
+        let longer = |least: f64| others.iter().filter(|other| length(other) > least).count();
+        assert!((3..20).contains(&longer(7.0)) && longer(5.2) > longer(7.0) + 3, "lorries, and vans besides");
+        let mut sizes: Vec<u64> = others.iter().map(|other| length(other).to_bits()).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        assert_eq!(sizes.len(), others.len(), "no two are alike");
+    }
+}
+
+#[test]
+fn the_distractor_has_the_colour_of_the_leader() {
+    let program = find("oncoming-distractor").unwrap();
+    let bodies = beginning(program, &nominal(program, &[]));
+    let [red, green, blue] = bodies[1].body.colour;
+    assert!(bodies[1].body.colour == bodies[2].body.colour && red > 150 && green < 60 && blue < 60);
+}
+
+#[test]
+fn in_the_roundabout_the_other_car_keeps_its_speed_where_nobody_is_in_its_way() {
+    let program = find("roundabout-entry").unwrap();
+    for (lead, other) in [(4.0, 6.0), (3.0, 9.0), (2.5, 3.0)] {
+        let test = nominal(program, &[("lead", Value::Number(lead)), ("other_speed", Value::Number(other))]);
+        let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
+        let mut seen = 0;
+        let _ = watch(program, &test, Model::SingleTrack, driver.as_mut(), |run| {
+            let body = run.bodies()[1];
+            // Until both would be there, 60 m after 8 m/s.
+            if run.time() < 7.5 - lead {
+                assert!(
+                    (body.velocity.norm() - other).abs() < 0.02,
+                    "{} m/s after {} s",
+                    body.velocity.norm(),
+                    run.time()
+                );
+                seen += 1;
+            }
+        });
+        assert!(seen > 30, "{seen} looks");
+    }
+}
+
+#[test]
+fn in_the_roundabout_nobody_runs_into_the_car_from_behind() {
+    let program = find("roundabout-entry").unwrap();
+    let mut within = 0;
+    for lead in [-4.0, -3.0, -2.0, -1.0] {
+        for (speed, other) in [(4.0, 9.0), (6.0, 9.0), (8.0, 9.0), (8.0, 6.0)] {
+            let changes = [("lead", lead), ("approach_speed", speed), ("other_speed", other)];
+            let changes = changes.map(|(name, value)| (name, Value::Number(value)));
+            let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+            if outcome.verdict == Verdict::Invalid {
+                continue;
+            }
+            let face = outcome.metrics.iter().find(|(metric, _)| metric == "contact_face").map(|(_, face)| face);
+            assert_ne!(face, Some(&Metric::Word(Some("rear".to_owned()))), "{changes:?}");
+            within += 1;
+        }
+    }
+    assert!(within > 8, "{within} tests are valid");
+}
+
+/// Whether some of many points of a body are within another.
+fn overlap(one: &BodyState, other: &BodyState) -> bool {
+    let (half, room) = (one.body.outline.half_extent(), other.body.outline.half_extent());
+    let shares = || (-4..=4).map(|share| f64::from(share) / 4.0);
+    let points = shares().flat_map(|x| shares().map(move |y| (x * half.x, y * half.y)));
+    let mut points = points.map(|(x, y)| one.pose.position + one.pose.forward() * x + one.pose.left() * y);
+    points.any(|point| {
+        let local = other.pose.to_local(point);
+        local.x.abs() < room.x && local.y.abs() < room.y
+    })
+}
+
+#[test]
+fn on_the_highway_the_truck_drives_through_nobody() {
+    let program = find("highway-traffic").unwrap();
+    let mut crossed = 0;
+    for (seed, delay, speed) in [(1, 0.0, 15.0), (1, 9.0, 9.0), (2, 6.0, 15.0), (3, 6.0, 12.0), (4, 3.0, 15.0)] {
+        let changes = [("traffic_seed", f64::from(seed)), ("truck_delay", delay), ("truck_speed", speed)];
+        let test = nominal(program, &changes.map(|(name, value)| (name, Value::Number(value))));
+        let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
+        let mut y = f64::INFINITY;
+        let _ = watch(program, &test, Model::SingleTrack, driver.as_mut(), |run| {
+            let (truck, others) = (&run.bodies()[1], &run.bodies()[2..]);
+            let through = others.iter().find(|other| other.present && overlap(truck, other));
+            assert_eq!(through, None, "after {} s of {changes:?}", run.time());
+            y = truck.pose.position.y;
+        });
+        crossed += i32::from(y < -20.0);
+    }
+    assert!(crossed >= 3, "{crossed} trucks cross in time");
 }

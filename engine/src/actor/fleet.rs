@@ -1,8 +1,8 @@
 //! Environment cars: [`Traffic`] as an object of a scenario, that minds the other objects and can be told what to do.
 
 use crate::object::{Body, Class, Geometric, Input, Output, Outputs, Tick, Wiring};
-use crate::scenario::{Place, Pose, Scenario, Side, Streets};
-use crate::stream::Stream;
+use crate::scenario::{Place, Pose, Problems, Scenario, Side, Streets};
+use crate::stream::{Datum, Stream};
 use crate::traffic::{CarState, Obstacle, Traffic, TrafficCar};
 use nalgebra::Vector2;
 use std::cell::RefCell;
@@ -13,6 +13,8 @@ use std::rc::Rc;
 pub struct EnvironmentCars {
     streets: Streets,
     cars: Vec<TrafficCar>,
+    /// How many of them there are to be, the first ones.
+    most: usize,
     seed: u64,
 }
 
@@ -22,7 +24,10 @@ pub struct EnvironmentCars {
 pub struct Fleet {
     name: String,
     count: usize,
+    /// Whether it has begun: why it has not has been reported.
+    sound: bool,
     wiring: Wiring,
+    problems: Problems,
     told: Rc<RefCell<Told>>,
 }
 
@@ -31,8 +36,6 @@ pub struct Fleet {
 struct Told {
     shown: Vec<(usize, Shown)>,
     orders: Vec<(usize, Order)>,
-    /// Questions about cars that there are not.
-    missing: Vec<usize>,
 }
 
 #[derive(Debug)]
@@ -58,16 +61,18 @@ struct Driving {
 impl EnvironmentCars {
     /// These cars on these roads.
     pub fn on(streets: &Streets, cars: Vec<TrafficCar>) -> Self {
-        Self { streets: streets.clone(), cars, seed: 1 }
+        Self { streets: streets.clone(), cars, most: usize::MAX, seed: 1 }
     }
 
-    /// So many cars at places that chance chooses: [`TrafficCar::scattered`].
+    /// So many cars at places that chance chooses: [`TrafficCar::scattered`]. Where there is no room for them there are
+    /// fewer: [`Fleet::count`].
     pub fn scattered(streets: &Streets, count: usize, seed: u64) -> Self {
-        let cars = streets.network().map(|network| TrafficCar::scattered(network, count, seed));
-        Self { seed, ..Self::on(streets, cars.unwrap_or_default()) }
+        let cars = streets.network().map(|network| TrafficCar::scattered(network, usize::MAX, seed));
+        Self { seed, most: count, ..Self::on(streets, cars.unwrap_or_default()) }
     }
 
-    /// Without those that would start within so many metres of a place.
+    /// Without those that would start within so many metres of a place. Scattered cars start elsewhere instead, given
+    /// ones are left out.
     pub fn away_from(mut self, place: Vector2<f64>, metres: f64) -> Self {
         if let Some(network) = self.streets.network() {
             let far = |car: &TrafficCar| {
@@ -89,19 +94,24 @@ impl EnvironmentCars {
 impl Place for EnvironmentCars {
     type Handle = Fleet;
 
-    fn place(self, scenario: &mut Scenario) -> Fleet {
-        let wiring = scenario.wiring.clone();
+    fn place(mut self, scenario: &mut Scenario) -> Fleet {
+        self.cars.truncate(self.most);
+        let (wiring, problems) = (scenario.wiring.clone(), scenario.problems.clone());
         let mut draft = scenario.object("traffic");
         let told = Rc::<RefCell<Told>>::default();
-        let fleet = Fleet { name: draft.name().to_owned(), count: self.cars.len(), wiring, told: told.clone() };
+        let (name, count) = (draft.name().to_owned(), self.cars.len());
+        let mut fleet = Fleet { name, count, sound: false, wiring, problems, told: told.clone() };
         // A network that cannot be built has been reported.
         let Some(network) = self.streets.network() else { return fleet };
+        let colours: Vec<_> = self.cars.iter().map(|car| car.colour).collect();
         match Traffic::new(network.clone(), self.cars, self.seed) {
             Ok(traffic) => {
-                for car in traffic.cars() {
-                    draft.body(body(&car), car.pose);
+                for (car, colour) in traffic.cars().zip(colours) {
+                    let body = body(&car);
+                    draft.body(body.coloured(colour.unwrap_or(body.colour)), car.pose);
                 }
                 draft.geometric(Driving { traffic, obstacles: Vec::new(), told });
+                fleet.sound = true;
             }
             Err(error) => draft.problem(&format!("cannot begin: {error}")),
         }
@@ -119,52 +129,70 @@ fn body(car: &CarState) -> Body {
     Body::block(usual.class, car.length, car.width, usual.height)
 }
 
+/// To ask for a car that is not there is a mistake that is reported when the world is built.
 impl Fleet {
-    /// How many cars there are.
+    /// How many cars there are: perhaps fewer than were asked for, where there is no room for more.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Where the middle of a car is.
+    /// Where the middle of a car is. One that has left the network is where it was last seen.
     pub fn position(&self, car: usize) -> Stream<Vector2<f64>> {
-        let output = self.wiring.output(&self.called(car, "position"));
-        let stream = output.stream();
-        self.told.borrow_mut().shown.push((car, Shown::Position(output)));
-        stream
+        self.show(car, "position", Shown::Position)
     }
 
-    /// The speed of a car in m/s.
+    /// The speed of a car in m/s. One that has left the network has the speed at which it did.
     pub fn speed(&self, car: usize) -> Stream<f64> {
-        let output = self.wiring.output(&self.called(car, "speed"));
-        let stream = output.stream();
-        self.told.borrow_mut().shown.push((car, Shown::Speed(output)));
-        stream
+        self.show(car, "speed", Shown::Speed)
     }
 
     /// Gives a car this speed in m/s, which it leaves only so as not to run into what is ahead; at ticks at which the
     /// stream is absent it drives as it likes.
     pub fn drive(&self, car: usize, speed: impl Into<Stream<f64>>) {
-        let input = self.wiring.input(&self.called(car, "speed"), &speed.into());
-        self.told.borrow_mut().orders.push((car, Order::Speed(input)));
+        self.order(car, "speed", &speed.into(), Order::Speed);
     }
 
     /// Sets the speed in m/s at which a car drives where nothing hinders it.
     pub fn wish(&self, car: usize, speed: impl Into<Stream<f64>>) {
-        let input = self.wiring.input(&self.called(car, "desired_speed"), &speed.into());
-        self.told.borrow_mut().orders.push((car, Order::Wish(input)));
+        self.order(car, "desired_speed", &speed.into(), Order::Wish);
     }
 
-    /// Lets a car change to the lane beside, within so many seconds, whoever is there, when the event occurs.
+    /// Lets a car change to the lane beside, within so many seconds, whoever is there, when the event occurs and there is
+    /// such a lane. A time that is no finite number above 0 is a mistake that is reported when the world is built.
     pub fn change_lane(&self, car: usize, side: Side, seconds: f64, event: &Stream<bool>) {
-        let input = self.wiring.input(&self.called(car, "change_lane"), event);
-        self.told.borrow_mut().orders.push((car, Order::Change(side, seconds, input)));
+        if seconds > 0.0 && seconds.is_finite() {
+            self.order(car, "change_lane", event, |event| Order::Change(side, seconds, event));
+        } else {
+            let lane_change = format!("{}: car {car} changes lanes within {seconds} s", self.name);
+            self.problems.borrow_mut().push(format!("{lane_change}, expected a finite number above 0"));
+        }
     }
 
-    fn called(&self, car: usize, what: &str) -> String {
-        if car >= self.count {
-            self.told.borrow_mut().missing.push(car);
+    fn show<T: Datum>(&self, car: usize, what: &str, shown: impl FnOnce(Output<T>) -> Shown) -> Stream<T> {
+        if !self.has(car) {
+            return Stream::absent();
         }
-        format!("{}[{car}].{what}", self.name)
+        let output = self.wiring.output(&format!("{}[{car}].{what}", self.name));
+        let stream = output.stream();
+        self.told.borrow_mut().shown.push((car, shown(output)));
+        stream
+    }
+
+    fn order<T: Datum>(&self, car: usize, what: &str, by: &Stream<T>, order: impl FnOnce(Input<T>) -> Order) {
+        if self.has(car) {
+            let input = self.wiring.input(&format!("{}[{car}].{what}", self.name), by);
+            self.told.borrow_mut().orders.push((car, order(input)));
+        }
+    }
+
+    /// Whether there is such a car; it is a problem where there is not.
+    fn has(&self, car: usize) -> bool {
+        if self.sound && car >= self.count {
+            let message =
+                format!("{}: there is no car {car}, cars are counted from 0 and there are {}", self.name, self.count);
+            self.problems.borrow_mut().push(message);
+        }
+        self.sound && car < self.count
     }
 }
 
@@ -196,9 +224,6 @@ impl Geometric for Driving {
     }
 
     fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
-        if let Some(car) = self.told.borrow().missing.first() {
-            return Err(format!("there is no car {car} in the traffic of {}", self.traffic.cars().len()));
-        }
         for (car, order) in &self.told.borrow().orders {
             if let Order::Speed(input) = order
                 && tick.get(input).is_some()
@@ -231,6 +256,7 @@ impl Geometric for Driving {
             let half = other.body.outline.half_extent();
             Obstacle { pose: other.pose, length: 2.0 * half.x, width: 2.0 * half.y, velocity: other.velocity }
         }));
+        self.traffic.set_friction(tick.friction());
         self.traffic.step(tick.dt(), &self.obstacles);
         Ok(())
     }

@@ -25,6 +25,22 @@ pub enum Class {
     Prop,
 }
 
+impl Class {
+    /// The colour of a body of this class where nothing else is said.
+    fn usual_colour(self) -> Colour {
+        match self {
+            Class::Car => [150, 155, 160],
+            Class::Truck => [60, 90, 140],
+            Class::Bicycle => [30, 30, 30],
+            Class::Pedestrian => [70, 75, 110],
+            Class::Building => [190, 175, 155],
+            Class::Tree => [50, 95, 45],
+            Class::Sign => [215, 215, 215],
+            Class::Prop => [200, 140, 60],
+        }
+    }
+}
+
 impl fmt::Display for Class {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -88,7 +104,10 @@ impl Outline {
     }
 }
 
-/// A body: what it is, and how much room it takes.
+/// Red, green and blue, as sRGB has them.
+pub type Colour = [u8; 3];
+
+/// A body: what it is, how much room it takes, and what it looks like.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// What it is taken for.
@@ -97,17 +116,19 @@ pub struct Body {
     pub outline: Outline,
     /// From the ground to its top, in metres.
     pub height: f64,
+    /// The colour that it has to sensors. Pictures draw it in that of its class.
+    pub colour: Colour,
 }
 
 impl Body {
-    /// A body with a rectangular outline: length, width and height in metres.
+    /// A body with a rectangular outline: length, width and height in metres. Its colour is the usual one of its class.
     pub fn block(class: Class, length: f64, width: f64, height: f64) -> Self {
-        Self { class, outline: Outline::Rectangle { length, width }, height }
+        Self { class, outline: Outline::Rectangle { length, width }, height, colour: class.usual_colour() }
     }
 
-    /// A body with a round outline: radius and height in metres.
+    /// A body with a round outline: radius and height in metres. Its colour is the usual one of its class.
     pub fn disc(class: Class, radius: f64, height: f64) -> Self {
-        Self { class, outline: Outline::Disc { radius }, height }
+        Self { class, outline: Outline::Disc { radius }, height, colour: class.usual_colour() }
     }
 
     /// A person of average build: the Euro NCAP adult dummy is 0.5 m wide and 1.8 m tall.
@@ -133,6 +154,11 @@ impl Body {
     /// A bicycle with its rider.
     pub fn bicycle() -> Self {
         Self::block(Class::Bicycle, 1.8, 0.6, 1.75)
+    }
+
+    /// The same in this colour.
+    pub fn coloured(self, colour: Colour) -> Self {
+        Self { colour, ..self }
     }
 
     /// What is wrong with its measures.

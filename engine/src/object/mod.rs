@@ -64,7 +64,7 @@ mod draft;
 mod footprint;
 mod wiring;
 
-pub use body::{Body, BodyState, Class, Outline};
+pub use body::{Body, BodyState, Class, Colour, Outline};
 pub use draft::Draft;
 pub use wiring::{Input, Output, Outputs, Tick};
 

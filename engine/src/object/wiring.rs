@@ -133,6 +133,7 @@ impl Outputs<'_> {
 #[derive(Debug, Clone, Copy)]
 pub struct Tick<'a> {
     pub(crate) dt: f64,
+    pub(crate) friction: f64,
     pub(crate) graph: &'a Graph,
     pub(crate) inputs: &'a [Slot],
     pub(crate) bodies: &'a [BodyState],
@@ -144,6 +145,12 @@ impl Tick<'_> {
     /// How long the tick is, in seconds.
     pub fn dt(&self) -> f64 {
         self.dt
+    }
+
+    /// The friction coefficient between tyre and road during the tick, a number from 0 on. As the run begins it is not
+    /// known yet, and NaN.
+    pub fn friction(&self) -> f64 {
+        self.friction
     }
 
     /// What an input reads; `None` where its stream is absent.
@@ -173,8 +180,8 @@ impl Tick<'_> {
         }
     }
 
-    /// All bodies but the object's own that are in the world, as they stand at the beginning of the tick, the car under test first, the others
-    /// in the order in which they were placed.
+    /// All bodies but the object's own that are in the world, as they stand at the beginning of the tick, the car under
+    /// test first, the others in the order in which they were placed.
     pub fn others(&self) -> impl Iterator<Item = &BodyState> {
         let Range { start, end } = self.own.0..self.own.1;
         self.bodies[..start].iter().chain(&self.bodies[end..]).filter(|body| body.present)

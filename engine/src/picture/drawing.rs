@@ -5,8 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
-/// Red, green and blue.
-pub type Colour = [u8; 3];
+pub use crate::object::Colour;
 
 /// Pixels to the right of the upper left corner, and below it.
 pub type Pixel = [f64; 2];

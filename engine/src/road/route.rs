@@ -116,6 +116,34 @@ impl Network {
         None
     }
 
+    /// What is left of a way after so many metres: where those are more than it has, its end.
+    ///
+    /// # Panics
+    /// The way has no lanes, or is one of another network.
+    pub fn rest_of(&self, route: &Route, metres: f64) -> Route {
+        let (mut start, mut driven, mut lanes, mut changes) =
+            (route.start, metres.max(0.0), &route.lanes[..], route.changes);
+        while let &[lane, next, ..] = lanes {
+            let length = self.lane(lane).length();
+            if self.lane(lane).beside().any(|beside| beside == next) {
+                if driven == 0.0 {
+                    break;
+                }
+                start *= self.lane(next).length() / length;
+                changes -= 1;
+            } else if start + driven < length {
+                break;
+            } else {
+                driven -= length - start;
+                start = 0.0;
+            }
+            lanes = &lanes[1..];
+        }
+        let most = if lanes.len() == 1 { route.end } else { self.lane(lanes[0]).length() };
+        let (start, length) = ((start + driven).min(most), (route.length - metres.max(0.0)).max(0.0));
+        Route { lanes: lanes.to_vec(), start, end: route.end, length, changes }
+    }
+
     /// The way that led to `last`, by what each node was reached from.
     fn unwound(&self, last: Node, reached: &[Option<Option<Node>>], [begun, end]: [f64; 2]) -> Route {
         let mut nodes = vec![last];

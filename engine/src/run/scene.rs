@@ -88,13 +88,15 @@ impl Scene {
 
     /// Lets all objects say how they move as the run begins, by their inputs at the first tick: of `graph`, a copy of the
     /// run's that is used for nothing else.
-    pub fn begin(&mut self, mut graph: Graph, clock: Clock) -> Result<(), String> {
+    pub fn begin(&mut self, (mut graph, friction): (Graph, Slot), clock: Clock) -> Result<(), String> {
         self.show();
         graph.tick(clock, &self.outputs);
         let inputs = self.wiring.slots(&graph);
+        let friction = graph.value(friction).unwrap_or(f64::NAN);
         for object in &mut self.objects {
             let (first, end) = object.own;
-            let tick = Tick { dt: clock.dt, graph: &graph, inputs: &inputs, bodies: &self.bodies, own: object.own };
+            let tick =
+                Tick { dt: clock.dt, friction, graph: &graph, inputs: &inputs, bodies: &self.bodies, own: object.own };
             if let Behaviour::Geometric(behaviour) = &mut object.behaviour {
                 self.velocities.clear();
                 self.velocities.resize(end - first, Vector2::zeros());
@@ -155,7 +157,7 @@ impl Scene {
         self.pushes.clear();
         for object in &mut self.objects {
             let (first, end) = object.own;
-            let tick = Tick { dt, graph, inputs: &self.inputs, bodies: &self.bodies, own: object.own };
+            let tick = Tick { dt, friction, graph, inputs: &self.inputs, bodies: &self.bodies, own: object.own };
             match &mut object.behaviour {
                 Behaviour::Geometric(behaviour) => {
                     behaviour.step(&tick)?;

@@ -22,7 +22,7 @@ use crate::object::{self, ObjectSetup, Wiring};
 use crate::program::{Declared, Test};
 use crate::road::Network;
 use crate::run::DEFAULT_DT;
-use crate::stream::{Datum, Effect, Equation, Forward, Graph, Kind, Node, Source, Stream, dot};
+use crate::stream::{Datum, Effect, Equation, Forward, Graph, Kind, Node, Slot, Source, Stream, dot};
 use paracosm_coverage::{Domain, Parameter, Shape, Value};
 use param::Read;
 use std::cell::RefCell;
@@ -269,13 +269,17 @@ impl Scenario {
         }
     }
 
-    /// The streams that inputs are bound to, laid out once more. They have been laid out.
-    pub(crate) fn beginning(&self) -> Graph {
+    /// The streams that inputs are bound to, laid out once more, with where the friction of the roads stands. They have been
+    /// laid out.
+    pub(crate) fn beginning(&self) -> (Graph, Slot) {
         let equations = self.equations.borrow();
         let definitions = equations.iter().filter_map(|equation| equation.definition.as_ref());
         let readers = self.wiring.readers();
-        let graph = Graph::new(readers.iter().map(|(_, node)| node).chain(definitions), &equations);
-        graph.expect("what has been laid out can be laid out again")
+        let friction = &self.conditions.friction.node;
+        let roots = readers.iter().map(|(_, node)| node).chain([friction]).chain(definitions);
+        let graph = Graph::new(roots, &equations).expect("what has been laid out can be laid out again");
+        let slot = graph.slot(friction);
+        (graph, slot)
     }
 
     /// The streams in the language of Graphviz. They have been laid out.

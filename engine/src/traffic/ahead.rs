@@ -71,21 +71,21 @@ impl Ahead {
         let following = car.idm.following(car.speed, car.desired, gap, speed);
         self.following = self.following.min(following);
         self.acceleration = self.acceleration.min(following);
-        self.safe = self.safe.min(safe_speed(car.speed, gap, speed, dt));
+        self.safe = self.safe.min(safe_speed(car.speed, gap, speed, car.braking, dt));
     }
 
     /// A place to stop at.
     pub fn stop(&mut self, car: &Car, distance: f64, dt: f64) {
         let stopping = car.idm.following(car.speed, car.desired, distance + car.idm.gap, 0.0);
         self.acceleration = self.acceleration.min(stopping);
-        self.safe = self.safe.min(safe_speed(car.speed, distance + 0.5, 0.0, dt));
+        self.safe = self.safe.min(safe_speed(car.speed, distance + 0.5, 0.0, car.braking, dt));
     }
 
     /// A bend, so far ahead.
     fn bend(&mut self, car: &Car, distance: f64, speed: f64) {
         let left = (distance - car.speed * BEND.0).max(0.0);
-        let allowed = (speed * speed + 2.0 * car.idm.deceleration * left).sqrt();
-        self.acceleration = self.acceleration.min(((allowed - car.speed) / BEND.0).max(-BEND.1));
+        let allowed = (speed * speed + 2.0 * car.deceleration() * left).sqrt();
+        self.acceleration = self.acceleration.min(((allowed - car.speed) / BEND.0).max(-BEND.1.min(car.braking)));
     }
 }
 
@@ -124,7 +124,7 @@ impl View<'_> {
         let mut alone = true;
         for (k, &lane) in car.path.iter().enumerate() {
             let length = self.map.length(lane);
-            let bend = self.map.speed(lane);
+            let bend = self.map.speed(lane) * car.grip;
             if bend < car.desired {
                 ahead.bend(car, base.max(0.0), bend);
             }

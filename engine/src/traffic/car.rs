@@ -3,6 +3,7 @@
 use super::error::TrafficError;
 use super::idm::Idm;
 use super::map::Map;
+use crate::object::Colour;
 use crate::road::{LaneId, LaneKind, Network, Place, Route};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -29,6 +30,7 @@ pub struct TrafficCar {
     pub(super) offset: f64,
     pub(super) changes_lanes: bool,
     pub(super) heedless: bool,
+    pub(crate) colour: Option<Colour>,
 }
 
 /// Where a car drives to.
@@ -54,6 +56,7 @@ impl TrafficCar {
             offset: 0.0,
             changes_lanes: false,
             heedless: false,
+            colour: None,
         }
     }
 
@@ -127,6 +130,48 @@ impl TrafficCar {
     pub fn heedless(mut self) -> Self {
         self.heedless = true;
         self
+    }
+
+    /// The colour that it has, as an object of a scenario, instead of the usual one.
+    pub fn coloured(mut self, colour: Colour) -> Self {
+        self.colour = Some(colour);
+        self
+    }
+
+    /// It begins at the speed that it drives at where nothing hinders it.
+    pub fn moving(self) -> Self {
+        Self { speed: self.desired, ..self }
+    }
+
+    /// Another one of its kind, with a driver of its own, as chance has it: a tenth longer or shorter, up to a sixth
+    /// faster or slower, and up to a fifth from how it follows others.
+    pub fn varied(self, seed: u64) -> Self {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let mut near = |value: f64, share: f64| value * random.random_range(1.0 - share..=1.0 + share);
+        Self {
+            length: near(self.length, 0.1),
+            width: near(self.width, 0.04),
+            desired: near(self.desired, 0.16),
+            idm: Idm {
+                acceleration: near(self.idm.acceleration, 0.2),
+                deceleration: near(self.idm.deceleration, 0.2),
+                headway: near(self.idm.headway, 0.2),
+                gap: near(self.idm.gap, 0.2),
+                ..self.idm
+            },
+            ..self
+        }
+    }
+
+    /// A van of 6 m by 2.1 m.
+    pub fn van(start: Place) -> Self {
+        Self::at(start).size(6.0, 2.1)
+    }
+
+    /// A lorry of 10 m by 2.5 m, which accelerates half as fast as a car: for lanes that lead straight on.
+    pub fn lorry(start: Place) -> Self {
+        let idm = Idm { acceleration: 0.8, ..Idm::default() };
+        Self::at(start).size(10.0, 2.5).idm(idm)
     }
 
     /// A bicycle: 1.8 m long, at most 5 m/s, at the right of its lane.

@@ -112,13 +112,13 @@ impl View<'_> {
         });
         let (mut own, mut others) = (car.idm.free(car.speed, car.desired), 0.0);
         if let Some((gap, speed)) = leader {
-            if gap < CLEAR || safe_speed(car.speed, gap, speed, dt) < car.speed {
+            if gap < CLEAR || safe_speed(car.speed, gap, speed, car.braking, dt) < car.speed {
                 return None;
             }
             own = car.idm.following(car.speed, car.desired, gap, speed);
         }
         if let Some((gap, body)) = follower {
-            if gap < CLEAR || safe_speed(body.speed, gap, car.speed, dt) < body.speed {
+            if gap < CLEAR || safe_speed(body.speed, gap, car.speed, car.braking, dt) < body.speed {
                 return None;
             }
             // What is no part of the traffic is taken to drive as this car does.

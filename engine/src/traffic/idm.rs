@@ -1,8 +1,12 @@
 //! How fast to follow: the intelligent driver model (Treiber, Hennecke, Helbing 2000), and below it a speed at which
 //! one can always stop, so that no choice of its parameters runs into what is ahead.
 
+use crate::vehicle::GRAVITY;
+
 /// The hardest braking in m/s², of every car: what tyres give on a dry road.
-pub(super) const HARDEST: f64 = 8.0;
+const HARDEST: f64 = 8.0;
+/// What a car can brake with on any ice, in m/s²: with less it would never come to a stop.
+const ON_ICE: f64 = 0.1;
 /// Metres that are never driven into on purpose.
 const RESERVE: f64 = 0.5;
 
@@ -52,12 +56,17 @@ impl Idm {
     }
 }
 
+/// The hardest braking in m/s² on a road with this friction coefficient.
+pub(super) fn hardest_braking(friction: f64) -> f64 {
+    (friction * GRAVITY).clamp(ON_ICE, HARDEST)
+}
+
 /// The greatest speed after a step of `dt` at which one does not run into what is `gap` metres ahead, should it brake
-/// as hard as it can, and oneself from the next step on (after Gipps 1981). With v' that speed and V its own,
-/// v'² / 2B + (v + v') dt / 2 = gap + V² / 2B.
-pub(super) fn safe_speed(speed: f64, gap: f64, ahead: f64, dt: f64) -> f64 {
+/// as hard as it can, and oneself from the next step on (after Gipps 1981). With v' that speed, V its own and B what
+/// both can brake with, v'² / 2B + (v + v') dt / 2 = gap + V² / 2B.
+pub(super) fn safe_speed(speed: f64, gap: f64, ahead: f64, braking: f64, dt: f64) -> f64 {
     let ahead = ahead.max(0.0);
-    let half = 0.5 * HARDEST * dt;
-    let square = half * half + 2.0 * HARDEST * (gap - RESERVE - 0.5 * speed * dt) + ahead * ahead;
+    let half = 0.5 * braking * dt;
+    let square = half * half + 2.0 * braking * (gap - RESERVE - 0.5 * speed * dt) + ahead * ahead;
     if square > 0.0 { (square.sqrt() - half).max(0.0) } else { 0.0 }
 }

@@ -21,10 +21,9 @@
 
 use super::Traffic;
 use super::ahead::{Ask, View};
-use super::idm::HARDEST;
 use super::map::Rival;
 use super::occupancy::Who;
-use super::state::Claim;
+use super::state::{Car, Claim};
 use crate::road::{LaneId, LaneKind};
 use std::cmp::Ordering;
 
@@ -170,8 +169,8 @@ impl Traffic {
 
     /// Takes leave back that a car cannot make use of, while it can still stop.
     fn confirm(&mut self, index: usize, ask: Ask) {
-        let speed = self.cars[index].speed;
-        let stops = ask.distance > 0.5 + speed * speed / (2.0 * FIRM);
+        let Car { speed, braking, .. } = self.cars[index];
+        let stops = ask.distance > 0.5 + speed * speed / (2.0 * FIRM.min(braking));
         let useless = stops && (!ask.first || self.view().passage(index, &ask).is_none());
         // The claims stay listed until the end of this step, which does no harm.
         if useless && self.cars[index].give_back(&ask) {
@@ -281,7 +280,7 @@ impl View<'_> {
                         let other = &self.cars[other as usize];
                         if base + body.middle() >= end {
                             // Even at its hardest braking it leaves that much more room.
-                            let stopping = 0.5 * body.speed * body.speed / HARDEST;
+                            let stopping = 0.5 * body.speed * body.speed / car.braking;
                             return rear + stopping - end >= needed;
                         }
                         if k >= ask.index || other.claims.iter().any(|claim| claim.lane == first) {
@@ -328,12 +327,12 @@ impl View<'_> {
                     let speed = self.cars[other].speed;
                     let fits = if rival.merges {
                         let gap = self.joining_gap(base + length - car.half, rival, rear);
-                        gap > 0.0 && car.idm.following(car.speed, car.desired, gap, speed) > -car.idm.deceleration
+                        gap > 0.0 && car.idm.following(car.speed, car.desired, gap, speed) > -car.deceleration()
                     } else {
-                        let arrival = time(base + rival.from - car.half, car.speed, car.idm.acceleration);
+                        let arrival = time(base + rival.from - car.half, car.soon(), car.idm.acceleration);
                         let way = rival.other.1 - rear;
-                        let pace = self.cars[other].desired.min(self.map.speed(rival.lane)).max(1.0);
-                        claim.sure && arrival > time(way, speed, TRUSTED).max(way / pace)
+                        let pace = self.cars[other].desired.min(self.map.speed(rival.lane) * car.grip).max(1.0);
+                        claim.sure && arrival > time(way, speed, TRUSTED.min(car.braking)).max(way / pace)
                     };
                     if !fits {
                         return false;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Comfortable lateral acceleration in bends, in m/s².
-const LATERAL: f64 = 2.5;
+pub(super) const LATERAL: f64 = 2.5;
 /// Lanes that part from one another have done so where their middles are this share of a lane's width apart.
 const APART: f64 = 0.75;
 /// Metres between the places at which lanes that part are looked at.

@@ -43,7 +43,6 @@ pub use obstacle::Obstacle;
 use crate::road::{LaneId, Network};
 use crate::scenario::{Pose, Side};
 use ahead::{Ahead, View};
-use idm::HARDEST;
 use junction::{Asker, Lists};
 use map::Map;
 use obstacle::Near;
@@ -129,7 +128,6 @@ impl Traffic {
         traffic.refuse_overlaps()?;
         for car in &mut traffic.cars {
             car.extend_path(&traffic.map);
-            claim_start(car, &traffic.map, &mut traffic.turns);
         }
         Ok(traffic)
     }
@@ -140,16 +138,19 @@ impl Traffic {
     /// `dt` is no positive number.
     pub fn step(&mut self, dt: f64, obstacles: &[Obstacle]) {
         assert!(dt > 0.0 && dt.is_finite(), "a step takes {dt} s, expected more than 0");
+        if self.time == 0.0 {
+            self.claim_starts();
+        }
         self.see(obstacles);
         self.look_ahead(dt);
         self.give_leave(dt);
         self.change_lanes(dt);
         for (car, ahead) in self.cars.iter_mut().zip(&self.ahead).filter(|(car, _)| !car.gone) {
-            let lowest = (car.speed - HARDEST * dt).max(0.0);
+            let lowest = (car.speed - car.braking * dt).max(0.0);
             let speed = match car.given {
                 Some(given) if given <= ahead.safe => given,
                 Some(_) => ahead.safe.max(lowest),
-                None => (car.speed + ahead.acceleration * dt).min(ahead.safe).max(lowest),
+                None => (car.speed + ahead.acceleration.min(car.braking) * dt).min(ahead.safe).max(lowest),
             };
             car.drive(speed, dt, &self.map);
             if ahead.short {
@@ -202,6 +203,7 @@ impl Traffic {
             "car {index} is to drive at {speed:?} m/s"
         );
         self.cars[index].given = speed;
+        self.cars[index].extend_path(&self.map);
     }
 
     /// Lets a car go at this speed in m/s right away: for the beginning.
@@ -211,6 +213,20 @@ impl Traffic {
     pub fn begin_at(&mut self, index: usize, speed: f64) {
         assert!(speed >= 0.0 && speed.is_finite(), "car {index} is to begin at {speed} m/s");
         self.cars[index].speed = speed;
+    }
+
+    /// Sets the friction coefficient between tyre and road, for all cars from the next step on: they brake with no more
+    /// than it gives, and at most with 8 m/s², keep as far apart as that asks for, and take bends as slowly. At first
+    /// the road is dry. Cars that brake already when the road gets slippery may come to a stop too late. What is below
+    /// 0.01 counts as that much.
+    ///
+    /// # Panics
+    /// It is no number from 0 on.
+    pub fn set_friction(&mut self, friction: f64) {
+        assert!(friction >= 0.0, "the friction of the road is {friction}, expected a number from 0 on");
+        for car in &mut self.cars {
+            car.set_friction(friction);
+        }
     }
 
     /// Sets the speed that a car wants to drive at, in m/s.
@@ -303,6 +319,15 @@ impl Traffic {
         }
     }
 
+    /// Claims whatever a car stands on at the start, or cannot stop before.
+    fn claim_starts(&mut self) {
+        for car in &mut self.cars {
+            // It may have been given another speed.
+            car.extend_path(&self.map);
+            claim_start(car, &self.map, &mut self.turns);
+        }
+    }
+
     fn refuse_overlaps(&self) -> Result<(), TrafficError> {
         for (index, car) in self.cars.iter().enumerate() {
             let next = self.occupancy.ahead_of(index).first();
@@ -316,9 +341,8 @@ impl Traffic {
     }
 }
 
-/// Claims whatever a car stands on at the start, or cannot stop before.
 fn claim_start(car: &mut Car, map: &Map, turns: &mut u64) {
-    let reach = car.half + 0.5 * car.speed * car.speed / HARDEST;
+    let reach = car.half + 0.5 * car.speed * car.speed / car.braking;
     let mut base = -car.s;
     for k in 0..car.path.len() {
         let lane = car.path[k];

@@ -2,8 +2,8 @@
 
 use super::ahead::Ask;
 use super::car::{Itinerary, TrafficCar};
-use super::idm::Idm;
-use super::map::Map;
+use super::idm::{Idm, hardest_braking};
+use super::map::{LATERAL, Map};
 use crate::road::{LaneId, wrapped};
 use crate::scenario::{Pose, Side};
 use std::collections::VecDeque;
@@ -47,6 +47,10 @@ pub(super) struct Car {
     pub half: f64,
     pub width: f64,
     pub idm: Idm,
+    /// The hardest that it can brake on this road, in m/s².
+    pub braking: f64,
+    /// The share of the comfortable speed that the road lets it drive at in bends.
+    pub grip: f64,
     /// How far to the left of the middle of its lane it keeps.
     keeps: f64,
     pub desired: f64,
@@ -90,6 +94,8 @@ impl Car {
             half: 0.5 * car.length,
             width: car.width,
             idm: car.idm,
+            braking: hardest_braking(f64::INFINITY),
+            grip: 1.0,
             keeps: car.offset,
             desired: car.desired,
             given: None,
@@ -115,14 +121,33 @@ impl Car {
         }
     }
 
+    /// Drives on a road with this friction coefficient from now on.
+    pub fn set_friction(&mut self, friction: f64) {
+        self.braking = hardest_braking(friction);
+        self.grip = (self.braking / LATERAL).min(1.0).sqrt();
+    }
+
+    /// The deceleration in m/s² at which it likes to brake, and can.
+    pub fn deceleration(&self) -> f64 {
+        self.idm.deceleration.min(self.braking)
+    }
+
+    /// The greatest speed in m/s that it may have after the next step, but for some acceleration: who is given one does
+    /// not come to it little by little.
+    pub fn soon(&self) -> f64 {
+        self.given.unwrap_or(0.0).max(self.speed)
+    }
+
     /// How far ahead it looks, in metres.
     pub fn horizon(&self) -> f64 {
-        self.half + 30.0 + self.speed * (2.0 + 0.6 * self.speed / self.idm.deceleration)
+        let speed = self.soon();
+        self.half + 30.0 + speed * (2.0 + 0.6 * speed / self.deceleration())
     }
 
     /// How far from a line it asks for leave to pass it, so that it need not brake where it gets it at once.
     pub fn asking_distance(&self) -> f64 {
-        5.0 + self.speed * (1.0 + 0.5 * self.speed / self.idm.deceleration)
+        let speed = self.soon();
+        5.0 + speed * (1.0 + 0.5 * speed / self.deceleration())
     }
 
     /// Adds lanes to the path up to the horizon.
