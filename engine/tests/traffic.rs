@@ -749,15 +749,15 @@ fn a_given_speed_is_kept_unless_something_is_in_the_way() {
 #[test]
 fn who_is_given_a_speed_at_a_stroke_still_stops_before_an_intersection_that_others_have_claimed() {
     let net = tee();
-    let across = route(&net, place(&net, "west", -1, 60.0), place(&net, "east", 1, 95.0));
-    let from_side = route(&net, place(&net, "south", -1, 30.0), place(&net, "west", 1, 95.0));
-    for wait in 0..16 {
+    let across = route(&net, place(&net, "west", -1, 40.0), place(&net, "east", 1, 95.0));
+    let from_side = route(&net, place(&net, "south", -1, 88.0), place(&net, "west", 1, 95.0));
+    for quarter in 0..24 {
         let cars = [&across, &from_side].map(|route| TrafficCar::following(route).desired_speed(8.0));
         let mut traffic = Traffic::new(net.clone(), vec![cars[0].clone().moving(), cars[1].clone()], 0).unwrap();
-        // It creeps up to within 20 m of the line, and is off.
-        let off = 2.0 + 0.5 * f64::from(wait);
+        // It stands some metres before the line, and is off at 15 m/s about when the other one comes.
+        let off = 3.0 + 0.25 * f64::from(quarter);
         for tick in 0..ticks(30.0) {
-            traffic.set_speed(1, Some(if (tick as f64) * DT < off { 2.0 } else { 15.0 }));
+            traffic.set_speed(1, Some(if (tick as f64) * DT < off { 0.0 } else { 15.0 }));
             traffic.step(DT, &[]);
             assert_eq!(collision(&traffic), None, "off after {off} s");
         }
