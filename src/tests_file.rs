@@ -70,7 +70,7 @@ impl Tests {
                 }
                 // What a constant of this choice would take, a coordinate of a signal does.
                 let constant = Parameter { signal: None, ..coordinate.parameter.clone() };
-                let value = Value::parse(text);
+                let value = value(text, &constant);
                 constant.check(&value).map_err(|error| file.wrong(line, error.to_string(), None))?;
                 Ok(constant.levels().and_then(|levels| levels.iter().position(|level| *level == value)))
             };
@@ -96,7 +96,15 @@ impl Tests {
 /// Whether a cell says nothing of a parameter: it is empty, and the parameter does not take the empty word.
 fn is_open(text: &str, parameter: &Parameter) -> bool {
     let takes_it = || parameter.levels().is_some_and(|levels| levels.contains(&Value::Word(String::new())));
-    text.is_empty() && !takes_it()
+    text.trim().is_empty() && !takes_it()
+}
+
+/// The value that a cell means to a parameter: the level that is written so, with its spaces or without them, else what the
+/// text is by itself.
+fn value(text: &str, parameter: &Parameter) -> Value {
+    let levels = parameter.levels().unwrap_or_default();
+    let written = |text: &str| levels.iter().find(|level| level.to_string() == text);
+    written(text).or_else(|| written(text.trim())).cloned().unwrap_or_else(|| Value::parse(text))
 }
 
 /// Reads the values of tests of a space. Where a column is called as one of the fixed parameters, which are none of the
@@ -135,6 +143,8 @@ struct TestsFile<'p> {
     space: Space,
     /// In which column each coordinate stands.
     columns: Vec<usize>,
+    /// In which column the verdicts of a campaign stand.
+    verdict: Option<usize>,
     /// What to do about wrong values where the space was made up.
     hint: &'static str,
 }
@@ -146,7 +156,7 @@ impl<'p> TestsFile<'p> {
             let message = "the file is empty, expected a header with the names of the columns";
             return Err(Error::content(path, None, message));
         }
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::Headers).from_reader(file);
         let header = reader.headers().map_err(|error| broken(path, &error))?.clone();
         if header.iter().all(|name| name.parse::<f64>().is_ok()) {
             let message = "found numbers, expected a header with the names of the columns";
@@ -161,14 +171,22 @@ impl<'p> TestsFile<'p> {
             None => (of_columns(path, &header)?, "; name the space of the tests with --space SPACE.toml"),
         };
         let columns = columns(path, &space, &header)?;
-        Ok(Self { path, reader, header, space, columns, hint })
+        let verdict = header.iter().position(|name| name == "verdict").filter(|column| !columns.contains(column));
+        Ok(Self { path, reader, header, space, columns, verdict, hint })
     }
 
-    /// The next line, with its number; `known` tests came before.
+    /// The next line, with its number; `known` tests came before. Tests of a campaign that ended in an error, or whose world
+    /// could not be built, cover nothing and are passed over.
     fn next(&mut self, known: usize) -> Result<Option<(Option<usize>, csv::StringRecord)>, Error> {
         let mut record = csv::StringRecord::new();
-        if !self.reader.read_record(&mut record).map_err(|error| broken(self.path, &error))? {
-            return Ok(None);
+        loop {
+            if !self.reader.read_record(&mut record).map_err(|error| broken(self.path, &error))? {
+                return Ok(None);
+            }
+            let verdict = self.verdict.and_then(|column| record.get(column));
+            if !matches!(verdict, Some("error" | "invalid")) {
+                break;
+            }
         }
         let line = record.position().map(|position| position.line() as usize);
         Tests::check_size(known, self.space.parameters().len())
@@ -194,7 +212,7 @@ impl<'p> TestsFile<'p> {
                 if is_open(&record[*column], parameter) {
                     return Err(self.wrong(line, self.open_cell(), Some(*column)));
                 }
-                let value = Value::parse(&record[*column]);
+                let value = value(&record[*column], parameter);
                 if parameter.levels().is_none() && value.number().is_none() {
                     return Err(self.wrong(line, format!("found `{value}`, expected a number"), Some(*column)));
                 }

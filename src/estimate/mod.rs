@@ -112,10 +112,13 @@ impl Tests {
             }
         };
         let counted = discrete.as_ref().and_then(Option::as_ref);
-        let is_measured = continuous.as_ref().is_some_and(|continuous| continuous.dispersion.is_some());
+        let dims = self.space.dims();
+        let is_measured = dims == 0 || continuous.as_ref().is_some_and(|continuous| continuous.dispersion.is_some());
         let k_epsilon = counted.filter(|_| is_measured).map(|discrete| {
             let complete = discrete.covered == discrete.valid;
-            let Bracket { lower, upper } = row_dispersion(self.space.dims(), &self.points, clock.next());
+            // Without continuous parameters a row has no hole to leave.
+            let Bracket { lower, upper } =
+                if dims == 0 { Bracket::exact(0.0) } else { row_dispersion(dims, &self.points, clock.next()) };
             KEpsilon {
                 k: discrete.k,
                 complete,

@@ -101,3 +101,28 @@ fn what_cannot_be_generated_is_refused_with_the_reason() {
         assert_eq!(stdout(&output), "", "no test is written");
     }
 }
+
+#[test]
+fn what_is_written_is_read_back_whatever_the_words_look_like() {
+    let dir = tempfile::tempdir().unwrap();
+    let choices = "[[parameter]]\nname = \"a\"\nchoice = [\" x\", \"x\"]\n\
+        [[parameter]]\nname = \"b\"\nchoice = [\"1\", \"02\", \"3 \"]\n";
+    fs::write(dir.path().join("space.toml"), choices).unwrap();
+    let tests = generated(dir.path(), &["--space", "space.toml"]);
+    fs::write(dir.path().join("tests.csv"), tests).unwrap();
+    let covered = |what| measured(dir.path(), &["tests.csv", "--space", "space.toml"], what);
+    assert_eq!((covered("/discrete/covered"), covered("/discrete/valid")), (6.0, 6.0));
+}
+
+#[test]
+fn tests_that_came_to_nothing_are_not_counted_as_done() {
+    let dir = tempfile::tempdir().unwrap();
+    let choices = "[[parameter]]\nname = \"a\"\nchoice = [1, 2]\n[[parameter]]\nname = \"b\"\nchoice = [1, 2]\n";
+    fs::write(dir.path().join("space.toml"), choices).unwrap();
+    let trials = "index,a,b,verdict,error\n0,1,1,pass,\n1,1,2,error,it broke\n2,2,1,invalid,no world\n3,2,2,fail,\n";
+    fs::write(dir.path().join("trials.csv"), trials).unwrap();
+    let counted = |what| measured(dir.path(), &["trials.csv", "--space", "space.toml"], what);
+    assert_eq!((counted("/tests"), counted("/discrete/covered")), (2.0, 2.0));
+    let added = generated(dir.path(), &["--space", "space.toml", "--extend", "trials.csv"]);
+    assert_eq!(added, "a,b\n2,1\n1,2\n");
+}

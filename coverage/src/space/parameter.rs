@@ -3,6 +3,7 @@
 use super::{Shape, SpaceError, Value, signal};
 use crate::names::nearest;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::fmt;
 
 /// What values a parameter takes.
@@ -132,12 +133,14 @@ impl Parameter {
                 if levels.is_empty() {
                     return Err(SpaceError::EmptyChoice(name()));
                 }
-                for (i, level) in levels.iter().enumerate() {
+                // Two levels that are written alike could not be told apart in a file of tests.
+                let mut written = BTreeSet::new();
+                for level in levels {
                     if matches!(level, Value::List(_)) {
                         let message = format!("a choice is between numbers and words, found {level}");
                         return Err(SpaceError::Signal { name: name(), message });
                     }
-                    if levels[..i].contains(level) {
+                    if !written.insert(level.to_string()) {
                         return Err(SpaceError::SameLevel { name: name(), value: level.clone() });
                     }
                 }
