@@ -25,9 +25,7 @@ fn refusal(build: fn(&mut Scenario)) -> String {
 /// The samples of a signal.
 fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
     let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.error));
-    let column = trace.signals().iter().position(|signal| signal == name);
-    let column = column.unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals()));
-    trace.rows().map(|row| row[column]).collect()
+    trace.signal(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals())).collect()
 }
 
 /// A car that rolls along with 10 m/s for 5 s, from x = 10.

@@ -22,9 +22,8 @@ fn nominal(program: &Program, changes: &[(&str, Value)]) -> Values {
 
 /// The samples of a signal.
 fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let trace = outcome.trace.as_ref().expect("it ran");
-    let column = trace.signals().iter().position(|signal| signal == name).expect("it is recorded");
-    trace.rows().map(|row| row[column]).collect()
+    let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.error));
+    trace.signal(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals())).collect()
 }
 
 #[test]
