@@ -1,0 +1,50 @@
+//! What there is to see at one moment.
+
+use crate::Mesh;
+use nalgebra::Isometry3;
+use std::sync::Arc;
+
+/// What there is to see at one moment.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The things in it.
+    pub instances: Vec<Instance>,
+    /// Light and fog.
+    pub air: Air,
+}
+
+/// A thing: a mesh, and where it stands.
+#[derive(Debug, Clone)]
+pub struct Instance {
+    /// Its shape, shared by all that look alike.
+    pub mesh: Arc<Mesh>,
+    /// From the mesh's coordinates to the world's.
+    pub pose: Isometry3<f32>,
+    /// How much larger than the mesh it is along the mesh's axes.
+    pub scale: [f32; 3],
+    /// The colour of what is painted on it: red, green and blue in linear light, from 0 to 1.
+    pub paint: [f32; 3],
+    /// Which thing it is part of: 0 for what belongs to nothing in particular, else one more than the index of the body
+    /// among those of the run.
+    pub id: u16,
+}
+
+/// Light and fog.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Air {
+    /// From 0, night, to 1, broad daylight.
+    pub light: f32,
+    /// How high the sun stands, in radians above the horizon.
+    pub sun_elevation: f32,
+    /// Where the sun stands, in radians counter-clockwise from x.
+    pub sun_azimuth: f32,
+    /// The extinction of the fog in 1/m, 0 without any: 3.912 / visibility (Koschmieder, 2 % contrast).
+    pub extinction: f32,
+}
+
+impl Default for Air {
+    /// Broad daylight from the left and behind, no fog.
+    fn default() -> Self {
+        Self { light: 1.0, sun_elevation: 0.9, sun_azimuth: 2.3, extinction: 0.0 }
+    }
+}
