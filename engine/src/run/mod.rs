@@ -15,6 +15,7 @@ use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Metric, Outcome};
 use crate::program::{Program, ProgramError, Test};
 use crate::road::{Network, Path, wrapped};
+use crate::scenario::Weather;
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::Model;
 use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
@@ -212,6 +213,11 @@ impl Run {
     /// The roads.
     pub fn network(&self) -> &Arc<Network> {
         &self.scene.network
+    }
+
+    /// Light, fog and the sun at this tick.
+    pub fn weather(&self) -> Weather {
+        self.scene.weather(&self.graph)
     }
 
     /// Seconds since it began.
