@@ -10,4 +10,4 @@ pub mod mesh;
 mod scene;
 
 pub use mesh::{Mesh, Semantic, Surface, Vertex};
-pub use scene::{Air, Instance, Scene};
+pub use scene::{Air, Instance, Scene, Stage, Stages};
