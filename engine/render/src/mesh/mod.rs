@@ -123,3 +123,6 @@ impl Mesh {
         &self.indices
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -51,16 +51,10 @@ impl Stage {
         self
     }
 
-    /// A run as it stands, with all bodies that are present.
+    /// A run as it stands, with all bodies that are present. The car under test has the id 1: a camera that is mounted on
+    /// it leaves that out.
     pub fn scene(&self, run: &Run) -> Scene {
         self.scene_of(run.bodies().iter().enumerate(), Air::of(&run.weather()))
-    }
-
-    /// A run as it stands, without the body of this index: what a camera sees that is mounted on it. The car under test
-    /// is the first, 0.
-    pub fn scene_from(&self, run: &Run, body: usize) -> Scene {
-        let others = run.bodies().iter().enumerate().filter(|(index, _)| *index != body);
-        self.scene_of(others, Air::of(&run.weather()))
     }
 
     /// These bodies, each with its index among those of the run, in this air. Those that have left the world are left out.
