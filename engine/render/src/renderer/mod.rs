@@ -166,7 +166,7 @@ impl Renderer {
     ) {
         let wanted = targets.format.wanted;
         let offset = layer * view_stride(&self.gpu) as u32;
-        let drawing = self.pipelines.drawing(&self.gpu, wanted);
+        let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.lamps());
         if wanted.shadows && wanted.light() {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),

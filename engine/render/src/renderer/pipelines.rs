@@ -21,7 +21,8 @@ pub(super) struct Pipelines {
     shaded: wgpu::PipelineLayout,
     pub shadow: wgpu::RenderPipeline,
     pub alone: wgpu::RenderPipeline,
-    drawing: BTreeMap<Outputs, Drawing>,
+    /// By the images that they draw, and whether lamps shine.
+    drawing: BTreeMap<(Outputs, bool), Drawing>,
 }
 
 /// The programs that draw what is asked for.
@@ -72,16 +73,17 @@ impl Pipelines {
         Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
     }
 
-    /// The programs for these images.
-    pub fn drawing(&mut self, gpu: &Gpu, wanted: Outputs) -> Drawing {
+    /// The programs for these images, while lamps shine or not.
+    pub fn drawing(&mut self, gpu: &Gpu, wanted: Outputs, lamps: bool) -> Drawing {
         let Self { modules, shaded, drawing, .. } = self;
-        drawing.entry(wanted).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted)).clone()
+        drawing.entry((wanted, lamps)).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted, lamps)).clone()
     }
 }
 
 impl Drawing {
-    fn new(gpu: &Gpu, modules: &Modules, layout: &wgpu::PipelineLayout, wanted: Outputs) -> Self {
-        let constants = [("RGB", f64::from(wanted.light())), ("SHADOWS", f64::from(wanted.shadows))];
+    fn new(gpu: &Gpu, modules: &Modules, layout: &wgpu::PipelineLayout, wanted: Outputs, lamps: bool) -> Self {
+        let choices = [("RGB", wanted.light()), ("SHADOWS", wanted.shadows), ("LAMPS", lamps)];
+        let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
         let pipeline = |sky: bool| {
             let module = if sky { &modules.sky } else { &modules.surface };
             // The sky is light and nothing else.

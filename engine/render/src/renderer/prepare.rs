@@ -30,6 +30,11 @@ pub(super) struct Draw {
 }
 
 impl Prepared {
+    /// Whether lamps shine.
+    pub fn lamps(&self) -> bool {
+        self.raw.sun[3] > 0.0
+    }
+
     /// How many words each pixel has in the masks of things alone.
     pub fn words(&self) -> u32 {
         (self.bits.len() as u32).div_ceil(32)
@@ -198,9 +203,9 @@ impl Frustum {
     }
 }
 
-/// Brightness of a street lamp and of a pair of head lamps, 1 m away.
+/// Brightness of a street lamp and of a pair of head lamps: what a surface gets, times square metres.
 const STREET_LAMP: f32 = 14.0;
-const HEAD_LAMPS: f32 = 150.0;
+const HEAD_LAMPS: f32 = 90.0;
 /// Farther from the middle of what is seen, street lamps are not computed, in metres.
 const LAMP_REACH: f64 = 60.0;
 
@@ -218,7 +223,6 @@ fn raw_view(
     let before = |direction: Vector3<f64>| (to_eye * direction).cast::<f32>();
     let head = view.head_lamps.filter(|_| light.lamps > 0.0);
     let lamp = |place: Point3<f64>, bright: f32| four((to_eye * place).coords.cast::<f32>(), bright);
-    let (street_lamps, lamps) = street_lamps(placed, light.lamps);
     RawView {
         image: [(width / 2.0) as f32, (height / 2.0) as f32, (1.0 / focal) as f32, Camera::NEAR as f32],
         project: [(2.0 * focal / width) as f32, (2.0 * focal / height) as f32, 0.0, 0.0],
@@ -231,17 +235,17 @@ fn raw_view(
         zenith: four(light.zenith, 0.0),
         head_lamps: head.map_or([0.0; 4], |place| lamp(view.pose * place, HEAD_LAMPS * light.lamps)),
         head_beam: four(before(view.pose * Vector3::new(1.0, 0.0, -0.03).normalize()), 0.0),
-        street_lamps,
+        street_lamps: street_lamps(placed, light.lamps),
         shadow: map.rows(),
-        counts: [0, 0, camera.width(), lamps],
+        counts: [0, 0, camera.width(), 0],
     }
 }
 
-/// The street lamps that matter most, before the camera, and how many they are.
-fn street_lamps(placed: &[Placed<'_>], bright: f32) -> ([[f32; 4]; 8], u32) {
+/// The street lamps that matter most, before the camera.
+fn street_lamps(placed: &[Placed<'_>], bright: f32) -> [[f32; 4]; 8] {
     let mut lamps = [[0.0; 4]; 8];
     if bright == 0.0 {
-        return (lamps, 0);
+        return lamps;
     }
     let ahead = Point3::new(15.0, 0.0, 0.0);
     let place = |placed: &Placed<'_>| {
@@ -250,11 +254,9 @@ fn street_lamps(placed: &[Placed<'_>], bright: f32) -> ([[f32; 4]; 8], u32) {
     };
     let mut places: Vec<_> = placed.iter().filter_map(place).collect();
     places.sort_by(|a, b| (a - ahead).norm_squared().total_cmp(&(b - ahead).norm_squared()));
-    let near = places.iter().take_while(|place| (*place - ahead).norm() < LAMP_REACH).take(lamps.len());
-    let mut count = 0;
+    let near = places.iter().take_while(|place| (*place - ahead).norm() < LAMP_REACH);
     for (lamp, place) in lamps.iter_mut().zip(near) {
         *lamp = four(place.coords.cast::<f32>(), STREET_LAMP * bright);
-        count += 1;
     }
-    (lamps, count)
+    lamps
 }

@@ -1,7 +1,13 @@
 // What a pixel of a thing looks like, how far away it is, and what it is.
 
+// Square metres: two lamps side by side, and the dipped beam, leave the road just before the car darker than one point would.
+const HEAD_LAMPS_APART: f32 = 60.0;
+
 override RGB: bool = true;
 override SHADOWS: bool = false;
+// Whether lamps shine. A choice of programs, as the others are: llvmpipe compiles a program anew for every value of a
+// uniform that decides on a branch.
+override LAMPS: bool = false;
 
 @group(1) @binding(0) var sun_depth: texture_depth_2d;
 @group(1) @binding(1) var sun_sampler: sampler_comparison;
@@ -82,12 +88,11 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     let kind = seen.kind & 255u;
     let towards_eye = place / -distance;
     let normal = normalize(seen.normal);
-    let glows = view.sun.w;
-    if kind == WHITE_LAMP && glows > 0.0 {
-        return mix(seen.colour, vec3f(1.0, 0.93, 0.78), glows);
+    if LAMPS && kind == WHITE_LAMP {
+        return mix(seen.colour, vec3f(1.0, 0.93, 0.78), view.sun.w);
     }
-    if kind == RED_LAMP && glows > 0.0 {
-        return mix(seen.colour, vec3f(0.9, 0.02, 0.01), glows);
+    if LAMPS && kind == RED_LAMP {
+        return mix(seen.colour, vec3f(0.9, 0.02, 0.01), view.sun.w);
     }
     var colour = seen.colour;
     if kind == ASPHALT || kind == GROWN {
@@ -100,7 +105,10 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
         sun *= sunlit(place + normal * 0.04);
     }
     let sky = mix(view.ground_light.xyz, view.sky_light.xyz, 0.5 + 0.5 * dot(normal, view.up.xyz));
-    var light = colour * (sun + sky + lamps(place, normal));
+    var light = colour * (sun + sky);
+    if LAMPS {
+        light += colour * lamps(place, normal);
+    }
     if kind == PAINT || kind == GLASS {
         light += gloss(normal, towards_eye, sun, kind);
     }
@@ -133,17 +141,14 @@ fn sunlit(place: vec3f) -> f32 {
 }
 
 fn lamps(place: vec3f, normal: vec3f) -> vec3f {
-    var light = vec3f(0.0);
-    if view.head_lamps.w > 0.0 {
-        let way = view.head_lamps.xyz - place;
-        let squared = dot(way, way);
-        let towards = way * inverseSqrt(squared);
-        let cone = smoothstep(0.88, 0.985, -dot(towards, view.head_beam.xyz));
-        // A rough surface sends some light back however flat it falls in.
-        let caught = 0.12 + 0.88 * max(dot(normal, towards), 0.0);
-        light += vec3f(1.0, 0.95, 0.85) * (view.head_lamps.w * cone * caught / (squared + 4.0));
-    }
-    for (var index = 0u; index < view.counts.w; index++) {
+    let way = view.head_lamps.xyz - place;
+    let squared = dot(way, way);
+    let towards = way * inverseSqrt(squared);
+    let cone = smoothstep(0.72, 0.985, -dot(towards, view.head_beam.xyz));
+    // A rough surface sends some light back however flat it falls in.
+    let caught = 0.12 + 0.88 * max(dot(normal, towards), 0.0);
+    var light = vec3f(1.0, 0.95, 0.85) * (view.head_lamps.w * cone * caught / (squared + HEAD_LAMPS_APART));
+    for (var index = 0; index < 8; index++) {
         let lamp = view.street_lamps[index];
         let way = lamp.xyz - place;
         let squared = dot(way, way);

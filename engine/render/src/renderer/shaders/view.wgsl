@@ -8,7 +8,7 @@ struct View {
     image: vec4f,
     // How y / x and z / x become coordinates from -1 to 1.
     project: vec4f,
-    // Towards the sun; the least glow of lamps.
+    // Towards the sun; how much lamps shine.
     sun: vec4f,
     // Up; the extinction of the fog in 1/m.
     up: vec4f,
@@ -25,7 +25,7 @@ struct View {
     street_lamps: array<vec4f, 8>,
     // From the camera's coordinates to those of the shadow map: across, down, and depth.
     shadow: array<vec4f, 3>,
-    // Where the view's pixels begin in the masks of things alone, words per pixel, pixels across, lamps.
+    // Where the view's pixels begin in the masks of things alone, words per pixel, pixels across.
     counts: vec4u,
 }
 
