@@ -5,6 +5,7 @@ use super::raw::RawCorner;
 use crate::{Mesh, Surface, Vertex};
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::{Arc, Weak};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
@@ -16,12 +17,34 @@ const HIGH: f32 = 2.5;
 pub(super) struct GpuMesh {
     pub corners: wgpu::Buffer,
     pub indices: wgpu::Buffer,
-    /// How many indices there are.
-    pub count: u32,
+    /// Which of the indices are those of surfaces of each finish.
+    pub parts: [Range<u32>; 3],
     pub low: Vector3<f64>,
     pub high: Vector3<f64>,
     /// Where it has a lamp that lights up what is below, if it has one.
     pub lamp: Option<Point3<f64>>,
+}
+
+/// What a surface asks of the program that draws it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Finish {
+    /// Neither of the others.
+    Dull,
+    Glossy,
+    /// Mostly the ground, which is drawn last, since most other things are before it.
+    Grained,
+}
+
+impl Finish {
+    pub const ALL: [Self; 3] = [Self::Dull, Self::Glossy, Self::Grained];
+
+    fn of(surface: Surface) -> Self {
+        match surface {
+            Surface::Paint | Surface::Glass => Self::Glossy,
+            Surface::Asphalt | Surface::Grown => Self::Grained,
+            Surface::Plain | Surface::Cloth | Surface::WhiteLamp | Surface::RedLamp => Self::Dull,
+        }
+    }
 }
 
 /// Why a mesh cannot be drawn.
@@ -61,13 +84,19 @@ impl Meshes {
 }
 
 impl GpuMesh {
+    /// How many indices there are.
+    pub fn count(&self) -> u32 {
+        self.parts[2].end
+    }
+
     fn new(gpu: &Gpu, mesh: &Mesh) -> Result<Self, Unfit> {
         let finite = |vertex: &Vertex| vertex.position.iter().chain(&vertex.uv).all(|number| number.is_finite());
         if let Some(index) = mesh.vertices().iter().position(|vertex| !finite(vertex)) {
             let Vertex { position, uv, .. } = mesh.vertices()[index];
             return Err(Unfit::Corner(format!("corner {index} at {position:?} with texture coordinates {uv:?}")));
         }
-        let (corners, indices) = spoken_for(mesh);
+        let (corners, triangles) = spoken_for(mesh);
+        let (indices, parts) = parted(&triangles);
         let bytes = (corners.len() * size_of::<RawCorner>()).max(indices.len() * 4) as u64;
         if bytes > gpu.limits.max_buffer_size {
             return Err(Unfit::TooLarge(bytes));
@@ -79,7 +108,7 @@ impl GpuMesh {
         Ok(Self {
             corners: buffer(bytemuck::cast_slice(&corners), wgpu::BufferUsages::VERTEX),
             indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
-            count: indices.len() as u32,
+            parts,
             low: positions().reduce(|low, position| low.inf(&position)).unwrap_or_default(),
             high: positions().reduce(|high, position| high.sup(&position)).unwrap_or_default(),
             lamp: lamp_of(mesh),
@@ -95,17 +124,17 @@ fn lamp_of(mesh: &Mesh) -> Option<Point3<f64>> {
     (!high.is_empty()).then(|| Point3::from(sum / high.len() as f64))
 }
 
-/// Corners and indices such that the first corner of each triangle is the first of no other: what is flat over a
+/// Corners and triangles such that the first corner of each triangle is the first of no other: what is flat over a
 /// triangle is that corner's. Triangles are turned to begin with a corner that is still free; where there is none, one
 /// is doubled.
-fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<u32>) {
+fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
     let mut corners: Vec<RawCorner> = mesh.vertices().iter().map(raw).collect();
     let mut free = vec![true; corners.len()];
-    let mut indices = Vec::with_capacity(mesh.indices().len());
+    let mut triangles = Vec::with_capacity(mesh.indices().len() / 3);
     for triangle in mesh.indices().chunks_exact(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| triangle[corner]);
         let turned = [[a, b, c], [b, c, a], [c, a, b]];
-        let mut turned = turned.into_iter().find(|turned| free[turned[0] as usize]).unwrap_or_else(|| {
+        let turned = turned.into_iter().find(|turned| free[turned[0] as usize]).unwrap_or_else(|| {
             corners.push(corners[a as usize]);
             free.push(true);
             [corners.len() as u32 - 1, b, c]
@@ -117,9 +146,20 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<u32>) {
         speaker.face = face.unwrap_or_default().into();
         speaker.kind = [surface as u8, semantic as u8, 0, 0];
         free[turned[0] as usize] = false;
-        indices.append(&mut turned.as_mut_slice().to_vec());
+        triangles.push((Finish::of(surface), turned));
     }
-    (corners, indices)
+    (corners, triangles)
+}
+
+/// The indices of triangles, those of one finish beside each other, and where they are.
+fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 3]) {
+    let mut indices = Vec::with_capacity(3 * triangles.len());
+    let parts = Finish::ALL.map(|finish| {
+        let begin = indices.len() as u32;
+        indices.extend(triangles.iter().filter(|(of, _)| *of == finish).flat_map(|(_, corners)| corners));
+        begin..indices.len() as u32
+    });
+    (indices, parts)
 }
 
 /// The unit normal of a triangle, if it has an area.

@@ -17,7 +17,7 @@ pub use adapter::{Adapter, adapter};
 
 use crate::{Camera, Frame, Outputs, RenderError, View, ViewError};
 use adapter::Gpu;
-use meshes::Meshes;
+use meshes::{Finish, Meshes};
 use pipelines::Pipelines;
 use prepare::{Draw, Prepared, prepare};
 use raw::RawView;
@@ -166,7 +166,7 @@ impl Renderer {
     ) {
         let wanted = targets.format.wanted;
         let offset = layer * view_stride(&self.gpu) as u32;
-        let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.lamps());
+        let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
         if wanted.shadows && wanted.light() {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),
@@ -174,14 +174,16 @@ impl Renderer {
             });
             pass.set_pipeline(&self.pipelines.shadow);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
-            self.draw(&mut pass, targets, &prepared.casters, first);
+            self.draw(&mut pass, targets, &prepared.casters, first, None);
         }
         {
             let mut pass = targets.begin(encoder, layer, true);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
             pass.set_bind_group(1, &self.pipelines.sun, &[]);
-            pass.set_pipeline(&drawing.surface);
-            self.draw(&mut pass, targets, &prepared.draws, first);
+            for (finish, surface) in Finish::ALL.into_iter().zip(&drawing.surfaces) {
+                pass.set_pipeline(surface);
+                self.draw(&mut pass, targets, &prepared.draws, first, Some(finish));
+            }
             if let Some(sky) = &drawing.sky {
                 pass.set_pipeline(sky);
                 pass.draw(0..3, 0..1);
@@ -192,17 +194,28 @@ impl Renderer {
             pass.set_pipeline(&self.pipelines.alone);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
             pass.set_bind_group(1, &masks.group, &[]);
-            self.draw(&mut pass, targets, &prepared.draws, first);
+            self.draw(&mut pass, targets, &prepared.draws, first, None);
         }
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, targets: &Targets, draws: &[Draw], first: u32) {
+    /// Draws all that is to be drawn of these meshes, or of the surfaces of one finish.
+    fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        targets: &Targets,
+        draws: &[Draw],
+        first: u32,
+        finish: Option<Finish>,
+    ) {
         pass.set_vertex_buffer(1, targets.instances.slice(..));
         for Draw { mesh, instances } in draws {
             let mesh = self.meshes.get(*mesh);
-            pass.set_vertex_buffer(0, mesh.corners.slice(..));
-            pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..mesh.count, 0, first + instances.start..first + instances.end);
+            let part = finish.map_or(0..mesh.count(), |finish| mesh.parts[finish as usize].clone());
+            if !part.is_empty() {
+                pass.set_vertex_buffer(0, mesh.corners.slice(..));
+                pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(part, 0, first + instances.start..first + instances.end);
+            }
         }
     }
 

@@ -1,6 +1,8 @@
 //! The programs of the adapter: one for each set of images that is asked for.
 
 use super::adapter::Gpu;
+use super::meshes::Finish;
+use super::prepare::Weather;
 use super::raw::{RawCorner, RawInstance, RawView};
 use super::shadow::TEXELS;
 use super::targets::{DEPTH_FORMAT, Image};
@@ -21,14 +23,14 @@ pub(super) struct Pipelines {
     shaded: wgpu::PipelineLayout,
     pub shadow: wgpu::RenderPipeline,
     pub alone: wgpu::RenderPipeline,
-    /// By the images that they draw, and whether lamps shine.
-    drawing: BTreeMap<(Outputs, bool), Drawing>,
+    drawing: BTreeMap<(Outputs, Weather), Drawing>,
 }
 
 /// The programs that draw what is asked for.
 #[derive(Debug, Clone)]
 pub(super) struct Drawing {
-    pub surface: wgpu::RenderPipeline,
+    /// In the order of [`Finish::ALL`].
+    pub surfaces: [wgpu::RenderPipeline; 3],
     /// Where light is asked for.
     pub sky: Option<wgpu::RenderPipeline>,
 }
@@ -73,18 +75,28 @@ impl Pipelines {
         Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
     }
 
-    /// The programs for these images, while lamps shine or not.
-    pub fn drawing(&mut self, gpu: &Gpu, wanted: Outputs, lamps: bool) -> Drawing {
+    /// The programs for these images in this weather.
+    pub fn drawing(&mut self, gpu: &Gpu, wanted: Outputs, weather: Weather) -> Drawing {
         let Self { modules, shaded, drawing, .. } = self;
-        drawing.entry((wanted, lamps)).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted, lamps)).clone()
+        drawing.entry((wanted, weather)).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted, weather)).clone()
     }
 }
 
 impl Drawing {
-    fn new(gpu: &Gpu, modules: &Modules, layout: &wgpu::PipelineLayout, wanted: Outputs, lamps: bool) -> Self {
-        let choices = [("RGB", wanted.light()), ("SHADOWS", wanted.shadows), ("LAMPS", lamps)];
-        let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
-        let pipeline = |sky: bool| {
+    fn new(gpu: &Gpu, modules: &Modules, layout: &wgpu::PipelineLayout, wanted: Outputs, weather: Weather) -> Self {
+        let pipeline = |finish: Option<Finish>| {
+            let sky = finish.is_none();
+            let choices = [
+                ("RGB", wanted.light()),
+                ("SHADOWS", wanted.shadows),
+                ("LAMPS", weather.lamps),
+                ("FOG", weather.fog),
+                ("GLOSSY", finish == Some(Finish::Glossy)),
+                ("GRAINED", finish == Some(Finish::Grained)),
+            ];
+            // The sky asks for one of them only, and may not be told of the others.
+            let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
+            let constants = if sky { &constants[3..4] } else { &constants };
             let module = if sky { &modules.sky } else { &modules.surface };
             // The sky is light and nothing else.
             let writes = |image: Image| {
@@ -94,10 +106,7 @@ impl Drawing {
                 let target = wgpu::ColorTargetState { format: image.format(), blend: None, write_mask: writes(image) };
                 image.is_wanted(wanted).then_some(target)
             };
-            let compilation_options = wgpu::PipelineCompilationOptions {
-                constants: if sky { &[] } else { &constants },
-                ..Default::default()
-            };
+            let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
             gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(if sky { "sky" } else { "surfaces" }),
                 layout: Some(layout),
@@ -120,7 +129,8 @@ impl Drawing {
                 cache: None,
             })
         };
-        Self { surface: pipeline(false), sky: wanted.light().then(|| pipeline(true)) }
+        let surfaces = Finish::ALL.map(|finish| pipeline(Some(finish)));
+        Self { surfaces, sky: wanted.light().then(|| pipeline(None)) }
     }
 }
 

@@ -22,6 +22,14 @@ pub(super) struct Prepared {
     pub bits: BTreeMap<u16, u32>,
 }
 
+/// What there is besides daylight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Weather {
+    /// Lamps that shine.
+    pub lamps: bool,
+    pub fog: bool,
+}
+
 /// One mesh, drawn for some of the instances of its view.
 #[derive(Debug)]
 pub(super) struct Draw {
@@ -30,9 +38,9 @@ pub(super) struct Draw {
 }
 
 impl Prepared {
-    /// Whether lamps shine.
-    pub fn lamps(&self) -> bool {
-        self.raw.sun[3] > 0.0
+    /// What of the weather its programs have to know.
+    pub fn weather(&self) -> Weather {
+        Weather { lamps: self.raw.sun[3] > 0.0, fog: self.raw.up[3] > 0.0 }
     }
 
     /// How many words each pixel has in the masks of things alone.
@@ -100,7 +108,7 @@ impl Prepared {
     fn add<'a>(&mut self, placed: impl Iterator<Item = &'a Placed<'a>>) -> Vec<Draw> {
         let mut groups: Vec<(u64, Vec<&Placed<'_>>)> = Vec::new();
         let mut group_of = BTreeMap::new();
-        for placed in placed.filter(|placed| placed.mesh.count > 0) {
+        for placed in placed {
             let key = placed.instance.mesh.key();
             let group = *group_of.entry(key).or_insert(groups.len());
             if group == groups.len() {

@@ -17,9 +17,11 @@ struct Sky {
 fn sky(@builtin(position) at: vec4f) -> Sky {
     let direction = normalize(ray(at.xy));
     let height = max(dot(direction, view.up.xyz), 0.0);
-    let clear = mix(view.air.xyz, view.zenith.xyz, sqrt(height));
-    // The way out of the fog is longer the flatter one looks, and endless at the horizon.
-    let through = exp(-view.up.w * FOG_HEIGHT / max(height, 1e-6));
-    let light = mix(view.air.xyz, clear, through);
+    var light = mix(view.air.xyz, view.zenith.xyz, sqrt(height));
+    if FOG {
+        // The way out of the fog is longer the flatter one looks, and endless at the horizon.
+        let through = exp(-view.up.w * FOG_HEIGHT / max(height, 1e-6));
+        light = mix(view.air.xyz, light, through);
+    }
     return Sky(vec4f(light, 1.0), vec4f(light, 1.0));
 }

@@ -5,9 +5,11 @@ const HEAD_LAMPS_APART: f32 = 60.0;
 
 override RGB: bool = true;
 override SHADOWS: bool = false;
-// Whether lamps shine. A choice of programs, as the others are: llvmpipe compiles a program anew for every value of a
-// uniform that decides on a branch.
+// Whether lamps shine.
 override LAMPS: bool = false;
+// Which kinds of surfaces are drawn.
+override GLOSSY: bool = false;
+override GRAINED: bool = false;
 
 @group(1) @binding(0) var sun_depth: texture_depth_2d;
 @group(1) @binding(1) var sun_sampler: sampler_comparison;
@@ -15,7 +17,6 @@ override LAMPS: bool = false;
 const PAINT: u32 = 1u;
 const CLOTH: u32 = 2u;
 const GLASS: u32 = 3u;
-const ASPHALT: u32 = 4u;
 const GROWN: u32 = 5u;
 const WHITE_LAMP: u32 = 6u;
 const RED_LAMP: u32 = 7u;
@@ -81,6 +82,9 @@ fn surface(seen: Seen) -> Pixel {
 
 // Koschmieder: what is there fades with the distance, and the air's own light takes its place.
 fn fogged(light: vec3f, distance: f32) -> vec3f {
+    if !FOG {
+        return light;
+    }
     return mix(view.air.xyz, light, exp(-view.up.w * distance));
 }
 
@@ -88,14 +92,14 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     let kind = seen.kind & 255u;
     let towards_eye = place / -distance;
     let normal = normalize(seen.normal);
-    if LAMPS && kind == WHITE_LAMP {
+    if LAMPS && !GLOSSY && !GRAINED && kind == WHITE_LAMP {
         return mix(seen.colour, vec3f(1.0, 0.93, 0.78), view.sun.w);
     }
-    if LAMPS && kind == RED_LAMP {
+    if LAMPS && !GLOSSY && !GRAINED && kind == RED_LAMP {
         return mix(seen.colour, vec3f(0.9, 0.02, 0.01), view.sun.w);
     }
     var colour = seen.colour;
-    if kind == ASPHALT || kind == GROWN {
+    if GRAINED {
         let slant = max(abs(dot(normal, towards_eye)), 0.02);
         colour *= grain(seen.uv, distance * view.image.z / slant, kind);
     }
@@ -109,7 +113,7 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     if LAMPS {
         light += colour * lamps(place, normal);
     }
-    if kind == PAINT || kind == GLASS {
+    if GLOSSY {
         light += gloss(normal, towards_eye, sun, kind);
     }
     return light;
@@ -160,13 +164,11 @@ fn lamps(place: vec3f, normal: vec3f) -> vec3f {
 
 // Stones and leaves: cells of chance brightness, faded where they become smaller than pixels.
 fn grain(uv: vec2f, pixel: f32, kind: u32) -> f32 {
-    if kind == GROWN {
-        let tufts = (chance(uv, 0.07) - 0.5) * 0.5 * finer(0.07, pixel);
-        let patches = (smooth_chance(uv, 1.3) - 0.5) * 0.5 * finer(1.3, pixel);
-        return 1.0 + tufts + patches;
-    }
-    let stones = (chance(uv, 0.025) - 0.5) * 0.22 * finer(0.025, pixel);
-    let stains = (smooth_chance(uv, 2.1) - 0.5) * 0.16 * finer(2.1, pixel);
+    let grown = kind == GROWN;
+    let stone = select(0.025, 0.07, grown);
+    let stain = select(2.1, 1.3, grown);
+    let stones = (hash(vec2i(floor(uv / stone))) - 0.5) * select(0.22, 0.5, grown) * finer(stone, pixel);
+    let stains = (smooth_hash(uv / stain) - 0.5) * select(0.16, 0.5, grown) * finer(stain, pixel);
     return 1.0 + stones + stains;
 }
 
@@ -174,14 +176,9 @@ fn finer(cell: f32, pixel: f32) -> f32 {
     return clamp(cell / pixel - 0.5, 0.0, 1.0);
 }
 
-fn chance(uv: vec2f, cell: f32) -> f32 {
-    return hash(vec2i(floor(uv / cell)));
-}
-
-fn smooth_chance(uv: vec2f, cell: f32) -> f32 {
-    let scaled = uv / cell;
-    let corner = vec2i(floor(scaled));
-    let part = smoothstep(vec2f(0.0), vec2f(1.0), fract(scaled));
+fn smooth_hash(at: vec2f) -> f32 {
+    let corner = vec2i(floor(at));
+    let part = smoothstep(vec2f(0.0), vec2f(1.0), fract(at));
     let low = mix(hash(corner), hash(corner + vec2i(1, 0)), part.x);
     let high = mix(hash(corner + vec2i(0, 1)), hash(corner + vec2i(1, 1)), part.x);
     return mix(low, high, part.y);

@@ -3,6 +3,10 @@
 // Everything is in the camera's coordinates, x forward, y to the left, z up: numbers stay small however far from the
 // origin of the world the camera is.
 
+// Whether there is fog. That, and the like, is a choice of programs: llvmpipe compiles a program anew for every value of a
+// uniform that decides on a branch, and takes as long for a branch that is not taken as for one that is.
+override FOG: bool = false;
+
 struct View {
     // The middle of the image in pixels, metres across per pixel at 1 m, the nearest that is drawn.
     image: vec4f,
