@@ -28,7 +28,8 @@ fn scene(bodies: &[BodyState]) -> Scene {
 fn corners(scene: &Scene, index: usize, pose: &Pose) -> Vec<Point3<f32>> {
     let own = scene.instances.iter().filter(|instance| usize::from(instance.id) == index + 1);
     let corner = |(instance, vertex): (&Instance, &Vertex)| {
-        let point = instance.pose * Point3::from(Vector3::from(vertex.position).component_mul(&instance.scale.into()));
+        let point =
+            instance.pose * Point3::from(Vector3::from(vertex.position).component_mul(&Vector3::from(instance.scale)));
         let seen = pose.to_local(Vector2::new(f64::from(point.x), f64::from(point.y)));
         Point3::new(seen.x as f32, seen.y as f32, point.z)
     };

@@ -32,11 +32,11 @@ fn frame(clay: &mut Clay) {
     }
     let (pedals, seat, head) = (at(-0.08, 0.0, 0.30), at(-0.24, 0.0, 0.86), at(0.40, 0.0, 0.82));
     for (from, to) in [(pedals, seat), (pedals, head), (seat, head), (pedals, REAR.into()), (seat, REAR.into())] {
-        clay.tube([from, to], [0.022; 2], 5, paint);
+        clay.tube([from, to], [0.022; 2], 4, paint);
     }
-    clay.tube([FRONT.into(), head], [0.02; 2], 5, paint);
-    clay.tube([head, at(0.36, 0.0, 1.0)], [0.018; 2], 5, steel);
-    clay.tube([at(0.34, -0.3, 1.0), at(0.34, 0.3, 1.0)], [0.018; 2], 5, dark);
+    clay.tube([FRONT.into(), head], [0.02; 2], 4, paint);
+    clay.tube([head, at(0.36, 0.0, 1.0)], [0.018; 2], 4, steel);
+    clay.tube([at(0.34, -0.3, 1.0), at(0.34, 0.3, 1.0)], [0.018; 2], 4, dark);
     clay.cuboid([-0.38, -0.07, 0.90], [-0.12, 0.07, 0.96], dark);
     clay.tube([pedals - Point::y() * 0.12, pedals + Point::y() * 0.12], [0.05; 2], 6, steel);
     clay.cuboid([0.36, -0.03, 0.86], [0.42, 0.03, 0.92], matter(Surface::WhiteLamp, super::colours::LAMP));
@@ -62,7 +62,7 @@ fn rider(clay: &mut Clay) {
         let (shoulder, elbow, hand) = (at(0.09, 0.19, 1.41), at(0.2, 0.25, 1.19), at(0.34, 0.25, 1.03));
         clay.tube([shoulder, elbow], [0.058, 0.045], 6, jacket);
         clay.tube([elbow, hand], [0.045, 0.035], 6, jacket);
-        clay.ball(hand, [0.05, 0.035, 0.04], 6, skin);
+        clay.ball(hand, [0.05, 0.035, 0.04], 4, skin);
     });
     // One pedal is up, the other is down.
     for (hip, knee, ankle) in [
