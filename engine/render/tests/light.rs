@@ -56,7 +56,8 @@ fn colours_are_those_of_linear_light() {
     let pairs = frame.rgb.iter().flatten().zip(frame.linear.iter().flatten());
     let worst = pairs.map(|(rgb, linear)| (f64::from(*rgb) - srgb(linear.min(1.0))).abs()).fold(0.0, f64::max);
     eprintln!("sRGB: at most {worst:.3} / 255 off");
-    assert!(worst <= 0.6, "{worst} / 255 off");
+    // Half is rounding; adapters may compute the transfer function by an approximation.
+    assert!(worst <= 1.0, "{worst} / 255 off");
 }
 
 #[test]
