@@ -82,6 +82,17 @@ impl Gpu {
         }));
         Ok(Self { adapter: description, limits, device, queue, trouble })
     }
+
+    /// Waits until a submission is done, and fails if anything went wrong by then.
+    pub fn wait(&self, submission: wgpu::PollType) -> Result<(), RenderError> {
+        let waited = self.device.poll(submission);
+        if waited.is_err() {
+            // A lost device first refuses to wait; that it is lost is only heard of afterwards, if at all.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
+        self.trouble.check()?;
+        waited.map(|_| ()).map_err(|error| RenderError::Failed(error.to_string()))
+    }
 }
 
 /// What would draw on this machine, without opening it.

@@ -12,6 +12,8 @@ mod raw;
 mod read;
 mod shadow;
 mod targets;
+#[cfg(test)]
+mod tests;
 
 pub use adapter::{Adapter, adapter};
 
@@ -227,9 +229,7 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let Batch { targets, submission, layers } = batch;
         let wait = wgpu::PollType::Wait { submission_index: Some(submission), timeout: None };
-        let waited = self.gpu.device.poll(wait);
-        self.gpu.trouble.check()?;
-        waited.map_err(|error| RenderError::Failed(error.to_string()))?;
+        self.gpu.wait(wait)?;
         let unread = |error: wgpu::MapRangeError| RenderError::Failed(error.to_string());
         let format = targets.format;
         let cameras: Vec<_> = layers.iter().map(|(_, camera, _)| *camera).collect();
@@ -251,6 +251,9 @@ impl Renderer {
         for ((index, _, _), frame) in layers.iter().zip(read) {
             frames[*index] = Some(Ok(frame));
         }
+        if self.idle.len() >= MOST_IDLE {
+            self.idle.remove(0);
+        }
         self.idle.push(targets);
         Ok(())
     }
@@ -263,9 +266,6 @@ impl Renderer {
         }
         // Those of another kind, and those that have become too small, are not kept for a day that may not come.
         self.idle.retain(|idle| idle.format != format);
-        if self.idle.len() >= MOST_IDLE {
-            self.idle.remove(0);
-        }
         Targets::new(&self.gpu, &self.pipelines, format, layers)
     }
 }

@@ -77,6 +77,8 @@ impl Pipelines {
 
     /// The programs for these images in this weather.
     pub fn drawing(&mut self, gpu: &Gpu, wanted: Outputs, weather: Weather) -> Drawing {
+        // Where there is no light, weather makes no difference.
+        let weather = if wanted.light() { weather } else { Weather::default() };
         let Self { modules, shaded, drawing, .. } = self;
         drawing.entry((wanted, weather)).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted, weather)).clone()
     }

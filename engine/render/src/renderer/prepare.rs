@@ -23,7 +23,7 @@ pub(super) struct Prepared {
 }
 
 /// What there is besides daylight.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Weather {
     /// Lamps that shine.
     pub lamps: bool,
