@@ -8,6 +8,7 @@
 //! 4. the inputs of the objects are read and everything moves on by `dt`.
 
 mod scene;
+mod sensing;
 
 use crate::driver::Driver;
 use crate::object::BodyState;
@@ -15,6 +16,7 @@ use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Metric, Outcome};
 use crate::program::{Program, ProgramError, Test};
 use crate::road::{Network, Path, wrapped};
+use crate::sensor::Rig;
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::Model;
 use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
@@ -68,6 +70,7 @@ pub struct Run {
     row: Vec<f64>,
     trace: Trace,
     observation: Observation,
+    rig: Rig,
     /// What there is to say of a run that cannot begin.
     unable: Option<Outcome>,
 }
@@ -124,6 +127,7 @@ impl Run {
             columns,
             trace,
             observation: Observation::default(),
+            rig: Rig::default(),
             unable: overlap.or(fault),
             scene,
         })
@@ -149,6 +153,7 @@ impl Run {
                     let message = format!("{message} at {:.3} s", self.time());
                     return self.end(Outcome::broken(Verdict::Error, message));
                 }
+                self.sense();
                 if self.scene.contact.is_some() || self.tick == self.ticks {
                     let outcome = self.judged();
                     return self.end(outcome);
@@ -171,6 +176,7 @@ impl Run {
     pub fn supply(&mut self, control: Control) {
         self.scene.ego.control = control;
         self.supplied = true;
+        self.rig.clear();
     }
 
     /// Goes to the end with this driver, which is told that a new run begins.
