@@ -16,8 +16,7 @@ use paracosm::engine::sensor::{Chance, Lidar, LidarSettings, Scan, Sensor};
 use paracosm::engine::traffic::{Traffic, TrafficCar};
 use paracosm::engine::vehicle::{Model, Pedals, Vehicle};
 use paracosm::engine::{
-    AutonomousVehicle, Control, DEFAULT_DT, Pose, Program, RoadSegment, Run, Scenario, Setup, Step, Stream, driver,
-    simulate,
+    AutonomousVehicle, DEFAULT_DT, Pose, Program, RoadSegment, Run, Scenario, Setup, Step, Stream, driver, simulate,
 };
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
@@ -77,10 +76,13 @@ fn lidar_scans(bencher: Bencher) {
     let study = Study::of("grid-traffic").unwrap();
     let program = study.program().unwrap();
     let test = program.declare().unwrap().nominal();
-    let mut run = Run::new(&program, &test, Setup::asking_every(0.1)).unwrap();
+    let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
+    let mut run = Run::new(&program, &test, Setup::asking_every(driver.period())).unwrap();
+    driver.reset(&run.briefing());
     while run.time() < 30.0 {
-        assert!(matches!(run.advance(), Step::Need(_)), "the car has come to its end");
-        run.supply(Control::default());
+        let Step::Need(observation) = run.advance() else { panic!("the car has come to its end") };
+        let control = driver.step(observation);
+        run.supply(control);
     }
     let mut lidar = Lidar::new(LidarSettings::default()).unwrap();
     let (view, mut scan) = (run.view(), Scan::default());

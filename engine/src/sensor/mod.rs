@@ -118,3 +118,6 @@ impl<'a> View<'a> {
         self.bodies.iter().enumerate().skip(1).filter(|(_, body)| body.present)
     }
 }
+
+#[cfg(test)]
+mod tests;
