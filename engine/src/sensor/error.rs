@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum SensorError {
     /// A setting out of its range.
-    #[error("{sensor}: `{setting}` is {value}{}, expected {} to {}", spaced(.unit), range.0, range.1)]
+    #[error("{sensor}: `{setting}` is {value}{}, expected {} to {}{}", spaced(.unit), range.0, range.1, spaced(.unit))]
     OutOfRange {
         /// The kind of sensor, or the name that it was to be attached by.
         sensor: String,

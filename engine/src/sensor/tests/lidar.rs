@@ -115,7 +115,7 @@ proptest! {
         let half = Vector3::new(size.0, size.1, size.2) * 0.5;
         let target = half.component_mul(&Vector3::new(inside.0, inside.1, inside.2));
         let turned = Pose { position: Vector2::zeros(), heading }.turn_to_plane(target.xy());
-        let middle = way * far - Vector3::new(turned.x, turned.y, target.z);
+        let middle: Vector3<f64> = way * far - Vector3::new(turned.x, turned.y, target.z);
         let mut world = World::of(pose(0.0, 0.0, 0.0));
         let body = Body::block(Class::Car, size.0, size.1, size.2);
         let altitude = height + middle.z - half.z;

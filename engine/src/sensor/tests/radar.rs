@@ -58,14 +58,14 @@ proptest! {
         (ahead, left, heading) in (-2.0..2.0, -1.0..1.0, -0.2..0.2),
     ) {
         let position = nalgebra::Vector3::new(ahead, left, 0.5);
-        let settings = RadarSettings { mount: Mount { position, heading }, ..exact() };
+        let settings = RadarSettings { mount: Mount { position, heading }, field_of_view: std::f64::consts::TAU, ..exact() };
         let velocity = Vector2::new(velocity.0, velocity.1);
-        let at = car.position + car.forward() * x + car.left() * y;
+        let at: Vector2<f64> = car.position + car.forward() * x + car.left() * y;
         // Half a microsecond earlier and later.
         let moment = |dt: f64| {
             let moved = pose(car.position.x, car.position.y, car.heading + yaw_rate * dt);
             let moved = Pose { position: moved.position + car.forward() * (speed * dt), ..moved };
-            let target = at + velocity * dt;
+            let target: Vector2<f64> = at + velocity * dt;
             let mut world = World::of(moved).with(Body::disc(Class::Car, radius, 1.0), pose(target.x, target.y, 0.0), velocity);
             (world.car.velocity, world.car.yaw_rate) = (Vector2::new(speed, 0.0), yaw_rate);
             sweep(settings, &world, 0)[0]
@@ -76,8 +76,9 @@ proptest! {
         let place = pose(car.position.x, car.position.y, car.heading);
         let sensor = place.position + place.forward() * ahead + place.left() * left;
         let direction = place.heading + heading + now.azimuth;
-        let found = sensor + Pose { position: sensor, heading: direction }.forward() * (now.range + radius);
-        prop_assert!((found - at).norm() < 1e-9, "{:?} but {:?}", found, at);
+        let found: Vector2<f64> = sensor + Pose { position: sensor, heading: direction }.forward() * (now.range + radius);
+        let off: Vector2<f64> = found - at;
+        prop_assert!(off.norm() < 1e-9, "{:?} but {:?}", found, at);
     }
 }
 

@@ -22,7 +22,7 @@ fn the_truth_of_a_body_is_as_seen_from_the_car() {
     assert!((body.velocity - Vector2::new(-1.5, 0.0)).norm() < 1e-9);
     assert!((body.heading + FRAC_PI_2).abs() < 1e-9);
     // From the corner of the car, at (2.25, 0.9).
-    assert!((body.distance - (Vector2::new(27.75, 1.1).norm() - 0.25)).abs() < 1e-9, "{}", body.distance);
+    assert!((body.distance - (Vector2::<f64>::new(27.75, 1.1).norm() - 0.25)).abs() < 1e-9, "{}", body.distance);
 }
 
 #[test]
