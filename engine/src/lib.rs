@@ -55,7 +55,7 @@ pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use road::RoadSegment;
 pub use run::{DEFAULT_DT, Run, Setup, Step, simulate, watch};
 pub use scenario::{
-    Conditions, Draft, Environment, Line, Param, Paved, Place, Pose, Road, Scenario, Side, Streets, Temporal, always,
-    eventually, never,
+    Conditions, Draft, Environment, Line, Param, Paved, Place, Pose, Road, Scenario, Side, Streets, Temporal, Weather,
+    always, eventually, never,
 };
 pub use stream::{Forward, Stream};

@@ -180,6 +180,8 @@ pub struct BodyState {
     pub velocity: Vector2<f64>,
     /// How far its lowest point is above the ground, in metres. What is not physical stays on the ground.
     pub altitude: f64,
+    /// How long the way is that it has come since the run began, in metres: legs and wheels turn by it.
+    pub travelled: f64,
     /// Whether it is in the world. One that has left it stands where it was last seen, and is in nobody's way.
     pub present: bool,
 }
@@ -187,14 +189,16 @@ pub struct BodyState {
 impl BodyState {
     /// A body at rest on the ground.
     pub(crate) fn at_rest(body: Body, pose: Pose) -> Self {
-        Self { body, pose, velocity: Vector2::zeros(), altitude: 0.0, present: true }
+        Self { body, pose, velocity: Vector2::zeros(), altitude: 0.0, travelled: 0.0, present: true }
     }
 
     /// The pose that it takes within a tick of `dt` seconds; `None` if it leaves the world.
     pub(crate) fn move_to(&mut self, pose: Option<Pose>, dt: f64) {
         self.present = pose.is_some();
         let pose = pose.unwrap_or(self.pose);
-        self.velocity = (pose.position - self.pose.position) / dt;
+        let way = pose.position - self.pose.position;
+        self.velocity = way / dt;
+        self.travelled += way.norm();
         self.pose = pose;
     }
 }

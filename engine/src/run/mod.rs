@@ -16,6 +16,7 @@ use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::{Metric, Outcome};
 use crate::program::{Program, ProgramError, Test};
 use crate::road::{Network, Path, wrapped};
+use crate::scenario::Weather;
 use crate::sensor::Rig;
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::Model;
@@ -218,6 +219,11 @@ impl Run {
     /// The roads.
     pub fn network(&self) -> &Arc<Network> {
         &self.scene.network
+    }
+
+    /// Light, fog and the sun at this tick.
+    pub fn weather(&self) -> Weather {
+        self.scene.weather(&self.graph)
     }
 
     /// Seconds since it began.

@@ -3,7 +3,7 @@
 use crate::actor::Ego;
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
 use crate::road::{Network, Path};
-use crate::scenario::{Pose, Scenario};
+use crate::scenario::{Pose, Scenario, Weather, WeatherPart};
 use crate::stream::{Clock, Graph, Sample, Slot};
 use crate::vehicle::{GRAVITY, Model};
 use crate::world::{Contact, World, overlapping};
@@ -33,8 +33,8 @@ pub(super) struct Scene {
     /// Where the values of their inputs stand.
     inputs: Vec<Slot>,
     friction: Slot,
-    /// Light and fog, if the program says anything of them.
-    weather: Vec<(&'static str, Slot)>,
+    /// Light, fog and the sun, as far as the program says anything of them.
+    weather: Vec<(WeatherPart, Slot)>,
     world: World,
     /// How the car touches another body.
     pub contact: Option<Contact>,
@@ -52,7 +52,7 @@ impl Scene {
     /// What a program has built and laid out, with a car that this model moves.
     pub fn new(mut scenario: Scenario, graph: &Graph, model: Model) -> Self {
         let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
-        let weather = scenario.weather().map(|(name, node)| (name, graph.slot(&node))).collect();
+        let weather = scenario.weather().map(|(part, node)| (part, graph.slot(&node))).collect();
         let ego = Ego::new(&scenario.cars[0], model);
         let mut bodies = vec![ego.body()];
         let mut masses = Vec::new();
@@ -145,10 +145,10 @@ impl Scene {
         if !(0.0..f64::INFINITY).contains(&friction) {
             return Err(format!("the friction of the road is {friction}, expected a number from 0 on"));
         }
-        for (name, slot) in &self.weather {
+        for (part, slot) in &self.weather {
             let value: f64 = graph.value(*slot).unwrap_or(f64::NAN);
-            if !(0.0..=1.0).contains(&value) {
-                return Err(format!("the {name} is {value}, expected 0 to 1"));
+            if !part.range.contains(&value) {
+                return Err(format!("the {} is {value}, expected {}", part.name, part.expected));
             }
         }
         self.ego.step(friction, dt)?;
@@ -186,6 +186,17 @@ impl Scene {
             Some(contact) => -self.missing_distance(contact, friction),
         };
         Ok(())
+    }
+
+    /// What the streams of the weather say at this tick; the usual of what they do not say, or say wrongly.
+    pub fn weather(&self, graph: &Graph) -> Weather {
+        let mut weather = Weather::default();
+        for (part, slot) in &self.weather {
+            if let Some(value) = graph.value(*slot).filter(|value| part.range.contains(value)) {
+                *(part.of)(&mut weather) = value;
+            }
+        }
+        weather
     }
 
     /// The ways that objects mean to go, each with the index of the first body of its object.

@@ -22,7 +22,7 @@ impl Run {
             car: self.scene.ego.dynamics.state(),
             bodies: &self.scene.bodies,
             network: &self.scene.network,
-            air: Air::default(),
+            air: Air::of(&self.weather()),
         }
     }
 

@@ -1,7 +1,10 @@
-//! What holds for the whole world: light, fog, and how slippery the roads are (the paper's `World`).
+//! What holds for the whole world: light, fog, the sun, and how slippery the roads are (the paper's `World`).
 
 use super::{Place, Scenario};
-use crate::stream::Stream;
+use crate::stream::{Node, Stream};
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::ops::RangeInclusive;
+use std::rc::Rc;
 
 /// Friction coefficient of dry asphalt.
 const DRY_ASPHALT: f64 = 0.8;
@@ -11,6 +14,7 @@ const DRY_ASPHALT: f64 = 0.8;
 pub struct Environment {
     light: Stream<f64>,
     fog: Stream<f64>,
+    sun: Option<[Stream<f64>; 2]>,
     friction: Option<Stream<f64>>,
 }
 
@@ -21,15 +25,51 @@ pub struct Conditions {
     pub light: Stream<f64>,
     /// From 0, none, to 1, so thick that nothing is seen.
     pub fog: Stream<f64>,
+    /// How high the sun stands, in radians above the horizon.
+    pub sun_elevation: Stream<f64>,
+    /// Where the sun stands, in radians counter-clockwise from x.
+    pub sun_azimuth: Stream<f64>,
     /// The friction coefficient between tyre and road.
     pub friction: Stream<f64>,
+}
+
+/// What of the conditions cameras see, at one moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weather {
+    /// From 0, night, to 1, broad daylight.
+    pub light: f64,
+    /// From 0, none, to 1, so thick that nothing is seen.
+    pub fog: f64,
+    /// How high the sun stands, in radians above the horizon.
+    pub sun_elevation: f64,
+    /// Where the sun stands, in radians counter-clockwise from x.
+    pub sun_azimuth: f64,
+}
+
+/// A part of the weather that a stream says.
+#[derive(Debug, Clone)]
+pub(crate) struct WeatherPart {
+    pub name: &'static str,
+    pub range: RangeInclusive<f64>,
+    /// The range in words.
+    pub expected: &'static str,
+    /// Its place in the weather.
+    pub of: fn(&mut Weather) -> &mut f64,
+}
+
+impl Default for Weather {
+    /// Broad daylight from behind and the left of who drives along x, without fog.
+    fn default() -> Self {
+        Self { light: 1.0, fog: 0.0, sun_elevation: 0.9, sun_azimuth: 2.3 }
+    }
 }
 
 impl Environment {
     /// Broad daylight, no fog, dry asphalt.
     #[expect(clippy::new_without_default, reason = "as every other object it is made by its name")]
     pub fn new() -> Self {
-        Self { light: Stream::constant(1.0), fog: Stream::constant(0.0), friction: None }
+        let Weather { light, fog, .. } = Weather::default();
+        Self { light: Stream::constant(light), fog: Stream::constant(fog), sun: None, friction: None }
     }
 
     /// From 0, night, to 1, broad daylight.
@@ -44,6 +84,12 @@ impl Environment {
         self
     }
 
+    /// Where the sun stands, in radians: its elevation above the horizon, and its azimuth, counter-clockwise from x.
+    pub fn sun(mut self, elevation: impl Into<Stream<f64>>, azimuth: impl Into<Stream<f64>>) -> Self {
+        self.sun = Some([elevation.into(), azimuth.into()]);
+        self
+    }
+
     /// The friction coefficient between tyre and road.
     pub fn friction(mut self, friction: impl Into<Stream<f64>>) -> Self {
         self.friction = Some(friction.into());
@@ -53,8 +99,40 @@ impl Environment {
 
 impl Default for Conditions {
     fn default() -> Self {
-        let Environment { light, fog, .. } = Environment::new();
-        Self { light, fog, friction: Stream::constant(DRY_ASPHALT) }
+        let Weather { light, fog, sun_elevation, sun_azimuth } = Weather::default();
+        let [light, fog, sun_elevation, sun_azimuth] = [light, fog, sun_elevation, sun_azimuth].map(Stream::constant);
+        Self { light, fog, sun_elevation, sun_azimuth, friction: Stream::constant(DRY_ASPHALT) }
+    }
+}
+
+impl Conditions {
+    /// Light and fog, and the place of the sun.
+    pub(super) fn weather(&self) -> [[(WeatherPart, Rc<Node>); 2]; 2] {
+        let part = |name, range, expected, of, stream: &Stream<f64>| {
+            (WeatherPart { name, range, expected, of }, stream.node.clone())
+        };
+        [
+            [
+                part("light", 0.0..=1.0, "0 to 1", |weather| &mut weather.light, &self.light),
+                part("fog", 0.0..=1.0, "0 to 1", |weather| &mut weather.fog, &self.fog),
+            ],
+            [
+                part(
+                    "sun's elevation",
+                    -FRAC_PI_2..=FRAC_PI_2,
+                    "-pi/2 to pi/2",
+                    |weather| &mut weather.sun_elevation,
+                    &self.sun_elevation,
+                ),
+                part(
+                    "sun's azimuth",
+                    -TAU..=TAU,
+                    "-2 pi to 2 pi",
+                    |weather| &mut weather.sun_azimuth,
+                    &self.sun_azimuth,
+                ),
+            ],
+        ]
     }
 }
 
@@ -65,7 +143,7 @@ impl Place for Environment {
         if let Some(friction) = self.friction {
             scenario.say_friction(friction);
         }
-        scenario.say_weather(self.light, self.fog);
+        scenario.say_weather(self.light, self.fog, self.sun);
         scenario.conditions.clone()
     }
 }

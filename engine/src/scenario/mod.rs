@@ -11,7 +11,8 @@ mod param;
 mod requirement;
 mod road;
 
-pub use environment::{Conditions, Environment};
+pub(crate) use environment::WeatherPart;
+pub use environment::{Conditions, Environment, Weather};
 pub use geometry::{Line, Pose};
 pub use param::Param;
 pub use requirement::{Draft, Temporal, always, eventually, never};
@@ -67,6 +68,7 @@ pub struct Scenario {
 struct Said {
     friction: bool,
     weather: bool,
+    sun: bool,
 }
 
 /// Something that can be placed in a world: a road, a car, a pedestrian.
@@ -202,11 +204,17 @@ impl Scenario {
         self.conditions.friction = friction;
     }
 
-    fn say_weather(&mut self, light: Stream<f64>, fog: Stream<f64>) {
+    fn say_weather(&mut self, light: Stream<f64>, fog: Stream<f64>, sun: Option<[Stream<f64>; 2]>) {
         if std::mem::replace(&mut self.said.weather, true) {
             self.problem("there are two environments, expected one at most".to_owned());
         }
-        self.conditions = Conditions { light, fog, friction: self.conditions.friction.clone() };
+        self.conditions.light = light;
+        self.conditions.fog = fog;
+        if let Some([elevation, azimuth]) = sun {
+            self.said.sun = true;
+            self.conditions.sun_elevation = elevation;
+            self.conditions.sun_azimuth = azimuth;
+        }
     }
 
     /// States a requirement on every run. What it returns takes a text, a unit and a scale.
@@ -235,16 +243,15 @@ impl Scenario {
         self.dt = seconds;
     }
 
-    /// Light and fog, if the program has said anything of them.
-    pub(crate) fn weather(&self) -> impl Iterator<Item = (&'static str, Rc<Node>)> {
-        let Conditions { light, fog, .. } = &self.conditions;
-        let weather = [("light", light.node.clone()), ("fog", fog.node.clone())];
-        weather.into_iter().filter(|_| self.said.weather)
+    /// Light and fog, and the place of the sun, as far as the program has said anything of them.
+    pub(crate) fn weather(&self) -> impl Iterator<Item = (WeatherPart, Rc<Node>)> {
+        let said = [self.said.weather, self.said.sun];
+        self.conditions.weather().into_iter().zip(said).filter(|(_, said)| *said).flat_map(|(parts, _)| parts)
     }
 
     /// Everything in the world that reads a stream, with what it is called.
     fn readers(&self) -> Vec<(String, Rc<Node>)> {
-        let weather = self.weather().map(|(name, node)| (name.to_owned(), node));
+        let weather = self.weather().map(|(part, node)| (part.name.to_owned(), node));
         let conditions =
             std::iter::once(("road.friction".to_owned(), self.conditions.friction.node.clone())).chain(weather);
         let premise = self.premise.iter().map(|event| ("premise".to_owned(), event.node.clone()));

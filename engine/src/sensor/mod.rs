@@ -35,6 +35,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod air;
 mod chance;
 mod drift;
 mod error;
@@ -47,6 +48,7 @@ mod rig;
 mod sight;
 mod truth;
 
+pub use air::Air;
 pub use chance::Chance;
 pub use drift::Inaccuracy;
 pub use error::SensorError;
@@ -94,22 +96,6 @@ pub struct View<'a> {
     pub network: &'a Network,
     /// Light and fog.
     pub air: Air,
-}
-
-/// What light passes through on its way.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Air {
-    /// From 0, night, to 1, broad daylight.
-    pub light: f64,
-    /// The extinction coefficient of the fog in 1/m, 0 without any: 3.912 / visibility (Koschmieder, at a contrast of 2 %).
-    pub extinction: f64,
-}
-
-impl Default for Air {
-    /// Broad daylight, no fog.
-    fn default() -> Self {
-        Self { light: 1.0, extinction: 0.0 }
-    }
 }
 
 impl<'a> View<'a> {
