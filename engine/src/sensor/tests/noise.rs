@@ -27,7 +27,7 @@ fn without_errors_position_and_motion_are_the_true_ones() {
     let mount = Mount::ahead(1.0, 1.5);
     let settings = GnssSettings { mount, position: Inaccuracy::NONE, velocity_noise: 0.0, ..settings };
     let fixes = readings(&mut Gnss::new(settings).unwrap(), &world, &[0.0, 0.1], 1);
-    let (sin, cos) = (0.5_f64.sin(), 0.5_f64.cos());
+    let (sin, cos) = libm::sincos(0.5);
     for fix in fixes {
         let Fix { position, velocity } = fix.unwrap();
         assert!((position - Vector2::new(30.0 + cos, -7.0 + sin)).norm() < 1e-12);
