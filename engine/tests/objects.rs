@@ -7,7 +7,7 @@ use paracosm_engine::road::{CrossIntersection, Path, RoadSegment};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{
     AutonomousVehicle, Car, Environment, Fixture, Mover, Outcome, Pedestrian, Place, Pose, Program, Road, Run,
-    Scenario, Setup, Side, Stream, Temporal, always, driver, eventually, never, simulate,
+    Scenario, Setup, Side, Stream, Temporal, Weather, always, driver, eventually, never, simulate,
 };
 use paracosm_oracles::Verdict;
 
@@ -160,6 +160,39 @@ fn conditions_are_streams_that_anything_can_read() {
     assert!((signal(&outcome, "sight")[500] - 0.299).abs() < 1e-9);
 }
 
+/// The car rolls, and somebody walks beside the road, at dusk.
+fn dusk(s: &mut Scenario) {
+    let (road, _) = rolling(s);
+    let walker = s.place(Pedestrian::at(road.on_sidewalk(Side::Left, 50.0)));
+    walker.walk(road.on_sidewalk(Side::Left, 54.0), 2.0);
+    let falling = Stream::<()>::tick().scan(1.0, |light: f64, ()| light - 0.001);
+    s.place(Environment::new().light(falling).fog(0.2).sun(0.3, -1.0));
+}
+
+#[test]
+fn a_run_says_its_weather_and_how_far_bodies_have_come() {
+    let program = Program { name: "dusk", about: "dusk", build: dusk };
+    let mut run = Run::new(&program, &Values::default(), Setup::asking_every(0.5)).unwrap();
+    let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
+    let mut ways = Vec::new();
+    run.watch(driver.as_mut(), |run| {
+        let expected = Weather { light: 0.999 - 0.1 * run.time(), fog: 0.2, sun_elevation: 0.3, sun_azimuth: -1.0 };
+        assert!((run.weather().light - expected.light).abs() < 1e-9);
+        assert_eq!(run.weather(), Weather { light: run.weather().light, ..expected });
+        ways.push((run.bodies()[0].travelled, run.bodies()[1].travelled));
+    });
+    // Who has arrived comes no further.
+    assert!((ways[2].1 - 2.0).abs() < 1e-9 && (ways[10].1 - 4.0).abs() < 1e-9, "{ways:?}");
+    assert!((ways[10].0 - run.bodies()[0].pose.position.x + 10.0).abs() < 0.1, "{ways:?}");
+}
+
+#[test]
+fn without_an_environment_it_is_broad_daylight() {
+    let program = Program { name: "day", about: "day", build: |s| drop(rolling(s)) };
+    let run = Run::new(&program, &Values::default(), Setup::asking_every(0.5)).unwrap();
+    assert_eq!(run.weather(), Weather::default());
+}
+
 #[test]
 fn a_statement_of_several_streams_keeps_its_robustness() {
     let outcome = run(|s| {
@@ -220,6 +253,12 @@ fn what_is_no_number_is_a_mistake_and_no_panic() {
         s.require("some", eventually(car.speed().above(1.0)));
     });
     assert_eq!(fog.error.unwrap(), "the fog is 10, expected 0 to 1 at 0.000 s");
+    let sun = run(|s| {
+        let (_, car) = rolling(s);
+        s.place(Environment::new().sun(2.0, 0.0));
+        s.require("some", eventually(car.speed().above(1.0)));
+    });
+    assert_eq!(sun.error.unwrap(), "the sun's elevation is 2, expected -pi/2 to pi/2 at 0.000 s");
 }
 
 #[test]

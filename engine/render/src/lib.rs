@@ -1,13 +1,29 @@
 //! What cameras see of a world.
 //!
 //! A [`Scene`] is what there is to see at one moment: [`Mesh`]es and where they stand, the light and the fog. It knows nothing of
-//! how it is drawn.
+//! how it is drawn. A [`View`] is a [`Camera`]'s look at a scene; a [`Renderer`] draws many of them at once, with or without a
+//! graphics card, and each becomes a [`Frame`]: colours, depth, classes, and things.
 //!
 //! Coordinates are the engine's: x along the road, y to its left, z up, in metres. A mesh stands on z = 0, faces along
 //! x, and has its middle over the origin.
 
+mod boxes;
+mod camera;
+mod error;
+mod frame;
+pub mod gltf;
+mod light;
 pub mod mesh;
+mod palette;
+mod renderer;
 mod scene;
+mod view;
 
+pub use boxes::{Box2, Box3, boxes, boxes_in_space};
+pub use camera::Camera;
+pub use error::{CameraError, RenderError, ViewError};
+pub use frame::{Extent, Frame};
 pub use mesh::{Mesh, Semantic, Surface, Vertex};
-pub use scene::{Air, Instance, Scene};
+pub use renderer::{Adapter, Renderer, adapter};
+pub use scene::{Air, Instance, Scene, Stage, Stages};
+pub use view::{Outputs, View};

@@ -1,5 +1,16 @@
 //! Shapes of things: triangles with normals, texture coordinates, and what they are made of.
 
+pub(crate) mod bicycle;
+pub(crate) mod car;
+pub(crate) mod clay;
+mod colours;
+pub(crate) mod furniture;
+pub(crate) mod house;
+pub(crate) mod models;
+pub(crate) mod person;
+mod plant;
+pub(crate) mod truck;
+
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How a surface answers to light.
@@ -112,3 +123,6 @@ impl Mesh {
         &self.indices
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,110 @@
+//! Boxes around things: on the image from the pixels they have, in space from their meshes.
+
+use crate::frame::Extent;
+use crate::{Camera, Frame, Instance, Scene};
+use nalgebra::{Isometry3, Point2, Point3, Vector3};
+use std::collections::BTreeMap;
+
+/// A thing on the image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Box2 {
+    /// The pixels of it that are seen.
+    pub visible: Extent,
+    /// The class that most of them have; `None` where the frame has no classes.
+    pub semantic: Option<u8>,
+    /// How much of it other things hide, from 0 to 1, measured in pixels; `None` where the frame does not say which it
+    /// would have alone.
+    pub occlusion: Option<f64>,
+}
+
+/// A thing in space.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Box3 {
+    /// The id of the thing.
+    pub id: u16,
+    /// From the coordinates of the box, whose origin is its middle, to those of the camera.
+    pub pose: Isometry3<f64>,
+    /// How long it is along its own axes, in metres.
+    pub size: Vector3<f64>,
+}
+
+/// The boxes of all things with an id that have a pixel in the frame, in the order of their ids; `None` where the frame
+/// has no instances.
+pub fn boxes(frame: &Frame) -> Option<Vec<Box2>> {
+    let instance = frame.instance.as_ref()?;
+    let mut extents = BTreeMap::<u16, (Extent, [u32; 256])>::new();
+    for (index, id) in instance.iter().enumerate().filter(|(_, id)| **id != 0) {
+        let at = [index as u32 % frame.width(), index as u32 / frame.width()];
+        let class = frame.semantic.as_ref().map_or(0, |semantic| semantic[index]);
+        let (_, classes) = extents
+            .entry(*id)
+            .and_modify(|(extent, _)| extent.add(at))
+            .or_insert_with(|| (Extent::of_pixel(*id, at), [0; 256]));
+        classes[usize::from(class)] += 1;
+    }
+    let hidden = |visible: &Extent| {
+        let alone = frame.alone.as_ref()?.iter().find(|alone| alone.id == visible.id)?;
+        Some(1.0 - f64::from(visible.pixels) / f64::from(alone.pixels))
+    };
+    let finished = |(visible, classes): (Extent, [u32; 256])| Box2 {
+        visible,
+        semantic: frame.semantic.as_ref().map(|_| most_frequent(&classes)),
+        occlusion: hidden(&visible),
+    };
+    Some(extents.into_values().map(finished).collect())
+}
+
+fn most_frequent(classes: &[u32; 256]) -> u8 {
+    (0..=255).rev().max_by_key(|class| classes[usize::from(*class)]).unwrap_or_default()
+}
+
+/// The boxes of all things of the scene with an id, in the order of their ids, before a camera on what is here. A thing
+/// of several instances has a box around all of them, which is turned as the first of them is.
+pub fn boxes_in_space(scene: &Scene, camera: &Camera, carrier: &Isometry3<f64>) -> Vec<Box3> {
+    let mut things = BTreeMap::<u16, Vec<&Instance>>::new();
+    for instance in scene.instances.iter().filter(|instance| instance.id != 0) {
+        things.entry(instance.id).or_default().push(instance);
+    }
+    let to_camera = camera.pose(carrier).inverse();
+    let around = |(id, instances): (u16, Vec<&Instance>)| {
+        let base: Isometry3<f64> = instances[0].pose.cast();
+        let corners = instances.iter().flat_map(|instance| corners_of(instance)).map(|corner| base.inverse() * corner);
+        let (low, high) = corners.fold(EMPTY, |(low, high), corner| (low.inf(&corner), high.sup(&corner)));
+        let middle = nalgebra::center(&low, &high);
+        let pose = to_camera * base * Isometry3::translation(middle.x, middle.y, middle.z);
+        (low.x <= high.x).then(|| Box3 { id, pose, size: high - low })
+    };
+    things.into_iter().filter_map(around).collect()
+}
+
+const EMPTY: (Point3<f64>, Point3<f64>) = (
+    Point3::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
+    Point3::new(-f64::INFINITY, -f64::INFINITY, -f64::INFINITY),
+);
+
+/// The corners of an instance's mesh, in the world.
+fn corners_of(instance: &Instance) -> impl Iterator<Item = Point3<f64>> + use<'_> {
+    let pose: Isometry3<f64> = instance.pose.cast();
+    let scale = Vector3::from(instance.scale).cast::<f64>();
+    instance
+        .mesh
+        .vertices()
+        .iter()
+        .map(move |vertex| pose * Point3::from(Vector3::from(vertex.position).cast::<f64>().component_mul(&scale)))
+}
+
+impl Box3 {
+    /// The eight corners in the camera's coordinates; the lowest bit of the index says whether it is the front one, the
+    /// second whether it is to the left, the third whether it is above.
+    pub fn corners(&self) -> [Point3<f64>; 8] {
+        std::array::from_fn(|index| {
+            let side = |axis: usize| if index >> axis & 1 == 1 { 0.5 } else { -0.5 };
+            self.pose * Point3::new(side(0) * self.size.x, side(1) * self.size.y, side(2) * self.size.z)
+        })
+    }
+
+    /// Where the corners are on the image, `None` for those that are not before the camera.
+    pub fn projected(&self, camera: &Camera) -> [Option<Point2<f64>>; 8] {
+        self.corners().map(|corner| camera.project(&corner))
+    }
+}

@@ -1,0 +1,79 @@
+//! What was seen.
+
+use crate::{Camera, Semantic};
+use nalgebra::Point2;
+
+/// The images of one view. All are rows from the top, pixels from the left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// With what it was seen.
+    pub camera: Camera,
+    /// Red, green and blue of each pixel, in sRGB.
+    pub rgb: Option<Vec<u8>>,
+    /// Red, green and blue of each pixel in linear light; a white surface in full sun is about 1.
+    pub linear: Option<Vec<f32>>,
+    /// Radial depth: metres from the pinhole to what the middle of the pixel sees; infinite where it sees the sky.
+    pub depth: Option<Vec<f32>>,
+    /// The number of the [`Semantic`] class.
+    pub semantic: Option<Vec<u8>>,
+    /// The id of the thing ([`crate::Instance::id`]), 0 for what belongs to nothing in particular.
+    pub instance: Option<Vec<u16>>,
+    /// The pixels that each thing would have if it were alone, in the order of their ids; 0 is not among them, nor
+    /// what is not on the image.
+    pub alone: Option<Vec<Extent>>,
+}
+
+/// Which pixels a thing has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Extent {
+    /// The id of the thing.
+    pub id: u16,
+    /// How many they are.
+    pub pixels: u32,
+    /// The least column and row.
+    pub min: [u32; 2],
+    /// The greatest column and row.
+    pub max: [u32; 2],
+}
+
+impl Extent {
+    pub(crate) fn of_pixel(id: u16, at: [u32; 2]) -> Self {
+        Self { id, pixels: 1, min: at, max: at }
+    }
+
+    pub(crate) fn add(&mut self, at: [u32; 2]) {
+        self.pixels += 1;
+        for axis in 0..2 {
+            self.min[axis] = self.min[axis].min(at[axis]);
+            self.max[axis] = self.max[axis].max(at[axis]);
+        }
+    }
+}
+
+impl Frame {
+    /// Pixels across.
+    pub fn width(&self) -> u32 {
+        self.camera.width()
+    }
+
+    /// Pixels down.
+    pub fn height(&self) -> u32 {
+        self.camera.height()
+    }
+
+    /// Planar depth, if there is depth: metres along the camera's axis to what the middle of the pixel sees.
+    pub fn planar_depth(&self) -> Option<Vec<f32>> {
+        let depth = self.depth.as_ref()?;
+        let forward = |(index, radial): (usize, &f32)| {
+            let (column, row) = (index as u32 % self.width(), index as u32 / self.width());
+            let middle = Point2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
+            (f64::from(*radial) / self.camera.ray(middle).norm()) as f32
+        };
+        Some(depth.iter().enumerate().map(forward).collect())
+    }
+
+    /// The classes in CARLA's colours, if there are any: red, green and blue of each pixel.
+    pub fn semantic_colours(&self) -> Option<Vec<u8>> {
+        Some(self.semantic.as_ref()?.iter().flat_map(|class| Semantic::colour_of(*class)).collect())
+    }
+}

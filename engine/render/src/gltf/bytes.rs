@@ -1,0 +1,114 @@
+//! The numbers in a model's buffers. Nothing that a file says of where they are is taken for granted.
+
+use super::GltfError;
+use gltf::accessor::{DataType, Dimensions};
+use gltf::{Accessor, Gltf, buffer};
+use std::path::Path;
+
+/// The buffers of a model.
+pub(super) struct Bytes(Vec<Vec<u8>>);
+
+impl Bytes {
+    pub fn of(gltf: &Gltf, path: &Path) -> Result<Self, GltfError> {
+        let broken = |problem: &str| GltfError::Format { path: path.to_owned(), problem: problem.to_owned() };
+        let read = |buffer: buffer::Buffer<'_>| match buffer.source() {
+            buffer::Source::Bin => {
+                gltf.blob.clone().ok_or_else(|| broken("it names a binary part that it does not have"))
+            }
+            buffer::Source::Uri(uri) => match uri.strip_prefix("data:") {
+                Some(data) => {
+                    let text = data.split_once(";base64,").map(|(_, text)| text);
+                    text.and_then(base64).ok_or_else(|| broken("a buffer in it is not written in base64"))
+                }
+                None => {
+                    let file = path.with_file_name("").join(unescaped(uri));
+                    std::fs::read(&file).map_err(|source| GltfError::Read { path: file, source })
+                }
+            },
+        };
+        Ok(Self(gltf.buffers().map(read).collect::<Result<_, _>>()?))
+    }
+
+    /// The bytes of every element of an accessor, `size` each.
+    fn elements(&self, accessor: &Accessor<'_>, size: usize) -> Result<Vec<&[u8]>, String> {
+        let index = accessor.index();
+        let view = match (accessor.view(), accessor.sparse()) {
+            (Some(view), None) => view,
+            _ => return Err(format!("its accessor {index} is sparse or has no buffer view")),
+        };
+        let buffer = self.0.get(view.buffer().index()).map_or(&[][..], Vec::as_slice);
+        let end = view.offset().checked_add(view.length());
+        let bytes = end.and_then(|end| buffer.get(view.offset()..end));
+        let element = |i: usize| {
+            let from = view.stride().unwrap_or(size).max(size).checked_mul(i)?.checked_add(accessor.offset())?;
+            bytes?.get(from..from.checked_add(size)?)
+        };
+        // No more than there can be, whatever the file says.
+        let count = accessor.count();
+        if count > 0 && element(count - 1).is_none() {
+            return Err(format!("its accessor {index} has {count} elements, which is more than there are bytes for"));
+        }
+        Ok((0..count).map_while(element).collect())
+    }
+}
+
+/// Vectors of floating-point numbers.
+pub(super) fn floats<const N: usize>(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<[f32; N]>, String> {
+    if accessor.data_type() != DataType::F32 || accessor.dimensions().multiplicity() != N {
+        let (index, found, of) = (accessor.index(), accessor.data_type(), accessor.dimensions());
+        return Err(format!("its accessor {index} has {of:?} of {found:?}, expected {N} numbers of F32 each"));
+    }
+    let number = |element: &[u8], i: usize| f32::from_le_bytes(std::array::from_fn(|byte| element[4 * i + byte]));
+    let elements = bytes.elements(accessor, 4 * N)?;
+    Ok(elements.into_iter().map(|element| std::array::from_fn(|i| number(element, i))).collect())
+}
+
+/// Indices of corners.
+pub(super) fn indices(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<u32>, String> {
+    let size = accessor.data_type().size();
+    let whole = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
+    if !whole || accessor.dimensions() != Dimensions::Scalar {
+        let (index, found) = (accessor.index(), accessor.data_type());
+        return Err(format!("its accessor {index} has indices of {found:?}, expected U8, U16 or U32"));
+    }
+    let number = |element: &[u8]| element.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
+    Ok(bytes.elements(accessor, size)?.into_iter().map(number).collect())
+}
+
+/// The bytes of a text in base64 (RFC 4648), padded or not.
+fn base64(text: &str) -> Option<Vec<u8>> {
+    let digit = |letter: u8| match letter {
+        b'A'..=b'Z' => Some(letter - b'A'),
+        b'a'..=b'z' => Some(letter - b'a' + 26),
+        b'0'..=b'9' => Some(letter - b'0' + 52),
+        b'+' => Some(62),
+        b'/' => Some(63),
+        _ => None,
+    };
+    let digits: Vec<u8> = text.trim_end_matches('=').bytes().map(digit).collect::<Option<_>>()?;
+    let group = |four: &[u8]| {
+        let bits = four.iter().fold(0_u32, |bits, digit| bits << 6 | u32::from(*digit)) << (6 * (4 - four.len()));
+        bits.to_be_bytes()[1..four.len()].to_vec()
+    };
+    Some(digits.chunks(4).flat_map(group).collect())
+}
+
+/// A file name without its escapes: `%20` is a space.
+fn unescaped(uri: &str) -> String {
+    let bytes = uri.as_bytes();
+    let (mut out, mut at) = (Vec::new(), 0);
+    while at < bytes.len() {
+        let escaped = (bytes[at] == b'%').then(|| uri.get(at + 1..at + 3)).flatten();
+        match escaped.and_then(|digits| u8::from_str_radix(digits, 16).ok()) {
+            Some(byte) => {
+                out.push(byte);
+                at += 3;
+            }
+            None => {
+                out.push(bytes[at]);
+                at += 1;
+            }
+        }
+    }
+    String::from_utf8_lossy(&out).into_owned()
+}

@@ -1,0 +1,86 @@
+//! How bright it is: from the few numbers of an [`Air`] to the light that surfaces get.
+//!
+//! Light is linear, and 1 is about what a white surface sends back in full sun. Nothing adapts to the dark: that, like
+//! all else that lenses and sensors do, is for those who make a sensor's image of a frame.
+
+use crate::{Air, ViewError};
+
+/// A colour, or the light of three colours: red, green and blue, linear.
+type Rgb = [f32; 3];
+
+const SUN: Rgb = [0.86, 0.82, 0.75];
+const LOW_SUN: Rgb = [0.80, 0.52, 0.28];
+const SKY: Rgb = [0.34, 0.38, 0.44];
+const GROUND: Rgb = [0.17, 0.16, 0.15];
+const HAZE: Rgb = [0.70, 0.75, 0.80];
+const ZENITH: Rgb = [0.17, 0.34, 0.68];
+/// What is left of the light of the sky in the night.
+const NIGHT: Rgb = [0.010, 0.011, 0.014];
+
+/// The sun is as bright as it gets from this sine of its elevation on.
+const HIGH_SUN: f32 = 0.3;
+
+/// The light that surfaces get.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Light {
+    /// Onto a surface that faces the sun.
+    pub sun: Rgb,
+    /// From all around onto a surface that faces up.
+    pub sky: Rgb,
+    /// From all around onto a surface that faces down.
+    pub ground: Rgb,
+    /// What is seen straight up.
+    pub zenith: Rgb,
+    /// How much lamps shine, from 0 to 1.
+    pub lamps: f32,
+}
+
+impl Air {
+    /// What the air itself looks like, in linear light: the colour of the horizon, and of what is hidden by fog. Fog
+    /// turns the light `l` of what is `d` metres away into `l t + colour (1 - t)` with `t = exp(-extinction d)`
+    /// (Koschmieder).
+    pub fn colour(&self) -> [f32; 3] {
+        dimmed(HAZE, self.light, 0.5)
+    }
+
+    pub(crate) fn lit(&self) -> Light {
+        let high = (libm::sinf(self.sun_elevation) / HIGH_SUN).clamp(0.0, 1.0);
+        // Below the horizon there is no sun; between there and full brightness it comes up within 3 degrees.
+        let risen = (libm::sinf(self.sun_elevation) * 20.0).clamp(0.0, 1.0) * self.light;
+        Light {
+            sun: std::array::from_fn(|colour| risen * (LOW_SUN[colour] + high * (SUN[colour] - LOW_SUN[colour]))),
+            sky: dimmed(SKY, self.light, 1.0),
+            ground: dimmed(GROUND, self.light, 0.4),
+            zenith: dimmed(ZENITH, self.light, 0.2),
+            lamps: (1.0 - self.light / 0.6).clamp(0.0, 1.0),
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), ViewError> {
+        let numbers = [
+            ("a light", self.light, (0.0..=1.0).contains(&self.light), "0 to 1"),
+            (
+                "an elevation of the sun",
+                self.sun_elevation,
+                self.sun_elevation.is_finite(),
+                "a finite angle in radians",
+            ),
+            ("an azimuth of the sun", self.sun_azimuth, self.sun_azimuth.is_finite(), "a finite angle in radians"),
+            (
+                "an extinction",
+                self.extinction,
+                self.extinction >= 0.0 && self.extinction.is_finite(),
+                "a finite number from 0 on",
+            ),
+        ];
+        match numbers.into_iter().find(|(_, _, fine, _)| !fine) {
+            Some((what, found, _, expected)) => Err(ViewError::Air { what, found, expected }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// By day this colour, in the night so much of [`NIGHT`].
+fn dimmed(day: Rgb, light: f32, night: f32) -> Rgb {
+    std::array::from_fn(|colour| day[colour] * light + NIGHT[colour] * night)
+}

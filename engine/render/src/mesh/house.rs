@@ -1,0 +1,108 @@
+//! Houses of some storeys, with as many windows to a side as have room.
+
+use super::clay::{Clay, Matter, Point, at, patch};
+use super::colours::{GLASS, GREY, TILES, WHITE, WOOD};
+use super::{Mesh, Semantic, Surface};
+
+/// What a house is built to: the rest is stretched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Plan {
+    storeys: usize,
+    /// Windows along the house and across it.
+    bays: [usize; 2],
+}
+
+/// Height of a storey, of a gable roof, and of the wall around a flat one.
+const STOREY: f32 = 2.8;
+const ROOF: f32 = 2.2;
+const PARAPET: f32 = 0.5;
+/// Length of the wall that belongs to a window.
+const BAY: f32 = 2.9;
+/// The most storeys under a gable roof, and the most at all; the most windows in a row.
+const GABLED: usize = 3;
+const STOREYS: usize = 30;
+const BAYS: usize = 20;
+/// How far the roof stands out over the walls.
+const EAVES: f32 = 0.2;
+
+fn matter(surface: Surface, colour: [f32; 3]) -> Matter {
+    Matter::new(surface, colour, Semantic::Building)
+}
+
+fn wall() -> Matter {
+    Matter::painted(Surface::Cloth, Semantic::Building)
+}
+
+impl Plan {
+    /// The plan that comes nearest to a length, a width and a height in metres.
+    pub fn of([length, width, height]: [f32; 3]) -> Self {
+        let count = |metres: f32, one: f32, most: usize| ((metres / one).round() as usize).clamp(1, most);
+        let gabled = count(height - ROOF, STOREY, STOREYS);
+        let storeys = if gabled <= GABLED { gabled } else { count(height - PARAPET, STOREY, STOREYS) };
+        Self { storeys, bays: [length, width].map(|side| count(side, BAY, BAYS)) }
+    }
+
+    fn gabled(&self) -> bool {
+        self.storeys <= GABLED
+    }
+
+    /// Length, width and height to which it is modelled.
+    pub fn size(&self) -> [f32; 3] {
+        let roof = if self.gabled() { ROOF } else { PARAPET };
+        let [length, width] = self.bays.map(|bays| bays as f32 * BAY);
+        [length, width, self.storeys as f32 * STOREY + roof]
+    }
+
+    pub fn mesh(&self) -> Mesh {
+        let [length, width, height] = self.size();
+        let eaves = self.storeys as f32 * STOREY;
+        let (x, y) = (0.5 * length - EAVES, 0.5 * width - EAVES);
+        let mut clay = Clay::default();
+        if self.gabled() {
+            let gable = |x: f32| {
+                vec![at(x, -y, 0.0), at(x, y, 0.0), at(x, y, eaves), at(x, 0.0, height - 0.1), at(x, -y, eaves)]
+            };
+            clay.loft(&[gable(-x), gable(x)], wall());
+            clay.mirrored(|clay| roof(clay, 0.5 * length, 0.5 * width, eaves, height));
+        } else {
+            clay.cuboid([-x, -y, 0.0], [x, y, height - 0.08], wall());
+            clay.cuboid(
+                [-x - EAVES, -y - EAVES, height - 0.3],
+                [x + EAVES, y + EAVES, height],
+                matter(Surface::Plain, GREY),
+            );
+        }
+        let front = [at(x, -y, 0.0), at(x, y, 0.0), at(x, y, eaves), at(x, -y, eaves)];
+        let back = [at(-x, y, 0.0), at(-x, -y, 0.0), at(-x, -y, eaves), at(-x, y, eaves)];
+        let left = [at(x, y, 0.0), at(-x, y, 0.0), at(-x, y, eaves), at(x, y, eaves)];
+        self.windows(&mut clay, front, self.bays[1], Some(self.bays[1] / 2));
+        self.windows(&mut clay, back, self.bays[1], None);
+        clay.mirrored(|clay| self.windows(clay, left, self.bays[0], None));
+        clay.fitted([length, width, height]).mesh()
+    }
+
+    /// A window for every storey and bay of a wall, and a door in one of the bays.
+    fn windows(&self, clay: &mut Clay, wall: [Point; 4], bays: usize, door: Option<usize>) {
+        let (white, glass) = (matter(Surface::Plain, WHITE), matter(Surface::Glass, GLASS));
+        for (storey, bay) in (0..self.storeys).flat_map(|storey| (0..bays).map(move |bay| (storey, bay))) {
+            let u = |share: f32| (bay as f32 + share) / bays as f32;
+            let v = |share: f32| (storey as f32 + share) / self.storeys as f32;
+            if storey == 0 && door == Some(bay) {
+                clay.facet(&patch(wall, [u(0.28), u(0.72)], [0.0, v(0.80)], 0.02), white);
+                clay.facet(&patch(wall, [u(0.32), u(0.68)], [0.0, v(0.77)], 0.04), matter(Surface::Plain, WOOD));
+            } else {
+                clay.facet(&patch(wall, [u(0.26), u(0.74)], [v(0.30), v(0.82)], 0.02), white);
+                // Two panes.
+                for [from, to] in [[0.29, 0.49], [0.51, 0.71]] {
+                    clay.facet(&patch(wall, [u(from), u(to)], [v(0.33), v(0.79)], 0.04), glass);
+                }
+            }
+        }
+    }
+}
+
+/// The left half of a gable roof.
+fn roof(clay: &mut Clay, x: f32, y: f32, eaves: f32, ridge: f32) {
+    let slab = |x: f32| vec![at(x, y, eaves - 0.18), at(x, y, eaves), at(x, 0.0, ridge), at(x, 0.0, ridge - 0.18)];
+    clay.loft(&[slab(-x), slab(x)], matter(Surface::Plain, TILES));
+}

@@ -1,0 +1,92 @@
+//! The shapes that there are: made once for a process, so that whoever draws them keeps them.
+
+use super::furniture::{self, Plate};
+use super::house::Plan;
+use super::{Mesh, bicycle, car, person, plant, truck};
+use paracosm_engine::object::Colour;
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+
+/// The shapes that there are.
+pub(crate) struct Models {
+    pub car: Arc<Mesh>,
+    pub truck: Arc<Mesh>,
+    pub bicycle: Arc<Mesh>,
+    pub adult: Arc<Mesh>,
+    pub child: Arc<Mesh>,
+    /// Left, right.
+    pub arms: [Arc<Mesh>; 2],
+    pub thigh: Arc<Mesh>,
+    pub shin: Arc<Mesh>,
+    pub trunk: Arc<Mesh>,
+    pub pole: Arc<Mesh>,
+    pub lantern: Arc<Mesh>,
+    /// In the order of [`PLATES`].
+    pub plates: [Arc<Mesh>; 4],
+    pub cone: Arc<Mesh>,
+    pub barrel: Arc<Mesh>,
+    pub ball: Arc<Mesh>,
+    pub parcel: Arc<Mesh>,
+    pub barrier: Arc<Mesh>,
+    houses: Shelf<Plan>,
+    /// Whether it is a conifer's, and its colour.
+    crowns: Shelf<(bool, Colour)>,
+}
+
+/// What is made when it is first asked for.
+type Shelf<K> = Mutex<BTreeMap<K, Arc<Mesh>>>;
+
+const PLATES: [Plate; 4] = [Plate::Limit, Plate::GiveWay, Plate::Stop, Plate::Hint];
+
+impl Models {
+    /// Those of this process.
+    pub fn shared() -> &'static Self {
+        static SHARED: LazyLock<Models> = LazyLock::new(Models::new);
+        &SHARED
+    }
+
+    fn new() -> Self {
+        Self {
+            car: car::car().into(),
+            truck: truck::truck().into(),
+            bicycle: bicycle::bicycle().into(),
+            adult: person::trunk(1.0).into(),
+            child: person::trunk(1.3).into(),
+            arms: [1.0, -1.0].map(|side| person::arm(side).into()),
+            thigh: person::thigh().into(),
+            shin: person::shin().into(),
+            trunk: plant::trunk().into(),
+            pole: furniture::pole().into(),
+            lantern: furniture::lantern().into(),
+            plates: PLATES.map(|plate| furniture::plate(plate).into()),
+            cone: furniture::cone().into(),
+            barrel: furniture::barrel().into(),
+            ball: furniture::ball().into(),
+            parcel: furniture::parcel().into(),
+            barrier: furniture::barrier().into(),
+            houses: Shelf::default(),
+            crowns: Shelf::default(),
+        }
+    }
+
+    pub fn house(&self, plan: Plan) -> Arc<Mesh> {
+        take(&self.houses, plan, || plan.mesh())
+    }
+
+    pub fn crown(&self, conifer: bool, colour: Colour) -> Arc<Mesh> {
+        take(&self.crowns, (conifer, colour), || plant::crown(conifer, linear(colour)))
+    }
+}
+
+fn take<K: Ord>(shelf: &Shelf<K>, key: K, make: impl FnOnce() -> Mesh) -> Arc<Mesh> {
+    let mut shelf = shelf.lock().unwrap_or_else(PoisonError::into_inner);
+    shelf.entry(key).or_insert_with(|| make().into()).clone()
+}
+
+/// A colour of sRGB in linear light (IEC 61966-2-1).
+pub(crate) fn linear(colour: Colour) -> [f32; 3] {
+    colour.map(|level| {
+        let share = f32::from(level) / 255.0;
+        if share <= 0.04045 { share / 12.92 } else { libm::powf((share + 0.055) / 1.055, 2.4) }
+    })
+}

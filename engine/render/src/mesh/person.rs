@@ -1,0 +1,81 @@
+//! A person in parts, each with the joint that it turns about at the origin.
+
+use super::clay::{Clay, Matter, Point, at, oval};
+use super::colours::{BLACK, HAIR, SKIN, TROUSERS};
+use super::{Mesh, Semantic, Surface};
+
+/// Depth, width and height of the whole person as modelled, in metres: those of
+/// [`Body::adult`](paracosm_engine::object::Body::adult), but for the depth, which is the person's own.
+pub(crate) const SIZE: [f32; 3] = [0.5, 0.5, 1.8];
+
+/// The hip joint: to the side, and up.
+pub(crate) const HIP: [f32; 2] = [0.095, 0.92];
+/// The shoulder joint: to the side, and up.
+pub(crate) const SHOULDER: [f32; 2] = [0.195, 1.44];
+/// From the hip to the knee.
+pub(crate) const THIGH: f32 = 0.44;
+/// From the knee to the sole.
+pub(crate) const SHIN: f32 = 0.48;
+/// How far the sole reaches behind the knee and before it.
+pub(crate) const SOLE: [f32; 2] = [-0.09, 0.17];
+
+fn matter(colour: [f32; 3]) -> Matter {
+    Matter::new(Surface::Plain, colour, Semantic::Pedestrian)
+}
+
+fn jacket() -> Matter {
+    Matter::painted(Surface::Cloth, Semantic::Pedestrian)
+}
+
+/// Hips, trunk, neck and head, over the middle between the soles. The head of a child is larger for its body.
+pub(crate) fn trunk(head: f32) -> Mesh {
+    let mut clay = Clay::default();
+    let stack = |layers: &[(f32, f32, f32)]| -> Vec<Vec<Point>> {
+        layers.iter().map(|(z, deep, wide)| oval(at(0.0, 0.0, *z), *deep, *wide, 8)).collect()
+    };
+    clay.loft(&stack(&[(0.82, 0.08, 0.13), (0.90, 0.115, 0.175), (0.99, 0.105, 0.165)]), matter(TROUSERS));
+    let jacket_layers =
+        [(0.93, 0.13, 0.19), (1.10, 0.115, 0.165), (1.30, 0.13, 0.195), (1.43, 0.105, 0.205), (1.50, 0.06, 0.10)];
+    clay.loft(&stack(&jacket_layers), jacket());
+    let neck = 1.8 - 0.29 * head;
+    clay.loft(&stack(&[(1.46, 0.05, 0.05), (neck + 0.06, 0.05, 0.05)]), matter(SKIN));
+    let radius = 0.125 * head;
+    clay.ball(at(0.015, 0.0, 1.785 - radius), [0.8 * radius, 0.66 * radius, radius], 8, matter(SKIN));
+    let crown = at(-0.016 * head, 0.0, 1.8 - 0.72 * radius);
+    clay.ball(crown, [0.8 * radius, 0.74 * radius, 0.72 * radius], 8, matter(HAIR));
+    // A nose shows which way the person looks.
+    clay.cuboid(
+        [0.1 * head, -0.012, 1.76 - radius],
+        [0.8 * radius + 0.035, 0.012, 1.785 - 0.85 * radius],
+        matter(SKIN),
+    );
+    clay.mesh()
+}
+
+/// The left arm, hanging from the shoulder; the right one is its mirror image.
+pub(crate) fn arm(side: f32) -> Mesh {
+    let mut clay = Clay::default();
+    let (elbow, wrist) = (at(-0.02, side * 0.01, -0.29), at(0.05, side * 0.005, -0.54));
+    clay.ball(at(0.0, 0.0, 0.0), [0.06, 0.055, 0.06], 6, jacket());
+    clay.tube([elbow, at(0.0, 0.0, 0.0)], [0.044, 0.053], 6, jacket());
+    clay.tube([wrist, elbow], [0.034, 0.044], 6, jacket());
+    clay.ball(wrist + at(0.015, 0.0, -0.05), [0.04, 0.025, 0.07], 6, matter(SKIN));
+    clay.mesh()
+}
+
+/// A leg from the hip to the knee.
+pub(crate) fn thigh() -> Mesh {
+    let mut clay = Clay::default();
+    clay.tube([at(0.0, 0.0, -THIGH - 0.02), at(0.0, 0.0, 0.03)], [0.062, 0.09], 7, matter(TROUSERS));
+    clay.mesh()
+}
+
+/// A leg from the knee to the sole.
+pub(crate) fn shin() -> Mesh {
+    let mut clay = Clay::default();
+    clay.tube([at(-0.01, 0.0, 0.09 - SHIN), at(0.0, 0.0, 0.03)], [0.045, 0.062], 7, matter(TROUSERS));
+    let [heel, toe] = SOLE;
+    let shoe = [[heel, -SHIN], [toe, -SHIN], [toe, 0.04 - SHIN], [0.05, 0.11 - SHIN], [heel, 0.11 - SHIN]];
+    clay.prism(&shoe, [-0.045, 0.045], matter(BLACK));
+    clay.mesh()
+}

@@ -1,0 +1,36 @@
+//! Trees: trunks, and crowns of two kinds.
+
+use super::clay::{Clay, Matter, at, oval};
+use super::colours::BARK;
+use super::{Mesh, Semantic, Surface};
+
+/// A trunk of radius 1 and height 1.
+pub(crate) fn trunk() -> Mesh {
+    let mut clay = Clay::default();
+    let bark = Matter::new(Surface::Plain, BARK, Semantic::Vegetation);
+    clay.loft(&[oval(at(0.0, 0.0, 0.0), 1.0, 1.0, 8), oval(at(0.0, 0.0, 1.0), 0.6, 0.6, 8)], bark);
+    clay.mesh()
+}
+
+/// A crown in a box of 1 m each way: that of a conifer, or one of broad leaves.
+pub(crate) fn crown(conifer: bool, colour: [f32; 3]) -> Mesh {
+    let leaves = Matter::new(Surface::Grown, colour, Semantic::Vegetation);
+    let mut clay = Clay::default();
+    if conifer {
+        for (low, wide, high, narrow) in [(0.0, 0.5, 0.45, 0.18), (0.28, 0.4, 0.74, 0.12), (0.56, 0.28, 1.0, 0.0)] {
+            clay.loft(&[oval(at(0.0, 0.0, low), wide, wide, 9), oval(at(0.0, 0.0, high), narrow, narrow, 9)], leaves);
+        }
+    } else {
+        let boughs = [
+            (at(0.0, 0.02, 0.62), [0.40, 0.38, 0.38]),
+            (at(0.25, 0.06, 0.38), [0.25, 0.27, 0.26]),
+            (at(-0.18, 0.24, 0.34), [0.28, 0.26, 0.27]),
+            (at(-0.06, -0.25, 0.36), [0.30, 0.25, 0.29]),
+            (at(-0.22, -0.08, 0.56), [0.28, 0.30, 0.28]),
+        ];
+        for (centre, radii) in boughs {
+            clay.ball(centre, radii, 8, leaves);
+        }
+    }
+    clay.fitted([1.0; 3]).mesh()
+}

@@ -1,0 +1,143 @@
+//! What draws: finding it, describing it, and hearing of its troubles.
+
+use crate::RenderError;
+use std::pin::pin;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::task::{Context, Poll, Waker};
+
+/// What a renderer draws with.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Adapter {
+    /// Its name, for instance of the graphics card.
+    pub name: String,
+    /// The driver and its version.
+    pub driver: String,
+    /// The interface by which it is spoken to: `vulkan`, `metal` or `dx12`.
+    pub backend: String,
+    /// What kind of device it is: `discrete`, `integrated`, `virtual`, `software` or `other`.
+    pub kind: String,
+    /// The most pixels that an image may have each way.
+    pub max_image: u32,
+    /// The most images that are drawn into one array.
+    pub max_layers: u32,
+    /// The most bytes that a buffer may have.
+    pub max_buffer: u64,
+}
+
+/// The first thing that went wrong on a device, and whether it is lost.
+#[derive(Debug, Default)]
+pub(super) struct Trouble(Mutex<Option<RenderError>>);
+
+impl Trouble {
+    fn note(&self, error: RenderError) {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        // That the device is lost says more than what failed because of it.
+        if first.is_none() || matches!(error, RenderError::Lost(_)) {
+            *first = Some(error);
+        }
+    }
+
+    /// Fails if anything went wrong. A device that is lost remains so; whatever else it was may pass.
+    pub fn check(&self) -> Result<(), RenderError> {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*first {
+            None => Ok(()),
+            Some(lost @ RenderError::Lost(_)) => Err(lost.clone()),
+            Some(_) => Err(first.take().expect("there is one")),
+        }
+    }
+}
+
+/// An adapter that is open.
+#[derive(Debug)]
+pub(super) struct Gpu {
+    pub adapter: Adapter,
+    pub limits: wgpu::Limits,
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    pub trouble: Arc<Trouble>,
+}
+
+impl Gpu {
+    /// Opens the best adapter that there is; one on the processor will do.
+    pub fn open() -> Result<Self, RenderError> {
+        let adapter = best()?;
+        let description = describe(&adapter);
+        let limits = adapter.limits();
+        let wanted = wgpu::DeviceDescriptor {
+            label: Some("paracosm"),
+            required_limits: limits.clone(),
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
+            ..Default::default()
+        };
+        let (device, queue) = now(adapter.request_device(&wanted))
+            .map_err(|error| RenderError::NotOpened { adapter: description.name.clone(), reason: error.to_string() })?;
+        let trouble = Arc::new(Trouble::default());
+        let (lost, failed) = (Arc::clone(&trouble), Arc::clone(&trouble));
+        device.set_device_lost_callback(move |reason, message| {
+            lost.note(RenderError::Lost(format!("{reason:?}, {message}")));
+        });
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            failed.note(RenderError::Failed(error.to_string()));
+        }));
+        Ok(Self { adapter: description, limits, device, queue, trouble })
+    }
+
+    /// Waits until a submission is done, and fails if anything went wrong by then.
+    pub fn wait(&self, submission: wgpu::PollType) -> Result<(), RenderError> {
+        let waited = self.device.poll(submission);
+        if waited.is_err() {
+            // A lost device first refuses to wait; that it is lost is only heard of afterwards, if at all.
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        }
+        self.trouble.check()?;
+        waited.map(|_| ()).map_err(|error| RenderError::Failed(error.to_string()))
+    }
+}
+
+/// What would draw on this machine, without opening it.
+///
+/// # Errors
+/// There is none.
+pub fn adapter() -> Result<Adapter, RenderError> {
+    Ok(describe(&best()?))
+}
+
+fn best() -> Result<wgpu::Adapter, RenderError> {
+    let instance = wgpu::Instance::default();
+    let wanted =
+        wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
+    now(instance.request_adapter(&wanted)).map_err(|error| RenderError::NoAdapter(error.to_string()))
+}
+
+fn describe(adapter: &wgpu::Adapter) -> Adapter {
+    let (info, limits) = (adapter.get_info(), adapter.limits());
+    let kind = match info.device_type {
+        wgpu::DeviceType::DiscreteGpu => "discrete",
+        wgpu::DeviceType::IntegratedGpu => "integrated",
+        wgpu::DeviceType::VirtualGpu => "virtual",
+        wgpu::DeviceType::Cpu => "software",
+        wgpu::DeviceType::Other => "other",
+    };
+    Adapter {
+        name: info.name,
+        driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+        backend: info.backend.to_str().to_owned(),
+        kind: kind.to_owned(),
+        max_image: limits.max_texture_dimension_2d,
+        max_layers: limits.max_texture_array_layers,
+        max_buffer: limits.max_buffer_size,
+    }
+}
+
+/// Waits for what is ready at once outside of browsers.
+fn now<F: Future>(future: F) -> F::Output {
+    let mut future = pin!(future);
+    let mut context = Context::from_waker(Waker::noop());
+    loop {
+        if let Poll::Ready(output) = future.as_mut().poll(&mut context) {
+            return output;
+        }
+        std::thread::yield_now();
+    }
+}

@@ -1,0 +1,212 @@
+//! Meshes on the adapter: uploaded once, kept for as long as anybody has them.
+
+use super::adapter::Gpu;
+use super::raw::RawCorner;
+use crate::{Mesh, Surface, Vertex};
+use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::{Arc, Weak};
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
+
+/// Street lamps are at least so high, in metres; below are those of cars.
+const HIGH: f32 = 2.5;
+
+/// A mesh on the adapter.
+#[derive(Debug)]
+pub(super) struct GpuMesh {
+    pub corners: wgpu::Buffer,
+    pub indices: wgpu::Buffer,
+    /// Which of the indices are those of surfaces of each finish.
+    pub parts: [Range<u32>; 3],
+    pub low: Vector3<f64>,
+    pub high: Vector3<f64>,
+    /// Where it has a lamp that lights up what is below, if it has one.
+    pub lamp: Option<Point3<f64>>,
+}
+
+/// What a surface asks of the program that draws it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Finish {
+    /// Neither of the others.
+    Dull,
+    Glossy,
+    /// Mostly the ground, which is drawn last, since most other things are before it.
+    Grained,
+}
+
+impl Finish {
+    pub const ALL: [Self; 3] = [Self::Dull, Self::Glossy, Self::Grained];
+
+    fn of(surface: Surface) -> Self {
+        match surface {
+            Surface::Paint | Surface::Glass => Self::Glossy,
+            Surface::Asphalt | Surface::Grown => Self::Grained,
+            Surface::Plain | Surface::Cloth | Surface::WhiteLamp | Surface::RedLamp => Self::Dull,
+        }
+    }
+}
+
+/// Why a mesh cannot be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Unfit {
+    /// A corner with a number that is not finite.
+    Corner(String),
+    /// This many bytes are more than a buffer may have.
+    TooLarge(u64),
+}
+
+/// The meshes that are on the adapter, by key.
+#[derive(Debug, Default)]
+pub(super) struct Meshes(BTreeMap<u64, (Weak<Mesh>, Result<GpuMesh, Unfit>)>);
+
+impl Meshes {
+    /// Forgets those that nobody has any more, which nobody can ask for again.
+    pub fn evict(&mut self) {
+        self.0.retain(|_, (mesh, _)| mesh.strong_count() > 0);
+    }
+
+    /// Puts it on the adapter unless it is there.
+    pub fn upload(&mut self, gpu: &Gpu, mesh: &Arc<Mesh>) -> &Result<GpuMesh, Unfit> {
+        let (_, uploaded) = self.0.entry(mesh.key()).or_insert_with(|| (Arc::downgrade(mesh), GpuMesh::new(gpu, mesh)));
+        uploaded
+    }
+
+    /// The one with this key.
+    pub fn get(&self, key: u64) -> &GpuMesh {
+        self.0[&key].1.as_ref().expect("only meshes that are fit are drawn")
+    }
+
+    #[cfg(test)]
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+}
+
+impl GpuMesh {
+    /// How many indices there are.
+    pub fn count(&self) -> u32 {
+        self.parts[2].end
+    }
+
+    fn new(gpu: &Gpu, mesh: &Mesh) -> Result<Self, Unfit> {
+        let finite = |vertex: &Vertex| vertex.position.iter().chain(&vertex.uv).all(|number| number.is_finite());
+        if let Some(index) = mesh.vertices().iter().position(|vertex| !finite(vertex)) {
+            let Vertex { position, uv, .. } = mesh.vertices()[index];
+            return Err(Unfit::Corner(format!("corner {index} at {position:?} with texture coordinates {uv:?}")));
+        }
+        let (corners, triangles) = spoken_for(mesh);
+        let (indices, parts) = parted(&triangles);
+        let bytes = (corners.len() * size_of::<RawCorner>()).max(indices.len() * 4) as u64;
+        if bytes > gpu.limits.max_buffer_size {
+            return Err(Unfit::TooLarge(bytes));
+        }
+        let positions = || mesh.vertices().iter().map(|vertex| Vector3::from(vertex.position).cast::<f64>());
+        let buffer = |contents: &[u8], usage| {
+            gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some("mesh"), contents, usage })
+        };
+        Ok(Self {
+            corners: buffer(bytemuck::cast_slice(&corners), wgpu::BufferUsages::VERTEX),
+            indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
+            parts,
+            low: positions().reduce(|low, position| low.inf(&position)).unwrap_or_default(),
+            high: positions().reduce(|high, position| high.sup(&position)).unwrap_or_default(),
+            lamp: lamp_of(mesh),
+        })
+    }
+}
+
+/// The middle of the lamps high up in a mesh, if it has any.
+fn lamp_of(mesh: &Mesh) -> Option<Point3<f64>> {
+    let lamps = mesh.vertices().iter().filter(|vertex| vertex.surface == Surface::WhiteLamp);
+    let high: Vec<_> = lamps.filter(|vertex| vertex.position[2] > HIGH).collect();
+    let sum: Vector3<f64> = high.iter().map(|vertex| Vector3::from(vertex.position).cast::<f64>()).sum();
+    (!high.is_empty()).then(|| Point3::from(sum / high.len() as f64))
+}
+
+/// Corners and triangles such that the first corner of each triangle is the first of no other: what is flat over a
+/// triangle is that corner's. Triangles are turned to begin with a corner that is still free; where there is none, one
+/// is doubled.
+fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
+    let mut corners: Vec<RawCorner> = mesh.vertices().iter().map(raw).collect();
+    let mut free = vec![true; corners.len()];
+    let mut triangles = Vec::with_capacity(mesh.indices().len() / 3);
+    for triangle in mesh.indices().chunks_exact(3) {
+        let [a, b, c] = [0, 1, 2].map(|corner| triangle[corner]);
+        let turned = [[a, b, c], [b, c, a], [c, a, b]];
+        let turned = turned.into_iter().find(|turned| free[turned[0] as usize]).unwrap_or_else(|| {
+            corners.push(corners[a as usize]);
+            free.push(true);
+            [corners.len() as u32 - 1, b, c]
+        });
+        let speaker = &mut corners[turned[0] as usize];
+        let Vertex { surface, semantic, .. } = mesh.vertices()[a as usize];
+        let face = face(triangle.iter().map(|corner| Vector3::from(mesh.vertices()[*corner as usize].position)));
+        // A triangle without an area has no pixels; it only must not be anything else.
+        speaker.face = face.unwrap_or_default().into();
+        speaker.kind = [surface as u8, semantic as u8, 0, 0];
+        free[turned[0] as usize] = false;
+        triangles.push((Finish::of(surface), turned));
+    }
+    (corners, triangles)
+}
+
+/// The indices of triangles, those of one finish beside each other, and where they are.
+fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 3]) {
+    let mut indices = Vec::with_capacity(3 * triangles.len());
+    let parts = Finish::ALL.map(|finish| {
+        let begin = indices.len() as u32;
+        indices.extend(triangles.iter().filter(|(of, _)| *of == finish).flat_map(|(_, corners)| corners));
+        begin..indices.len() as u32
+    });
+    (indices, parts)
+}
+
+/// The unit normal of a triangle, if it has an area.
+fn face(mut corners: impl Iterator<Item = Vector3<f32>>) -> Option<Vector3<f32>> {
+    let mut next = || corners.next().map(|corner| corner.cast::<f64>());
+    let (a, b, c) = (next()?, next()?, next()?);
+    Some((b - a).cross(&(c - a)).try_normalize(0.0)?.cast())
+}
+
+fn raw(vertex: &Vertex) -> RawCorner {
+    let whole = |part: f32| (part.clamp(-1.0, 1.0) * 32767.0).round() as i16;
+    let [x, y, z] = vertex.normal.map(whole);
+    let [red, green, blue] = vertex.colour.map(|part| (part.clamp(0.0, 1.0) * 65535.0).round() as u16);
+    RawCorner {
+        position: vertex.position,
+        face: [0.0; 3],
+        normal: [x, y, z, 0],
+        uv: vertex.uv,
+        colour: [red, green, blue, 0],
+        kind: [vertex.surface as u8, vertex.semantic as u8, 0, 0],
+    }
+}
+
+/// Where an instance's mesh is before a camera.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shape {
+    /// From the mesh's coordinates, scaled, to the camera's.
+    pub to_camera: Isometry3<f64>,
+    /// How much larger than the mesh it is.
+    pub scale: Vector3<f64>,
+}
+
+impl Shape {
+    /// The linear part of what takes the mesh to the camera.
+    pub fn turn(&self) -> Matrix3<f64> {
+        self.to_camera.rotation.to_rotation_matrix() * Matrix3::from_diagonal(&self.scale)
+    }
+
+    /// The pinhole in the mesh's coordinates.
+    pub fn eye(&self) -> Vector3<f64> {
+        self.to_camera.inverse().translation.vector.component_div(&self.scale)
+    }
+
+    /// The ball around the mesh, in the camera's coordinates: its middle and radius.
+    pub fn ball(&self, mesh: &GpuMesh) -> (Point3<f64>, f64) {
+        let middle = (mesh.low + mesh.high) / 2.0;
+        let radius = ((mesh.high - mesh.low) / 2.0).component_mul(&self.scale).norm();
+        (self.to_camera * Point3::from(middle.component_mul(&self.scale)), radius)
+    }
+}

@@ -1,0 +1,298 @@
+//! Draws views in batches and reads their images back.
+//!
+//! A batch goes to the adapter in one submission and comes back in one copy, while the next is made ready: two sets of
+//! layers take turns. Which views share a batch makes no difference to any of them.
+
+mod adapter;
+mod inside;
+mod meshes;
+mod pipelines;
+mod prepare;
+mod raw;
+mod read;
+mod shadow;
+mod targets;
+#[cfg(test)]
+mod tests;
+
+pub use adapter::{Adapter, adapter};
+
+use crate::{Camera, Frame, Outputs, RenderError, View, ViewError};
+use adapter::Gpu;
+use meshes::{Finish, Meshes};
+use pipelines::Pipelines;
+use prepare::{Draw, Prepared, prepare};
+use raw::RawView;
+use targets::{Format, Targets, cleared, view_stride};
+
+/// The most views in a batch.
+const MOST_LAYERS: usize = 64;
+/// The most bytes that are read back of a batch of more than one view. With as much on the adapter's side, and two
+/// batches under way, it bounds the memory that images take.
+const MOST_BYTES: u64 = 48 << 20;
+
+/// Draws what cameras see.
+///
+/// An image depends on its view alone: not on what it was drawn with, nor on what was drawn before. It does depend on
+/// the adapter and its driver.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    pipelines: Pipelines,
+    meshes: Meshes,
+    /// Layers that no batch is in.
+    idle: Vec<Targets>,
+}
+
+/// A batch that is being drawn.
+struct Batch<'a> {
+    targets: Targets,
+    submission: wgpu::SubmissionIndex,
+    /// Of each layer which of the views it is, with what it is seen, and how it was made ready.
+    layers: Vec<(usize, &'a Camera, Prepared)>,
+}
+
+impl Renderer {
+    /// A renderer on the best adapter of this machine; one on the processor will do.
+    ///
+    /// # Errors
+    /// There is no adapter, or it does not let itself be opened.
+    pub fn new() -> Result<Self, RenderError> {
+        let gpu = Gpu::open()?;
+        let pipelines = Pipelines::new(&gpu);
+        gpu.trouble.check()?;
+        Ok(Self { gpu, pipelines, meshes: Meshes::default(), idle: Vec::new() })
+    }
+
+    /// What it draws with.
+    pub fn adapter(&self) -> &Adapter {
+        &self.gpu.adapter
+    }
+
+    /// Draws the views; the frames are in their order. A view that cannot be drawn does not keep the others from it.
+    ///
+    /// # Errors
+    /// The device is lost or fails.
+    pub fn render(
+        &mut self,
+        views: &[View<'_>],
+        wanted: Outputs,
+    ) -> Result<Vec<Result<Frame, ViewError>>, RenderError> {
+        self.gpu.trouble.check()?;
+        self.meshes.evict();
+        let mut frames: Vec<Option<Result<Frame, ViewError>>> = views.iter().map(|_| None).collect();
+        let mut ready = Vec::with_capacity(views.len());
+        for (index, view) in views.iter().enumerate() {
+            match self.prepare(view, wanted) {
+                Ok(prepared) => ready.push((index, view.camera, prepared)),
+                Err(error) => frames[index] = Some(Err(error)),
+            }
+        }
+        let mut under_way = None;
+        for (format, layers) in batches(ready, wanted, self.gpu.limits.max_texture_array_layers as usize) {
+            let batch = self.submit(format, layers);
+            if let Some(before) = under_way.replace(batch) {
+                self.collect(before, &mut frames)?;
+            }
+        }
+        if let Some(last) = under_way {
+            self.collect(last, &mut frames)?;
+        }
+        self.gpu.trouble.check()?;
+        Ok(frames.into_iter().map(|frame| frame.expect("every view was drawn or refused")).collect())
+    }
+
+    fn prepare(&mut self, view: &View<'_>, wanted: Outputs) -> Result<Prepared, ViewError> {
+        let prepared = prepare(&self.gpu, &mut self.meshes, view, wanted)?;
+        let format = Format { width: view.camera.width(), height: view.camera.height(), wanted };
+        let limits = &self.gpu.limits;
+        let masks = format.pixels() * u64::from(prepared.words()) * 4;
+        let limit = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
+        let taken = [
+            ("what is read back of the view", format.bytes(), limits.max_buffer_size),
+            ("the mask of each thing alone", masks, limit),
+        ];
+        match taken.into_iter().find(|(_, bytes, limit)| bytes > limit) {
+            Some((what, bytes, limit)) => Err(ViewError::TooMuch { what, bytes, limit }),
+            None => Ok(prepared),
+        }
+    }
+
+    /// Sends a batch to the adapter.
+    fn submit<'a>(&mut self, format: Format, mut layers: Vec<(usize, &'a Camera, Prepared)>) -> Batch<'a> {
+        let mut targets = self.targets(format, layers.len() as u32);
+        let mut words = 0;
+        let mut instances = Vec::new();
+        let mut first_instances = Vec::new();
+        let stride = view_stride(&self.gpu) as usize;
+        let mut uniforms = vec![0; stride * layers.len()];
+        for (layer, (_, _, prepared)) in layers.iter_mut().enumerate() {
+            prepared.raw.counts[0] = words;
+            prepared.raw.counts[1] = prepared.words();
+            words += format.pixels() as u32 * prepared.words();
+            first_instances.push(instances.len() as u32);
+            instances.append(&mut prepared.instances);
+            uniforms[layer * stride..][..size_of::<RawView>()].copy_from_slice(bytemuck::bytes_of(&prepared.raw));
+        }
+        targets.reserve(&self.gpu, &self.pipelines, instances.len(), u64::from(words));
+        self.gpu.queue.write_buffer(&targets.uniforms, 0, &uniforms);
+        self.gpu.queue.write_buffer(&targets.instances, 0, bytemuck::cast_slice(&instances));
+
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        if let Some(masks) = &targets.masks {
+            encoder.clear_buffer(&masks.words, 0, None);
+        }
+        for (layer, (_, _, prepared)) in layers.iter().enumerate() {
+            self.encode(&mut encoder, &targets, layer as u32, prepared, first_instances[layer]);
+        }
+        targets.copy(&mut encoder, layers.len() as u32);
+        if let Some(masks) = &targets.masks {
+            encoder.copy_buffer_to_buffer(&masks.words, 0, &masks.readback, 0, None);
+        }
+        let submission = self.gpu.queue.submit([encoder.finish()]);
+        for readback in [Some(&targets.readback), targets.masks.as_ref().map(|masks| &masks.readback)] {
+            // A buffer that could not be mapped says so again when it is read.
+            readback.inspect(|readback| readback.map_async(wgpu::MapMode::Read, .., |_| {}));
+        }
+        Batch { targets, submission, layers }
+    }
+
+    /// Draws one view.
+    fn encode(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        layer: u32,
+        prepared: &Prepared,
+        first: u32,
+    ) {
+        let wanted = targets.format.wanted;
+        let offset = layer * view_stride(&self.gpu) as u32;
+        let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
+        if wanted.shadows && wanted.light() {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),
+                ..Default::default()
+            });
+            pass.set_pipeline(&self.pipelines.shadow);
+            pass.set_bind_group(0, &targets.view_group, &[offset]);
+            self.draw(&mut pass, targets, &prepared.casters, first, None);
+        }
+        {
+            let mut pass = targets.begin(encoder, layer, true);
+            pass.set_bind_group(0, &targets.view_group, &[offset]);
+            pass.set_bind_group(1, &self.pipelines.sun, &[]);
+            for (finish, surface) in Finish::ALL.into_iter().zip(&drawing.surfaces) {
+                pass.set_pipeline(surface);
+                self.draw(&mut pass, targets, &prepared.draws, first, Some(finish));
+            }
+            if let Some(sky) = &drawing.sky {
+                pass.set_pipeline(sky);
+                pass.draw(0..3, 0..1);
+            }
+        }
+        if let (true, Some(masks)) = (wanted.alone, &targets.masks) {
+            let mut pass = targets.begin(encoder, layer, false);
+            pass.set_pipeline(&self.pipelines.alone);
+            pass.set_bind_group(0, &targets.view_group, &[offset]);
+            pass.set_bind_group(1, &masks.group, &[]);
+            self.draw(&mut pass, targets, &prepared.draws, first, None);
+        }
+    }
+
+    /// Draws all that is to be drawn of these meshes, or of the surfaces of one finish.
+    fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        targets: &Targets,
+        draws: &[Draw],
+        first: u32,
+        finish: Option<Finish>,
+    ) {
+        pass.set_vertex_buffer(1, targets.instances.slice(..));
+        for Draw { mesh, instances } in draws {
+            let mesh = self.meshes.get(*mesh);
+            let part = finish.map_or(0..mesh.count(), |finish| mesh.parts[finish as usize].clone());
+            if !part.is_empty() {
+                pass.set_vertex_buffer(0, mesh.corners.slice(..));
+                pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed(part, 0, first + instances.start..first + instances.end);
+            }
+        }
+    }
+
+    /// Waits for a batch, and puts its frames where they belong.
+    fn collect(
+        &mut self,
+        batch: Batch<'_>,
+        frames: &mut [Option<Result<Frame, ViewError>>],
+    ) -> Result<(), RenderError> {
+        let Batch { targets, submission, layers } = batch;
+        let wait = wgpu::PollType::Wait { submission_index: Some(submission), timeout: None };
+        self.gpu.wait(wait)?;
+        let unread = |error: wgpu::MapRangeError| RenderError::Failed(error.to_string());
+        let format = targets.format;
+        let cameras: Vec<_> = layers.iter().map(|(_, camera, _)| *camera).collect();
+        let mut read = read::frames(format, &targets.readback.slice(..).get_mapped_range().map_err(unread)?, &cameras);
+        targets.readback.unmap();
+        if format.wanted.alone {
+            read.iter_mut().for_each(|frame| frame.alone = Some(Vec::new()));
+        }
+        if let Some(masks) = &targets.masks {
+            let words = masks.readback.slice(..).get_mapped_range().map_err(unread)?;
+            for (frame, (_, _, prepared)) in read.iter_mut().zip(&layers).filter(|(_, layer)| layer.2.words() > 0) {
+                let words_here = format.pixels() as usize * prepared.words() as usize;
+                let words = &words[prepared.raw.counts[0] as usize * 4..][..words_here * 4];
+                frame.alone = Some(read::alone(format, words, &prepared.bits));
+            }
+            drop(words);
+            masks.readback.unmap();
+        }
+        for ((index, _, _), frame) in layers.iter().zip(read) {
+            frames[*index] = Some(Ok(frame));
+        }
+        if self.idle.len() >= MOST_IDLE {
+            self.idle.remove(0);
+        }
+        self.idle.push(targets);
+        Ok(())
+    }
+
+    /// Layers for a batch: idle ones, if there are any of its kind.
+    fn targets(&mut self, format: Format, layers: u32) -> Targets {
+        let fits = |idle: &Targets| idle.format == format && idle.layers >= layers;
+        if let Some(index) = self.idle.iter().position(fits) {
+            return self.idle.remove(index);
+        }
+        // Those of another kind, and those that have become too small, are not kept for a day that may not come.
+        self.idle.retain(|idle| idle.format != format);
+        Targets::new(&self.gpu, &self.pipelines, format, layers)
+    }
+}
+
+/// How many sets of layers wait for another batch of their kind: two of each of two kinds.
+const MOST_IDLE: usize = 4;
+
+/// Deals views out to batches: of one size each, and not too many.
+fn batches(
+    ready: Vec<(usize, &Camera, Prepared)>,
+    wanted: Outputs,
+    most_layers: usize,
+) -> Vec<(Format, Vec<(usize, &Camera, Prepared)>)> {
+    let mut batches: Vec<(Format, u64, Vec<_>)> = Vec::new();
+    for (index, camera, prepared) in ready {
+        let format = Format { width: camera.width(), height: camera.height(), wanted };
+        let bytes = format.bytes() + format.pixels() * u64::from(prepared.words()) * 4;
+        let has_room = |(of, taken, layers): &&mut (Format, u64, Vec<_>)| {
+            *of == format && taken + bytes <= MOST_BYTES && layers.len() < MOST_LAYERS.min(most_layers)
+        };
+        match batches.iter_mut().rev().find(has_room) {
+            Some((_, taken, layers)) => {
+                *taken += bytes;
+                layers.push((index, camera, prepared));
+            }
+            None => batches.push((format, bytes, vec![(index, camera, prepared)])),
+        }
+    }
+    batches.into_iter().map(|(format, _, layers)| (format, layers)).collect()
+}

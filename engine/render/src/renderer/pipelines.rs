@@ -1,0 +1,245 @@
+//! The programs of the adapter: one for each set of images that is asked for.
+
+use super::adapter::Gpu;
+use super::meshes::Finish;
+use super::prepare::Weather;
+use super::raw::{RawCorner, RawInstance, RawView};
+use super::shadow::TEXELS;
+use super::targets::{DEPTH_FORMAT, Image};
+use crate::Outputs;
+use std::collections::BTreeMap;
+use std::num::NonZeroU64;
+use wgpu::{BindingType, CompareFunction, ShaderStages};
+
+/// Programs, and what is bound to them.
+#[derive(Debug)]
+pub(super) struct Pipelines {
+    modules: Modules,
+    pub views: wgpu::BindGroupLayout,
+    pub masks: wgpu::BindGroupLayout,
+    /// The sun's view of the scene, as the surfaces read it and as it is drawn.
+    pub sun: wgpu::BindGroup,
+    pub sun_depth: wgpu::TextureView,
+    shaded: wgpu::PipelineLayout,
+    pub shadow: wgpu::RenderPipeline,
+    pub alone: wgpu::RenderPipeline,
+    drawing: BTreeMap<(Outputs, Weather), Drawing>,
+}
+
+/// The programs that draw what is asked for.
+#[derive(Debug, Clone)]
+pub(super) struct Drawing {
+    /// In the order of [`Finish::ALL`].
+    pub surfaces: [wgpu::RenderPipeline; 3],
+    /// Where light is asked for.
+    pub sky: Option<wgpu::RenderPipeline>,
+}
+
+#[derive(Debug)]
+struct Modules {
+    surface: wgpu::ShaderModule,
+    sky: wgpu::ShaderModule,
+}
+
+const CORNERS: [Option<wgpu::VertexBufferLayout<'static>>; 2] = [Some(RawCorner::LAYOUT), Some(RawInstance::LAYOUT)];
+
+const VIEW: &str = include_str!("shaders/view.wgsl");
+
+impl Pipelines {
+    pub fn new(gpu: &Gpu) -> Self {
+        let module = |source: &str| {
+            let source = wgpu::ShaderSource::Wgsl(format!("{VIEW}{source}").into());
+            gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source })
+        };
+        let view = BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: true,
+            min_binding_size: NonZeroU64::new(size_of::<RawView>() as u64),
+        };
+        let views = layout(gpu, &[(ShaderStages::VERTEX_FRAGMENT, view)]);
+        let words = BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: false },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
+        let masks = layout(gpu, &[(ShaderStages::FRAGMENT, words)]);
+        let (sun_depth, sun_layout, sun) = sun(gpu);
+        let shaded = pipeline_layout(gpu, &[&views, &sun_layout]);
+        let shadow = depth_only(gpu, &module(include_str!("shaders/shadow.wgsl")), &pipeline_layout(gpu, &[&views]));
+        let masked = pipeline_layout(gpu, &[&views, &masks]);
+        let alone = alone(gpu, &module(include_str!("shaders/alone.wgsl")), &masked);
+        let modules = Modules {
+            surface: module(include_str!("shaders/surface.wgsl")),
+            sky: module(include_str!("shaders/sky.wgsl")),
+        };
+        Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
+    }
+
+    /// The programs for these images in this weather.
+    pub fn drawing(&mut self, gpu: &Gpu, wanted: Outputs, weather: Weather) -> Drawing {
+        // Where there is no light, weather makes no difference.
+        let weather = if wanted.light() { weather } else { Weather::default() };
+        let Self { modules, shaded, drawing, .. } = self;
+        drawing.entry((wanted, weather)).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted, weather)).clone()
+    }
+}
+
+impl Drawing {
+    fn new(gpu: &Gpu, modules: &Modules, layout: &wgpu::PipelineLayout, wanted: Outputs, weather: Weather) -> Self {
+        let pipeline = |finish: Option<Finish>| {
+            let sky = finish.is_none();
+            let choices = [
+                ("RGB", wanted.light()),
+                ("SHADOWS", wanted.shadows),
+                ("LAMPS", weather.lamps),
+                ("FOG", weather.fog),
+                ("GLOSSY", finish == Some(Finish::Glossy)),
+                ("GRAINED", finish == Some(Finish::Grained)),
+            ];
+            // The sky asks for one of them only, and may not be told of the others.
+            let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
+            let constants = if sky { &constants[3..4] } else { &constants };
+            let module = if sky { &modules.sky } else { &modules.surface };
+            // The sky is light and nothing else.
+            let writes = |image: Image| {
+                if sky && !image.is_light() { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL }
+            };
+            let target = |image: Image| {
+                let target = wgpu::ColorTargetState { format: image.format(), blend: None, write_mask: writes(image) };
+                image.is_wanted(wanted).then_some(target)
+            };
+            let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(if sky { "sky" } else { "surfaces" }),
+                layout: Some(layout),
+                vertex: wgpu::VertexState {
+                    module,
+                    entry_point: None,
+                    compilation_options: compilation_options.clone(),
+                    buffers: if sky { &[] } else { &CORNERS },
+                },
+                primitive: wgpu::PrimitiveState { cull_mode: (!sky).then_some(wgpu::Face::Back), ..Default::default() },
+                depth_stencil: Some(depth(!sky, if sky { CompareFunction::Equal } else { CompareFunction::Greater })),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module,
+                    entry_point: None,
+                    compilation_options,
+                    targets: &Image::ALL.map(target),
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        let surfaces = Finish::ALL.map(|finish| pipeline(Some(finish)));
+        Self { surfaces, sky: wanted.light().then(|| pipeline(None)) }
+    }
+}
+
+/// Depth is reversed: what is nearer is greater, and 0 is infinitely far.
+fn depth(write: bool, compare: CompareFunction) -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH_FORMAT,
+        depth_write_enabled: Some(write),
+        depth_compare: Some(compare),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+fn depth_only(gpu: &Gpu, module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
+    // Without it, surfaces at a slant to the sun shade themselves in stripes.
+    let bias = wgpu::DepthBiasState { constant: 2, slope_scale: 2.0, clamp: 0.0 };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("shadow"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: None,
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &CORNERS,
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState { bias, ..depth(true, CompareFunction::Less) }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: None,
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn alone(gpu: &Gpu, module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
+    let compilation_options = wgpu::PipelineCompilationOptions::default();
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("things alone"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: None,
+            compilation_options: compilation_options.clone(),
+            buffers: &CORNERS,
+        },
+        primitive: wgpu::PrimitiveState { cull_mode: Some(wgpu::Face::Back), ..Default::default() },
+        depth_stencil: Some(depth(false, CompareFunction::Always)),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState { module, entry_point: None, compilation_options, targets: &[] }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+fn layout(gpu: &Gpu, bindings: &[(ShaderStages, BindingType)]) -> wgpu::BindGroupLayout {
+    let entry = |(binding, (visibility, ty)): (u32, &(ShaderStages, BindingType))| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: *visibility,
+        ty: *ty,
+        count: None,
+    };
+    let entries: Vec<_> = (0..).zip(bindings).map(entry).collect();
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &entries })
+}
+
+fn pipeline_layout(gpu: &Gpu, groups: &[&wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
+    let groups: Vec<_> = groups.iter().copied().map(Some).collect();
+    gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: None,
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    })
+}
+
+fn sun(gpu: &Gpu) -> (wgpu::TextureView, wgpu::BindGroupLayout, wgpu::BindGroup) {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("sun"),
+        size: wgpu::Extent3d { width: TEXELS, height: TEXELS, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(CompareFunction::LessEqual),
+        ..Default::default()
+    });
+    let depth = BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let comparison = BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
+    let layout = layout(gpu, &[(ShaderStages::FRAGMENT, depth), (ShaderStages::FRAGMENT, comparison)]);
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
+        ],
+    });
+    (view, layout, group)
+}

@@ -1,0 +1,270 @@
+//! From a view to what the adapter is told of it: whether it can be drawn, what of it is in sight, and where that is.
+
+use super::adapter::Gpu;
+use super::inside::inside;
+use super::meshes::{GpuMesh, Meshes, Shape, Unfit};
+use super::raw::{RawInstance, RawView, four};
+use super::shadow::{ShadowMap, to_sun};
+use crate::{Camera, Instance, Outputs, View, ViewError};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+/// A view, ready to be drawn.
+#[derive(Debug)]
+pub(super) struct Prepared {
+    pub raw: RawView,
+    /// Of what is in sight and of what throws shadows.
+    pub instances: Vec<RawInstance>,
+    pub draws: Vec<Draw>,
+    pub casters: Vec<Draw>,
+    /// Which bits things have in the masks of things alone; empty if those are not wanted.
+    pub bits: BTreeMap<u16, u32>,
+}
+
+/// What there is besides daylight.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Weather {
+    /// Lamps that shine.
+    pub lamps: bool,
+    pub fog: bool,
+}
+
+/// One mesh, drawn for some of the instances of its view.
+#[derive(Debug)]
+pub(super) struct Draw {
+    pub mesh: u64,
+    pub instances: Range<u32>,
+}
+
+impl Prepared {
+    /// What of the weather its programs have to know.
+    pub fn weather(&self) -> Weather {
+        Weather { lamps: self.raw.sun[3] > 0.0, fog: self.raw.up[3] > 0.0 }
+    }
+
+    /// How many words each pixel has in the masks of things alone.
+    pub fn words(&self) -> u32 {
+        (self.bits.len() as u32).div_ceil(32)
+    }
+}
+
+/// An instance that may be drawn.
+struct Placed<'a> {
+    instance: &'a Instance,
+    mesh: &'a GpuMesh,
+    shape: Shape,
+    middle: Point3<f64>,
+    radius: f64,
+}
+
+/// Gets a view ready.
+pub(super) fn prepare(gpu: &Gpu, meshes: &mut Meshes, view: &View<'_>, wanted: Outputs) -> Result<Prepared, ViewError> {
+    check(gpu, view)?;
+    let eye = view.camera.pose(&view.pose);
+    let to_eye = eye.inverse();
+    let seen = || view.scene.instances.iter().enumerate().filter(|(_, instance)| view.without != Some(instance.id));
+    for (index, instance) in seen() {
+        check_instance(index, instance)?;
+        let unfit = |unfit: &Unfit| not_drawable(gpu, index, instance.id, unfit);
+        meshes.upload(gpu, &instance.mesh).as_ref().map_err(unfit)?;
+    }
+    let mut placed = Vec::with_capacity(view.scene.instances.len());
+    for (index, instance) in seen() {
+        let mesh = meshes.get(instance.mesh.key());
+        let shape = shape(instance, &to_eye);
+        check_outside(index, instance, mesh, &shape)?;
+        let (middle, radius) = shape.ball(mesh);
+        placed.push(Placed { instance, mesh, shape, middle, radius });
+    }
+    // What is near hides what is far, which then need not be coloured.
+    placed.sort_by(|a, b| a.middle.coords.norm_squared().total_cmp(&b.middle.coords.norm_squared()));
+
+    let sun = to_sun(&view.scene.air);
+    let map = ShadowMap::new(&eye, &sun);
+    let frustum = Frustum::new(view.camera);
+    let mut prepared = Prepared {
+        raw: raw_view(view, &eye, &sun, &map, &placed),
+        instances: Vec::with_capacity(placed.len()),
+        draws: Vec::new(),
+        casters: Vec::new(),
+        bits: BTreeMap::new(),
+    };
+    let in_sight: Vec<_> = placed.iter().filter(|placed| frustum.meets(&placed.middle, placed.radius)).collect();
+    if wanted.alone {
+        let ids: BTreeSet<u16> = in_sight.iter().map(|placed| placed.instance.id).collect();
+        prepared.bits = ids.into_iter().zip(0..).collect();
+    }
+    prepared.draws = prepared.add(in_sight.into_iter());
+    if wanted.shadows && wanted.light() && prepared.raw.sun_light.iter().any(|light| *light > 0.0) {
+        let throws = |placed: &&Placed<'_>| is_solid(placed) && map.catches(&placed.middle, placed.radius);
+        prepared.casters = prepared.add(placed.iter().filter(throws));
+    }
+    Ok(prepared)
+}
+
+impl Prepared {
+    /// Adds these instances, those of one mesh beside each other.
+    fn add<'a>(&mut self, placed: impl Iterator<Item = &'a Placed<'a>>) -> Vec<Draw> {
+        let mut groups: Vec<(u64, Vec<&Placed<'_>>)> = Vec::new();
+        let mut group_of = BTreeMap::new();
+        for placed in placed {
+            let key = placed.instance.mesh.key();
+            let group = *group_of.entry(key).or_insert(groups.len());
+            if group == groups.len() {
+                groups.push((key, Vec::new()));
+            }
+            groups[group].1.push(placed);
+        }
+        let draw = |(mesh, group): (u64, Vec<&Placed<'_>>)| {
+            let first = self.instances.len() as u32;
+            for placed in group {
+                let bit = self.bits.get(&placed.instance.id).copied().unwrap_or_default();
+                self.instances.push(RawInstance::new(&placed.shape, placed.instance.paint, placed.instance.id, bit));
+            }
+            Draw { mesh, instances: first..self.instances.len() as u32 }
+        };
+        groups.into_iter().map(draw).collect()
+    }
+}
+
+/// Whether it can throw a shadow: the ground cannot.
+fn is_solid(placed: &Placed<'_>) -> bool {
+    (placed.mesh.high.z - placed.mesh.low.z) * placed.shape.scale.z > 0.05
+}
+
+fn shape(instance: &Instance, to_eye: &Isometry3<f64>) -> Shape {
+    let pose: Isometry3<f64> = instance.pose.cast();
+    // What has length 1 in 32 bits has not quite in 64.
+    let turn = UnitQuaternion::new_normalize(pose.rotation.into_inner());
+    let pose = Isometry3::from_parts(pose.translation, turn);
+    Shape { to_camera: to_eye * pose, scale: Vector3::from(instance.scale).cast() }
+}
+
+fn check(gpu: &Gpu, view: &View<'_>) -> Result<(), ViewError> {
+    let (width, height) = (view.camera.width(), view.camera.height());
+    let limit = gpu.limits.max_texture_dimension_2d;
+    if width > limit || height > limit {
+        return Err(ViewError::TooLarge { width, height, limit });
+    }
+    let lamps = view.head_lamps.unwrap_or_default();
+    let numbers = view.pose.translation.vector.iter().chain(view.pose.rotation.coords.iter()).chain(lamps.iter());
+    if !numbers.copied().all(f64::is_finite) {
+        return Err(ViewError::Pose(format!("{}, head lamps {:?}", view.pose, view.head_lamps)));
+    }
+    view.scene.air.check()
+}
+
+fn check_instance(index: usize, instance: &Instance) -> Result<(), ViewError> {
+    let wrong =
+        |what, found: String, expected| Err(ViewError::Instance { index, id: instance.id, what, found, expected });
+    let pose = &instance.pose;
+    let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
+    if !numbers.copied().all(f32::is_finite) {
+        return wrong("pose", pose.to_string(), "finite numbers");
+    }
+    if !instance.scale.iter().all(|along| along.is_normal() && *along > 0.0) {
+        return wrong("scale", format!("{:?}", instance.scale), "finite numbers above 0");
+    }
+    if !instance.paint.iter().all(|part| (0.0..=1.0).contains(part)) {
+        return wrong("paint", format!("{:?}", instance.paint), "numbers from 0 to 1");
+    }
+    Ok(())
+}
+
+fn not_drawable(gpu: &Gpu, index: usize, id: u16, unfit: &Unfit) -> ViewError {
+    match unfit {
+        Unfit::Corner(found) => {
+            ViewError::Instance { index, id, what: "mesh", found: found.clone(), expected: "finite numbers" }
+        }
+        Unfit::TooLarge(bytes) => {
+            ViewError::TooMuch { what: "a mesh", bytes: *bytes, limit: gpu.limits.max_buffer_size }
+        }
+    }
+}
+
+fn check_outside(index: usize, instance: &Instance, mesh: &GpuMesh, shape: &Shape) -> Result<(), ViewError> {
+    let eye = shape.eye();
+    let around = (0..3).all(|axis| mesh.low[axis] < eye[axis] && eye[axis] < mesh.high[axis]);
+    if around && inside(&instance.mesh, &eye) {
+        return Err(ViewError::Inside { index, id: instance.id });
+    }
+    Ok(())
+}
+
+/// What a camera sees, as the planes that bound it.
+struct Frustum {
+    /// Unit vectors into it; the planes go through the pinhole.
+    sides: [Vector3<f64>; 4],
+}
+
+impl Frustum {
+    fn new(camera: &Camera) -> Self {
+        let focal = camera.focal_pixels();
+        let (across, down) = (f64::from(camera.width()) / 2.0 / focal, f64::from(camera.height()) / 2.0 / focal);
+        let sides = [(across, -1.0, 0.0), (across, 1.0, 0.0), (down, 0.0, -1.0), (down, 0.0, 1.0)];
+        Self { sides: sides.map(|(x, y, z)| Vector3::new(x, y, z).normalize()) }
+    }
+
+    fn meets(&self, middle: &Point3<f64>, radius: f64) -> bool {
+        middle.x > Camera::NEAR - radius && self.sides.iter().all(|side| side.dot(&middle.coords) > -radius)
+    }
+}
+
+/// Brightness of a street lamp and of a pair of head lamps: what a surface gets, times square metres.
+const STREET_LAMP: f32 = 14.0;
+const HEAD_LAMPS: f32 = 90.0;
+/// Farther from the middle of what is seen, street lamps are not computed, in metres.
+const LAMP_REACH: f64 = 60.0;
+
+fn raw_view(
+    view: &View<'_>,
+    eye: &Isometry3<f64>,
+    sun: &Vector3<f64>,
+    map: &ShadowMap,
+    placed: &[Placed<'_>],
+) -> RawView {
+    let (camera, air) = (view.camera, &view.scene.air);
+    let (focal, to_eye) = (camera.focal_pixels(), eye.inverse());
+    let (width, height) = (f64::from(camera.width()), f64::from(camera.height()));
+    let light = air.lit();
+    let before = |direction: Vector3<f64>| (to_eye * direction).cast::<f32>();
+    let head = view.head_lamps.filter(|_| light.lamps > 0.0);
+    let lamp = |place: Point3<f64>, bright: f32| four((to_eye * place).coords.cast::<f32>(), bright);
+    RawView {
+        image: [(width / 2.0) as f32, (height / 2.0) as f32, (1.0 / focal) as f32, Camera::NEAR as f32],
+        project: [(2.0 * focal / width) as f32, (2.0 * focal / height) as f32, 0.0, 0.0],
+        sun: four(before(*sun), light.lamps),
+        up: four(before(Vector3::z()), air.extinction),
+        sun_light: four(light.sun, 0.0),
+        sky_light: four(light.sky, 0.0),
+        ground_light: four(light.ground, 0.0),
+        air: four(air.colour(), 0.0),
+        zenith: four(light.zenith, 0.0),
+        head_lamps: head.map_or([0.0; 4], |place| lamp(view.pose * place, HEAD_LAMPS * light.lamps)),
+        head_beam: four(before(view.pose * Vector3::new(1.0, 0.0, -0.03).normalize()), 0.0),
+        street_lamps: street_lamps(placed, light.lamps),
+        shadow: map.rows(),
+        counts: [0, 0, camera.width(), 0],
+    }
+}
+
+/// The street lamps that matter most, before the camera.
+fn street_lamps(placed: &[Placed<'_>], bright: f32) -> [[f32; 4]; 8] {
+    let mut lamps = [[0.0; 4]; 8];
+    if bright == 0.0 {
+        return lamps;
+    }
+    let ahead = Point3::new(15.0, 0.0, 0.0);
+    let place = |placed: &Placed<'_>| {
+        let lamp = placed.mesh.lamp?.coords.component_mul(&placed.shape.scale);
+        Some(placed.shape.to_camera * Point3::from(lamp))
+    };
+    let mut places: Vec<_> = placed.iter().filter_map(place).collect();
+    places.sort_by(|a, b| (a - ahead).norm_squared().total_cmp(&(b - ahead).norm_squared()));
+    let near = places.iter().take_while(|place| (*place - ahead).norm() < LAMP_REACH);
+    for (lamp, place) in lamps.iter_mut().zip(near) {
+        *lamp = four(place.coords.cast::<f32>(), STREET_LAMP * bright);
+    }
+    lamps
+}

@@ -1,0 +1,104 @@
+//! What is written to the adapter, byte for byte as the shaders read it.
+
+use crate::renderer::meshes::Shape;
+use bytemuck::{Pod, Zeroable};
+use nalgebra::{Isometry3, Matrix3, Vector3};
+use wgpu::{VertexAttribute, VertexBufferLayout, VertexStepMode, vertex_attr_array};
+
+/// `View` in view.wgsl.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
+pub(super) struct RawView {
+    pub image: [f32; 4],
+    pub project: [f32; 4],
+    pub sun: [f32; 4],
+    pub up: [f32; 4],
+    pub sun_light: [f32; 4],
+    pub sky_light: [f32; 4],
+    pub ground_light: [f32; 4],
+    pub air: [f32; 4],
+    pub zenith: [f32; 4],
+    pub head_lamps: [f32; 4],
+    pub head_beam: [f32; 4],
+    pub street_lamps: [[f32; 4]; 8],
+    pub shadow: [[f32; 4]; 3],
+    pub counts: [u32; 4],
+}
+
+/// A corner of a mesh.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(super) struct RawCorner {
+    pub position: [f32; 3],
+    /// The normal of the triangle that this corner speaks for.
+    pub face: [f32; 3],
+    pub normal: [i16; 4],
+    pub uv: [f32; 2],
+    pub colour: [u16; 4],
+    /// Surface, class, and two bytes of nothing.
+    pub kind: [u8; 4],
+}
+
+impl RawCorner {
+    const ATTRIBUTES: [VertexAttribute; 6] = vertex_attr_array![
+        0 => Float32x3, 1 => Float32x3, 2 => Snorm16x4, 3 => Float32x2, 4 => Unorm16x4, 5 => Uint8x4
+    ];
+
+    pub const LAYOUT: VertexBufferLayout<'static> = VertexBufferLayout {
+        array_stride: size_of::<Self>() as u64,
+        step_mode: VertexStepMode::Vertex,
+        attributes: &Self::ATTRIBUTES,
+    };
+}
+
+/// An instance before a camera.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub(super) struct RawInstance {
+    rows: [[f32; 4]; 3],
+    eye: [f32; 3],
+    unscale: [f32; 3],
+    paint: [f32; 3],
+    /// The id, and in the upper half which bit it has in the masks of things alone.
+    id: u32,
+}
+
+impl RawInstance {
+    const ATTRIBUTES: [VertexAttribute; 7] = vertex_attr_array![
+        6 => Float32x4, 7 => Float32x4, 8 => Float32x4, 9 => Float32x3, 10 => Float32x3, 11 => Float32x3, 12 => Uint32
+    ];
+
+    pub const LAYOUT: VertexBufferLayout<'static> = VertexBufferLayout {
+        array_stride: size_of::<Self>() as u64,
+        step_mode: VertexStepMode::Instance,
+        attributes: &Self::ATTRIBUTES,
+    };
+
+    pub fn new(shape: &Shape, paint: [f32; 3], id: u16, bit: u32) -> Self {
+        let (turn, shift) = (shape.turn(), shape.to_camera.translation.vector);
+        let row =
+            |axis: usize| [turn[(axis, 0)] as f32, turn[(axis, 1)] as f32, turn[(axis, 2)] as f32, shift[axis] as f32];
+        Self {
+            rows: std::array::from_fn(row),
+            eye: shape.eye().cast::<f32>().into(),
+            unscale: shape.scale.map(|along| (1.0 / (along * along)) as f32).into(),
+            paint,
+            id: u32::from(id) | bit << 16,
+        }
+    }
+}
+
+/// The rows of a rigid motion followed by a linear map.
+pub(super) fn rows(linear: &Matrix3<f64>, motion: &Isometry3<f64>, shift: &Vector3<f64>) -> [[f32; 4]; 3] {
+    let turn = linear * motion.rotation.to_rotation_matrix();
+    let moved = linear * motion.translation.vector + shift;
+    std::array::from_fn(|axis| {
+        [turn[(axis, 0)] as f32, turn[(axis, 1)] as f32, turn[(axis, 2)] as f32, moved[axis] as f32]
+    })
+}
+
+/// Three numbers and a fourth.
+pub(super) fn four(three: impl Into<[f32; 3]>, fourth: f32) -> [f32; 4] {
+    let [x, y, z] = three.into();
+    [x, y, z, fourth]
+}

@@ -1,0 +1,55 @@
+//! Where the shadow map lies: a square before the camera, across the sun's rays.
+
+use super::raw::rows;
+use crate::Air;
+use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
+
+/// Texels of the map each way.
+pub(super) const TEXELS: u32 = 1024;
+/// Half of what the map covers each way, in metres.
+const REACH: f64 = 36.0;
+/// How far ahead of the camera its middle is, in metres.
+const AHEAD: f64 = 30.0;
+/// How far towards the sun things are that still throw shadows into it, and how far away from it, in metres.
+const DEEP: f64 = 150.0;
+
+/// A shadow map of one view.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ShadowMap {
+    /// From the camera's coordinates to light's: x and y across its rays, z towards the sun; the middle is the origin.
+    to_light: Isometry3<f64>,
+}
+
+/// The direction to the sun, in the world.
+pub(super) fn to_sun(air: &Air) -> Vector3<f64> {
+    let (sin_up, cos_up) = libm::sincos(f64::from(air.sun_elevation));
+    let (sin_around, cos_around) = libm::sincos(f64::from(air.sun_azimuth));
+    Vector3::new(cos_up * cos_around, cos_up * sin_around, sin_up)
+}
+
+impl ShadowMap {
+    /// The map for a camera here, under this sun.
+    pub fn new(camera: &Isometry3<f64>, sun: &Vector3<f64>) -> Self {
+        let ahead = camera * Vector3::x();
+        let level = Vector3::new(ahead.x, ahead.y, 0.0).try_normalize(1e-9).unwrap_or_default();
+        let turn = Rotation3::rotation_between(sun, &Vector3::z()).unwrap_or_else(Rotation3::identity);
+        // The middle moves by whole texels, so that the edges of shadows stand still while the camera moves.
+        let texel = 2.0 * REACH / f64::from(TEXELS);
+        let middle = turn * (camera.translation.vector + level * AHEAD);
+        let middle = Vector3::new((middle.x / texel).round() * texel, (middle.y / texel).round() * texel, middle.z);
+        let to_light = Isometry3::from_parts((-middle).into(), turn.into());
+        Self { to_light: to_light * camera }
+    }
+
+    /// The rows of what takes a point before the camera to the map: from 0 to 1 across and down, and from 0 to 1 in depth.
+    pub fn rows(&self) -> [[f32; 4]; 3] {
+        let linear = Matrix3::from_diagonal(&Vector3::new(0.5 / REACH, -0.5 / REACH, -0.5 / DEEP));
+        rows(&linear, &self.to_light, &Vector3::repeat(0.5))
+    }
+
+    /// Whether something within this ball can throw a shadow into the map.
+    pub fn catches(&self, middle: &Point3<f64>, radius: f64) -> bool {
+        let middle = self.to_light * middle;
+        middle.x.abs() < REACH + radius && middle.y.abs() < REACH + radius && middle.z.abs() < DEEP + radius
+    }
+}

@@ -1,0 +1,285 @@
+//! Where a batch is drawn, and from where it is read back.
+//!
+//! Every view has a layer of its own. Side by side on one sheet they would take fewer passes, but an offset of the
+//! viewport changes in the last bit where edges fall, and an image is to be the same with whatever it is drawn.
+
+use super::adapter::Gpu;
+use super::pipelines::Pipelines;
+use super::raw::{RawInstance, RawView};
+use crate::Outputs;
+
+pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// One of the images of a view, in the order of the outputs of the shaders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Image {
+    Rgb,
+    Depth,
+    Semantic,
+    Instance,
+    Linear,
+}
+
+impl Image {
+    pub const ALL: [Self; 5] = [Self::Rgb, Self::Depth, Self::Semantic, Self::Instance, Self::Linear];
+
+    pub fn format(self) -> wgpu::TextureFormat {
+        match self {
+            Self::Rgb => wgpu::TextureFormat::Rgba8UnormSrgb,
+            Self::Depth => wgpu::TextureFormat::R32Float,
+            Self::Semantic => wgpu::TextureFormat::R8Uint,
+            Self::Instance => wgpu::TextureFormat::R16Uint,
+            Self::Linear => wgpu::TextureFormat::Rgba32Float,
+        }
+    }
+
+    /// Bytes of a pixel.
+    pub fn bytes(self) -> u32 {
+        match self {
+            Self::Semantic => 1,
+            Self::Instance => 2,
+            Self::Rgb | Self::Depth => 4,
+            Self::Linear => 16,
+        }
+    }
+
+    pub fn is_light(self) -> bool {
+        matches!(self, Self::Rgb | Self::Linear)
+    }
+
+    pub fn is_wanted(self, wanted: Outputs) -> bool {
+        match self {
+            Self::Rgb => wanted.rgb,
+            Self::Depth => wanted.depth,
+            Self::Semantic => wanted.semantic,
+            Self::Instance => wanted.instance,
+            Self::Linear => wanted.linear,
+        }
+    }
+
+    /// What a pixel is where there is nothing.
+    fn nothing(self) -> wgpu::Color {
+        let first = match self {
+            Self::Rgb | Self::Linear | Self::Instance => 0.0,
+            Self::Depth => f64::INFINITY,
+            Self::Semantic => f64::from(crate::Semantic::Sky as u8),
+        };
+        wgpu::Color { r: first, ..wgpu::Color::TRANSPARENT }
+    }
+}
+
+/// What images a batch has, and of which size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Format {
+    pub width: u32,
+    pub height: u32,
+    pub wanted: Outputs,
+}
+
+impl Format {
+    pub fn images(self) -> impl Iterator<Item = Image> {
+        Image::ALL.into_iter().filter(move |image| image.is_wanted(self.wanted))
+    }
+
+    /// Bytes of a row of an image where it is read back.
+    pub fn pitch(self, image: Image) -> u64 {
+        let align = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
+        (u64::from(self.width) * u64::from(image.bytes())).next_multiple_of(u64::from(align))
+    }
+
+    /// Bytes of an image where it is read back.
+    pub fn stride(self, image: Image) -> u64 {
+        self.pitch(image) * u64::from(self.height)
+    }
+
+    /// Bytes of all images of a view where they are read back.
+    pub fn bytes(self) -> u64 {
+        self.images().map(|image| self.stride(image)).sum()
+    }
+
+    pub fn pixels(self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+}
+
+/// The layers that a batch is drawn into, and the buffers that go with them.
+#[derive(Debug)]
+pub(super) struct Targets {
+    pub format: Format,
+    /// How many views it has room for.
+    pub layers: u32,
+    textures: Vec<(Image, wgpu::Texture, Vec<wgpu::TextureView>)>,
+    depth: wgpu::TextureView,
+    /// Of the views.
+    pub uniforms: wgpu::Buffer,
+    pub view_group: wgpu::BindGroup,
+    /// Of all views.
+    pub instances: wgpu::Buffer,
+    pub readback: wgpu::Buffer,
+    pub masks: Option<Masks>,
+}
+
+/// The masks of things alone.
+#[derive(Debug)]
+pub(super) struct Masks {
+    pub words: wgpu::Buffer,
+    pub group: wgpu::BindGroup,
+    pub readback: wgpu::Buffer,
+}
+
+/// The uniforms of one view begin so far after those of the view before.
+pub(super) fn view_stride(gpu: &Gpu) -> u64 {
+    (size_of::<RawView>() as u64).next_multiple_of(u64::from(gpu.limits.min_uniform_buffer_offset_alignment))
+}
+
+impl Targets {
+    pub fn new(gpu: &Gpu, pipelines: &Pipelines, format: Format, layers: u32) -> Self {
+        let texture = |image: Image| {
+            let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+            let texture = texture(gpu, format, image.format(), layers, usage);
+            let view = |layer| {
+                texture.create_view(&wgpu::TextureViewDescriptor {
+                    dimension: Some(wgpu::TextureViewDimension::D2),
+                    base_array_layer: layer,
+                    array_layer_count: Some(1),
+                    ..Default::default()
+                })
+            };
+            let views = (0..layers).map(view).collect();
+            (image, texture, views)
+        };
+        // One is enough: views are drawn one after the other, and each begins anew.
+        let depth = texture_of_depth(gpu, format);
+        let uniforms = buffer(gpu, view_stride(gpu) * u64::from(layers), wgpu::BufferUsages::UNIFORM);
+        let view = wgpu::BufferBinding {
+            buffer: &uniforms,
+            offset: 0,
+            size: std::num::NonZeroU64::new(size_of::<RawView>() as u64),
+        };
+        let view_group = group(gpu, &pipelines.views, wgpu::BindingResource::Buffer(view));
+        Self {
+            format,
+            layers,
+            textures: format.images().map(texture).collect(),
+            depth,
+            view_group,
+            uniforms,
+            instances: buffer(gpu, instance_bytes(64 * layers as usize), wgpu::BufferUsages::VERTEX),
+            readback: readback(gpu, format.bytes() * u64::from(layers)),
+            masks: None,
+        }
+    }
+
+    /// Makes room for so many instances and words of masks.
+    pub fn reserve(&mut self, gpu: &Gpu, pipelines: &Pipelines, instances: usize, words: u64) {
+        if instance_bytes(instances) > self.instances.size() {
+            let room = instance_bytes(instances.next_power_of_two());
+            self.instances = buffer(gpu, room, wgpu::BufferUsages::VERTEX);
+        }
+        if words > 0 && self.masks.as_ref().is_none_or(|masks| masks.words.size() < words * 4) {
+            let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+            let buffer = buffer(gpu, words * 4, usage);
+            let group = group(gpu, &pipelines.masks, buffer.as_entire_binding());
+            self.masks = Some(Masks { words: buffer, group, readback: readback(gpu, words * 4) });
+        }
+    }
+
+    /// Begins to draw the view of a layer: on everything that is wanted, or on nothing that is kept.
+    pub fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder, layer: u32, images: bool) -> wgpu::RenderPass<'a> {
+        let attachment = |image: Image| {
+            let (_, _, views) = self.textures.iter().find(|(of, _, _)| *of == image)?;
+            Some(wgpu::RenderPassColorAttachment {
+                view: &views[layer as usize],
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(image.nothing()), store: wgpu::StoreOp::Store },
+            })
+        };
+        let attachments = Image::ALL.map(attachment);
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: None,
+            color_attachments: if images { &attachments } else { &[] },
+            depth_stencil_attachment: Some(cleared(&self.depth, 0.0, wgpu::StoreOp::Discard)),
+            timestamp_writes: None,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        })
+    }
+
+    /// Copies the first so many layers to where they are read back.
+    pub fn copy(&self, encoder: &mut wgpu::CommandEncoder, layers: u32) {
+        let Format { width, height, .. } = self.format;
+        let mut offset = 0;
+        for (image, texture, _) in &self.textures {
+            let layout = wgpu::TexelCopyBufferLayout {
+                offset,
+                bytes_per_row: Some(self.format.pitch(*image) as u32),
+                rows_per_image: Some(height),
+            };
+            let size = wgpu::Extent3d { width, height, depth_or_array_layers: layers };
+            let to = wgpu::TexelCopyBufferInfo { buffer: &self.readback, layout };
+            encoder.copy_texture_to_buffer(texture.as_image_copy(), to, size);
+            offset += self.format.stride(*image) * u64::from(layers);
+        }
+    }
+}
+
+/// A depth attachment that begins with one value everywhere.
+pub(super) fn cleared(
+    view: &wgpu::TextureView,
+    value: f32,
+    store: wgpu::StoreOp,
+) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(value), store }),
+        stencil_ops: None,
+    }
+}
+
+fn texture_of_depth(gpu: &Gpu, format: Format) -> wgpu::TextureView {
+    let texture = texture(gpu, format, DEPTH_FORMAT, 1, wgpu::TextureUsages::RENDER_ATTACHMENT);
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+fn texture(
+    gpu: &Gpu,
+    size: Format,
+    format: wgpu::TextureFormat,
+    layers: u32,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width: size.width, height: size.height, depth_or_array_layers: layers },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
+
+fn instance_bytes(instances: usize) -> u64 {
+    (instances * size_of::<RawInstance>()) as u64
+}
+
+fn buffer(gpu: &Gpu, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    let usage = usage | wgpu::BufferUsages::COPY_DST;
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: size.max(4),
+        usage,
+        mapped_at_creation: false,
+    })
+}
+
+fn readback(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    buffer(gpu, size, wgpu::BufferUsages::MAP_READ)
+}
+
+fn group(gpu: &Gpu, layout: &wgpu::BindGroupLayout, resource: wgpu::BindingResource<'_>) -> wgpu::BindGroup {
+    let entries = [wgpu::BindGroupEntry { binding: 0, resource }];
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+}

@@ -1,0 +1,87 @@
+//! What only the renderer itself can see: that it forgets meshes, and that it survives the loss of its device.
+
+use super::Renderer;
+use crate::{Camera, Instance, Mesh, Outputs, RenderError, Scene, Semantic, Surface, Vertex, View};
+use nalgebra::Isometry3;
+use std::sync::Arc;
+
+fn renderer() -> Option<Renderer> {
+    match Renderer::new() {
+        Ok(renderer) => Some(renderer),
+        Err(error) if std::env::var_os("PARACOSM_REQUIRE_ADAPTER").is_none_or(|required| required != "1") => {
+            eprintln!("SKIPPED: {error}");
+            None
+        }
+        Err(error) => panic!("PARACOSM_REQUIRE_ADAPTER=1: {error}"),
+    }
+}
+
+/// A board across the way of a camera at the origin.
+fn board() -> Scene {
+    let corner = |y: f32, z: f32| Vertex {
+        position: [0.0, y, z],
+        normal: [-1.0, 0.0, 0.0],
+        uv: [y, z],
+        colour: [0.5; 3],
+        surface: Surface::Plain,
+        semantic: Semantic::Wall,
+    };
+    let corners = vec![corner(-9.0, -9.0), corner(-9.0, 9.0), corner(9.0, 9.0), corner(9.0, -9.0)];
+    let mesh = Arc::new(Mesh::new(corners, vec![0, 1, 2, 0, 2, 3]));
+    let pose = Isometry3::translation(5.0, 0.0, 0.0);
+    Scene {
+        instances: vec![Instance { mesh, pose, scale: [1.0; 3], paint: [0.5; 3], id: 3 }],
+        air: crate::Air::default(),
+    }
+}
+
+const INSTANCES: Outputs =
+    Outputs { instance: true, rgb: false, linear: false, depth: false, semantic: false, alone: false, shadows: false };
+
+fn camera() -> Camera {
+    Camera::new(7, 5, 24.0, 36.0).expect("a sound camera")
+}
+
+#[test]
+fn a_mesh_that_nobody_has_any_more_is_forgotten() {
+    let Some(mut renderer) = renderer() else { return };
+    let (first, second, camera) = (board(), board(), camera());
+    let here = Isometry3::identity();
+    let both = [View::new(&first, &camera, here), View::new(&second, &camera, here)];
+    renderer.render(&both, INSTANCES).expect("the adapter works");
+    assert_eq!(renderer.meshes.len(), 2);
+    drop(second);
+    renderer.render(&[View::new(&first, &camera, here)], INSTANCES).expect("the adapter works");
+    assert_eq!(renderer.meshes.len(), 1);
+}
+
+#[test]
+fn layers_are_used_again_and_those_of_other_sizes_do_not_pile_up() {
+    let Some(mut renderer) = renderer() else { return };
+    let scene = board();
+    for width in 1..12 {
+        let camera = Camera::new(width, 5, 24.0, 36.0).expect("a sound camera");
+        let view = View::new(&scene, &camera, Isometry3::identity());
+        for views in [vec![view; 3], vec![view], vec![view; 70]] {
+            assert_eq!(renderer.render(&views, INSTANCES).expect("the adapter works").len(), views.len());
+        }
+        assert!(renderer.idle.len() <= super::MOST_IDLE);
+    }
+}
+
+#[test]
+fn a_lost_device_is_an_error_and_a_new_renderer_sees_again() {
+    let Some(mut renderer) = renderer() else { return };
+    let (scene, camera) = (board(), camera());
+    let views = [View::new(&scene, &camera, Isometry3::identity())];
+    renderer.render(&views, INSTANCES).expect("the adapter works");
+    renderer.gpu.device.destroy();
+    for _ in 0..2 {
+        let error = renderer.render(&views, INSTANCES).expect_err("it is lost");
+        assert!(matches!(error, RenderError::Lost(_)), "{error}");
+    }
+    let mut renderer = self::renderer().expect("there was an adapter a moment ago");
+    let frames = renderer.render(&views, INSTANCES).expect("the adapter works");
+    let frame = frames[0].as_ref().expect("a sound view");
+    assert!(frame.instance.iter().flatten().all(|id| *id == 3));
+}

@@ -1,0 +1,129 @@
+//! What a body looks like: the meshes that stand for it, and where they are.
+//!
+//! A mesh has the size of its kind and is stretched to that of the body. Trees and signs are wider than their outline,
+//! which is that of the trunk or the pole.
+
+use super::Instance;
+use super::gait::walker;
+use crate::mesh::models::{Models, linear};
+use crate::mesh::{Mesh, bicycle, car, furniture, house, truck};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use paracosm_engine::object::{Body, BodyState, Class, Outline};
+use std::f32::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+/// The radius of a crown by the height of its tree: broad leaves, conifer.
+const CROWN: [f32; 2] = [0.25, 0.19];
+/// Where a crown begins, by the height of its tree: broad leaves, conifer.
+const BOUGHS: [f32; 2] = [0.28, 0.10];
+/// What is taller than this is no sign but a lamp post, in metres.
+const LAMP_POST: f32 = 3.8;
+/// A person smaller than this is a child, in metres.
+pub(super) const CHILD: f32 = 1.4;
+
+/// A body that is being drawn.
+pub(super) struct Figure<'a> {
+    pub state: &'a BodyState,
+    /// Where it stands: heading along x, the ground that it stands on at z = 0.
+    pub pose: Isometry3<f32>,
+    /// Length, width and height in metres.
+    pub size: [f32; 3],
+    pub paint: [f32; 3],
+    pub id: u16,
+}
+
+impl<'a> Figure<'a> {
+    /// The figure of a body that stands `raised` metres above the ground.
+    pub fn new(state: &'a BodyState, raised: f32, id: u16) -> Self {
+        let position = state.pose.position.map(|metres| metres as f32);
+        let up = state.altitude as f32 + raised;
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), state.pose.heading as f32);
+        let pose = Isometry3::from_parts(Translation3::new(position.x, position.y, up), turn);
+        Self { state, pose, size: size(&state.body), paint: linear(state.body.colour), id }
+    }
+
+    /// A mesh of this figure, `at` from its pose.
+    pub fn part(&self, mesh: &Arc<Mesh>, at: Isometry3<f32>, scale: [f32; 3]) -> Instance {
+        Instance { mesh: mesh.clone(), pose: self.pose * at, scale, paint: self.paint, id: self.id }
+    }
+
+    /// A mesh that was modelled in another size, stretched to that of the body.
+    pub fn stretched(&self, mesh: &Arc<Mesh>, modelled: [f32; 3]) -> Instance {
+        let scale = [0, 1, 2].map(|axis| self.size[axis] / modelled[axis]);
+        self.part(mesh, Isometry3::identity(), scale)
+    }
+
+    /// All that stands for the body.
+    pub fn draw(&self, scene: &mut Vec<Instance>) {
+        let models = Models::shared();
+        match self.state.body.class {
+            Class::Car => scene.push(self.stretched(&models.car, car::SIZE)),
+            Class::Truck => scene.push(self.stretched(&models.truck, truck::SIZE)),
+            Class::Bicycle => scene.push(self.stretched(&models.bicycle, bicycle::SIZE)),
+            Class::Pedestrian => walker(self, models, scene),
+            Class::Building => {
+                let plan = house::Plan::of(self.size);
+                scene.push(self.stretched(&models.house(plan), plan.size()));
+            }
+            Class::Tree => self.tree(models, scene),
+            Class::Sign => self.sign(models, scene),
+            Class::Prop => scene.push(self.prop(models)),
+        }
+    }
+
+    fn tree(&self, models: &Models, scene: &mut Vec<Instance>) {
+        let [length, width, height] = self.size;
+        let chance = self.chance();
+        let conifer = chance.is_multiple_of(2);
+        let (wide, low) = (2.0 * CROWN[usize::from(conifer)] * height, BOUGHS[usize::from(conifer)] * height);
+        scene.push(self.part(&models.trunk, Isometry3::identity(), [0.5 * length, 0.5 * width, 0.6 * height]));
+        let turned = Isometry3::new(Vector3::z() * low, Vector3::z() * (chance % 360) as f32);
+        let crown = models.crown(conifer, self.state.body.colour);
+        scene.push(self.part(&crown, turned, [wide, wide, height - low]));
+    }
+
+    fn sign(&self, models: &Models, scene: &mut Vec<Instance>) {
+        let [length, width, height] = self.size;
+        scene.push(self.part(&models.pole, Isometry3::identity(), [0.5 * length, 0.5 * width, height]));
+        if height > LAMP_POST {
+            scene.push(self.part(&models.lantern, Isometry3::translation(0.0, 0.0, height), [1.0; 3]));
+        } else {
+            let plate = &models.plates[self.chance() as usize % models.plates.len()];
+            let scale = (0.4 * height / furniture::PLATE).min(1.0);
+            let up = height - furniture::PLATE * scale;
+            scene.push(self.part(plate, Isometry3::translation(0.5 * length + 0.015, 0.0, up), [scale; 3]));
+        }
+    }
+
+    fn prop(&self, models: &Models) -> Instance {
+        let [length, width, height] = self.size;
+        let mesh = match self.state.body.outline {
+            Outline::Disc { .. } if height <= length => &models.ball,
+            Outline::Disc { .. } if height <= 1.2 => &models.cone,
+            Outline::Disc { .. } => &models.barrel,
+            Outline::Rectangle { .. } if height < 1.5 && width >= 2.5 * length => &models.barrier,
+            Outline::Rectangle { .. } if height < 1.5 && length >= 2.5 * width => {
+                let turn = Isometry3::rotation(Vector3::z() * FRAC_PI_2);
+                return self.part(&models.barrier, turn, [width, length, height]);
+            }
+            Outline::Rectangle { .. } => &models.parcel,
+        };
+        self.stretched(mesh, [1.0; 3])
+    }
+
+    /// A number that looks like chance and depends on nothing but the place: FNV-1a (Fowler, Noll, Vo) over
+    /// centimetres.
+    fn chance(&self) -> u32 {
+        let place = self.state.pose.position.map(|metres| (metres * 100.0).round() as i64);
+        let bytes = place.iter().flat_map(|centimetres| centimetres.to_le_bytes());
+        let hash = bytes
+            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3));
+        (hash ^ (hash >> 32)) as u32 >> 7
+    }
+}
+
+/// Length, width and height of a body in metres.
+fn size(body: &Body) -> [f32; 3] {
+    let half = body.outline.half_extent();
+    [2.0 * half.x, 2.0 * half.y, body.height].map(|metres| metres as f32)
+}

@@ -1,0 +1,143 @@
+//! Roads as they lie there, in chunks, and the plain around them.
+//!
+//! A network is a list of strips ([`Strip`]): every surface has its height, and what is raised has sides. Chunks are
+//! squares, so that a renderer leaves out those that are not in view.
+
+use super::Instance;
+use crate::mesh::clay::{Clay, Matter, at};
+use crate::mesh::{Mesh, Semantic, Surface};
+use nalgebra::{Isometry3, Vector2};
+use paracosm_engine::road::{Bounds, Curve, Network, Strip, Surface as Paved};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The sides of a chunk in metres.
+const CHUNK: f64 = 96.0;
+/// The longest piece of a strip in metres, and how far it may stray from an arc.
+const PIECE: f64 = 32.0;
+const TOLERANCE: f64 = 0.02;
+/// How high sidewalks are above the road, in metres.
+pub(super) const KERB: f64 = 0.12;
+/// How far ground goes on under what lies on it, in metres.
+const UNDER: f64 = 0.05;
+/// How high paint is above what it is painted on: enough to be told from it a long way off.
+const PAINT: f64 = 0.006;
+/// How deep the plain lies, and how deep the sides of what is raised go.
+const PLAIN: f64 = -0.03;
+const SKIRT: f64 = -0.06;
+/// How far the plain goes on around the roads, in metres.
+const HORIZON: f64 = 4000.0;
+
+const ASPHALT: [f32; 3] = [0.065, 0.066, 0.070];
+const FLAGSTONE: [f32; 3] = [0.30, 0.285, 0.26];
+const STONE: [f32; 3] = [0.42, 0.41, 0.38];
+const GRASS: [f32; 3] = [0.085, 0.16, 0.045];
+const LINE: [f32; 3] = [0.80, 0.80, 0.77];
+
+/// How a surface lies: its height, how much wider it is made to the right, to the left, and at its ends.
+struct Lie {
+    matter: Matter,
+    height: f64,
+    wider: [f64; 2],
+    longer: f64,
+}
+
+fn lie(surface: Paved) -> Lie {
+    let lie = |surface, colour, semantic, height, wider, longer| Lie {
+        matter: Matter::new(surface, colour, semantic),
+        height,
+        wider,
+        longer,
+    };
+    match surface {
+        // Under kerbs, and under the next element, so that no seam shows.
+        Paved::Carriageway => lie(Surface::Asphalt, ASPHALT, Semantic::Road, 0.0, [UNDER; 2], UNDER),
+        Paved::Sidewalk => lie(Surface::Asphalt, FLAGSTONE, Semantic::Sidewalk, KERB, [0.0, -UNDER], 0.0),
+        Paved::Island => lie(Surface::Grown, GRASS, Semantic::Terrain, KERB, [-UNDER, 0.0], 0.0),
+        Paved::Kerb => lie(Surface::Plain, STONE, Semantic::Sidewalk, KERB + 0.005, [0.0; 2], 0.0),
+        Paved::CentreLine | Paved::LaneLine | Paved::EdgeLine | Paved::StopLine | Paved::GiveWayLine | Paved::Zebra => {
+            lie(Surface::Plain, LINE, Semantic::RoadLine, PAINT, [0.0; 2], 0.0)
+        }
+    }
+}
+
+/// The road network and the plain around it.
+pub(super) fn ground(network: &Network) -> Vec<Instance> {
+    let mut chunks: BTreeMap<[i64; 2], Clay> = BTreeMap::new();
+    for strip in network.strips().iter().flat_map(Strip::solid_parts) {
+        lay(&strip, &mut chunks);
+    }
+    let chunks = chunks.into_iter().map(|(chunk, clay)| {
+        let origin = origin(chunk);
+        standing(clay.mesh_at(origin.into()), origin)
+    });
+    chunks.chain([plain(&network.bounds())]).collect()
+}
+
+fn origin(chunk: [i64; 2]) -> Vector2<f64> {
+    Vector2::from(chunk.map(|index| index as f64 * CHUNK))
+}
+
+/// The distances along a curve at which a strip on it is cut into flat pieces.
+pub(super) fn cuts(curve: &Curve, right: f64, left: f64) -> Vec<f64> {
+    let widest = [right, left].map(|offset| (1.0 - curve.curvature() * offset).abs()).into_iter().fold(0.0, f64::max);
+    let (angle, radius) = (curve.length() * curve.curvature().abs(), widest / curve.curvature().abs());
+    let flat = 2.0 * libm::acos((1.0 - TOLERANCE / radius).max(0.0));
+    let bends = if curve.curvature() == 0.0 { 1.0 } else { angle / flat };
+    let pieces = bends.max(curve.length() * widest / PIECE).ceil().max(1.0) as usize;
+    (0..=pieces).map(|i| curve.length() * i as f64 / pieces as f64).collect()
+}
+
+/// Adds a strip to the chunks that its pieces lie in.
+fn lay(strip: &Strip, chunks: &mut BTreeMap<[i64; 2], Clay>) {
+    let Lie { matter, height, wider, longer } = lie(strip.surface);
+    let (right, left) = (strip.right - wider[0], strip.left + wider[1]);
+    if right >= left {
+        return;
+    }
+    let mut cuts = cuts(&strip.curve, strip.right, strip.left);
+    let last = cuts.len() - 1;
+    cuts[0] -= longer;
+    cuts[last] += longer;
+    for i in 0..last {
+        let ends = [cuts[i], cuts[i + 1]];
+        let middle = strip.curve.beside(0.5 * (ends[0] + ends[1]), 0.5 * (left + right));
+        let chunk: [i64; 2] = middle.map(|metres| (metres / CHUNK).floor() as i64).into();
+        let corners = |z: f64| {
+            [(ends[0], right), (ends[1], right), (ends[1], left), (ends[0], left)].map(|(along, offset)| {
+                let point = strip.curve.beside(along, offset) - origin(chunk);
+                at(point.x as f32, point.y as f32, z as f32)
+            })
+        };
+        let clay = chunks.entry(chunk).or_default();
+        let top = corners(height);
+        clay.facet(&top, matter);
+        if height > PAINT {
+            let foot = corners(SKIRT);
+            let mut side = |a: usize, b: usize| clay.facet(&[foot[a], foot[b], top[b], top[a]], matter);
+            side(0, 1);
+            side(2, 3);
+            if i == 0 {
+                side(3, 0);
+            }
+            if i + 1 == last {
+                side(1, 2);
+            }
+        }
+    }
+}
+
+/// Grass as far as one sees.
+fn plain(bounds: &Bounds) -> Instance {
+    let middle = (0.5 * (bounds.min + bounds.max)).map(f64::round);
+    let half = (0.5 * (bounds.max - bounds.min)).map(|metres| (metres + HORIZON) as f32);
+    let mut clay = Clay::default();
+    let corners = [(-half.x, -half.y), (half.x, -half.y), (half.x, half.y), (-half.x, half.y)];
+    clay.facet(&corners.map(|(x, y)| at(x, y, PLAIN as f32)), Matter::new(Surface::Grown, GRASS, Semantic::Terrain));
+    standing(clay.mesh_at(middle.into()), middle)
+}
+
+fn standing(mesh: Mesh, at: Vector2<f64>) -> Instance {
+    let pose = Isometry3::translation(at.x as f32, at.y as f32, 0.0);
+    Instance { mesh: Arc::new(mesh), pose, scale: [1.0; 3], paint: [1.0; 3], id: 0 }
+}

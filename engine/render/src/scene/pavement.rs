@@ -1,0 +1,61 @@
+//! How high the ground is: people step up to a sidewalk.
+
+use super::ground::{KERB, cuts};
+use nalgebra::Vector2;
+use paracosm_engine::road::{Network, Strip, Surface};
+use std::collections::BTreeMap;
+
+/// The sides of a cell in metres.
+const CELL: f64 = 16.0;
+/// Metres from the edge of a sidewalk within which a person steps up.
+const STEP: f64 = 0.3;
+
+/// The sidewalks of a network, by where they are.
+#[derive(Debug)]
+pub(super) struct Pavement {
+    strips: Vec<Strip>,
+    cells: BTreeMap<[i64; 2], Vec<usize>>,
+}
+
+fn cell(point: Vector2<f64>) -> [i64; 2] {
+    point.map(|metres| (metres / CELL).floor() as i64).into()
+}
+
+impl Pavement {
+    pub fn of(network: &Network) -> Self {
+        let mut strips = network.strips();
+        strips.retain(|strip| strip.surface == Surface::Sidewalk);
+        let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+        for (index, strip) in strips.iter().enumerate() {
+            for ends in cuts(&strip.curve, strip.right, strip.left).windows(2) {
+                let side = |offset: f64| [0, 1].map(|end| strip.curve.beside(ends[end], offset));
+                let corners = [side(strip.right), side(strip.left)].concat();
+                let low = cell(corners.iter().fold(corners[0], |low, corner| low.inf(corner)));
+                let high = cell(corners.iter().fold(corners[0], |high, corner| high.sup(corner)));
+                for (x, y) in (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| (x, y))) {
+                    let here = cells.entry([x, y]).or_default();
+                    if here.last() != Some(&index) {
+                        here.push(index);
+                    }
+                }
+            }
+        }
+        Self { strips, cells }
+    }
+
+    /// How high the ground is at a point, in metres: rising from the edges of a sidewalk to its top.
+    pub fn height(&self, point: Vector2<f64>) -> f64 {
+        let here = self.cells.get(&cell(point)).into_iter().flatten();
+        let inside = here.map(|index| inside(&self.strips[*index], point)).fold(0.0, f64::max);
+        let share = (inside / STEP).min(1.0);
+        KERB * share * share * (3.0 - 2.0 * share)
+    }
+}
+
+/// How many metres within a strip a point lies from its sides; not positive outside.
+fn inside(strip: &Strip, point: Vector2<f64>) -> f64 {
+    let near = strip.curve.at(strip.curve.nearest(point)).to_local(point);
+    // Beyond its ends the nearest point is not beside it.
+    let beside = near.x.abs() < 1e-6 * (1.0 + near.y.abs());
+    if beside { (near.y - strip.right).min(strip.left - near.y) } else { 0.0 }
+}

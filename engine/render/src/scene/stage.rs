@@ -1,0 +1,114 @@
+//! What makes a scene of a run: the ground, which is built once for a network, and the figures of the bodies on it.
+
+use super::figure::Figure;
+use super::ground::ground;
+use super::pavement::Pavement;
+use super::{Air, Instance, Scene};
+use crate::Mesh;
+use nalgebra::{Isometry3, Vector3};
+use paracosm_engine::Run;
+use paracosm_engine::object::{BodyState, Class};
+use paracosm_engine::road::Network;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+
+/// A road network as it is seen, ready for all that happens on it: built once, for every moment of every run.
+///
+/// ```
+/// use paracosm_engine::road::CrossIntersection;
+/// use paracosm_render::{Air, Stage};
+///
+/// let stage = Stage::of(&*CrossIntersection::new().build()?);
+/// let empty = stage.scene_of([], Air::default());
+/// assert!(empty.instances.iter().all(|instance| instance.id == 0));
+/// # Ok::<(), paracosm_engine::road::RoadError>(())
+/// ```
+#[derive(Debug)]
+pub struct Stage {
+    still: Vec<Instance>,
+    pavement: Pavement,
+    models: BTreeMap<Class, Model>,
+}
+
+/// A mesh of the user's with the box that it was modelled in.
+#[derive(Debug)]
+struct Model {
+    mesh: Arc<Mesh>,
+    /// The middle of the bottom of its box.
+    foot: Vector3<f32>,
+    size: [f32; 3],
+}
+
+impl Stage {
+    /// The stage of a network.
+    pub fn of(network: &Network) -> Self {
+        Self { still: ground(network), pavement: Pavement::of(network), models: BTreeMap::new() }
+    }
+
+    /// Shows all bodies of a class as this mesh, stretched to their boxes. Its front is along x.
+    pub fn model(mut self, class: Class, mesh: impl Into<Arc<Mesh>>) -> Self {
+        self.models.insert(class, Model::of(mesh.into()));
+        self
+    }
+
+    /// A run as it stands, with all bodies that are present. The car under test has the id 1: a camera that is mounted on
+    /// it leaves that out.
+    pub fn scene(&self, run: &Run) -> Scene {
+        self.scene_of(run.bodies().iter().enumerate(), Air::of(&run.weather()))
+    }
+
+    /// These bodies, each with its index among those of the run, in this air. Those that have left the world are left out.
+    pub fn scene_of<'a>(&self, bodies: impl IntoIterator<Item = (usize, &'a BodyState)>, air: Air) -> Scene {
+        let mut instances = self.still.clone();
+        for (index, state) in bodies.into_iter().filter(|(_, state)| state.present) {
+            let on_foot = matches!(state.body.class, Class::Pedestrian | Class::Bicycle);
+            let raised = if on_foot { self.pavement.height(state.pose.position) } else { 0.0 };
+            let id = u16::try_from(index + 1).unwrap_or(u16::MAX);
+            let figure = Figure::new(state, raised as f32, id);
+            match self.models.get(&state.body.class) {
+                Some(model) => instances.push(model.instance(&figure)),
+                None => figure.draw(&mut instances),
+            }
+        }
+        Scene { instances, air }
+    }
+}
+
+impl Model {
+    fn of(mesh: Arc<Mesh>) -> Self {
+        let points = || mesh.vertices().iter().map(|vertex| Vector3::from(vertex.position));
+        let min = points().fold(Vector3::repeat(f32::INFINITY), |min, point| min.inf(&point));
+        let max = points().fold(Vector3::repeat(f32::NEG_INFINITY), |max, point| max.sup(&point));
+        let foot = Vector3::new(0.5 * (min.x + max.x), 0.5 * (min.y + max.y), min.z);
+        let size = (max - min).map(|metres| if metres > 0.0 { metres } else { 1.0 }).into();
+        Self { mesh, foot, size }
+    }
+
+    fn instance(&self, figure: &Figure<'_>) -> Instance {
+        let mut instance = figure.stretched(&self.mesh, self.size);
+        let moved = self.foot.component_mul(&Vector3::from(instance.scale));
+        instance.pose *= Isometry3::translation(-moved.x, -moved.y, -moved.z);
+        instance
+    }
+}
+
+/// The stages of networks, as long as the networks live.
+#[derive(Debug, Default)]
+pub struct Stages {
+    known: Mutex<Vec<(Weak<Network>, Arc<Stage>)>>,
+}
+
+impl Stages {
+    /// The stage of a network: the same for the same network, so that tests on it share it.
+    pub fn of(&self, network: &Arc<Network>) -> Arc<Stage> {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        known.retain(|(of, _)| of.strong_count() > 0);
+        let same = |(of, _): &&(Weak<Network>, Arc<Stage>)| of.as_ptr() == Arc::as_ptr(network);
+        if let Some((_, stage)) = known.iter().find(same) {
+            return stage.clone();
+        }
+        let stage = Arc::new(Stage::of(network));
+        known.push((Arc::downgrade(network), stage.clone()));
+        stage
+    }
+}

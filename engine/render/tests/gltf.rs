@@ -1,0 +1,138 @@
+//! Models of the users' own, in files that the tests write.
+
+use nalgebra::Vector3;
+use paracosm_render::{Mesh, Semantic, Surface, gltf};
+use std::path::{Path, PathBuf};
+
+/// A wedge: a triangle on the ground, z ahead and x to the left, and one that stands; positions, then indices.
+fn buffer() -> Vec<u8> {
+    let positions: [[f32; 3]; 4] = [[0.0, 0.0, 2.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
+    let mut bytes: Vec<u8> = positions.iter().flatten().flat_map(|number| number.to_le_bytes()).collect();
+    let indices: [u16; 6] = [0, 2, 1, 0, 1, 3];
+    bytes.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
+    bytes
+}
+
+/// The model's text; `buffer` says where its bytes are, and `indices` how many there are said to be.
+fn text(buffer: &str, indices: usize) -> String {
+    format!(
+        r#"{{
+            "asset": {{"version": "2.0"}},
+            "scene": 0,
+            "scenes": [{{"nodes": [0]}}],
+            "nodes": [{{"children": [1], "translation": [0, 1, 0]}}, {{"mesh": 0, "scale": [2, 2, 2]}}],
+            "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1, "material": 0}}]}}],
+            "materials": [{{"name": "Car Paint", "pbrMetallicRoughness": {{"baseColorFactor": [0.5, 0.25, 0.125, 1]}}}}],
+            "accessors": [
+                {{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, 0, 0], "max": [1, 3, 2]}},
+                {{"bufferView": 1, "componentType": 5123, "count": {indices}, "type": "SCALAR"}}
+            ],
+            "bufferViews": [
+                {{"buffer": 0, "byteOffset": 0, "byteLength": 48}},
+                {{"buffer": 0, "byteOffset": 48, "byteLength": 12}}
+            ],
+            "buffers": [{{"byteLength": 60 {buffer}}}]
+        }}"#
+    )
+}
+
+fn binary(text: &str, bytes: &[u8]) -> Vec<u8> {
+    let mut text = text.as_bytes().to_vec();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let chunk = |kind: &[u8; 4], data: &[u8]| [&(data.len() as u32).to_le_bytes(), &kind[..], data].concat();
+    let chunks = [chunk(b"JSON", &text), chunk(b"BIN\0", bytes)].concat();
+    [b"glTF".as_slice(), &2_u32.to_le_bytes(), &(chunks.len() as u32 + 12).to_le_bytes(), &chunks].concat()
+}
+
+fn written(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, content).unwrap();
+    path
+}
+
+fn base64(bytes: &[u8]) -> String {
+    let letters: Vec<char> = ('A'..='Z').chain('a'..='z').chain('0'..='9').chain(['+', '/']).collect();
+    let group = |three: &[u8]| {
+        let bits = three.iter().fold(0_usize, |bits, byte| bits << 8 | usize::from(*byte)) << (8 * (3 - three.len()));
+        let letter = |i: usize| if i <= three.len() { letters[bits >> (18 - 6 * i) & 63] } else { '=' };
+        (0..4).map(letter).collect::<String>()
+    };
+    bytes.chunks(3).map(group).collect()
+}
+
+fn refusal(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> String {
+    gltf::load(written(folder, name, content), Semantic::Car).expect_err("it is refused").to_string()
+}
+
+fn check(mesh: &Mesh) {
+    // Twice as large and 1 m up, y up has become z up, z ahead has become x ahead.
+    let corners: Vec<[f32; 3]> = mesh.indices().iter().map(|index| mesh.vertices()[*index as usize].position).collect();
+    let [front, left, right, top] = [[4.0, 0.0, 1.0], [0.0, 2.0, 1.0], [0.0, -2.0, 1.0], [0.0, 0.0, 7.0]];
+    assert_eq!(corners, [front, right, left, front, left, top]);
+    let normal = Vector3::from(mesh.vertices()[0].normal);
+    assert!((normal + Vector3::z()).norm() < 1e-6, "{normal}");
+    for vertex in mesh.vertices() {
+        assert_eq!((vertex.surface, vertex.semantic), (Surface::Paint, Semantic::Car));
+        assert_eq!(vertex.colour, [0.5, 0.25, 0.125]);
+    }
+}
+
+#[test]
+fn a_model_is_the_same_from_any_kind_of_file() {
+    let folder = tempfile::tempdir().unwrap();
+    written(folder.path(), "bytes of it.bin", buffer());
+    let files = [
+        written(folder.path(), "model.glb", binary(&text("", 6), &buffer())),
+        written(folder.path(), "beside.gltf", text(r#", "uri": "bytes%20of%20it.bin""#, 6)),
+        written(
+            folder.path(),
+            "within.gltf",
+            text(&format!(r#", "uri": "data:application/octet-stream;base64,{}""#, base64(&buffer())), 6),
+        ),
+    ];
+    for file in files {
+        check(&gltf::load(&file, Semantic::Car).unwrap_or_else(|error| panic!("{error}")));
+    }
+}
+
+#[test]
+fn a_file_that_is_no_model_is_refused_with_what_is_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    let refuse = |name: &str, content: &[u8]| refusal(folder.path(), name, content);
+    let missing = gltf::load(folder.path().join("none.glb"), Semantic::Car).unwrap_err().to_string();
+    assert!(missing.contains("cannot read `") && missing.contains("none.glb"), "{missing}");
+    let bytes = refuse("lost.gltf", text(r#", "uri": "lost.bin""#, 6).as_bytes());
+    assert!(bytes.contains("cannot read `") && bytes.contains("lost.bin"), "{bytes}");
+    let text_of = |indices| binary(&text("", indices), &buffer());
+    let many = refuse("many.glb", &text_of(60));
+    assert!(many.contains("its accessor 1 has 60 elements, which is more than there are bytes for"), "{many}");
+    let odd = refuse("odd.glb", &text_of(5));
+    assert!(odd.contains("no whole triangles"), "{odd}");
+    let short = refuse("short.glb", &binary(&text("", 6), &buffer()[..40]));
+    assert!(short.contains("more than there are bytes for"), "{short}");
+    let lines = text("", 6).replace(r#""indices": 1"#, r#""indices": 1, "mode": 1"#);
+    let lines = refuse("lines.glb", &binary(&lines, &buffer()));
+    assert!(lines.contains("it is drawn of Lines, expected Triangles"), "{lines}");
+    let circle = text("", 6).replace(r#""mesh": 0"#, r#""mesh": 0, "children": [0]"#);
+    let circle = refuse("circle.glb", &binary(&circle, &buffer()));
+    assert!(circle.contains("more than 64 deep"), "{circle}");
+    let scrambled = refuse("scrambled.gltf", text(r#", "uri": "data:;base64,a*b""#, 6).as_bytes());
+    assert!(scrambled.contains("not written in base64"), "{scrambled}");
+    for (name, content) in [("empty.gltf", &b""[..]), ("empty.glb", b"glTF"), ("words.gltf", b"a car")] {
+        let refused = refuse(name, content);
+        assert!(refused.contains("is no model that can be used") && refused.contains(name), "{refused}");
+    }
+}
+
+proptest::proptest! {
+    #[test]
+    fn whatever_is_in_a_file_nothing_panics(at in 0_usize..1500, with in proptest::prelude::any::<u8>(), cut in 0_usize..1500) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut content = binary(&text("", 6), &buffer());
+        let at = at % content.len();
+        content[at] = with;
+        let _ = gltf::load(written(folder.path(), "changed.glb", &content), Semantic::Car);
+        let cut = cut % content.len();
+        let _ = gltf::load(written(folder.path(), "cut.glb", &content[..cut]), Semantic::Car);
+    }
+}
