@@ -154,7 +154,7 @@ pub(super) struct Written<'a>(pub &'a Value);
 impl fmt::Display for Written<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
-            Value::Number(number) => write!(f, "{number}"),
+            Value::Number(number) | Value::Written(number, _) => write!(f, "{number}"),
             Value::Word(word) => enclosed(f, '\'', word, '\''),
             Value::List(_) => write!(f, "{}", self.0),
         }
