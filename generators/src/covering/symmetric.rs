@@ -3,8 +3,7 @@
 //! Where all parameters have the same levels, permute the levels of all of them at once: an array is then made
 //! of a few rows, the *starters*, and their images, and covers everything if among the starters each choice of
 //! parameters shows every *orbit* of combinations (Chateauneuf, Colbourn, Kreher, *Covering arrays of strength
-//! three*, Designs, Codes and Cryptography 16, 1999; Chateauneuf, Kreher, *On the state of strength-three covering
-//! arrays*, Journal of Combinatorial Designs 10, 2002; Meagher, Stevens, *Group construction of covering arrays*,
+//! three*, Designs, Codes and Cryptography 16, 1999; Meagher, Stevens, *Group construction of covering arrays*,
 //! Journal of Combinatorial Designs 13, 2005). There are far fewer starters than rows, so the same local search
 //! finds arrays that it would not find row by row. Rows of a single level, with few images, are added where they
 //! come cheaper than a starter.
@@ -45,14 +44,8 @@ pub(super) fn symmetric_searches(task: &Task) -> Vec<Symmetric> {
     if !uniform || strength < 2 || v < 2 || combinations > MOST_COMBINATIONS {
         return Vec::new();
     }
-    let mut groups = groups(v);
-    // It would be of no use to pairs, for which the affine maps do.
-    groups.extend((strength > 2).then(|| projective(v)).flatten());
-    groups
-        .into_iter()
-        .enumerate()
-        .map(|(i, group)| Symmetric::new(task, strength, group, mix(task.seed ^ mix(i as u64))))
-        .collect()
+    let groups = groups(v).into_iter().enumerate();
+    groups.map(|(i, group)| Symmetric::new(task, strength, group, mix(task.seed ^ mix(i as u64)))).collect()
 }
 
 /// Groups of permutations of `v` levels: the shifts of all levels or of all but one or two, and the affine maps
@@ -75,25 +68,6 @@ fn groups(v: usize) -> Vec<Group> {
         groups.push(maps.map(|map| with_fixed(affine(map))).collect());
     }
     groups
-}
-
-/// The projective maps `x -> (ax + b) / (cx + d)` of a line over a field, whose points are its elements and infinity, where
-/// these are the levels. One of them takes any three levels to any three: all triples of different levels are one orbit.
-fn projective(v: usize) -> Option<Group> {
-    let field = Field::new(v - 1).filter(|field| field.order() > 2)?;
-    let infinity = field.order();
-    let quotient = |a, b| (0..infinity).find(|&x| b != 0 && field.product(x, b) == a).unwrap_or(infinity);
-    let value = |[a, b, c, d]: [usize; 4], x| match x == infinity {
-        true => quotient(a, c),
-        false => quotient(field.sum(field.product(a, x), b), field.sum(field.product(c, x), d)),
-    };
-    let elements = || 0..infinity;
-    let heads = elements().flat_map(|a| elements().map(move |b| (a, b)));
-    let tails = || elements().map(|d| (1, d)).chain([(0, 1)]);
-    let matrices = heads.flat_map(|(a, b)| tails().map(move |(c, d)| [a, b, c, d]));
-    let maps = matrices.map(|matrix| (0..v).map(|x| value(matrix, x)).collect::<Vec<_>>());
-    // Of a singular matrix the image is a point.
-    Some(maps.filter(|map| map.iter().collect::<BTreeSet<_>>().len() == v).collect())
 }
 
 /// The orbits of the combinations of t of `v` levels.
@@ -162,23 +136,5 @@ impl Symmetric {
         let image = |row: &Vec<usize>, permutation: &Vec<usize>| row.iter().map(|&level| permutation[level]).collect();
         let images = starters.iter().flat_map(|row| self.group.iter().map(move |permutation| image(row, permutation)));
         Some(images.collect::<BTreeSet<Vec<usize>>>().into_iter().collect())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn projective_maps_take_each_triple_of_levels_to_each_other_once() {
-        for v in [4, 5, 6, 8, 9] {
-            let group = projective(v).unwrap();
-            assert_eq!(group.len(), v * (v - 1) * (v - 2));
-            let images: BTreeSet<&[usize]> = group.iter().map(|map| &map[..3]).collect();
-            assert_eq!(images.len(), group.len());
-            // All alike, two alike in three ways, all different.
-            assert_eq!(orbits(&group, v, 3).count, 5);
-        }
-        assert!(projective(7).is_none() && projective(3).is_none());
     }
 }
