@@ -29,12 +29,9 @@ impl Listed {
 
     /// Whether it is so related to a value in a constraint, a word to a word as it is written in lower case.
     pub fn related(&self, relation: Relation, value: &Value) -> bool {
-        match value {
-            Value::Number(number) | Value::Written(number, _) => {
-                self.value.number().is_some_and(|own| relation.holds(&own, number))
-            }
-            Value::Word(word) => relation.holds(&self.text.to_lowercase(), &word.to_lowercase()),
-            Value::List(_) => false,
+        match value.word() {
+            Some(word) => relation.holds(&self.text.to_lowercase(), &word.to_lowercase()),
+            None => self.value.number().zip(value.number()).is_some_and(|(own, number)| relation.holds(&own, &number)),
         }
     }
 }

@@ -10,9 +10,9 @@ use std::fmt;
 pub enum Value {
     /// A number; whole ones are written without a point.
     Number(f64),
-    /// A level that is a number and is written otherwise than [`Value::Number`] would be, as `1.10` or `007`: the number
-    /// and the text. It is another value than the number, which [`Value::means`] it all the same.
-    Written(f64, Box<str>),
+    /// A level that is a number and is written otherwise than [`Value::Number`] would be, as `1.10` or `007`: its text.
+    /// It is another value than the number, which [`Value::means`] it all the same.
+    Written(Box<str>),
     /// A word.
     Word(String),
     /// The values of a signal's coordinates.
@@ -23,7 +23,8 @@ impl Value {
     /// The number, if it is one.
     pub fn number(&self) -> Option<f64> {
         match self {
-            Value::Number(number) | Value::Written(number, _) => Some(*number),
+            Value::Number(number) => Some(*number),
+            Value::Written(text) => text.parse().ok(),
             Value::Word(_) | Value::List(_) => None,
         }
     }
@@ -62,7 +63,7 @@ impl Value {
     pub fn written(text: &str) -> Self {
         let text = text.trim();
         match Self::parse(text) {
-            Value::Number(number) if number.to_string() != text => Value::Written(number, text.into()),
+            Value::Number(number) if number.to_string() != text => Value::Written(text.into()),
             value => value,
         }
     }
@@ -87,7 +88,7 @@ impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Value::Number(number) => write!(f, "{number}"),
-            Value::Written(_, text) => f.write_str(text),
+            Value::Written(text) => f.write_str(text),
             Value::Word(word) => f.write_str(word),
             Value::List(values) => {
                 f.write_str("[")?;
@@ -135,10 +136,14 @@ impl<T: Into<Value>> FromIterator<T> for Value {
 impl Serialize for Value {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            // How a level is written is said by the space; elsewhere it is the number that is used.
-            Value::Number(number) | Value::Written(number, _) => match Value::whole(*number) {
+            Value::Number(number) => match Value::whole(*number) {
                 Some(integer) => serializer.serialize_i64(integer),
                 None => serializer.serialize_f64(*number),
+            },
+            // How a level is written is said by the space; elsewhere it is the number that is used.
+            Value::Written(text) => match self.number() {
+                Some(number) => Value::Number(number).serialize(serializer),
+                None => serializer.serialize_str(text),
             },
             Value::Word(word) => serializer.serialize_str(word),
             Value::List(values) => values.serialize(serializer),
