@@ -3,10 +3,12 @@
 //! Results go to standard output, everything else to standard error. The exit status is 0 when done, 1 when a
 //! violation was found and that was asked about, 2 when the command, its input or the run was wrong.
 
+mod arguments;
 mod cover;
 mod describe;
 mod draw;
 mod fuzz;
+mod interrupt;
 mod list;
 mod output;
 mod progress;
@@ -17,7 +19,7 @@ mod sampling;
 mod suspects;
 
 use crate::executor::WORKER;
-use clap::{Args, Parser};
+use clap::Args;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::panic;
@@ -55,12 +57,12 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// The program `paracosm-fuzz`.
 pub fn fuzz() -> ExitCode {
     quiet_workers();
-    exit(fuzz::Command::parse().execute())
+    exit(arguments::parse::<fuzz::Command>().execute())
 }
 
 /// The program `paracosm-cover`.
 pub fn cover() -> ExitCode {
-    exit(cover::Command::parse().execute().map(|()| Found::Nothing))
+    exit(arguments::parse::<cover::Command>().execute().map(|()| Found::Nothing))
 }
 
 fn exit(result: Result<Found, Failure>) -> ExitCode {

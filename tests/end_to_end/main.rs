@@ -11,6 +11,8 @@ mod covering;
 mod extend;
 mod generate;
 mod guilty;
+#[cfg(unix)]
+mod interrupt;
 mod pedestrian_study;
 mod pictures;
 mod plan;
