@@ -162,3 +162,72 @@ impl<'de> Deserialize<'de> for Sample {
         deserializer.deserialize_any(AnySample)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refuses(line: &str, says: &str) {
+        let message = Answer::read(line, 3).unwrap_err();
+        assert!(message.contains(says), "{message}");
+    }
+
+    #[test]
+    fn answers_are_traces_robustness_and_errors() {
+        let mut trace = Trace::new(0.1, vec!["a".into(), "b".into()]);
+        [[1.0, 1.0], [2.0, 0.0], [3.5, 1.0]].iter().for_each(|row| trace.record(row));
+        trace.finish();
+        // The sum of three tenths is not quite 0.3.
+        let line = r#"{"index":3,"trace":{"a":[1,2,3.5],"time":[0,0.1,0.20000000000000001],"b":[true,false,true]}}"#;
+        assert_eq!(Answer::read(line, 3), Ok(Answer::Trace(trace)));
+        let line = r#" {"robustness":{"x":-1,"y":"inf"},"index":3} "#;
+        let robustness = vec![("x".to_owned(), -1.0), ("y".to_owned(), f64::INFINITY)];
+        assert_eq!(Answer::read(line, 3), Ok(Answer::Robustness(robustness)));
+        assert_eq!(Answer::read(r#"{"index":3,"error":"no"}"#, 3), Ok(Answer::Error("no".into())));
+    }
+
+    #[test]
+    fn the_period_of_times_that_were_added_up_is_the_one_that_was_meant() {
+        let mut time = vec![Sample(0.0)];
+        for tick in 0..3000 {
+            time.push(Sample(time[tick].0 + 0.01));
+        }
+        assert_eq!(period(&time), Ok(0.01));
+        let thirds: Vec<Sample> = (0..1000).map(|tick| Sample(f64::from(tick) / 60.0)).collect();
+        assert!((period(&thirds).unwrap() * 60.0 - 1.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn what_is_no_answer_is_quoted() {
+        refuses("", "found `` in column 1");
+        refuses("é hello", "found `é hello` in column 1");
+        refuses(r#"{"index":3,"trace":{"time":[0,Infinity]}}"#, "found `Infinity]}}` in column 31");
+        refuses(r#"{"trace":{"time":[0,1],"a":[0,1]}}"#, "missing field `index`");
+        refuses(r#"{"index":3,"robustnes":{"a":1}}"#, "unknown field `robustnes`, expected one of");
+        refuses(r#"{"index":3}"#, "found only an index");
+        refuses(r#"{"index":3,"error":"x","robustness":{"a":1}}"#, "several");
+        refuses(r#"{"index":3.5,"error":"x"}"#, "invalid type");
+        refuses(r#"{"index":4,"error":"x"}"#, "found the answer to test 4, expected that to test 3");
+        refuses(r#"[1,2]"#, "expected an answer as JSON");
+        refuses(r#"{"index":3,"robustness":{}}"#, "robustness of nothing");
+        refuses(r#"{"index":3,"robustness":{"a":null}}"#, "the robustness of `a` is no number");
+        refuses(r#"{"index":3,"robustness":{"a":1,"a":2}}"#, "`a` has two values");
+    }
+
+    #[test]
+    fn what_is_no_trace_says_where() {
+        let trace = |columns: &str| format!(r#"{{"index":3,"trace":{{{columns}}}}}"#);
+        refuses(&trace(r#""a":[0,1]"#), "no `time`");
+        refuses(&trace(r#""time":[0,1]"#), "no signal beside `time`");
+        refuses(&trace(r#""time":[],"a":[]"#), "found 0 samples, expected two");
+        refuses(&trace(r#""time":[0],"a":[1]"#), "found 1 samples, expected two");
+        refuses(&trace(r#""time":[0,1],"a":[1,2,3]"#), "`a` has 3 samples, expected 2");
+        refuses(&trace(r#""time":[0,1],"a":[1,null]"#), "`a` has no finite value at sample 1");
+        refuses(&trace(r#""time":[0,1],"a":[1,"x"]"#), "expected a number or a truth");
+        refuses(&trace(r#""time":[1,2],"a":[1,2]"#), "begins at 1 s, expected 0 s");
+        refuses(&trace(r#""time":[0,1,1],"a":[1,2,3]"#), "from 1 to 1 at sample 2");
+        refuses(&trace(r#""time":[0,1,3],"a":[1,2,3]"#), "not evenly spaced: sample 1 is at 1 s, expected 1.5 s");
+        refuses(&trace(r#""time":[0,5e-324,1e-323],"a":[1,2,3]"#), "not evenly spaced");
+    }
+}

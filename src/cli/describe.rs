@@ -78,7 +78,7 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
     }
     table.heading("signals that formulas can speak of");
     for (object, names) in by_object(&signals(study)?) {
-        table.row(&object, &names.join(" "));
+        table.row(object, &names.join(" "));
     }
     Ok(table.finish())
 }
@@ -88,11 +88,18 @@ fn signals(study: &Study) -> Result<Vec<String>, Error> {
     Ok(study.signals()?.unwrap_or_default().into_iter().map(|name| signal(name).to_string()).collect())
 }
 
-/// Signals that follow one another and are of one object, by what their names begin with.
-fn by_object(signals: &[String]) -> Vec<(String, Vec<String>)> {
-    let object = |name: &str| name.split_once('.').map_or("", |(object, _)| object).trim_start_matches('"').to_owned();
-    let of_one = signals.chunk_by(|a, b| object(a) == object(b));
-    of_one.map(|names| (object(&names[0]), names.to_vec())).collect()
+/// Signals by the objects that their names begin with; what stands in quotes is of none.
+fn by_object(signals: &[String]) -> Vec<(&str, Vec<&str>)> {
+    let mut objects: Vec<(&str, Vec<&str>)> = Vec::new();
+    for name in signals {
+        let object = name.split_once('.').map_or("", |(object, _)| object);
+        let object = if name.starts_with('"') { "" } else { object };
+        match objects.iter_mut().find(|(known, _)| *known == object) {
+            Some((_, names)) => names.push(name),
+            None => objects.push((object, vec![name])),
+        }
+    }
+    objects
 }
 
 fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Result<String, Error> {
