@@ -5,6 +5,7 @@
 
 use crate::executor::{in_order, pool};
 use crate::expected::Expected;
+use crate::steering::Steering;
 use crate::{Error, Study, Trial, Worker};
 use paracosm_coverage::Values;
 use std::num::NonZeroUsize;
@@ -63,12 +64,12 @@ impl<'a> Campaign<'a> {
     /// That of `watch`, a known trial that is not of this campaign, or a system that did none of its first tests.
     pub fn run(self, mut watch: impl FnMut(&Trial) -> Result<(), Error>) -> Result<(), Error> {
         let study = self.study;
-        let mut generator = study.generator()?;
+        let mut steering = Steering::new(study)?;
         let mut expected = Expected::of(self.study, &self.known);
         let mut done = 0;
         while done < study.budget {
             expected.go_on()?;
-            let points = generator.ask(study.batch_size().unwrap_or(BATCH).min(study.budget - done));
+            let points = steering.ask(study.batch_size().unwrap_or(BATCH).min(study.budget - done));
             if points.is_empty() {
                 break;
             }
@@ -77,13 +78,13 @@ impl<'a> Campaign<'a> {
             if let Some((trial, _)) = known.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {
                 return Err(foreign(trial));
             }
-            let mut robustness: Vec<_> = known.iter().take(tests.len()).map(|trial| study.objective(trial)).collect();
-            let begun = robustness.len();
+            let mut trials: Vec<Trial> = known.iter().take(tests.len()).cloned().collect();
+            let begun = trials.len();
             self.run_batch(&tests[begun..], done + begun, &mut expected, |trial| {
-                robustness.push(study.objective(trial));
+                trials.push(trial.clone());
                 watch(trial)
             })?;
-            generator.tell(&points, &robustness);
+            steering.tell(&points, &trials)?;
             done += points.len();
         }
         self.known.get(done).map_or(Ok(()), |trial| Err(foreign(trial)))

@@ -35,6 +35,7 @@ mod plan;
 mod plot;
 mod promise;
 pub mod statistics;
+mod steering;
 mod study;
 mod summary;
 mod suspects;

@@ -151,6 +151,13 @@ impl Options {
             Format::Json => json(&report.json()),
         })?;
         let summary = &progress.summary;
+        for judged in summary.requirements().iter().filter(|judged| judged.undecided > 0) {
+            if let Some(spec) = study.requirement(&judged.id).filter(|requirement| requirement.given) {
+                let (id, tests) = (&judged.id, plural(judged.undecided, "test"));
+                verbosity
+                    .note(format!("{id} stayed undecided in {tests}, which ended too early for `{}`", spec.formula));
+            }
+        }
         if summary.tests() > 0 && summary.count(Verdict::Error) == summary.tests() {
             let first = trials[0].error.as_deref().unwrap_or_default();
             return Err(format!("every test ended in an error; the first: {first}").into());

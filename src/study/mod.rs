@@ -189,6 +189,11 @@ impl Study {
         Ok(self)
     }
 
+    /// Whether the strategy goes by how tests went.
+    pub(crate) fn is_adaptive(&self) -> Result<bool, Error> {
+        Ok(self.strategy.parse::<Strategy>()?.is_adaptive())
+    }
+
     /// How many tests the strategy is asked for at a time, where that matters.
     pub(crate) fn batch_size(&self) -> Option<usize> {
         self.batch
@@ -301,24 +306,39 @@ impl Study {
         self.requirements.iter().find(|requirement| requirement.id == id)
     }
 
+    /// The robustness of a requirement in multiples of its scale. `None` where the trial broke or it was not decided.
+    fn normalised(&self, trial: &Trial, requirement: &str) -> Option<f64> {
+        let scale = self.requirement(requirement).map_or(1.0, |requirement| requirement.scale);
+        trial.robustness(requirement).filter(|_| trial.covers()).map(|robustness| robustness / scale)
+    }
+
     /// The requirement that a trial comes nearest to violating, or violates most: its id and its robustness in
     /// multiples of its scale. `None` where the trial broke or nothing was decided.
     pub fn worst<'t>(&self, trial: &'t Trial) -> Option<(&'t str, f64)> {
-        let scale = |id: &str| self.requirement(id).map_or(1.0, |requirement| requirement.scale);
-        let all = trial.requirements().filter_map(|id| Some((id, trial.robustness(id)? / scale(id))));
-        all.filter(|_| trial.covers()).min_by(|a, b| a.1.total_cmp(&b.1))
+        let all = trial.requirements().filter_map(|id| Some((id, self.normalised(trial, id)?)));
+        all.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// What an adaptive strategy minimises: the worst robustness, in multiples of the requirement's scale and
-    /// clipped to [-10, 10].
+    /// What an adaptive strategy minimises where nothing competes: the worst robustness, in multiples of the
+    /// requirement's scale and clipped to [-10, 10].
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
-        self.worst(trial).map(|(_, robustness)| robustness.clamp(-10.0, 10.0))
+        self.worst(trial).map(|(_, robustness)| clip(robustness))
+    }
+
+    /// What a search for one requirement minimises.
+    pub(crate) fn clipped(&self, trial: &Trial, requirement: &str) -> Option<f64> {
+        self.normalised(trial, requirement).map(clip)
     }
 
     /// All values of a test: its own and the fixed ones.
     pub fn complete(&self, test: &Values) -> Values {
         test.iter().chain(self.subject.fixed().iter()).map(owned).collect()
     }
+}
+
+/// Beyond that a robustness says no more to a search.
+fn clip(robustness: f64) -> f64 {
+    robustness.clamp(-10.0, 10.0)
 }
 
 fn owned((name, value): (&str, &Value)) -> (String, Value) {
