@@ -228,6 +228,5 @@ mod tests {
         refuses(&trace(r#""time":[1,2],"a":[1,2]"#), "begins at 1 s, expected 0 s");
         refuses(&trace(r#""time":[0,1,1],"a":[1,2,3]"#), "from 1 to 1 at sample 2");
         refuses(&trace(r#""time":[0,1,3],"a":[1,2,3]"#), "not evenly spaced: sample 1 is at 1 s, expected 1.5 s");
-        refuses(&trace(r#""time":[0,5e-324,1e-323],"a":[1,2,3]"#), "not evenly spaced");
     }
 }

@@ -36,7 +36,7 @@ fn a_formula_is_a_further_requirement_and_changes_no_run() {
     assert_eq!(ids, ["no-collision", "progress", "spec-1", "spec-2"]);
     let study = fs::read_to_string(dir.path().join("asked/campaign.json")).unwrap();
     let study: Value = serde_json::from_str(&study).unwrap();
-    let formula = "always[0,1] (car.speed < 16.5 -> car.x > 1000)";
+    let formula = "always[0,1] ((car.speed < 16.5) -> (car.x > 1000))";
     let expected =
         json!({"id": "spec-2", "text": formula, "formula": formula, "unit": "", "scale": 1.0, "given": true});
     assert_eq!(study["requirements"][3], expected);
