@@ -16,7 +16,9 @@ mod replay;
 mod report;
 mod run;
 mod sampling;
+mod space_file;
 mod suspects;
+mod system;
 
 use crate::executor::WORKER;
 use clap::Args;
@@ -24,6 +26,8 @@ use std::fmt::Display;
 use std::io::{self, Write};
 use std::panic;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How much is said on standard error.
 #[derive(Debug, Clone, Copy, Args)]
@@ -83,6 +87,11 @@ fn exit(result: Result<Found, Failure>) -> ExitCode {
 /// Says something on standard error; where nobody listens, nothing is said.
 fn complain(message: &impl Display) {
     let _ = writeln!(io::stderr(), "{message}");
+}
+
+/// Lets an interrupt set this; where there can be no handler, it ends the program at once, which logs survive as well.
+fn on_interrupt(stop: Arc<AtomicBool>) {
+    let _ = ctrlc::set_handler(move || stop.store(true, Ordering::Relaxed));
 }
 
 /// Prints a result.

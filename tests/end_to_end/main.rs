@@ -18,4 +18,6 @@ mod pictures;
 mod plan;
 mod reference_drivers;
 mod signals;
+mod spec;
 mod strength;
+mod system;

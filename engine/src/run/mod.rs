@@ -139,6 +139,11 @@ impl Run {
         self.scene.ego.briefing()
     }
 
+    /// The names of the signals that its trace has.
+    pub fn signals(&self) -> &[String] {
+        self.trace.signals()
+    }
+
     /// Goes on until the driver is needed or the run is over.
     ///
     /// # Panics

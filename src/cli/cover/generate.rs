@@ -1,11 +1,11 @@
 //! `paracosm-cover generate`: tests by a strategy, as CSV.
 
 use super::array::ArrayOptions;
-use super::space_file::SpaceFile;
 use super::{open_loop, strength, time_limit};
 use crate::cli::interrupt::Interruptible;
 use crate::cli::output::digits;
 use crate::cli::sampling::Sampling;
+use crate::cli::space_file::SpaceFile;
 use crate::cli::{Failure, Verbosity, complain};
 use crate::coverage::demand::Demand;
 use crate::coverage::kwise::KwiseError;

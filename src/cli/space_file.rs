@@ -1,7 +1,7 @@
 //! Spaces as files: SPACE.toml, or a model file of PICT wherever one is read.
 
+use super::Verbosity;
 use crate::Error;
-use crate::cli::Verbosity;
 use crate::coverage::demand::Demand;
 use crate::coverage::pict::Model;
 use crate::coverage::{Space, SpaceError};
