@@ -116,6 +116,9 @@ fn a_file_that_is_no_model_is_refused_with_what_is_wrong() {
     let circle = text("", 6).replace(r#""mesh": 0"#, r#""mesh": 0, "children": [0]"#);
     let circle = refuse("circle.glb", &binary(&circle, &buffer()));
     assert!(circle.contains("more than 64 deep"), "{circle}");
+    let other = text("", 6).replace(r#""POSITION": 0"#, r#""POSITION": 7"#);
+    let other = refuse("other.glb", &binary(&other, &buffer()));
+    assert!(other.contains("it names its accessor 7, but it has 2"), "{other}");
     let scrambled = refuse("scrambled.gltf", text(r#", "uri": "data:;base64,a*b""#, 6).as_bytes());
     assert!(scrambled.contains("not written in base64"), "{scrambled}");
     for (name, content) in [("empty.gltf", &b""[..]), ("empty.glb", b"glTF"), ("words.gltf", b"a car")] {

@@ -2,19 +2,17 @@
 
 use super::GltfError;
 use gltf::accessor::{DataType, Dimensions};
-use gltf::{Accessor, Gltf, buffer};
+use gltf::{Accessor, Document, buffer};
 use std::path::Path;
 
 /// The buffers of a model.
 pub(super) struct Bytes(Vec<Vec<u8>>);
 
 impl Bytes {
-    pub fn of(gltf: &Gltf, path: &Path) -> Result<Self, GltfError> {
+    pub fn of(document: &Document, mut blob: Option<Vec<u8>>, path: &Path) -> Result<Self, GltfError> {
         let broken = |problem: &str| GltfError::Format { path: path.to_owned(), problem: problem.to_owned() };
-        let read = |buffer: buffer::Buffer<'_>| match buffer.source() {
-            buffer::Source::Bin => {
-                gltf.blob.clone().ok_or_else(|| broken("it names a binary part that it does not have"))
-            }
+        let mut read = |buffer: buffer::Buffer<'_>| match buffer.source() {
+            buffer::Source::Bin => blob.take().ok_or_else(|| broken("it names a binary part that it does not have")),
             buffer::Source::Uri(uri) => match uri.strip_prefix("data:") {
                 Some(data) => {
                     let text = data.split_once(";base64,").map(|(_, text)| text);
@@ -26,7 +24,7 @@ impl Bytes {
                 }
             },
         };
-        Ok(Self(gltf.buffers().map(read).collect::<Result<_, _>>()?))
+        Ok(Self(document.buffers().map(&mut read).collect::<Result<_, _>>()?))
     }
 
     /// The bytes of every element of an accessor, `size` each.

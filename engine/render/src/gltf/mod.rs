@@ -12,7 +12,7 @@ mod bytes;
 use crate::mesh::{Mesh, Semantic, Surface, Vertex};
 use bytes::{Bytes, floats, indices};
 use gltf::mesh::Mode;
-use gltf::{Gltf, Material, Node, Primitive};
+use gltf::{Document, Gltf, Material, Node, Primitive};
 use nalgebra::{Matrix4, Point3, Vector3};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -57,17 +57,13 @@ pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfErro
     let path = path.as_ref();
     let file = std::fs::read(path).map_err(|source| GltfError::Read { path: path.to_owned(), source })?;
     let broken = |problem: String| GltfError::Format { path: path.to_owned(), problem };
-    // A binary file is at least as long as its header, which the reader takes for granted.
-    if file.starts_with(b"glTF") && file.len() < 20 {
-        return Err(broken(format!("it has {} bytes, expected at least 20", file.len())));
-    }
-    let gltf = Gltf::from_slice(&file).map_err(|error| broken(error.to_string()))?;
-    let bytes = Bytes::of(&gltf, path)?;
+    let (document, blob) = parse(&file).map_err(broken)?;
+    let bytes = Bytes::of(&document, blob, path)?;
     let mut found = Found::default();
-    let scene = gltf.default_scene().or_else(|| gltf.scenes().next());
+    let scene = document.default_scene().or_else(|| document.scenes().next());
     let nodes: Vec<Node<'_>> = match &scene {
         Some(scene) => scene.nodes().collect(),
-        None => gltf.nodes().collect(),
+        None => document.nodes().collect(),
     };
     for node in nodes {
         found.add(&node, &upright(), &bytes, semantic, DEPTH).map_err(broken)?;
@@ -76,6 +72,28 @@ pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfErro
         return Err(broken("it has no triangles".to_owned()));
     }
     Ok(Mesh::new(found.vertices, found.indices))
+}
+
+/// A document that says nothing of what it does not have, and the binary part of its file.
+fn parse(file: &[u8]) -> Result<(Document, Option<Vec<u8>>), String> {
+    // The reader takes for granted that a binary file says that it is longer than its header,
+    if let Some(header) = file.strip_prefix(b"glTF") {
+        let length =
+            header.get(4..8).map_or(0, |bytes| bytes.iter().rev().fold(0, |all, byte| all << 8 | u32::from(*byte)));
+        if length < 20 {
+            return Err(format!("its header says that it has {length} bytes, expected at least 20"));
+        }
+    }
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(file).map_err(|error| error.to_string())?;
+    // and the validation that there are the accessors that are named.
+    let json = document.into_json();
+    let count = json.accessors.len();
+    let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    if let Some(index) = primitives.flat_map(|of| of.attributes.values()).find(|index| index.value() >= count) {
+        return Err(format!("it names its accessor {}, but it has {count}", index.value()));
+    }
+    let document = Document::from_json(json).map_err(|error| error.to_string())?;
+    Ok((document, blob))
 }
 
 /// From glTF's axes (y up, z ahead, x to the left) to ours (z up, x ahead, y to the left).

@@ -76,13 +76,17 @@ fn turned(x: f32, size: f32, sides: usize) -> Vec<Point> {
     corners.into_iter().skip(1).step_by(2).collect()
 }
 
-/// What is on top of a lamp post: an arm over the road, and the lamp. It hangs below the origin and ahead of it.
+/// How high a lantern is modelled, in metres: a renderer knows by its height that it lights up the street.
+pub(crate) const LANTERN: f32 = 6.0;
+
+/// What is on top of a lamp post: an arm over the road, and the lamp.
 pub(crate) fn lantern() -> Mesh {
     let mut clay = Clay::default();
-    let of = of(Semantic::Pole);
-    clay.tube([at(0.0, 0.0, -0.05), at(1.3, 0.0, -0.06)], [0.05, 0.04], 6, of(STEEL));
-    clay.cuboid([1.05, -0.14, -0.1], [1.75, 0.14, 0.0], of(GREY));
-    clay.cuboid([1.1, -0.11, -0.15], [1.7, 0.11, -0.09], Matter::new(Surface::WhiteLamp, LAMP, Semantic::Pole));
+    let (of, top) = (of(Semantic::Pole), LANTERN);
+    clay.tube([at(0.0, 0.0, top - 0.05), at(1.3, 0.0, top - 0.06)], [0.05, 0.04], 6, of(STEEL));
+    clay.cuboid([1.05, -0.14, top - 0.1], [1.75, 0.14, top], of(GREY));
+    let lamp = Matter::new(Surface::WhiteLamp, LAMP, Semantic::Pole);
+    clay.cuboid([1.1, -0.11, top - 0.15], [1.7, 0.11, top - 0.09], lamp);
     clay.mesh()
 }
 

@@ -86,7 +86,11 @@ impl<'a> Figure<'a> {
         let [length, width, height] = self.size;
         scene.push(self.part(&models.pole, Isometry3::identity(), [0.5 * length, 0.5 * width, height]));
         if height > LAMP_POST {
-            scene.push(self.part(&models.lantern, Isometry3::translation(0.0, 0.0, height), [1.0; 3]));
+            scene.push(self.part(
+                &models.lantern,
+                Isometry3::translation(0.0, 0.0, height - furniture::LANTERN),
+                [1.0; 3],
+            ));
         } else {
             let plate = &models.plates[self.chance() as usize % models.plates.len()];
             let scale = (0.4 * height / furniture::PLATE).min(1.0);
