@@ -97,7 +97,7 @@ mod tests {
     /// The outcome of a test: of two requirements the second is violated within a small ball, and the first never, though
     /// it is the worse nearly everywhere.
     fn outcome(test: &Point, is_one: bool) -> Outcome {
-        let away = test.continuous.iter().map(|u| (u - 0.7).powi(2)).sum::<f64>().sqrt();
+        let away = test.continuous.iter().map(|u| (u - 0.7) * (u - 0.7)).sum::<f64>().sqrt();
         let both = [0.05 + 0.02 * test.continuous[0], away - 0.18];
         let robustness = match is_one {
             true => vec![("worst".to_owned(), Some(both[0].min(both[1])))],

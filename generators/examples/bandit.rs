@@ -17,7 +17,7 @@ fn ball(x: &Point, hidden: &Point) -> f64 {
 }
 
 fn distance(x: &Point, y: &Point) -> f64 {
-    x.continuous.iter().zip(&y.continuous).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt()
+    x.continuous.iter().zip(&y.continuous).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt()
 }
 
 fn opposite(x: &Point) -> Point {
