@@ -23,7 +23,7 @@ const LAST_WORDS: usize = 400;
 const PATIENCE: Duration = Duration::from_millis(20);
 
 /// How long what a process said before it ended may take to arrive.
-const ARRIVAL: Duration = Duration::from_millis(200);
+const ARRIVAL: Duration = Duration::from_secs(1);
 
 /// How long a process may take to end when it is asked nothing more.
 const FAREWELL: Duration = Duration::from_millis(500);
@@ -81,11 +81,7 @@ impl Process {
         loop {
             let left = timeout.saturating_sub(asked.elapsed());
             match self.heard.recv_timeout(left.min(PATIENCE)) {
-                Ok(Heard::Line(line)) => {
-                    self.answered = true;
-                    return Ok(line);
-                }
-                Ok(Heard::Noise(noise)) => return Err(noise),
+                Ok(heard) => return self.take(heard),
                 Err(RecvTimeoutError::Disconnected) => return Err(self.obituary()),
                 Err(RecvTimeoutError::Timeout) => {}
             }
@@ -98,11 +94,20 @@ impl Process {
             // Its children may hold its end of the pipe open.
             if self.status().is_some() {
                 return match self.heard.recv_timeout(ARRIVAL) {
-                    Ok(Heard::Line(line)) => Ok(line),
-                    Ok(Heard::Noise(noise)) => Err(noise),
+                    Ok(heard) => self.take(heard),
                     Err(_) => Err(self.obituary()),
                 };
             }
+        }
+    }
+
+    fn take(&mut self, heard: Heard) -> Result<String, String> {
+        match heard {
+            Heard::Line(line) => {
+                self.answered = true;
+                Ok(line)
+            }
+            Heard::Noise(noise) => Err(noise),
         }
     }
 
