@@ -12,10 +12,11 @@ use paracosm::coverage::Space;
 use paracosm::engine::driver::reference;
 use paracosm::engine::kinematic::CutIn;
 use paracosm::engine::road::{Network, Place, grid_city};
+use paracosm::engine::sensor::{Chance, Lidar, LidarSettings, Scan, Sensor};
 use paracosm::engine::traffic::{Traffic, TrafficCar};
 use paracosm::engine::vehicle::{Model, Pedals, Vehicle};
 use paracosm::engine::{
-    AutonomousVehicle, DEFAULT_DT, Pose, Program, RoadSegment, Run, Scenario, Setup, Stream, driver, simulate,
+    AutonomousVehicle, DEFAULT_DT, Pose, Program, RoadSegment, Run, Scenario, Setup, Step, Stream, driver, simulate,
 };
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
@@ -66,6 +67,30 @@ fn grid_traffic(bencher: Bencher) {
     let mut run = || simulate(&program, &test, Model::SingleTrack, driver.as_mut()).trace.map(|trace| trace.len());
     let seconds = run().unwrap() as f64 * 0.02;
     bencher.counter(ItemsCount::new(seconds as usize)).bench_local(run);
+}
+
+/// Scans of a LiDAR of 32 channels and 1,800 columns half a minute into `grid-traffic`, with noise and drop-off.
+#[divan::bench(sample_count = 20)]
+fn lidar_scans(bencher: Bencher) {
+    const SCANS: usize = 10;
+    let study = Study::of("grid-traffic").unwrap();
+    let program = study.program().unwrap();
+    let test = program.declare().unwrap().nominal();
+    let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
+    let mut run = Run::new(&program, &test, Setup::asking_every(driver.period())).unwrap();
+    driver.reset(&run.briefing());
+    while run.time() < 30.0 {
+        let Step::Need(observation) = run.advance() else { panic!("the car has come to its end") };
+        let control = driver.step(observation);
+        run.supply(control);
+    }
+    let mut lidar = Lidar::new(LidarSettings::default()).unwrap();
+    let (view, mut scan) = (run.view(), Scan::default());
+    bencher.counter(ItemsCount::new(SCANS)).bench_local(|| {
+        for number in 0..SCANS {
+            lidar.sense(&view, &mut Chance::of(1, "lidar", number as u64), black_box(&mut scan));
+        }
+    });
 }
 
 /// Cut-ins of UN R157 in the plain kinematic world, each with a reference driver.

@@ -4,13 +4,13 @@
 //! that panics is a trial with the verdict `error`; the campaign goes on.
 
 use crate::executor::{in_order, pool};
-use crate::{Error, Study, Trial};
+use crate::expected::Expected;
+use crate::steering::Steering;
+use crate::{Error, Study, Trial, Worker};
 use paracosm_coverage::Values;
-use paracosm_engine::driver::Driver;
-use paracosm_engine::{Outcome, Program, Run, Test, watch};
-use paracosm_oracles::{Trace, Verdict};
 use std::num::NonZeroUsize;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::available_parallelism;
 
 /// How many tests are asked for at a time, where it does not matter to the strategy: enough to keep many cores busy, few enough to keep in memory.
@@ -19,21 +19,26 @@ const BATCH: usize = 4096;
 /// A study being run.
 pub struct Campaign<'a> {
     study: &'a Study,
-    program: Program,
     jobs: NonZeroUsize,
     known: Vec<Trial>,
+    stop: Arc<AtomicBool>,
+    /// Workers keep what they have started from one batch of tests to the next.
+    idle: Mutex<Vec<Worker<'a>>>,
 }
 
 impl<'a> Campaign<'a> {
     /// A campaign on all cores.
     ///
     /// # Errors
-    /// The study cannot be run: its scenario, driver or strategy does not exist or cannot do what is asked.
+    /// The study cannot be run: its scenario, driver, system or strategy does not exist or cannot do what is asked.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
         study.generator()?;
-        study.driver.build()?;
         let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        Ok(Self { study, program: study.program()?, jobs, known: Vec::new() })
+        let campaign = Self { study, jobs, known: Vec::new(), stop: Arc::default(), idle: Mutex::default() };
+        let mut worker = campaign.worker()?;
+        worker.start()?;
+        campaign.dismiss(worker);
+        Ok(campaign)
     }
 
     /// Runs this many tests at a time. Results do not depend on it.
@@ -48,16 +53,23 @@ impl<'a> Campaign<'a> {
         self
     }
 
+    /// What ends the campaign with [`Error::Interrupted`] once it is set, whatever a test is waiting for.
+    pub fn stop(&self) -> Arc<AtomicBool> {
+        self.stop.clone()
+    }
+
     /// Runs what is not known yet; `watch` sees every new trial in order, and its first error ends the campaign.
     ///
     /// # Errors
-    /// That of `watch`, or a known trial that is not of this campaign.
+    /// That of `watch`, a known trial that is not of this campaign, or a system that did none of its first tests.
     pub fn run(self, mut watch: impl FnMut(&Trial) -> Result<(), Error>) -> Result<(), Error> {
         let study = self.study;
-        let mut generator = study.generator()?;
+        let mut steering = Steering::new(study)?;
+        let mut expected = Expected::of(self.study, &self.known);
         let mut done = 0;
         while done < study.budget {
-            let points = generator.ask(study.batch_size().unwrap_or(BATCH).min(study.budget - done));
+            expected.go_on()?;
+            let points = steering.ask(study.batch_size().unwrap_or(BATCH).min(study.budget - done));
             if points.is_empty() {
                 break;
             }
@@ -66,13 +78,13 @@ impl<'a> Campaign<'a> {
             if let Some((trial, _)) = known.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {
                 return Err(foreign(trial));
             }
-            let mut robustness: Vec<_> = known.iter().take(tests.len()).map(|trial| study.objective(trial)).collect();
-            let begun = robustness.len();
-            self.run_tests(&tests[begun..], done + begun, |trial| {
-                robustness.push(study.objective(trial));
+            let mut trials: Vec<Trial> = known.iter().take(tests.len()).cloned().collect();
+            let begun = trials.len();
+            self.run_batch(&tests[begun..], done + begun, &mut expected, |trial| {
+                trials.push(trial.clone());
                 watch(trial)
             })?;
-            generator.tell(&points, &robustness);
+            steering.tell(&points, &trials)?;
             done += points.len();
         }
         self.known.get(done).map_or(Ok(()), |trial| Err(foreign(trial)))
@@ -86,19 +98,67 @@ impl<'a> Campaign<'a> {
         &self,
         tests: &[Values],
         first: usize,
+        watch: impl FnMut(&Trial) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        self.run_batch(tests, first, &mut Expected::of(self.study, &self.known), watch)
+    }
+
+    fn run_batch(
+        &self,
+        tests: &[Values],
+        first: usize,
+        expected: &mut Expected,
         mut watch: impl FnMut(&Trial) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let new_driver = || self.study.driver.build().expect("it was built before");
-        let work = |driver: &mut Box<dyn Driver>, i: usize| {
-            let (trial, _) = simulate_trial(&self.program, self.study, driver.as_mut(), first + i, &tests[i]);
-            if trial.verdict == Verdict::Error {
-                // What broke may have left the driver in any state.
-                *driver = new_driver();
-            }
-            trial
-        };
+        let hire = || Hired { campaign: self, worker: Some(self.worker().expect("one like it was made before")) };
+        let work = |hired: &mut Hired, i: usize| hired.run(first + i, &tests[i]);
         let pool = pool(self.jobs.get().min(tests.len()).max(1))?;
-        in_order(&pool, 0..tests.len(), new_driver, work, |trial| watch(&trial))
+        let mut is_over = false;
+        let result = in_order(&pool, 0..tests.len(), hire, work, |trial| {
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(Error::Interrupted);
+            }
+            let shown = watch(&expected.check(trial)).and_then(|()| expected.go_on());
+            // Nobody has to wait for a system when the results are not wanted any more.
+            shown.inspect_err(|_| {
+                is_over = true;
+                self.stop.store(true, Ordering::Relaxed);
+            })
+        });
+        if is_over {
+            self.stop.store(false, Ordering::Relaxed);
+        }
+        result
+    }
+
+    /// A worker that has nothing to do, or a new one.
+    fn worker(&self) -> Result<Worker<'a>, Error> {
+        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        idle.map_or_else(|| Worker::until(self.study, self.stop.clone()), Ok)
+    }
+
+    fn dismiss(&self, worker: Worker<'a>) {
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
+    }
+}
+
+/// A worker at work, which comes back to its campaign.
+struct Hired<'c, 'a> {
+    campaign: &'c Campaign<'a>,
+    worker: Option<Worker<'a>>,
+}
+
+impl Hired<'_, '_> {
+    fn run(&mut self, index: usize, test: &Values) -> Trial {
+        self.worker.as_mut().expect("it is at work").run(index, test).0
+    }
+}
+
+impl Drop for Hired<'_, '_> {
+    fn drop(&mut self) {
+        if let Some(worker) = self.worker.take() {
+            self.campaign.dismiss(worker);
+        }
     }
 }
 
@@ -107,35 +167,4 @@ fn foreign(trial: &Trial) -> Error {
         "trial {} of the log is not the test that this study proposes there; was the log edited?",
         trial.index
     ))
-}
-
-/// Runs one test of a study: what a campaign does with each, and a replay with one.
-pub fn simulate_trial(
-    program: &Program,
-    study: &Study,
-    driver: &mut dyn Driver,
-    index: usize,
-    test: &Values,
-) -> (Trial, Option<Trace>) {
-    watch_trial(program, study, driver, index, test, |_| ())
-}
-
-/// [`simulate_trial`], with a look at the run whenever the driver is asked, and at the end.
-pub fn watch_trial(
-    program: &Program,
-    study: &Study,
-    driver: &mut dyn Driver,
-    index: usize,
-    test: &Values,
-    see: impl FnMut(&Run),
-) -> (Trial, Option<Trace>) {
-    let values = study.complete(test);
-    let run = AssertUnwindSafe(|| watch(program, Test::new(&values, &study.space), study.vehicle, driver, see));
-    let mut outcome = catch_unwind(run).unwrap_or_else(|panic| {
-        let message = panic.downcast_ref::<String>().map(String::as_str);
-        let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
-        Outcome::broken(Verdict::Error, format!("the run panicked: {message}"))
-    });
-    let trace = outcome.trace.take();
-    (Trial::new(index, test.clone(), outcome, trace.as_ref()), trace)
 }

@@ -64,6 +64,14 @@ pub enum Error {
         /// What the plotter said.
         message: String,
     },
+    /// A system that others wrote did none of its first tests.
+    #[error("each of the first {tests} tests ended in an error, so the campaign was given up; the first: {why}")]
+    Unanswered {
+        /// How many tests there were.
+        tests: usize,
+        /// What was wrong with the first.
+        why: String,
+    },
     /// The campaign was told to stop.
     #[error("interrupted")]
     Interrupted,

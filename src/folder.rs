@@ -240,15 +240,12 @@ pub(crate) fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
 
 /// The trials as CSV: index, parameters, verdict, robustness, metrics and the rest.
 fn table(study: &Study, trials: &[Trial]) -> Vec<u8> {
-    let mut metrics: Vec<&str> = Vec::new();
-    for name in trials.iter().flat_map(Trial::metric_names) {
-        if !metrics.contains(&name) {
-            metrics.push(name);
-        }
-    }
+    let metrics = each_once(trials.iter().flat_map(Trial::metric_names));
+    let stated = study.requirements.iter().map(|requirement| requirement.id.as_str());
+    let ids = each_once(stated.chain(trials.iter().flat_map(Trial::requirements)));
     let mut csv = csv::Writer::from_writer(Vec::new());
     let parameters = study.space.coordinates().map(|coordinate| coordinate.name());
-    let requirements = study.requirements.iter().map(|requirement| format!("robustness.{}", requirement.id));
+    let requirements = ids.iter().map(|id| format!("robustness.{id}"));
     let header = ["index".to_owned()].into_iter().chain(parameters).chain(["verdict".to_owned()]);
     let header = header.chain(requirements).chain(metrics.iter().map(|name| format!("metric.{name}")));
     let header = header.chain(["ticks", "trace_hash", "error"].map(str::to_owned));
@@ -258,12 +255,7 @@ fn table(study: &Study, trials: &[Trial]) -> Vec<u8> {
         let mut row = vec![trial.index.to_string()];
         row.extend(trial.test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string));
         row.push(trial.verdict.to_string());
-        row.extend(
-            study
-                .requirements
-                .iter()
-                .map(|requirement| trial.robustness(&requirement.id).map_or(String::new(), |value| value.to_string())),
-        );
+        row.extend(ids.iter().map(|id| trial.robustness(id).map_or(String::new(), |value| value.to_string())));
         row.extend(metrics.iter().map(|name| trial.metric(name).map_or(String::new(), ToString::to_string)));
         row.push(trial.ticks.to_string());
         row.push(trial.trace_hash.clone().unwrap_or_default());
@@ -271,4 +263,14 @@ fn table(study: &Study, trials: &[Trial]) -> Vec<u8> {
         write(row);
     }
     csv.into_inner().expect("memory does not fail to flush")
+}
+
+fn each_once<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut once = Vec::new();
+    for name in names {
+        if !once.contains(&name) {
+            once.push(name);
+        }
+    }
+    once
 }

@@ -19,12 +19,14 @@
 //! # Ok::<(), paracosm::Error>(())
 //! ```
 
+mod black_box;
 mod campaign;
 pub mod certificate;
 pub mod compare;
 mod error;
 mod estimate;
 mod executor;
+mod expected;
 mod extension;
 mod folder;
 mod json;
@@ -33,17 +35,20 @@ mod plan;
 mod plot;
 mod promise;
 pub mod statistics;
+mod steering;
 mod study;
 mod summary;
 mod suspects;
 mod tests_file;
 mod trace_file;
 mod trial;
+mod worker;
 
 #[cfg(feature = "cli")]
 pub mod cli;
 
-pub use campaign::{Campaign, simulate_trial, watch_trial};
+pub use black_box::BlackBox;
+pub use campaign::Campaign;
 pub use error::Error;
 pub use estimate::{
     Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Strength, Tests, Watch,
@@ -54,11 +59,12 @@ pub use live::LiveCoverage;
 pub use plan::{Guarantee, Need, Plan};
 pub use plot::{Axis, FailureMap, Picture};
 pub use promise::Promise;
-pub use study::{DriverChoice, RequirementText, Study};
-pub use summary::{Summary, Worst};
+pub use study::{DriverChoice, RequirementText, Simulation, Study, Subject};
+pub use summary::{Judged, Summary, Worst};
 pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
 pub use trace_file::write_trace;
 pub use trial::Trial;
+pub use worker::Worker;
 
 pub use paracosm_coverage as coverage;
 pub use paracosm_engine as engine;

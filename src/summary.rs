@@ -1,4 +1,4 @@
-//! A campaign in a few numbers: how many tests ended how, and which was the worst.
+//! A campaign in a few numbers: how many tests ended how, what became of each requirement, and which test was the worst.
 
 use crate::{Study, Trial};
 use paracosm_oracles::Verdict;
@@ -8,6 +8,7 @@ use paracosm_oracles::Verdict;
 pub struct Summary {
     counts: [usize; 5],
     worst: Option<Worst>,
+    requirements: Vec<Judged>,
 }
 
 /// The trial that violates a requirement most, or comes nearest to it.
@@ -21,6 +22,19 @@ pub struct Worst {
     normalised: f64,
 }
 
+/// What became of a requirement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// The requirement.
+    pub id: String,
+    /// How many trials violate it.
+    pub violated: usize,
+    /// In how many trials nothing broke, but it was left undecided.
+    pub undecided: usize,
+    /// The least robustness, in its unit, with the index of the first trial that has it.
+    pub worst: Option<(f64, usize)>,
+}
+
 impl Summary {
     /// Takes a trial into account.
     pub fn add(&mut self, study: &Study, trial: &Trial) {
@@ -30,6 +44,18 @@ impl Summary {
         {
             self.worst = Some(Worst { index: trial.index, requirement: requirement.to_owned(), normalised });
         }
+        for id in trial.requirements().filter(|_| trial.covers()) {
+            self.judged(id).add(trial);
+        }
+    }
+
+    fn judged(&mut self, id: &str) -> &mut Judged {
+        let known = self.requirements.iter().position(|judged| judged.id == id);
+        let position = known.unwrap_or_else(|| {
+            self.requirements.push(Judged { id: id.to_owned(), violated: 0, undecided: 0, worst: None });
+            self.requirements.len() - 1
+        });
+        &mut self.requirements[position]
     }
 
     /// How many tests ended so.
@@ -45,5 +71,23 @@ impl Summary {
     /// The worst trial: the first among equals.
     pub fn worst(&self) -> Option<&Worst> {
         self.worst.as_ref()
+    }
+
+    /// What became of each requirement, in the order in which they were first judged.
+    pub fn requirements(&self) -> &[Judged] {
+        &self.requirements
+    }
+}
+
+impl Judged {
+    fn add(&mut self, trial: &Trial) {
+        self.violated += usize::from(trial.violates(&self.id));
+        match trial.robustness(&self.id) {
+            None => self.undecided += 1,
+            Some(robustness) if self.worst.is_none_or(|(worst, _)| robustness < worst) => {
+                self.worst = Some((robustness, trial.index));
+            }
+            Some(_) => {}
+        }
     }
 }

@@ -72,7 +72,7 @@ impl Tests {
                 let constant = Parameter { signal: None, ..coordinate.parameter.clone() };
                 let value = value(text, &constant);
                 constant.check(&value).map_err(|error| file.wrong(line, error.to_string(), None))?;
-                Ok(constant.levels().and_then(|levels| levels.iter().position(|level| *level == value)))
+                Ok(constant.level(&value))
             };
             rows.push(space.discrete().zip(&file.columns).map(level).collect::<Result<_, Error>>()?);
         }

@@ -49,6 +49,11 @@ impl Trial {
         self.robustness.get(requirement).and_then(|number| number.0)
     }
 
+    /// The ids of the requirements that it was judged by, in order; some may be undecided.
+    pub fn requirements(&self) -> impl Iterator<Item = &str> {
+        self.robustness.iter().map(|(id, _)| id)
+    }
+
     /// What was measured under that name.
     pub fn metric(&self, name: &str) -> Option<&Metric> {
         self.metrics.get(name).map(|value| &value.0)
@@ -62,6 +67,13 @@ impl Trial {
     /// Whether it violates a requirement.
     pub fn is_failure(&self) -> bool {
         self.verdict == Verdict::Fail
+    }
+
+    /// Whether it violates this requirement. A robustness of 0 says so of a failure that no other requirement explains.
+    pub fn violates(&self, requirement: &str) -> bool {
+        let below = |id: &str| self.robustness(id).is_some_and(|robustness| robustness < 0.0);
+        let is_zero = self.robustness(requirement) == Some(0.0);
+        below(requirement) || is_zero && self.is_failure() && !self.requirements().any(below)
     }
 
     /// Whether it says anything of the place where it is: broken and impossible tests cover nothing.

@@ -1,6 +1,7 @@
 //! What a measure knows when it stops: a certified interval, and the clock that may stop it.
 
 use serde::{Deserialize, Serialize};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// A certified interval around an exact value: `lower <= exact <= upper`.
@@ -29,32 +30,40 @@ impl Bracket {
 
 /// When an anytime algorithm has to come back with what it has.
 #[derive(Debug, Clone, Copy)]
-pub struct Deadline(Option<Instant>);
+pub struct Deadline {
+    at: Option<Instant>,
+    called: Option<&'static AtomicBool>,
+}
 
 impl Deadline {
     /// No limit: the algorithm runs to the end.
     pub const fn never() -> Self {
-        Self(None)
+        Self { at: None, called: None }
     }
 
     /// The moment `limit` from now; never, where that lies beyond what the clock can say.
     pub fn after(limit: Duration) -> Self {
-        Self(Instant::now().checked_add(limit))
+        Self { at: Instant::now().checked_add(limit), called: None }
+    }
+
+    /// The same moment, or that at which somebody sets the flag, if it comes first.
+    pub const fn or_when(self, called: &'static AtomicBool) -> Self {
+        Self { called: Some(called), ..self }
     }
 
     /// The moment at which a share of what time is left has gone by.
     pub fn part(self, share: f64) -> Self {
-        Self(self.left().map(|left| Instant::now() + left.mul_f64(share)))
+        Self { at: self.left().map(|left| Instant::now() + left.mul_f64(share)), ..self }
     }
 
-    /// The time that is left; none where there is no limit.
+    /// The time that is left if nobody sets the flag; none where there is no limit.
     pub(crate) fn left(self) -> Option<Duration> {
-        self.0.map(|at| at.saturating_duration_since(Instant::now()))
+        self.at.map(|at| at.saturating_duration_since(Instant::now()))
     }
 
     /// Whether the moment has come.
     pub fn passed(&self) -> bool {
-        self.0.is_some_and(|at| Instant::now() >= at)
+        self.called.is_some_and(|flag| flag.load(Ordering::Relaxed)) || self.at.is_some_and(|at| Instant::now() >= at)
     }
 }
 
@@ -84,5 +93,23 @@ impl Watch {
             self.work = 0;
         }
         passed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_deadline_has_passed_once_the_flag_is_set_and_so_has_each_part_of_it() {
+        static FLAG: AtomicBool = AtomicBool::new(false);
+        for deadline in [Deadline::never(), Deadline::after(Duration::from_secs(3600))] {
+            FLAG.store(false, Ordering::Relaxed);
+            let deadline = deadline.or_when(&FLAG);
+            let part = deadline.part(0.5);
+            assert!(!deadline.passed() && !part.passed());
+            FLAG.store(true, Ordering::Relaxed);
+            assert!(deadline.passed() && part.passed());
+        }
     }
 }

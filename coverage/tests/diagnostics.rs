@@ -159,7 +159,9 @@ fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     check("A: 1\n$R: x", (2, 1), "`$R` is a result parameter, which is not supported");
     check("A @ 2: 1", (1, 3), "an order of a parameter is not supported; give the order of a sub-model: `{A, B} @ 3`");
     check("OS: 1\n os: 2", (2, 2), "parameter `OS` is declared twice; case makes no difference");
-    check("V: 1.1, 1.2, 1.10", (1, 14), "`1.10` is the same number as `1.1`; a level of a parameter stands once");
+    check("V: 1.1, ~1.10", (1, 9), "`1.10` is listed with and without `~`");
+    check("Speed: 1, 2\nW: 3, <Spede>", (2, 7), "no parameter is called `Spede` (did you mean `Speed`?)");
+    check("W: 3, <V>\nV: 1, 2", (1, 7), "`<V>` stands before parameter `V`, expected it below");
     check("V: 1, ~1", (1, 7), "`1` is listed with and without `~`");
 
     let check = |rest: &str, at: (usize, usize), expected: &str| {

@@ -2,7 +2,7 @@
 
 use paracosm_coverage::constraint::Constraint;
 use paracosm_coverage::pict::Model;
-use paracosm_coverage::{Point, Value};
+use paracosm_coverage::{Point, Space, Value};
 use proptest::prelude::*;
 
 fn read(text: &str) -> Model {
@@ -76,7 +76,14 @@ fn values_are_numbers_words_and_what_they_look_like() {
         assert_eq!(model.space.parameters()[0].levels().unwrap(), expected, "{line}");
         assert_eq!(model.notes, notes, "{line}");
     };
-    check("A: 1, -2.50, 1e3", &[1.into(), (-2.5).into(), 1000.into()], &[]);
+    let written = |text: &str| Value::Written(text.into());
+    check("A: 1, -2.50, 1e3", &[1.into(), written("-2.50"), written("1e3")], &[]);
+    check("A: 1.1, 1.10, 007", &[1.1.into(), written("1.10"), written("007")], &[]);
+    check(
+        "A: 1.1, 1.10, x, 1.1",
+        &[1.1.into(), "1.10".into(), "x".into()],
+        &["parameter `A` lists `1.1` twice, which is read as one value"],
+    );
     check("A: 1, x, 2m", &[1.into(), "x".into(), "2m".into()], &[]);
     check("A: nan, inf, -infinity", &["nan".into(), "inf".into(), "-infinity".into()], &[]);
     check("A: IF, a:b, c d, \"q\"", &["IF".into(), "a:b".into(), "c d".into(), "\"q\"".into()], &[]);
@@ -104,8 +111,38 @@ fn values_are_numbers_words_and_what_they_look_like() {
     check(
         "\u{feff}A: <none>, b",
         &["<none>".into(), "b".into()],
-        &["parameter `A`: no parameter is called `none`, so `<none>` is read as a value"],
+        &["line 1, column 4: no parameter is called `none`, so `<none>` is read as a value"],
     );
+}
+
+#[test]
+fn levels_that_are_the_same_number_are_two_levels_of_which_constraints_see_the_number() {
+    let model = read("V: 1.1, 1.10, 2.0\nW: 1.100, 2, 03\nIF [V] = 1.10 THEN [W] <> 2;\nIF [V] = [W] THEN [W] < 2;");
+    assert_eq!(model.space.levels(), [3, 3]);
+    let allowed: Vec<String> = (tests(&model).iter().filter(|(_, allowed)| *allowed))
+        .map(|(test, _)| test.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "))
+        .collect();
+    assert_eq!(allowed, ["1.1 1.100", "1.1 03", "1.10 1.100", "1.10 03", "2.0 1.100", "2.0 03"]);
+    for space in [
+        Space::from_toml(&model.space.to_toml()).unwrap(),
+        serde_json::from_str(&serde_json::to_string(&model.space).unwrap()).unwrap(),
+    ] {
+        assert_eq!(space, model.space, "a space keeps how its levels are written");
+    }
+    for (v, w) in [("1.1", "1.100"), ("1.10", "03")] {
+        let mut test = paracosm_coverage::Values::default();
+        test.set("V", Value::written(v));
+        test.set("W", Value::written(w));
+        let point = model.space.encode(&test).unwrap();
+        assert_eq!(model.space.decode(&point), test);
+        test.set("W", w.parse::<f64>().unwrap());
+        assert_eq!(model.space.encode(&test).as_ref(), Ok(&point), "a number is the only level that it can be");
+    }
+    let one = read("V: 1.0, 1.00");
+    let mut test = paracosm_coverage::Values::default();
+    test.set("V", 1.0);
+    let refused = one.space.encode(&test).unwrap_err().to_string();
+    assert_eq!(refused, "parameter `V`: found 1, expected one of 1.0, 1.00");
 }
 
 #[test]

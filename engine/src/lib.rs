@@ -40,6 +40,7 @@ mod program;
 pub mod road;
 mod run;
 mod scenario;
+pub mod sensor;
 pub mod stream;
 pub mod traffic;
 pub mod vehicle;

@@ -23,6 +23,7 @@
 //! ```
 
 mod adaptive;
+mod bandit;
 pub mod covering;
 mod deal;
 mod error;
@@ -34,6 +35,7 @@ mod sequence;
 mod spread;
 mod strategy;
 
+pub use bandit::Bandit;
 pub use error::GeneratorError;
 pub use family::DiscreteFamily;
 pub use greedy::Aim;

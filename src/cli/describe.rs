@@ -4,7 +4,8 @@ use super::draw::{Kind, Target};
 use super::output::{Format, Table, digits, domain_words, json, value_words};
 use super::{Failure, Found, Verbosity, print};
 use crate::engine::{DEFAULT_DT, Declaration, Program, Run, Setup, picture};
-use crate::{Study, plot};
+use crate::oracles::signal;
+use crate::{Error, Study, plot};
 use clap::Args;
 use serde_json::json;
 use std::path::PathBuf;
@@ -38,8 +39,8 @@ impl Options {
         }
         let text = match Format::or_fitting(self.format) {
             _ if self.dot => program.dot()?,
-            Format::Table => table(&study, program.about, &declaration),
-            Format::Json => as_json(&study, program.about, &declaration),
+            Format::Table => table(&study, &program, &declaration)?,
+            Format::Json => as_json(&study, &program, &declaration)?,
         };
         print(&text).map(|()| Found::Nothing)
     }
@@ -55,9 +56,9 @@ fn draw(program: &Program, declaration: &Declaration, kind: Kind) -> Result<Vec<
     }
 }
 
-fn table(study: &Study, about: &str, declaration: &Declaration) -> String {
+fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<String, Error> {
     let mut table = Table::default();
-    table.heading(&format!("{}: {about}; {} s", study.scenario, digits(declaration.duration)));
+    table.heading(&format!("{}: {}; {} s", program.name, program.about, digits(declaration.duration)));
     table.heading("parameters");
     for declared in &declaration.parameters {
         let parameter = &declared.parameter;
@@ -75,15 +76,38 @@ fn table(study: &Study, about: &str, declaration: &Declaration) -> String {
         let scale = format!("{}{unit}{}", digits(requirement.scale), requirement.unit);
         table.row("", &format!("{}, scale {scale}", requirement.formula));
     }
-    table.finish()
+    table.heading("signals that formulas can speak of");
+    for (object, names) in by_object(&signals(study)?) {
+        table.row(object, &names.join(" "));
+    }
+    Ok(table.finish())
 }
 
-fn as_json(study: &Study, about: &str, declaration: &Declaration) -> String {
+/// The signals of the scenario, as formulas name them.
+fn signals(study: &Study) -> Result<Vec<String>, Error> {
+    Ok(study.signals()?.unwrap_or_default().into_iter().map(|name| signal(name).to_string()).collect())
+}
+
+/// Signals by the objects that their names begin with; what stands in quotes is of none.
+fn by_object(signals: &[String]) -> Vec<(&str, Vec<&str>)> {
+    let mut objects: Vec<(&str, Vec<&str>)> = Vec::new();
+    for name in signals {
+        let object = name.split_once('.').map_or("", |(object, _)| object);
+        let object = if name.starts_with('"') { "" } else { object };
+        match objects.iter_mut().find(|(known, _)| *known == object) {
+            Some((_, names)) => names.push(name),
+            None => objects.push((object, vec![name])),
+        }
+    }
+    objects
+}
+
+fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Result<String, Error> {
     let parameters: Vec<_> = declaration
         .parameters
         .iter()
         .map(|declared| json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal()}))
         .collect();
-    json(&json!({"name": study.scenario, "about": about, "duration": declaration.duration, "parameters": parameters,
-        "requirements": study.requirements}))
+    Ok(json(&json!({"name": program.name, "about": program.about, "duration": declaration.duration,
+        "parameters": parameters, "requirements": study.requirements, "signals": signals(study)?})))
 }

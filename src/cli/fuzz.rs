@@ -8,6 +8,8 @@ Examples:
   paracosm-fuzz --strategy halton --budget 500       the pedestrian study of the paper, into paracosm-out/
   paracosm-fuzz pedestrian-crossing --driver aeb --open friction=0.3..0.8 --out slippery
   paracosm-fuzz --open friction:piecewise-linear:3   the friction varies while a test runs
+  paracosm-fuzz --spec 'always[0,10] (car.speed > 1)'           ask more of every run
+  paracosm-fuzz --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)'    a system of your own
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
@@ -16,7 +18,8 @@ Exit status: 0 done, 1 a violation was found (with --fail-on-violation), 2 wrong
 /// Tests a driver over the open parameters of a scenario.
 #[derive(Debug, Parser)]
 #[command(name = "paracosm-fuzz", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
-#[command(override_usage = "paracosm-fuzz [run] [SCENARIO] [OPTIONS]\n       paracosm-fuzz <COMMAND>")]
+#[command(override_usage = "paracosm-fuzz [run] [SCENARIO] [OPTIONS]\n       \
+    paracosm-fuzz [run] --system COMMAND --space SPACE.toml [OPTIONS]\n       paracosm-fuzz <COMMAND>")]
 pub(super) struct Command {
     #[command(subcommand)]
     verb: Option<Verb>,

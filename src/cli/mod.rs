@@ -3,10 +3,12 @@
 //! Results go to standard output, everything else to standard error. The exit status is 0 when done, 1 when a
 //! violation was found and that was asked about, 2 when the command, its input or the run was wrong.
 
+mod arguments;
 mod cover;
 mod describe;
 mod draw;
 mod fuzz;
+mod interrupt;
 mod list;
 mod output;
 mod progress;
@@ -14,14 +16,18 @@ mod replay;
 mod report;
 mod run;
 mod sampling;
+mod space_file;
 mod suspects;
+mod system;
 
 use crate::executor::WORKER;
-use clap::{Args, Parser};
+use clap::Args;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::panic;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How much is said on standard error.
 #[derive(Debug, Clone, Copy, Args)]
@@ -55,12 +61,12 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// The program `paracosm-fuzz`.
 pub fn fuzz() -> ExitCode {
     quiet_workers();
-    exit(fuzz::Command::parse().execute())
+    exit(arguments::parse::<fuzz::Command>().execute())
 }
 
 /// The program `paracosm-cover`.
 pub fn cover() -> ExitCode {
-    exit(cover::Command::parse().execute().map(|()| Found::Nothing))
+    exit(arguments::parse::<cover::Command>().execute().map(|()| Found::Nothing))
 }
 
 fn exit(result: Result<Found, Failure>) -> ExitCode {
@@ -81,6 +87,11 @@ fn exit(result: Result<Found, Failure>) -> ExitCode {
 /// Says something on standard error; where nobody listens, nothing is said.
 fn complain(message: &impl Display) {
     let _ = writeln!(io::stderr(), "{message}");
+}
+
+/// Lets an interrupt set this; where there can be no handler, it ends the program at once, which logs survive as well.
+fn on_interrupt(stop: Arc<AtomicBool>) {
+    let _ = ctrlc::set_handler(move || stop.store(true, Ordering::Relaxed));
 }
 
 /// Prints a result.

@@ -2,12 +2,15 @@
 
 use super::draw::{Kind, Target};
 use super::output::{Format, Table, digits, json, value_words};
-use super::{Failure, Found, Verbosity, print};
+use super::{Failure, Found, Verbosity, on_interrupt, print};
 use crate::engine::Metric;
 use crate::engine::picture::Record;
-use crate::{Error, Folder, Study, Trial, plot, watch_trial, write_trace};
+use crate::expected::Expected;
+use crate::{Error, Folder, Study, Subject, Trial, Worker, plot, write_trace};
 use clap::Args;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 /// What `replay` takes.
 #[derive(Debug, Args)]
@@ -40,22 +43,35 @@ impl Options {
         })?;
         let target =
             self.draw.as_ref().map(|file| Target::new(file, &[Kind::Svg, Kind::Png, Kind::Gif])).transpose()?;
-        let mut driver = study.driver.build()?;
+        if let (Some(file), Subject::System(_)) = (&self.draw, &study.subject) {
+            let message =
+                format!("--draw {}: what a system does cannot be seen; --trace writes it down", file.display());
+            return Err(Error::Usage(message).into());
+        }
         let mut record = Record::default();
-        let (program, watched) = (study.program()?, target.is_some());
-        let (trial, trace) = watch_trial(&program, &study, driver.as_mut(), self.index, &logged.test, |run| {
-            if watched {
+        let stop = Arc::default();
+        on_interrupt(Arc::clone(&stop));
+        let mut worker = Worker::until(&study, stop.clone())?;
+        worker.start()?;
+        let (trial, trace) = worker.watch(self.index, &logged.test, |run| {
+            if target.is_some() {
                 record.see(run);
             }
         });
+        if stop.load(Ordering::Relaxed) {
+            return Err(Error::Interrupted.into());
+        }
+        let trial = Expected::of(&study, &trials[..self.index]).check(trial);
         if let Some(trace) = &trace {
             let default = || self.dir.join(format!("trace-{}.csv", self.index));
             let path = self.trace.clone().unwrap_or_else(default);
             write_trace(&path, trace)?;
             verbosity.note(format_args!("trace of {} ticks written to {}", trial.ticks, path.display()));
+        } else if let Some(path) = &self.trace {
+            verbosity.note(format_args!("no trace to write to {}", path.display()));
         }
         if let Some(target) = &target {
-            let caption = format!("{}, test {}: {}", study.scenario, trial.index, trial.verdict);
+            let caption = format!("{}, test {}: {}", study.subject.scenario()?.scenario, trial.index, trial.verdict);
             verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
         }
         if trial != *logged {
@@ -104,10 +120,10 @@ fn table(study: &Study, trial: &Trial) -> String {
     for (parameter, (name, value)) in study.space.parameters().iter().zip(trial.test.iter()) {
         table.row(name, &format!("{} {}", value_words(value), parameter.unit.as_deref().unwrap_or_default()));
     }
-    for requirement in &study.requirements {
-        let value = trial.robustness(&requirement.id);
-        let value = value.map_or("undecided".to_owned(), |value| format!("{} {}", digits(value), requirement.unit));
-        table.row(&requirement.id, &value);
+    for id in trial.requirements() {
+        let unit = study.requirement(id).map_or("", |requirement| requirement.unit.as_str());
+        let value = trial.robustness(id);
+        table.row(id, &value.map_or("undecided".to_owned(), |value| format!("{} {unit}", digits(value))));
     }
     for name in trial.metric_names() {
         let metric = match trial.metric(name) {

@@ -3,8 +3,9 @@
 use super::output::{Table, digits, percent, plural, shell_word, value_words};
 use super::suspects::Guilt;
 use crate::coverage::Value;
+use crate::json::Number;
 use crate::oracles::Verdict;
-use crate::{Coverage, Promise, Study, Summary, Trial};
+use crate::{Coverage, Judged, Promise, Study, Summary, Trial};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -27,9 +28,8 @@ impl Report<'_> {
         let Self { study, summary, .. } = self;
         let mut table = Table::default();
         table.heading(&format!(
-            "{}, driver {}, strategy {}: {} tests",
-            study.scenario,
-            study.driver.name,
+            "{}, strategy {}: {} tests",
+            study.subject.title(),
             study.strategy_label(),
             summary.tests()
         ));
@@ -39,6 +39,9 @@ impl Report<'_> {
                 let share = percent(count as f64 / summary.tests().max(1) as f64);
                 table.row(&verdict.to_string(), &format!("{count:<6}{share}"));
             }
+        }
+        for (i, judged) in summary.requirements().iter().enumerate() {
+            table.row(if i == 0 { "requirements" } else { "" }, &self.in_words(judged));
         }
         if let Some(known) = &study.extends {
             table.row(
@@ -58,10 +61,9 @@ impl Report<'_> {
         table.row("written to", &self.out.display().to_string());
         if let Some(worst) = summary.worst() {
             let trial = &self.trials[worst.index];
-            let requirement = study.requirements.iter().find(|r| r.id == worst.requirement);
-            let robustness = trial.robustness(&worst.requirement).map(digits).unwrap_or_default();
-            let unit = requirement.map(|r| r.unit.as_str()).unwrap_or_default();
-            table.row("worst test", &format!("{}: {} {robustness} {unit}", worst.index, worst.requirement));
+            let robustness = trial.robustness(&worst.requirement).unwrap_or(f64::NAN);
+            let robustness = self.robustness(&worst.requirement, robustness);
+            table.row("worst test", &format!("{}: {} {robustness}", worst.index, worst.requirement));
             table.row("  where", &in_words(study, trial));
             table.row("  replay", &self.replay(worst.index));
         }
@@ -74,7 +76,19 @@ impl Report<'_> {
             json!({"index": worst.index, "requirement": worst.requirement, "test": self.trials[worst.index].test,
                 "robustness": self.trials[worst.index].robustness(&worst.requirement), "replay": self.replay(worst.index)})
         });
+        let requirements: Vec<_> = self
+            .summary
+            .requirements()
+            .iter()
+            .map(|judged| {
+                let worst = judged
+                    .worst
+                    .map(|(robustness, index)| json!({"index": index, "robustness": Number(Some(robustness))}));
+                json!({"id": judged.id, "violated": judged.violated, "undecided": judged.undecided, "worst": worst})
+            })
+            .collect();
         let mut summary = json!({"tests": self.summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
+            "requirements": requirements,
             "coverage": self.coverage, "out": self.out, "worst": worst});
         if let Some(known) = &self.study.extends {
             summary["extends"] = json!(known);
@@ -85,6 +99,25 @@ impl Report<'_> {
         }
         self.guilt.add_to(&mut summary);
         summary
+    }
+
+    /// What became of a requirement.
+    fn in_words(&self, judged: &Judged) -> String {
+        let Judged { id, violated, undecided, worst } = judged;
+        let mut text = format!("{id}: violated in {}", plural(*violated, "test"));
+        if *undecided > 0 {
+            text.push_str(&format!(", undecided in {undecided}"));
+        }
+        if let Some((robustness, index)) = worst {
+            text.push_str(&format!("; at worst {} (test {index})", self.robustness(id, *robustness)));
+        }
+        text
+    }
+
+    /// A robustness in the unit of its requirement.
+    fn robustness(&self, requirement: &str, robustness: f64) -> String {
+        let unit = self.study.requirement(requirement).map_or("", |requirement| requirement.unit.as_str());
+        format!("{} {unit}", digits(robustness)).trim_end().to_owned()
     }
 
     /// How many different combinations of all discrete values were tested.

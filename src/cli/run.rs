@@ -5,7 +5,8 @@ use super::progress::Progress;
 use super::report::Report;
 use super::sampling::Sampling;
 use super::suspects::Guilt;
-use super::{Failure, Found, Verbosity, print};
+use super::system::System;
+use super::{Failure, Found, Verbosity, on_interrupt, print};
 use crate::coverage::{Domain, Shape, Value};
 use crate::generators::Strategy;
 use crate::oracles::Verdict;
@@ -13,8 +14,6 @@ use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Stu
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The time that `coverage.json` may take, as `estimate --time-limit 5`.
@@ -49,6 +48,12 @@ pub(super) struct Options {
     /// The system under test
     #[arg(long, value_name = "NAME", default_value = "aeb")]
     driver: String,
+    #[command(flatten)]
+    system: System,
+    /// Ask a formula of every trace, too; several times for several. Its requirements are called spec-1, spec-2, ..;
+    /// `paracosm-fuzz describe SCENARIO` shows the signals that it may speak of
+    #[arg(long, value_name = "FORMULA")]
+    spec: Vec<String>,
     /// Count the tests in this file as done: run only tests that complete them, and measure the coverage of all together.
     /// Its columns are the open parameters
     #[arg(long, value_name = "TESTS.csv")]
@@ -76,10 +81,16 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        let study = self.study()?;
+        let study = self.study(verbosity)?;
         if self.locate.is_some() && study.space.levels().is_empty() {
             let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
             return Err(Error::Usage(message.into()).into());
+        }
+        for (id, part) in study.outlasting()? {
+            let duration = study.subject.scenario()?.duration();
+            verbosity.note(format_args!(
+                "{id} may stay undecided, and tests inconclusive: `{part}` looks past the {duration} s of a test"
+            ));
         }
         let mut campaign = Campaign::new(&study)?;
         if let Some(jobs) = self.jobs {
@@ -93,14 +104,8 @@ impl Options {
         let mut progress = Progress::new(&study, verbosity, known.len())?;
         let mut trials = known.clone();
         trials.iter().for_each(|trial| progress.count(&study, trial));
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let flag = interrupted.clone();
-        // Where there can be no handler, an interrupt ends the program at once, which the log survives as well.
-        let _ = ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed));
+        on_interrupt(campaign.stop());
         let run = campaign.resume(known).run(|trial| {
-            if interrupted.load(Ordering::Relaxed) {
-                return Err(Error::Interrupted);
-            }
             folder.append(trial)?;
             progress.show(&study, trial);
             trials.push(trial.clone());
@@ -146,6 +151,13 @@ impl Options {
             Format::Json => json(&report.json()),
         })?;
         let summary = &progress.summary;
+        for judged in summary.requirements().iter().filter(|judged| judged.undecided > 0) {
+            if let Some(spec) = study.requirement(&judged.id).filter(|requirement| requirement.given) {
+                let (id, tests) = (&judged.id, plural(judged.undecided, "test"));
+                verbosity
+                    .note(format!("{id} stayed undecided in {tests}, which ended too early for `{}`", spec.formula));
+            }
+        }
         if summary.tests() > 0 && summary.count(Verdict::Error) == summary.tests() {
             let first = trials[0].error.as_deref().unwrap_or_default();
             return Err(format!("every test ended in an error; the first: {first}").into());
@@ -154,7 +166,7 @@ impl Options {
         Ok(if violated { Found::Violation } else { Found::Nothing })
     }
 
-    fn study(&self) -> Result<Study, Error> {
+    fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
         let mut driver_settings = Vec::new();
         let mut fixed = Vec::new();
         let mut vehicle = None;
@@ -175,8 +187,11 @@ impl Options {
             }
         }
         let sampling = &self.sampling;
-        let mut study = Study::of(&self.scenario)?
-            .driver(&self.driver, &driver_settings)?
+        let study = match self.system.study(verbosity)? {
+            Some(study) => study,
+            None => Study::of(&self.scenario)?.driver(&self.driver, &driver_settings)?,
+        };
+        let mut study = study
             .strategy(self.strategy())?
             .batch(self.batch)?
             .delta(sampling.delta)
@@ -214,6 +229,9 @@ impl Options {
                 return Err(Error::Usage(format!("parameter `{name}` is set and opened, or set twice")));
             }
             study = study.set(name, value.clone())?;
+        }
+        for formula in &self.spec {
+            study = study.spec(formula)?;
         }
         match &self.extend {
             Some(path) => study.extend(path),
@@ -268,12 +286,15 @@ fn domain(text: &str, over: &str) -> Result<Domain, Error> {
 fn signal(text: &str, shape: &str, study: &Study) -> Result<Option<Shape>, Error> {
     match shape {
         "constant" => Ok(None),
-        "per-tick" => Ok(Some(Shape::PiecewiseConstant { pieces: study.ticks() })),
+        "per-tick" => Ok(Some(Shape::PiecewiseConstant { pieces: study.subject.scenario()?.ticks() })),
         shape => shape.parse().map(Some).map_err(|message| Error::Usage(format!("--open {text}: {message}"))),
     }
 }
 
 /// An error that ended the campaign, with what is left of it.
 fn cut_short(error: &Error, out: &Path, safe: usize) -> Failure {
+    if let Error::Unanswered { .. } = error {
+        return format!("{error}\n  they are in {}", out.display()).into();
+    }
     format!("{error}\n  the first {safe} trials are safe in {}; --resume goes on from there", out.display()).into()
 }

@@ -55,7 +55,7 @@ impl Guilt {
 }
 
 fn locate(study: &Study, trials: &[Trial], folder: &Folder, limit: usize) -> Result<Option<Located>, Error> {
-    let campaign = Campaign::new(study)?;
+    let campaign = Campaign::new(study)?.resume(trials.to_vec());
     let mut next = trials.len();
     let located = Located::of(study, trials, limit, |test| {
         let mut verdict = Verdict::Error;

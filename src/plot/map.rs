@@ -70,7 +70,7 @@ impl FailureMap {
         let at = |trial: &Trial, c: &Coordinate| c.value(trial.test.get(&c.parameter.name)?)?.number();
         let mark = |trial: &Trial| Some((at(trial, &x)?, at(trial, &y)?, trial.verdict));
         Some(Self {
-            title: format!("{}, driver {}", study.scenario, study.driver.name),
+            title: study.subject.title(),
             note: format!("{} tests, strategy {}{}", trials.len(), study.strategy_label(), others(study, [x, y])),
             x: Axis::of(&x)?,
             y: Axis::of(&y)?,

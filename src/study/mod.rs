@@ -1,12 +1,17 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
 mod parameters;
+mod requirement;
+mod subject;
 
-use crate::{Error, Extension, Promise, Trial};
+pub use requirement::RequirementText;
+pub(crate) use requirement::Specs;
+pub use subject::{Simulation, Subject};
+
+use crate::{BlackBox, Error, Extension, Promise, Trial};
 use paracosm_coverage::{Deadline, Point, Record, Space, Value, Values};
+use paracosm_engine::Program;
 use paracosm_engine::driver::{self, Driver};
-use paracosm_engine::vehicle::Model;
-use paracosm_engine::{Declaration, Program};
 use paracosm_generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
@@ -18,25 +23,19 @@ const ADAPTIVE_BATCH: usize = 16;
 /// The version of the files that this software writes.
 const FORMAT: u32 = 1;
 
-/// A study: a scenario, a driver, the open parameters, a strategy and a budget.
+/// A study: what is tested, the open parameters, a strategy and a budget.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub struct Study {
     format: u32,
     version: String,
     target: String,
-    /// The scenario's name.
-    pub scenario: String,
-    /// Which model moves the car.
-    pub vehicle: Model,
+    /// What the tests are run on.
+    #[serde(flatten)]
+    pub subject: Subject,
     /// The open parameters: what the tests vary.
     pub space: Space,
-    /// The values of all others.
-    pub fixed: Values,
-    /// What is asked of every run.
+    /// What is asked of every run. A system that answers with robustness has requirements that are not known here.
     pub requirements: Vec<RequirementText>,
-    /// The system under test.
-    pub driver: DriverChoice,
     strategy: String,
     discrete: String,
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -52,29 +51,9 @@ pub struct Study {
     batch: Option<usize>,
     /// How many tests are run.
     pub budget: usize,
-    dt: f64,
-    duration: f64,
     /// The tests that count as done.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub extends: Option<Extension>,
-    /// A program that is not in the catalogue.
-    #[serde(skip)]
-    program: Option<Program>,
-}
-
-/// A requirement as it is written down.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RequirementText {
-    /// The short name.
-    pub id: String,
-    /// One sentence.
-    pub text: String,
-    /// What is asked.
-    pub formula: String,
-    /// The unit of its robustness.
-    pub unit: String,
-    /// How much robustness is a lot, in that unit.
-    pub scale: f64,
 }
 
 /// A driver with all its settings.
@@ -99,26 +78,23 @@ impl Study {
     /// # Errors
     /// The program cannot be run.
     pub fn new(program: Program) -> Result<Self, Error> {
-        let Declaration { parameters, requirements, duration, dt } = program.declare()?;
-        let (open, closed): (Vec<_>, Vec<_>) = parameters.into_iter().partition(|declared| declared.open);
-        let fixed = closed.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal()));
-        let requirements = requirements.into_iter().map(|requirement| RequirementText {
-            formula: requirement.formula.to_string(),
-            id: requirement.id,
-            text: requirement.text,
-            unit: requirement.unit,
-            scale: requirement.scale,
-        });
-        Ok(Self {
+        let (simulation, space, requirements) = Simulation::new(program)?;
+        Ok(Self::on(Subject::Scenario(simulation), space, requirements))
+    }
+
+    /// The study of a system that others wrote, over this space, with all defaults.
+    pub fn of_system(system: BlackBox, space: Space) -> Self {
+        Self::on(Subject::System(system), space, Vec::new())
+    }
+
+    fn on(subject: Subject, space: Space, requirements: Vec<RequirementText>) -> Self {
+        Self {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             target: env!("PARACOSM_TARGET").to_owned(),
-            scenario: program.name.to_owned(),
-            vehicle: Model::default(),
-            space: Space::new(open.into_iter().map(|declared| declared.parameter).collect())?,
-            fixed: fixed.collect(),
-            requirements: requirements.collect(),
-            driver: DriverChoice::new("aeb", &[])?,
+            subject,
+            space,
+            requirements,
             strategy: Strategy::Halton.name().to_owned(),
             discrete: "ipog".to_owned(),
             delta: None,
@@ -129,29 +105,8 @@ impl Study {
             seed: None,
             batch: None,
             budget: 500,
-            dt,
-            duration,
             extends: None,
-            program: Some(program),
-        })
-    }
-
-    /// Tests this driver, its settings changed so.
-    ///
-    /// # Errors
-    /// There is no such driver or setting, or a value is out of range.
-    pub fn driver(mut self, name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
-        self.driver = DriverChoice::new(name, changes)?;
-        Ok(self)
-    }
-
-    /// Lets this model move the car: `single-track` or `jointed`.
-    ///
-    /// # Errors
-    /// There is no such model.
-    pub fn vehicle(mut self, name: &str) -> Result<Self, Error> {
-        self.vehicle = Model::find(name)?;
-        Ok(self)
+        }
     }
 
     /// Chooses tests by this strategy.
@@ -234,6 +189,11 @@ impl Study {
         Ok(self)
     }
 
+    /// Whether the strategy goes by how tests went.
+    pub(crate) fn is_adaptive(&self) -> Result<bool, Error> {
+        Ok(self.strategy.parse::<Strategy>()?.is_adaptive())
+    }
+
     /// How many tests the strategy is asked for at a time, where that matters.
     pub(crate) fn batch_size(&self) -> Option<usize> {
         self.batch
@@ -252,7 +212,7 @@ impl Study {
     /// The file cannot be read, does not hold tests of the open parameters, or has other values for fixed ones: the error
     /// says in which line and why.
     pub fn extend(mut self, path: &Path) -> Result<Self, Error> {
-        self.extends = Some(Extension::read(path, &self.space, &self.fixed)?);
+        self.extends = Some(Extension::read(path, &self.space, self.subject.fixed())?);
         Ok(self)
     }
 
@@ -264,23 +224,13 @@ impl Study {
         self.extends.as_ref().map_or(Ok(Vec::new()), |extension| extension.points(&self.space))
     }
 
-    /// How many ticks a test takes, unless a contact ends it.
-    pub fn ticks(&self) -> usize {
-        (self.duration / self.dt).round() as usize
-    }
-
     /// The program that is run.
     ///
     /// # Errors
-    /// The study was read from a file and names a scenario that is not in the catalogue.
+    /// The study is of a system that others wrote, or was read from a file and names a scenario that is not in the
+    /// catalogue.
     pub fn program(&self) -> Result<Program, Error> {
-        match self.program {
-            Some(program) => Ok(program),
-            None => scenarios::find(&self.scenario).copied().map_err(|_| {
-                let message = "the campaign was run by another program: no scenario of this one is called";
-                Error::Usage(format!("{message} `{}`", self.scenario))
-            }),
-        }
+        self.subject.scenario()?.program()
     }
 
     /// A generator of the study's tests.
@@ -351,24 +301,44 @@ impl Study {
         self.k
     }
 
-    /// The requirement that a trial comes nearest to violating, or violates most: its id and its robustness in
-    /// multiples of its scale. `None` where the trial broke or nothing was decided.
-    pub fn worst(&self, trial: &Trial) -> Option<(&str, f64)> {
-        let worth = |requirement: &'_ RequirementText| trial.robustness(&requirement.id).map(|r| r / requirement.scale);
-        let all = self.requirements.iter().filter_map(|r| worth(r).map(|worth| (r.id.as_str(), worth)));
-        all.filter(|_| trial.covers()).min_by(|a, b| a.1.total_cmp(&b.1))
+    /// The requirement of this id, if it was known beforehand.
+    pub fn requirement(&self, id: &str) -> Option<&RequirementText> {
+        self.requirements.iter().find(|requirement| requirement.id == id)
     }
 
-    /// What an adaptive strategy minimises: the worst robustness, in multiples of the requirement's scale and
-    /// clipped to [-10, 10].
+    /// The robustness of a requirement in multiples of its scale. `None` where the trial broke or it was not decided.
+    fn normalised(&self, trial: &Trial, requirement: &str) -> Option<f64> {
+        let scale = self.requirement(requirement).map_or(1.0, |requirement| requirement.scale);
+        trial.robustness(requirement).filter(|_| trial.covers()).map(|robustness| robustness / scale)
+    }
+
+    /// The requirement that a trial comes nearest to violating, or violates most: its id and its robustness in
+    /// multiples of its scale. `None` where the trial broke or nothing was decided.
+    pub fn worst<'t>(&self, trial: &'t Trial) -> Option<(&'t str, f64)> {
+        let all = trial.requirements().filter_map(|id| Some((id, self.normalised(trial, id)?)));
+        all.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// What an adaptive strategy minimises where nothing competes: the worst robustness, in multiples of the
+    /// requirement's scale and clipped to [-10, 10].
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
-        self.worst(trial).map(|(_, robustness)| robustness.clamp(-10.0, 10.0))
+        self.worst(trial).map(|(_, robustness)| clip(robustness))
+    }
+
+    /// What a search for one requirement minimises.
+    pub(crate) fn clipped(&self, trial: &Trial, requirement: &str) -> Option<f64> {
+        self.normalised(trial, requirement).map(clip)
     }
 
     /// All values of a test: its own and the fixed ones.
     pub fn complete(&self, test: &Values) -> Values {
-        test.iter().chain(self.fixed.iter()).map(owned).collect()
+        test.iter().chain(self.subject.fixed().iter()).map(owned).collect()
     }
+}
+
+/// Beyond that a robustness says no more to a search.
+fn clip(robustness: f64) -> f64 {
+    robustness.clamp(-10.0, 10.0)
 }
 
 fn owned((name, value): (&str, &Value)) -> (String, Value) {

@@ -2,7 +2,7 @@
 
 use super::{Study, owned};
 use crate::Error;
-use paracosm_coverage::{Domain, Parameter, Shape, Space, Value, did_you_mean, nearest};
+use paracosm_coverage::{Domain, Parameter, Shape, Space, Value, Values, did_you_mean, nearest};
 use paracosm_engine::{Declared, Test};
 
 impl Study {
@@ -29,7 +29,8 @@ impl Study {
             parameter.domain = domain;
             parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
         }
-        self.fixed = self.fixed.iter().filter(|(key, _)| *key != name).map(owned).collect();
+        let fixed = &mut self.subject.scenario_mut()?.fixed;
+        *fixed = fixed.iter().filter(|(key, _)| *key != name).map(owned).collect();
         self.rebuild(|other| other.name == name, Some(parameter))?;
         Ok(self)
     }
@@ -43,13 +44,20 @@ impl Study {
         parameter.signal = signal;
         parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
         self.rebuild(|other| other.name == name, Some(parameter))?;
-        let program = self.program()?;
-        let mut test = program.declare()?.nominal();
+        self.program()?.check(Test::new(&self.nominal()?, &self.space))?;
+        Ok(self)
+    }
+
+    /// A test with nominal values of the open parameters, and those that are fixed.
+    pub(super) fn nominal(&self) -> Result<Values, Error> {
+        let mut test = self.program()?.declare()?.nominal();
+        for (name, value) in self.subject.fixed().iter() {
+            test.set(name, value.clone());
+        }
         for parameter in self.space.parameters() {
             test.set(&parameter.name, Declared { parameter: parameter.clone(), open: true }.nominal());
         }
-        program.check(Test::new(&test, &self.space))?;
-        Ok(self)
+        Ok(test)
     }
 
     /// Fixes a parameter at a value; a signal at a value or at a list of them.
@@ -64,7 +72,7 @@ impl Study {
                 "with `{name}` fixed no parameter is left open, so there is nothing to test"
             )));
         }
-        self.fixed.set(name, value);
+        self.subject.scenario_mut()?.fixed.set(name, value);
         Ok(self)
     }
 
@@ -83,13 +91,14 @@ impl Study {
     }
 
     fn declared(&self, name: &str) -> Result<Parameter, Error> {
+        let scenario = &self.subject.scenario()?.scenario;
         let declared = self.program()?.declare()?.parameters;
         let found = declared.iter().find(|declared| declared.parameter.name == name);
         found.map(|declared| declared.parameter.clone()).ok_or_else(|| {
             let names = declared.iter().map(|declared| declared.parameter.name.as_str());
             let hint = did_you_mean(&nearest(name, names.clone()));
             let all = names.collect::<Vec<_>>().join(", ");
-            Error::Usage(format!("scenario `{}` has no parameter `{name}`{hint}; it has {all}", self.scenario))
+            Error::Usage(format!("scenario `{scenario}` has no parameter `{name}`{hint}; it has {all}"))
         })
     }
 }

@@ -14,15 +14,15 @@ fn run(dir: &Path, name: &str, strategy: &str, more: &[&str]) -> Vec<u8> {
 }
 
 #[test]
-fn trials_do_not_depend_on_the_number_of_jobs_but_those_of_a_model_on_the_batch() {
+fn trials_do_not_depend_on_the_number_of_jobs_but_on_the_batch() {
     let dir = tempfile::tempdir().unwrap();
     for strategy in STRATEGIES {
         let name = |what: &str| format!("{strategy}-{what}");
         let one = run(dir.path(), &name("one"), strategy, &["--jobs", "1"]);
         assert!(one == run(dir.path(), &name("four"), strategy, &["--jobs", "4", "--batch", "16"]), "{strategy}");
         let other = run(dir.path(), &name("batch"), strategy, &["--batch", "3"]);
-        // A generation of a swarm or of CMA-ES is the same in whatever portions it is asked for.
-        assert_eq!(one == other, ["pso", "cmaes"].contains(&strategy), "{strategy}");
+        // After every batch another requirement may have its turn.
+        assert!(one != other, "{strategy}");
         let study = fs::read_to_string(dir.path().join(name("batch")).join("campaign.json")).unwrap();
         assert!(study.contains("\"batch\": 3"), "{study}");
     }

@@ -24,9 +24,12 @@ fn wrong_campaigns_are_refused_with_the_nearest_valid_name() {
         (&["--set", "friction=NaN"], &["`friction`", "NaN"]),
         (&["--set", "speed=1", "--set", "distance=9"], &["`distance`", "nothing to test"]),
         (&["--budget", "0"], &["budget is 0"]),
-        (&["--budget", "-3"], &["-3"]),
-        (&["--budget", "many"], &["many"]),
-        (&["--jobs", "0"], &["--jobs"]),
+        (&["--budget", "-3"], &["error: --budget <N>: found `-3`, expected a whole number from 0 on\n"]),
+        (&["--budget", "many"], &["error: --budget <N>: found `many`, expected a whole number from 0 on\n"]),
+        (&["--jobs", "0"], &["error: --jobs <N>: found `0`, expected a whole number from 1 on\n"]),
+        (&["--locate=x"], &["error: --locate[=<N>]: found `x`, expected a whole number from 0 on\n"]),
+        (&["--epsilon", "little"], &["error: --epsilon <E>: found `little`, expected a number\n"]),
+        (&["--seed", "18446744073709551616"], &["--seed <N>", "expected a smaller number"]),
         (&["--open", "speed=5..5"], &["`speed`", "[5, 5]"]),
         (&["--open", "speed=7..5"], &["`speed`", "[7, 5]"]),
         (&["--open", "speed=NaN..5"], &["`speed`", "NaN"]),
@@ -135,4 +138,18 @@ fn measurements_that_make_no_sense_are_refused() {
     refused(&estimate(&["--strategy", "halton", "--dims", "2", "--budget", "0"]), &["budget"]);
     refused(&estimate(&["--strategy", "halton", "--dims", "2", "--budget", "999999999999"]), &["at most"]);
     refused(&estimate(&["--strategy", "hlton", "--dims", "2", "--budget", "5"]), &["`halton`"]);
+}
+
+#[test]
+fn times_that_are_none_and_files_that_are_no_text_are_refused_with_what_was_expected() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("m.pict"), "A: 1, 2\nB: 1, 2\n").unwrap();
+    let generate = |more: &[&str]| cover(dir.path(), &[&["generate", "--space"], more].concat());
+    let expected = "error: --optimise -1: expected a number of seconds from 0 on\n";
+    refused(&generate(&["m.pict", "--optimise", "-1"]), &[expected]);
+    refused(&generate(&["m.pict", "--optimise", "soon"]), &["--optimise <SECONDS>: found `soon`, expected a number"]);
+    for name in ["latin1.pict", "latin1.toml"] {
+        fs::write(dir.path().join(name), b"A: 1, 2\nB: caf\xe9, tea\n").unwrap();
+        refused(&generate(&[name]), &[&format!("{name}, line 2: found bytes that are no UTF-8, expected")]);
+    }
 }

@@ -126,3 +126,28 @@ fn tests_that_came_to_nothing_are_not_counted_as_done() {
     let added = generated(dir.path(), &["--space", "space.toml", "--extend", "trials.csv"]);
     assert_eq!(added, "a,b\n2,1\n1,2\n");
 }
+
+#[test]
+fn numbers_are_written_and_read_as_the_space_writes_them() {
+    let dir = tempfile::tempdir().unwrap();
+    let files = [
+        ("m.pict", "V: 1.1, 1.10, 007\nW: 2.50, 1e3\nIF [V] = 1.1 THEN [W] < 9;\n"),
+        (
+            "space.toml",
+            "constraints = [\"V < 7 implies W < 9\"]\n[[parameter]]\nname = \"V\"\nchoice = [1.10, 1.2, +7]\n\
+             [[parameter]]\nname = \"W\"\nchoice = [2.50, 1e3]\n",
+        ),
+    ];
+    let expected = [["1.1,2.50", "1.10,2.50", "007,2.50", "007,1e3"], ["1.10,2.50", "1.2,2.50", "+7,2.50", "+7,1e3"]];
+    for ((name, text), expected) in files.into_iter().zip(expected) {
+        fs::write(dir.path().join(name), text).unwrap();
+        let tests = generated(dir.path(), &["--space", name]);
+        let mut rows: Vec<&str> = tests.lines().skip(1).collect();
+        rows.sort_by_key(|row| expected.iter().position(|expected| expected == row));
+        assert_eq!(rows, expected);
+        fs::write(dir.path().join("tests.csv"), &tests).unwrap();
+        assert_eq!(measured(dir.path(), &["tests.csv", "--space", name], "/discrete/ratio"), 1.0);
+        let added = generated(dir.path(), &["--space", name, "--extend", "tests.csv"]);
+        assert_eq!(added, "V,W\n", "all are there");
+    }
+}

@@ -11,9 +11,13 @@ mod covering;
 mod extend;
 mod generate;
 mod guilty;
+#[cfg(unix)]
+mod interrupt;
 mod pedestrian_study;
 mod pictures;
 mod plan;
 mod reference_drivers;
 mod signals;
+mod spec;
 mod strength;
+mod system;

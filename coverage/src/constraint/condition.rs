@@ -137,7 +137,10 @@ impl<'a> Resolver<'a> {
                 for (value, place) in values.iter().zip(&places.right) {
                     side.level(value).map_err(at(*place))?;
                 }
-                Ok(Condition::among(side.position, side.levels.iter().map(|level| values.contains(level) == holds)))
+                Ok(Condition::among(
+                    side.position,
+                    side.levels.iter().map(|level| values.iter().any(|value| value.means(level)) == holds),
+                ))
             }
             Expression::Not(part) => self.condition(part, !holds),
             Expression::And(parts) => self.parts(holds, parts, holds),
@@ -180,7 +183,7 @@ impl<'a> Resolver<'a> {
             Operand::Value(value) => {
                 left.level(value).map_err(at(places.right[0]))?;
                 let equal = (relation == Relation::Equal) == holds;
-                Ok(Condition::among(left.position, left.levels.iter().map(|level| (level == value) == equal)))
+                Ok(Condition::among(left.position, left.levels.iter().map(|level| level.means(value) == equal)))
             }
             Operand::Parameter(other) => {
                 let right = self.side(other).map_err(|message| {
@@ -225,7 +228,7 @@ impl std::fmt::Display for Side<'_> {
 impl Side<'_> {
     /// Checks that the parameter takes this value at times.
     fn level(&self, value: &Value) -> Result<(), String> {
-        if self.levels.contains(value) {
+        if self.levels.iter().any(|level| level.means(value)) {
             return Ok(());
         }
         let written: Vec<_> = self.levels.iter().map(|level| Written(level).to_string()).collect();
@@ -261,7 +264,7 @@ impl Side<'_> {
         values.dedup_by(|a, b| order(a, b).is_eq());
         let rank = |value: &Value| values.partition_point(|known| order(known, value).is_lt());
         let ranks = [self, other].map(|side| side.levels.iter().map(rank).collect::<Arc<[usize]>>());
-        if !relation.orders() && values.len() == self.levels.len() + other.levels.len() {
+        if !relation.orders() && !ranks[0].iter().any(|rank| ranks[1].contains(rank)) {
             return Err(format!("{self} and {other} have no value in common, so they are never equal"));
         }
         let relation = if holds { relation } else { relation.negated() };
@@ -275,13 +278,11 @@ impl Side<'_> {
 
 /// Numbers by size before words by their letters.
 fn order(a: &Value, b: &Value) -> Ordering {
-    match (a, b) {
+    match (a.number(), b.number()) {
         // The two zeros are one value.
-        (Value::Number(a), Value::Number(b)) => (a + 0.0).total_cmp(&(b + 0.0)),
-        (Value::Word(a), Value::Word(b)) => a.cmp(b),
-        (Value::Number(_), Value::Word(_)) => Ordering::Less,
-        (Value::Word(_), Value::Number(_)) => Ordering::Greater,
-        // Lists are values of signals, which are not compared.
-        (Value::List(_), _) | (_, Value::List(_)) => Ordering::Equal,
+        (Some(a), Some(b)) => (a + 0.0).total_cmp(&(b + 0.0)),
+        (Some(_), None) => Ordering::Less,
+        (None, Some(_)) => Ordering::Greater,
+        (None, None) => a.word().cmp(&b.word()),
     }
 }

@@ -153,10 +153,11 @@ pub(super) struct Written<'a>(pub &'a Value);
 
 impl fmt::Display for Written<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            Value::Number(number) => write!(f, "{number}"),
-            Value::Word(word) => enclosed(f, '\'', word, '\''),
-            Value::List(_) => write!(f, "{}", self.0),
+        match (self.0.word(), self.0.number()) {
+            (Some(word), _) => enclosed(f, '\'', word, '\''),
+            // Constraints are about numbers, however levels are written.
+            (None, Some(number)) => write!(f, "{number}"),
+            (None, None) => write!(f, "{}", self.0),
         }
     }
 }

@@ -27,7 +27,8 @@
 //! What is read, and as what:
 //!
 //! - A value that is written as a number becomes a number, any other one a word. A parameter of numbers only is compared
-//!   with numbers, any other one with quoted words, as PICT has it.
+//!   with numbers, any other one with quoted words, as PICT has it. Levels are told apart by their texts: `1.1` and `1.10`
+//!   are two levels, and keep their texts; as numbers they are equal to constraints.
 //! - Names of parameters, words of the language and words in constraints are compared without regard to case; words keep
 //!   the case in which they are declared. `<` and its kin order words by their lower-case letters.
 //! - `IF .. THEN .. ELSE`, `AND`, `OR`, `NOT`, `IN {..}`, `LIKE` with `*` and `?`, `IsNegative(P)` and `IsPositive(P)`
@@ -37,11 +38,11 @@
 //!   of the [`demand`](crate::demand): combinations of other values count only in tests that have none.
 //! - `{A, B, C} @ 3` asks for all combinations of three of these parameters beside what is asked of all. PICT also
 //!   keeps the number of different rows of a sub-model small; this is not done.
-//! - `<P>` stands for the values of a parameter above, if there is one of that name. Where a line has no colon, the name
-//!   ends at the first comma, as in old models.
+//! - `<P>` stands for the values of a parameter above. Where no parameter is called so or nearly so, it is a value, and a
+//!   note says so. Where a line has no colon, the name ends at the first comma, as in old models.
 //!
 //! Aliases other than the first and weights, which say nothing of what has to be covered, are passed over; a note says
-//! so. Refused are result parameters (`$`), a parameter's own order (`P @ 2: ..`), two values that are the same number, a
+//! so. Refused are result parameters (`$`), a parameter's own order (`P @ 2: ..`), a
 //! parameter of negative values only, and what is unknown. The separators of values and of aliases and the negative sign are those that PICT
 //! takes unless told otherwise.
 
@@ -166,7 +167,7 @@ fn read(text: &str) -> Result<Model, Fault> {
     if parameters.declared.is_empty() {
         return fail(statements, "found no parameters, expected a line like `Weather: clear, rain, fog`");
     }
-    let (declared, mut notes) = parameters.finish();
+    let (declared, mut notes) = parameters.finish(text)?;
     let read = statements::read(text, statements, &declared, &mut notes)?;
     let signs = one_negative(&declared);
     let texts = read.iter().map(|statement| &statement.expression).chain(&signs).map(Expression::to_string);

@@ -4,6 +4,7 @@ use super::{Fault, fail, indent};
 use crate::Value;
 use crate::constraint::Relation;
 use crate::names::{did_you_mean, nearest};
+use crate::space::position;
 
 /// A parameter of a model.
 pub(super) struct Declared {
@@ -28,10 +29,9 @@ impl Listed {
 
     /// Whether it is so related to a value in a constraint, a word to a word as it is written in lower case.
     pub fn related(&self, relation: Relation, value: &Value) -> bool {
-        match value {
-            Value::Number(number) => self.value.number().is_some_and(|own| relation.holds(&own, number)),
-            Value::Word(word) => relation.holds(&self.text.to_lowercase(), &word.to_lowercase()),
-            Value::List(_) => false,
+        match value.word() {
+            Some(word) => relation.holds(&self.text.to_lowercase(), &word.to_lowercase()),
+            None => self.value.number().zip(value.number()).is_some_and(|(own, number)| relation.holds(&own, &number)),
         }
     }
 }
@@ -40,6 +40,19 @@ impl Declared {
     /// Whether it takes numbers only, and is compared with numbers.
     pub fn numeric(&self) -> bool {
         self.values.iter().all(|listed| listed.value.number().is_some())
+    }
+
+    /// What the texts mean, now that all are known: of a parameter of numbers only each is a number as it is written, so
+    /// that constraints see numbers; elsewhere constraints see texts, and what is written otherwise than the number is a
+    /// word.
+    fn settle(&mut self) {
+        let numeric = self.numeric();
+        for listed in &mut self.values {
+            listed.value = match Value::written(&listed.text) {
+                Value::Written(..) if !numeric => Value::Word(listed.text.clone()),
+                value => value,
+            };
+        }
     }
 
     pub fn has_negatives(&self) -> bool {
@@ -51,12 +64,18 @@ impl Declared {
 ///
 /// # Errors
 /// There is none: a message with the nearest one.
-pub(super) fn find(declared: &[Declared], name: &str) -> Result<usize, String> {
+pub(super) fn find<'a>(declared: &'a [Declared], name: &str) -> Result<usize, Unknown<'a>> {
     let lower = name.to_lowercase();
     declared.iter().position(|parameter| parameter.name.to_lowercase() == lower).ok_or_else(|| {
         let meant = nearest(name, declared.iter().map(|parameter| parameter.name.as_str()));
-        format!("no parameter is called `{name}`{}", did_you_mean(&meant))
+        Unknown { message: format!("no parameter is called `{name}`{}", did_you_mean(&meant)), meant }
     })
+}
+
+/// What is to be said of a name that no parameter has, and one that was perhaps meant.
+pub(super) struct Unknown<'a> {
+    pub message: String,
+    meant: Option<&'a str>,
 }
 
 /// The parameters read so far.
@@ -67,6 +86,8 @@ pub(super) struct Parameters {
     without_colon: Vec<String>,
     weighted: Vec<String>,
     aliased: Vec<String>,
+    /// Names in `<` and `>` that no parameter above has, and where they stand.
+    unknown: Vec<(String, usize)>,
 }
 
 impl Parameters {
@@ -108,8 +129,9 @@ impl Parameters {
         let mut declared = Declared { name: name.to_owned(), values: Vec::new() };
         let mut at = offset + head.len() + 1;
         for piece in list.split(',') {
-            for listed in self.piece(piece, &declared.name) {
-                self.add(&mut declared, listed, at + indent(piece))?;
+            let place = at + indent(piece);
+            for listed in self.piece(piece, place) {
+                self.add(&mut declared, listed, place)?;
             }
             at += piece.len() + 1;
         }
@@ -117,19 +139,18 @@ impl Parameters {
             let message = format!("every value of `{name}` is negative (`~`), expected one that is not");
             return fail(offset + head.len() + 1 + indent(list), message);
         }
+        declared.settle();
         self.declared.push(declared);
         Ok(())
     }
 
     /// The value between two commas, or the values of the parameter to which it refers.
-    fn piece(&mut self, piece: &str, name: &str) -> Vec<Listed> {
+    fn piece(&mut self, piece: &str, at: usize) -> Vec<Listed> {
         let mut text = piece.trim();
         if let Some(other) = text.strip_prefix('<').and_then(|text| text.strip_suffix('>')) {
             match find(&self.declared, other.trim()) {
                 Ok(known) => return self.declared[known].values.clone(),
-                Err(message) => {
-                    self.notes.push(format!("parameter `{name}`: {message}, so `{text}` is read as a value"));
-                }
+                Err(_) => self.unknown.push((other.trim().to_owned(), at)),
             }
         }
         if let Some(value) = without_weight(text) {
@@ -148,28 +169,39 @@ impl Parameters {
     }
 
     fn add(&mut self, declared: &mut Declared, listed: Listed, at: usize) -> Result<(), Fault> {
-        let Some(known) = declared.values.iter().find(|known| known.value == listed.value) else {
+        let (name, text) = (&declared.name, &listed.text);
+        let same = |known: &&Listed| known.value.means(&listed.value);
+        if declared.values.iter().filter(same).any(|known| known.negative != listed.negative) {
+            return fail(at, format!("`{text}` is listed with and without `~`"));
+        }
+        if !declared.values.iter().any(|known| known.text == *text) {
             if listed.text.is_empty() {
                 self.notes.push(format!("parameter `{}` lists the empty word as a value", declared.name));
             }
             declared.values.push(listed);
             return Ok(());
-        };
-        let (name, text) = (&declared.name, &listed.text);
-        if known.negative != listed.negative {
-            return fail(at, format!("`{text}` is listed with and without `~`"));
-        }
-        if known.text != *text {
-            let message =
-                format!("`{text}` is the same number as `{}`; a level of a parameter stands once", known.text);
-            return fail(at, message);
         }
         self.notes.push(format!("parameter `{name}` lists `{text}` twice, which is read as one value"));
         Ok(())
     }
 
     /// The parameters, and what is to be said of them all.
-    pub fn finish(mut self) -> (Vec<Declared>, Vec<String>) {
+    ///
+    /// # Errors
+    /// What refers to a parameter stands before it, or names it nearly.
+    pub fn finish(mut self, text: &str) -> Result<(Vec<Declared>, Vec<String>), Fault> {
+        for (name, at) in std::mem::take(&mut self.unknown) {
+            match find(&self.declared, &name) {
+                Ok(_) => return fail(at, format!("`<{name}>` stands before parameter `{name}`, expected it below")),
+                Err(Unknown { message, meant: Some(_) }) => return fail(at, message),
+                // PICT reads it so, and `<none>` may well be a value.
+                Err(Unknown { message, meant: None }) => {
+                    let (line, column) = position(text, at);
+                    let note = format!("line {line}, column {column}: {message}, so `<{name}>` is read as a value");
+                    self.notes.push(note);
+                }
+            }
+        }
         for (what, found) in [
             ("without `:` the name of a parameter ends at the first comma", &self.without_colon),
             ("of aliases only the first is used", &self.aliased),
@@ -179,7 +211,7 @@ impl Parameters {
                 self.notes.push(format!("{what}: {}", found.join(", ")));
             }
         }
-        (self.declared, self.notes)
+        Ok((self.declared, self.notes))
     }
 }
 
@@ -208,7 +240,7 @@ pub(super) fn sub_model(
         if name.is_empty() {
             return fail(place, "found no name, expected a parameter of the sub-model");
         }
-        let position = find(declared, name).or_else(|message| fail(place, message))?;
+        let position = find(declared, name).or_else(|unknown| fail(place, unknown.message))?;
         if set.contains(&position) {
             return fail(place, format!("the sub-model names `{name}` twice"));
         }

@@ -216,7 +216,7 @@ impl<'a> Reader<'a> {
     /// The parameter of that name, which stands at the next token.
     fn parameter(&self, name: &str) -> Result<&'a Declared, Fault> {
         let declared = self.declared;
-        find(declared, name).map(|i| &declared[i]).or_else(|message| fail(self.offset(), message))
+        find(declared, name).map(|i| &declared[i]).or_else(|unknown| fail(self.offset(), unknown.message))
     }
 
     /// What follows `IsNegative` or `IsPositive`.
@@ -237,7 +237,7 @@ impl<'a> Reader<'a> {
         let name = self.text[from..to].trim();
         let name = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')).unwrap_or(name);
         if !name.is_empty() {
-            let i = find(self.declared, name).or_else(|message| fail(from, message))?;
+            let i = find(self.declared, name).or_else(|unknown| fail(from, unknown.message))?;
             return Ok(terms::of_sign(&self.declared[i], negative));
         }
         let with_negatives = self.declared.iter().filter(|parameter| parameter.has_negatives());

@@ -38,7 +38,7 @@ pub(super) fn among(parameter: &Declared, values: &[Value]) -> Expression {
 pub(super) fn with_parameter(left: &Declared, relation: Relation, right: &Declared) -> Expression {
     let as_written =
         || Expression::Compare { parameter: left.name.clone(), relation, with: Operand::Parameter(right.name.clone()) };
-    let common = left.values.iter().any(|a| right.values.iter().any(|b| a.value == b.value));
+    let common = left.values.iter().any(|a| right.values.iter().any(|b| a.value.means(&b.value)));
     if left.numeric() && (relation.orders() || common) {
         return as_written();
     }
@@ -76,7 +76,14 @@ pub(super) fn with_parameter(left: &Declared, relation: Relation, right: &Declar
 fn membership(parameter: &Declared, marked: Vec<bool>) -> Expression {
     let those = |mark: bool| {
         let levels = parameter.values.iter().zip(&marked).filter(|(_, marked)| **marked == mark);
-        levels.map(|(listed, _)| listed.value.clone()).collect::<Vec<_>>()
+        let mut values: Vec<Value> = Vec::new();
+        for (listed, _) in levels {
+            // Constraints see what is the same number as one value.
+            if !values.iter().any(|value| value.means(&listed.value)) {
+                values.push(listed.value.clone());
+            }
+        }
+        values
     };
     let (inside, outside) = (those(true), those(false));
     let compare = |relation, value: &Value| Expression::Compare {

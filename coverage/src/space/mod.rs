@@ -334,9 +334,8 @@ impl Space {
                         let v = value.number().expect("checked against an interval");
                         point.continuous.push(coordinate(*lo, *hi, v));
                     }
-                    Domain::Choice(levels) => {
-                        let level = levels.iter().position(|level| *level == value);
-                        point.discrete.push(level.expect("checked against the choice"));
+                    Domain::Choice(_) => {
+                        point.discrete.push(parameter.level(&value).expect("checked against the choice"));
                     }
                 }
             }

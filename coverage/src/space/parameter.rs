@@ -65,6 +65,15 @@ impl Parameter {
         }
     }
 
+    /// The position of a value among the levels: of the level that is written so, or the only one that is the same number.
+    pub fn level(&self, value: &Value) -> Option<usize> {
+        let levels = self.levels()?;
+        levels.iter().position(|level| level == value).or_else(|| {
+            let mut same = (0..levels.len()).filter(|&level| levels[level].means(value));
+            same.next().filter(|_| same.next().is_none())
+        })
+    }
+
     /// The value at a coordinate in `[0,1]` of a continuous parameter.
     ///
     /// # Panics
@@ -103,9 +112,8 @@ impl Parameter {
 
     fn check_scalar(&self, value: &Value) -> Result<(), SpaceError> {
         let taken = match (&self.domain, value) {
-            (Domain::Interval { lo, hi }, Value::Number(v)) => (*lo..=*hi).contains(v),
-            (Domain::Interval { .. }, Value::Word(_) | Value::List(_)) => false,
-            (Domain::Choice(levels), value) => levels.contains(value),
+            (Domain::Interval { lo, hi }, value) => value.number().is_some_and(|v| (*lo..=*hi).contains(&v)),
+            (Domain::Choice(_), value) => self.level(value).is_some(),
         };
         if taken {
             return Ok(());
@@ -154,12 +162,15 @@ impl Parameter {
 /// A parameter as files write it: `interval = [lo, hi]` or `choice = [..]`, beside its name.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Entry {
+pub(super) struct Entry {
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     interval: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     choice: Option<Vec<Value>>,
+    /// How the values of the choice are written, where the format would write some numbers otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    written: Option<Vec<String>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -168,13 +179,39 @@ struct Entry {
     signal: Option<signal::Entry>,
 }
 
+impl Entry {
+    /// An entry that says how its numbers are written, whatever the format makes of fractions.
+    pub(super) fn spelled_out(parameter: Parameter) -> Self {
+        let levels = parameter.levels().unwrap_or_default();
+        let fraction = |level: &Value| level.number().is_some() && level.to_string().parse::<i64>().is_err();
+        let written = levels.iter().any(fraction).then(|| levels.iter().map(ToString::to_string).collect());
+        let entry = Self::from(parameter);
+        Self { written: written.or(entry.written), ..entry }
+    }
+}
+
+/// The levels of a choice as they are written.
+fn as_written(choice: Vec<Value>, written: &[String]) -> Result<Vec<Value>, String> {
+    if choice.len() != written.len() {
+        return Err(format!("found {} texts in `written`, expected the {} of `choice`", written.len(), choice.len()));
+    }
+    let level = |(level, text): (Value, &String)| match Value::written(text) {
+        number if level.number().is_some() && number.means(&level) => Ok(number),
+        _ if level.to_string() == *text => Ok(level),
+        _ => Err(format!("found `{text}` in `written`, expected the text of {level}")),
+    };
+    choice.into_iter().zip(written).map(level).collect()
+}
+
 impl TryFrom<Entry> for Parameter {
     type Error = String;
 
     fn try_from(entry: Entry) -> Result<Self, String> {
-        let domain = match (entry.interval, entry.choice) {
-            (Some([lo, hi]), None) => Domain::Interval { lo, hi },
-            (None, Some(levels)) => Domain::Choice(levels),
+        let in_parameter = |message: String| format!("parameter `{}`: {message}", entry.name);
+        let domain = match (entry.interval, entry.choice, entry.written) {
+            (Some([lo, hi]), None, None) => Domain::Interval { lo, hi },
+            (None, Some(levels), None) => Domain::Choice(levels),
+            (None, Some(levels), Some(written)) => Domain::Choice(as_written(levels, &written).map_err(in_parameter)?),
             _ => {
                 return Err(format!(
                     "parameter `{}`: expected either `interval = [lo, hi]` or `choice = [..]`",
@@ -183,7 +220,7 @@ impl TryFrom<Entry> for Parameter {
             }
         };
         let shape = entry.signal.map(|signal| signal.shape()).transpose();
-        let signal = shape.map_err(|message| format!("parameter `{}`: {message}", entry.name))?.flatten();
+        let signal = shape.map_err(in_parameter)?.flatten();
         Ok(Self { name: entry.name, domain, unit: entry.unit, default: entry.default, signal })
     }
 }
@@ -194,7 +231,10 @@ impl From<Parameter> for Entry {
             Domain::Interval { lo, hi } => (Some([lo, hi]), None),
             Domain::Choice(levels) => (None, Some(levels)),
         };
-        let signal = parameter.signal.map(Into::into);
-        Self { name: parameter.name, interval, choice, unit: parameter.unit, default: parameter.default, signal }
+        let levels = choice.as_deref().unwrap_or_default();
+        let otherwise = levels.iter().any(|level| matches!(level, Value::Written(..)));
+        let written = otherwise.then(|| levels.iter().map(ToString::to_string).collect());
+        let Parameter { name, unit, default, .. } = parameter;
+        Self { name, interval, choice, written, unit, default, signal: parameter.signal.map(Into::into) }
     }
 }

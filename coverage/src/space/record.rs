@@ -11,6 +11,9 @@ use std::marker::PhantomData;
 pub struct Record<T>(Vec<(String, T)>);
 
 impl<T> Record<T> {
+    /// No names.
+    pub const EMPTY: Self = Self(Vec::new());
+
     /// The value of that name.
     pub fn get(&self, name: &str) -> Option<&T> {
         self.iter().find(|(key, _)| *key == name).map(|(_, value)| value)
@@ -33,7 +36,7 @@ impl<T> Record<T> {
 
 impl<T> Default for Record<T> {
     fn default() -> Self {
-        Self(Vec::new())
+        Self::EMPTY
     }
 }
 

@@ -21,6 +21,33 @@ fn a_space_written_as_toml_is_read_back_as_the_same_space() {
 }
 
 #[test]
+fn numbers_of_a_choice_are_kept_as_they_are_written() {
+    let text =
+        "[[parameter]]\nname = \"a\"\nchoice = [1.0, 2.50, 1e-3, +4, 1_000, 0x10, -0.0, 1e300, 0.50, \"0.50\"]\n";
+    let space = Space::from_toml(text).unwrap();
+    let written = |space: &Space| {
+        let levels = space.parameters()[0].levels().unwrap();
+        levels.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    // What only TOML writes so is written as the number, and what a word is like.
+    assert_eq!(written(&space), ["1.0", "2.50", "1e-3", "+4", "1000", "16", "-0.0", "1e300", "0.5", "0.50"]);
+    assert_eq!(Space::from_toml(&space.to_toml()), Ok(space.clone()));
+    let json = serde_json::to_string(&space).unwrap();
+    assert_eq!(serde_json::from_str::<Space>(&json).unwrap(), space);
+    let test = space.decode(&Point { continuous: vec![], discrete: vec![1] });
+    assert_eq!(serde_json::to_string(&test).unwrap(), "{\"a\":2.5}", "a number to those who use it");
+    let twice = "[[parameter]]\nname = \"a\"\nchoice = [1.0, 1.00]\n";
+    assert_eq!(Space::from_toml(twice).unwrap_err().to_string(), "parameter `a`: the choice names 1 twice");
+    for (texts, message) in [
+        ("[\"1\"]", "parameter `a`: found 1 texts in `written`, expected the 2 of `choice`"),
+        ("[\"1\", \"2.1\"]", "parameter `a`: found `2.1` in `written`, expected the text of 2"),
+    ] {
+        let toml = format!("[[parameter]]\nname = \"a\"\nchoice = [1, 2]\nwritten = {texts}\n");
+        assert_eq!(Space::from_toml(&toml).unwrap_err().to_string(), message);
+    }
+}
+
+#[test]
 fn a_test_written_as_json_keeps_its_order_and_its_numbers() {
     let space = pedestrian();
     let values = space.decode(&Point { continuous: vec![0.25], discrete: vec![2, 1] });

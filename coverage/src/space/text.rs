@@ -1,7 +1,10 @@
 //! A space as text: the SPACE.toml that people write and scripts pass around.
 
-use super::{Declaration, Space, SpaceError};
-use serde::Deserialize;
+use super::parameter::Entry;
+use super::{Declaration, Domain, Space, SpaceError, Value};
+use crate::constraint::Constraint;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use toml::Spanned;
 
@@ -50,7 +53,8 @@ impl Space {
             }
             SpaceError::Syntax { message, at }
         })?;
-        Self::try_from(declaration).map_err(|error| match error {
+        let space = Self::try_from(declaration).map(|space| space.written_as_in(text));
+        space.map_err(|error| match error {
             SpaceError::Constraint { index, error, .. } => {
                 let span = constraint_spans(text).into_iter().nth(index);
                 let at = span.map(|span| position(text, within(text, span, error.offset)));
@@ -67,8 +71,54 @@ impl Space {
 
     /// Writes a SPACE.toml that [`Space::from_toml`] reads back as the same space.
     pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("names, numbers and words are always TOML")
+        #[derive(Serialize)]
+        struct SpelledOut<'a> {
+            #[serde(skip_serializing_if = "Vec::is_empty")]
+            constraints: Vec<&'a str>,
+            parameter: Vec<Entry>,
+        }
+        let constraints = self.constraints.iter().map(Constraint::text).collect();
+        let parameter = self.parameters.iter().cloned().map(Entry::spelled_out).collect();
+        toml::to_string(&SpelledOut { constraints, parameter }).expect("names, numbers and words are always TOML")
     }
+
+    /// The same space, its levels that are numbers written as they stand in the text that it was read from.
+    fn written_as_in(mut self, text: &str) -> Self {
+        for (parameter, spans) in self.parameters.iter_mut().zip(choice_spans(text)) {
+            let Domain::Choice(levels) = &mut parameter.domain else { continue };
+            let taken: Vec<String> = levels.iter().filter_map(Value::word).map(str::to_owned).collect();
+            for (level, span) in levels.iter_mut().zip(spans) {
+                let written = Value::written(&text[span.clone()]);
+                // What TOML writes as no other program would, `1_000` or `0x10`, is written as the number, and so is what
+                // could not be told from a word.
+                let is_level = matches!(level, Value::Number(_)) && written.means(level);
+                if is_level && !taken.iter().any(|word| word == &text[span.clone()]) {
+                    *level = written;
+                }
+            }
+        }
+        self
+    }
+}
+
+/// Where the values of each parameter's choice stand in the file; nowhere, where `written` says how they are written.
+fn choice_spans(text: &str) -> Vec<Vec<Range<usize>>> {
+    #[derive(Deserialize)]
+    struct Choices {
+        parameter: Vec<Choice>,
+    }
+    #[derive(Deserialize)]
+    struct Choice {
+        #[serde(default)]
+        choice: Vec<Spanned<toml::Value>>,
+        written: Option<IgnoredAny>,
+    }
+    let found = toml::from_str::<Choices>(text).map_or(Vec::new(), |found| found.parameter);
+    let spans = |Choice { choice, written }: Choice| match written {
+        Some(_) => Vec::new(),
+        None => choice.iter().map(Spanned::span).collect(),
+    };
+    found.into_iter().map(spans).collect()
 }
 
 /// Where the constraints stand in the file, with their quotes.

@@ -10,6 +10,9 @@ use std::fmt;
 pub enum Value {
     /// A number; whole ones are written without a point.
     Number(f64),
+    /// A level that is a number and is written otherwise than [`Value::Number`] would be, as `1.10` or `007`: its text.
+    /// It is another value than the number, which [`Value::means`] it all the same.
+    Written(Box<str>),
     /// A word.
     Word(String),
     /// The values of a signal's coordinates.
@@ -21,6 +24,7 @@ impl Value {
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(number) => Some(*number),
+            Value::Written(text) => text.parse().ok(),
             Value::Word(_) | Value::List(_) => None,
         }
     }
@@ -29,7 +33,7 @@ impl Value {
     pub fn word(&self) -> Option<&str> {
         match self {
             Value::Word(word) => Some(word),
-            Value::Number(_) | Value::List(_) => None,
+            Value::Number(_) | Value::Written(..) | Value::List(_) => None,
         }
     }
 
@@ -48,6 +52,30 @@ impl Value {
         number.map_or_else(|| Value::Word(text.to_owned()), Value::Number)
     }
 
+    /// Reads a value as [`Value::parse`] does, and keeps how a number is written:
+    ///
+    /// ```
+    /// use paracosm_coverage::Value;
+    /// assert_eq!(Value::written("1.5"), Value::Number(1.5));
+    /// assert_eq!(Value::written("1.50").to_string(), "1.50");
+    /// assert!(Value::written("1.50").means(&Value::Number(1.5)));
+    /// ```
+    pub fn written(text: &str) -> Self {
+        let text = text.trim();
+        match Self::parse(text) {
+            Value::Number(number) if number.to_string() != text => Value::Written(text.into()),
+            value => value,
+        }
+    }
+
+    /// Whether both are the same number, however they are written, or else the same value.
+    pub fn means(&self, other: &Value) -> bool {
+        match (self.number(), other.number()) {
+            (Some(number), Some(other)) => number == other,
+            _ => self == other,
+        }
+    }
+
     /// The number as an integer, where nothing is lost by that.
     fn whole(number: f64) -> Option<i64> {
         // Beyond 2^53 neighbouring integers share a float; -0 would lose its sign.
@@ -60,6 +88,7 @@ impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Value::Number(number) => write!(f, "{number}"),
+            Value::Written(text) => f.write_str(text),
             Value::Word(word) => f.write_str(word),
             Value::List(values) => {
                 f.write_str("[")?;
@@ -110,6 +139,11 @@ impl Serialize for Value {
             Value::Number(number) => match Value::whole(*number) {
                 Some(integer) => serializer.serialize_i64(integer),
                 None => serializer.serialize_f64(*number),
+            },
+            // How a level is written is said by the space; elsewhere it is the number that is used.
+            Value::Written(text) => match self.number() {
+                Some(number) => Value::Number(number).serialize(serializer),
+                None => serializer.serialize_str(text),
             },
             Value::Word(word) => serializer.serialize_str(word),
             Value::List(values) => values.serialize(serializer),

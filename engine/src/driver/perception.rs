@@ -7,11 +7,12 @@
 //! the car began, which it knows from its own odometry; a straight line through the last few of them by least
 //! squares gives position and velocity now.
 
-use crate::object::{Class, crosses};
+use crate::object::crosses;
 use crate::observation::{Observation, Other};
 use crate::scenario::Pose;
+use crate::sensor::{gaussian, hides};
 use nalgebra::Vector2;
-use rand::{Rng, SeedableRng};
+use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::collections::VecDeque;
 
@@ -123,7 +124,7 @@ impl Perception {
 /// middle.
 pub(super) fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
     let sensor = Vector2::new(front, 0.0);
-    let large = |other: &&Other| matches!(other.class, Class::Car | Class::Truck | Class::Building);
+    let large = |other: &&Other| hides(other.class);
     observation.others.iter().filter(|other| other.id != body.id).filter(large).any(|other| {
         let pose = Pose { position: other.position, heading: other.heading };
         crosses((&other.outline, &pose), sensor, body.position)
@@ -151,12 +152,4 @@ fn fit<'a>(
     let velocity = along / spread;
     let age = now - mean_time;
     Some((mean_position + velocity * age, velocity, age))
-}
-
-/// Two independent standard normal numbers (Box and Muller 1958), from libm so that they are the same everywhere.
-fn gaussian(random: &mut Pcg64) -> Vector2<f64> {
-    // 1 - u is in (0, 1], where the logarithm is finite.
-    let radius = libm::sqrt(-2.0 * libm::log(1.0 - random.random::<f64>()));
-    let (sin, cos) = libm::sincos(std::f64::consts::TAU * random.random::<f64>());
-    Vector2::new(radius * cos, radius * sin)
 }

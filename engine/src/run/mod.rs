@@ -8,6 +8,7 @@
 //! 4. the inputs of the objects are read and everything moves on by `dt`.
 
 mod scene;
+mod sensing;
 
 use crate::driver::Driver;
 use crate::object::BodyState;
@@ -16,6 +17,7 @@ use crate::outcome::{Metric, Outcome};
 use crate::program::{Program, ProgramError, Test};
 use crate::road::{Network, Path, wrapped};
 use crate::scenario::Weather;
+use crate::sensor::Rig;
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::Model;
 use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
@@ -69,6 +71,7 @@ pub struct Run {
     row: Vec<f64>,
     trace: Trace,
     observation: Observation,
+    rig: Rig,
     /// What there is to say of a run that cannot begin.
     unable: Option<Outcome>,
 }
@@ -125,6 +128,7 @@ impl Run {
             columns,
             trace,
             observation: Observation::default(),
+            rig: Rig::default(),
             unable: overlap.or(fault),
             scene,
         })
@@ -133,6 +137,11 @@ impl Run {
     /// What a driver of this run has to know beforehand.
     pub fn briefing(&self) -> Briefing {
         self.scene.ego.briefing()
+    }
+
+    /// The names of the signals that its trace has.
+    pub fn signals(&self) -> &[String] {
+        self.trace.signals()
     }
 
     /// Goes on until the driver is needed or the run is over.
@@ -150,6 +159,7 @@ impl Run {
                     let message = format!("{message} at {:.3} s", self.time());
                     return self.end(Outcome::broken(Verdict::Error, message));
                 }
+                self.sense();
                 if self.scene.contact.is_some() || self.tick == self.ticks {
                     let outcome = self.judged();
                     return self.end(outcome);
@@ -172,6 +182,7 @@ impl Run {
     pub fn supply(&mut self, control: Control) {
         self.scene.ego.control = control;
         self.supplied = true;
+        self.rig.clear();
     }
 
     /// Goes to the end with this driver, which is told that a new run begins.

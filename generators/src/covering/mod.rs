@@ -74,7 +74,9 @@ pub struct CoveringArray {
     /// The positions of existing tests that violate a constraint and so are not among the rows.
     pub invalid: Vec<usize>,
     /// A number of tests below which nothing covers as much: the largest number of valid combinations that some
-    /// parameters have among themselves, any k or those of a group. Those of several kinds of tests are added up.
+    /// parameters have among themselves, any k or those of a group, or what
+    /// [`fewest_rows`](paracosm_coverage::theory::covering::fewest_rows) proves of parameters that no constraint speaks of.
+    /// Those of several kinds of tests are added up.
     pub lower_bound: u64,
 }
 

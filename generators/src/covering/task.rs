@@ -9,6 +9,7 @@ use super::{CoveringError, CoveringRequest, fill, orthogonal};
 use paracosm_coverage::Deadline;
 use paracosm_coverage::demand::Kind;
 use paracosm_coverage::rules::{Companions, Rules};
+use paracosm_coverage::theory::covering::fewest_rows;
 
 /// With so many rows, only one way to begin is tried.
 const MANY_ROWS: usize = 500;
@@ -66,9 +67,16 @@ impl<'a> Task<'a> {
         Self { rules, families, existing: Vec::new(), seed: request.seed }
     }
 
-    /// The largest number of valid combinations that some parameters have among themselves.
+    /// The largest number of valid combinations that some parameters have among themselves, or what theory proves of those
+    /// that no constraint speaks of.
     pub(super) fn lower_bound(&self) -> u128 {
-        self.families.iter().map(|(members, strength)| self.rules.count(members, *strength).largest).fold(0, u128::max)
+        let needed = |(members, strength): &(Vec<usize>, usize)| {
+            let free = members.iter().filter(|&&member| self.rules.group_of(member).is_none());
+            let levels: Vec<usize> = free.map(|&member| self.rules.levels()[member]).collect();
+            let proved = if levels.len() < *strength { 0 } else { fewest_rows(&levels, *strength) };
+            proved.max(self.rules.count(members, *strength).largest)
+        };
+        self.families.iter().map(needed).fold(0, u128::max)
     }
 
     /// The number of valid combinations of all families.

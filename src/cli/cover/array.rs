@@ -3,7 +3,8 @@
 
 use super::{strength, time_limit};
 use crate::Error;
-use crate::cli::Verbosity;
+use crate::cli::interrupt::Interruptible;
+use crate::cli::{Verbosity, complain};
 use crate::coverage::demand::Demand;
 use crate::coverage::{Deadline, Space};
 use crate::generators::GeneratorError;
@@ -29,6 +30,7 @@ impl ArrayOptions {
         mut existing: Vec<Vec<Option<usize>>>,
         verbosity: Verbosity,
     ) -> Result<Vec<Vec<usize>>, Error> {
+        let limit = self.optimise.map(|seconds| time_limit("--optimise", seconds)).transpose()?;
         let (rules, kinds) = (space.rules()?, demand.kinds(space)?);
         let k = self.k.unwrap_or(space.levels().len().min(2));
         for note in strength::pointless(k, &demand.groups, space) {
@@ -43,9 +45,11 @@ impl ArrayOptions {
             seed: self.seed.unwrap_or(0),
             ..CoveringRequest::new(&rules, k)
         };
-        let mut array = covering_array(&request).map_err(GeneratorError::from)?;
-        if let Some(seconds) = self.optimise {
-            let limit = time_limit("--optimise", seconds)?;
+        let bar = spinner(format!("a {k}-wise covering array is being made"), verbosity);
+        let made = covering_array(&request);
+        bar.finish_and_clear();
+        let mut array = made.map_err(GeneratorError::from)?;
+        if let Some(limit) = limit.filter(|_| array.rows.len() as u64 > array.lower_bound) {
             array = smaller(&request, array, limit, verbosity);
         }
         let CoveringArray { rows, kept, invalid, lower_bound } = array;
@@ -77,13 +81,25 @@ impl ArrayOptions {
 }
 
 fn smaller(request: &CoveringRequest, array: CoveringArray, limit: Duration, verbosity: Verbosity) -> CoveringArray {
+    let (rows, bound) = (array.rows.len(), array.lower_bound);
+    let search = Interruptible::new(Deadline::after(limit));
+    let seconds = limit.as_secs_f64();
+    verbosity.note(format_args!("{rows} rows so far; {seconds} s for fewer, of which Ctrl-C keeps the best so far"));
+    let bar = spinner(format!("{rows} rows"), verbosity);
+    let watch = |rows: usize| bar.set_message(format!("{rows} rows, at least {bound} are needed"));
+    let array = optimise(request, array, search.deadline, &watch);
+    bar.finish_and_clear();
+    if search.end() {
+        // What is printed is complete, but with more time it may have been smaller: that has to be known.
+        complain(&"interrupted: this is the smallest array so far");
+    }
+    array
+}
+
+/// What shows that something is being done, with the time it has taken.
+fn spinner(message: String, verbosity: Verbosity) -> ProgressBar {
     let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
     bar.enable_steady_tick(Duration::from_millis(100));
     let style = ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("the template is one");
-    let bar = bar.with_style(style).with_message(format!("{} rows", array.rows.len()));
-    let bound = array.lower_bound;
-    let watch = |rows: usize| bar.set_message(format!("{rows} rows, at least {bound} are needed"));
-    let array = optimise(request, array, Deadline::after(limit), &watch);
-    bar.finish_and_clear();
-    array
+    bar.with_style(style).with_message(message)
 }

@@ -1,8 +1,8 @@
 //! `paracosm-cover estimate`: how well tests cover their space.
 
-use super::space_file::SpaceFile;
 use super::{certificate, open_loop, strength, time_limit};
 use crate::cli::output::{Format, Table, json, short_bracket};
+use crate::cli::space_file::SpaceFile;
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::{Bracket, Parameter, Space};
 use crate::generators::Request;

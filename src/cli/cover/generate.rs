@@ -1,10 +1,11 @@
 //! `paracosm-cover generate`: tests by a strategy, as CSV.
 
 use super::array::ArrayOptions;
-use super::space_file::SpaceFile;
 use super::{open_loop, strength, time_limit};
+use crate::cli::interrupt::Interruptible;
 use crate::cli::output::digits;
 use crate::cli::sampling::Sampling;
+use crate::cli::space_file::SpaceFile;
 use crate::cli::{Failure, Verbosity, complain};
 use crate::coverage::demand::Demand;
 use crate::coverage::kwise::KwiseError;
@@ -126,7 +127,8 @@ impl Options {
             None => DEFAULT_BUDGET,
         };
         let is_random = matches!(request.discrete, DiscreteFamily::Random { .. });
-        let deadline = if self.sampling.epsilon.is_some() { Deadline::after(limit) } else { Deadline::never() };
+        let search = self.sampling.epsilon.map(|_| Interruptible::new(Deadline::after(limit)));
+        let deadline = search.as_ref().map_or(Deadline::never(), |search| search.deadline);
         let request = Request { rows: rows.as_deref(), deadline, ..request };
         let generator = strategy.build(&request).map_err(Error::from)?;
         let mut points = existing.clone();
@@ -136,6 +138,7 @@ impl Options {
             }
         })?;
         let ran_out = written < most && deadline.passed();
+        let interrupted = search.is_some_and(Interruptible::end);
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
         verbosity.note(format_args!("{written} tests{by}{}", after.unwrap_or_default()));
@@ -147,7 +150,9 @@ impl Options {
         if let Some(epsilon) = self.sampling.epsilon {
             if ran_out {
                 // The set is not what was asked for: that has to be known.
-                complain(&format_args!("the time limit of {} s came before epsilon {epsilon}", limit.as_secs_f64()));
+                let seconds = limit.as_secs_f64();
+                let what = if interrupted { "an interrupt" } else { &format!("the time limit of {seconds} s") };
+                complain(&format_args!("{what} came before epsilon {epsilon}"));
             }
             verbosity.note(reached(&tests)?);
         }

@@ -6,7 +6,6 @@ mod compare;
 mod estimate;
 mod generate;
 mod plan;
-mod space_file;
 mod strength;
 
 use super::{Failure, Verbosity};

@@ -1,8 +1,8 @@
 //! `paracosm-cover plan`: how many tests each guarantee asks for.
 
-use super::space_file::SpaceFile;
 use super::{strength, time_limit};
 use crate::cli::output::{Format, Table, json};
+use crate::cli::space_file::SpaceFile;
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::Space;
 use crate::coverage::demand::Demand;

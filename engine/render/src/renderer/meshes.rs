@@ -141,9 +141,8 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
         });
         let speaker = &mut corners[turned[0] as usize];
         let Vertex { surface, semantic, .. } = mesh.vertices()[a as usize];
-        let face = face(triangle.iter().map(|corner| Vector3::from(mesh.vertices()[*corner as usize].position)));
         // A triangle without an area has no pixels; it only must not be anything else.
-        speaker.face = face.unwrap_or_default().into();
+        speaker.face = face(mesh, triangle).unwrap_or_default().into();
         speaker.kind = [surface as u8, semantic as u8, 0, 0];
         free[turned[0] as usize] = false;
         triangles.push((Finish::of(surface), turned));
@@ -163,9 +162,9 @@ fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 3]) {
 }
 
 /// The unit normal of a triangle, if it has an area.
-fn face(mut corners: impl Iterator<Item = Vector3<f32>>) -> Option<Vector3<f32>> {
-    let mut next = || corners.next().map(|corner| corner.cast::<f64>());
-    let (a, b, c) = (next()?, next()?, next()?);
+fn face(mesh: &Mesh, triangle: &[u32]) -> Option<Vector3<f32>> {
+    let corner = |index: usize| Vector3::from(mesh.vertices()[triangle[index] as usize].position).cast::<f64>();
+    let (a, b, c) = (corner(0), corner(1), corner(2));
     Some((b - a).cross(&(c - a)).try_normalize(0.0)?.cast())
 }
 

@@ -4,6 +4,7 @@
 //! layers take turns. Which views share a batch makes no difference to any of them.
 
 mod adapter;
+mod deal;
 mod inside;
 mod meshes;
 mod pipelines;
@@ -17,19 +18,14 @@ mod tests;
 
 pub use adapter::{Adapter, adapter};
 
-use crate::{Camera, Frame, Outputs, RenderError, View, ViewError};
+use crate::{Frame, Outputs, RenderError, View, ViewError};
 use adapter::Gpu;
+use deal::{Hand, Layer, deal};
 use meshes::{Finish, Meshes};
 use pipelines::Pipelines;
 use prepare::{Draw, Prepared, prepare};
 use raw::RawView;
 use targets::{Format, Targets, cleared, view_stride};
-
-/// The most views in a batch.
-const MOST_LAYERS: usize = 64;
-/// The most bytes that are read back of a batch of more than one view. With as much on the adapter's side, and two
-/// batches under way, it bounds the memory that images take.
-const MOST_BYTES: u64 = 48 << 20;
 
 /// Draws what cameras see.
 ///
@@ -48,8 +44,7 @@ pub struct Renderer {
 struct Batch<'a> {
     targets: Targets,
     submission: wgpu::SubmissionIndex,
-    /// Of each layer which of the views it is, with what it is seen, and how it was made ready.
-    layers: Vec<(usize, &'a Camera, Prepared)>,
+    layers: Vec<Layer<'a>>,
 }
 
 impl Renderer {
@@ -84,13 +79,13 @@ impl Renderer {
         let mut ready = Vec::with_capacity(views.len());
         for (index, view) in views.iter().enumerate() {
             match self.prepare(view, wanted) {
-                Ok(prepared) => ready.push((index, view.camera, prepared)),
+                Ok(prepared) => ready.push(Layer { index, camera: view.camera, prepared }),
                 Err(error) => frames[index] = Some(Err(error)),
             }
         }
         let mut under_way = None;
-        for (format, layers) in batches(ready, wanted, self.gpu.limits.max_texture_array_layers as usize) {
-            let batch = self.submit(format, layers);
+        for hand in deal(ready, wanted, self.gpu.limits.max_texture_array_layers as usize) {
+            let batch = self.submit(hand);
             if let Some(before) = under_way.replace(batch) {
                 self.collect(before, &mut frames)?;
             }
@@ -106,7 +101,7 @@ impl Renderer {
         let prepared = prepare(&self.gpu, &mut self.meshes, view, wanted)?;
         let format = Format { width: view.camera.width(), height: view.camera.height(), wanted };
         let limits = &self.gpu.limits;
-        let masks = format.pixels() * u64::from(prepared.words()) * 4;
+        let masks = format.mask_bytes(prepared.words());
         let limit = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
         let taken = [
             ("what is read back of the view", format.bytes(), limits.max_buffer_size),
@@ -119,14 +114,15 @@ impl Renderer {
     }
 
     /// Sends a batch to the adapter.
-    fn submit<'a>(&mut self, format: Format, mut layers: Vec<(usize, &'a Camera, Prepared)>) -> Batch<'a> {
+    fn submit<'a>(&mut self, hand: Hand<'a>) -> Batch<'a> {
+        let Hand { format, mut layers, .. } = hand;
         let mut targets = self.targets(format, layers.len() as u32);
         let mut words = 0;
         let mut instances = Vec::new();
         let mut first_instances = Vec::new();
         let stride = view_stride(&self.gpu) as usize;
         let mut uniforms = vec![0; stride * layers.len()];
-        for (layer, (_, _, prepared)) in layers.iter_mut().enumerate() {
+        for (layer, Layer { prepared, .. }) in layers.iter_mut().enumerate() {
             prepared.raw.counts[0] = words;
             prepared.raw.counts[1] = prepared.words();
             words += format.pixels() as u32 * prepared.words();
@@ -142,7 +138,7 @@ impl Renderer {
         if let Some(masks) = &targets.masks {
             encoder.clear_buffer(&masks.words, 0, None);
         }
-        for (layer, (_, _, prepared)) in layers.iter().enumerate() {
+        for (layer, Layer { prepared, .. }) in layers.iter().enumerate() {
             self.encode(&mut encoder, &targets, layer as u32, prepared, first_instances[layer]);
         }
         targets.copy(&mut encoder, layers.len() as u32);
@@ -232,7 +228,7 @@ impl Renderer {
         self.gpu.wait(wait)?;
         let unread = |error: wgpu::MapRangeError| RenderError::Failed(error.to_string());
         let format = targets.format;
-        let cameras: Vec<_> = layers.iter().map(|(_, camera, _)| *camera).collect();
+        let cameras: Vec<_> = layers.iter().map(|layer| layer.camera).collect();
         let mut read = read::frames(format, &targets.readback.slice(..).get_mapped_range().map_err(unread)?, &cameras);
         targets.readback.unmap();
         if format.wanted.alone {
@@ -240,16 +236,16 @@ impl Renderer {
         }
         if let Some(masks) = &targets.masks {
             let words = masks.readback.slice(..).get_mapped_range().map_err(unread)?;
-            for (frame, (_, _, prepared)) in read.iter_mut().zip(&layers).filter(|(_, layer)| layer.2.words() > 0) {
-                let words_here = format.pixels() as usize * prepared.words() as usize;
-                let words = &words[prepared.raw.counts[0] as usize * 4..][..words_here * 4];
+            for (frame, Layer { prepared, .. }) in read.iter_mut().zip(&layers) {
+                let bytes = format.mask_bytes(prepared.words()) as usize;
+                let words = &words[prepared.raw.counts[0] as usize * 4..][..bytes];
                 frame.alone = Some(read::alone(format, words, &prepared.bits));
             }
             drop(words);
             masks.readback.unmap();
         }
-        for ((index, _, _), frame) in layers.iter().zip(read) {
-            frames[*index] = Some(Ok(frame));
+        for (layer, frame) in layers.iter().zip(read) {
+            frames[layer.index] = Some(Ok(frame));
         }
         if self.idle.len() >= MOST_IDLE {
             self.idle.remove(0);
@@ -272,27 +268,3 @@ impl Renderer {
 
 /// How many sets of layers wait for another batch of their kind: two of each of two kinds.
 const MOST_IDLE: usize = 4;
-
-/// Deals views out to batches: of one size each, and not too many.
-fn batches(
-    ready: Vec<(usize, &Camera, Prepared)>,
-    wanted: Outputs,
-    most_layers: usize,
-) -> Vec<(Format, Vec<(usize, &Camera, Prepared)>)> {
-    let mut batches: Vec<(Format, u64, Vec<_>)> = Vec::new();
-    for (index, camera, prepared) in ready {
-        let format = Format { width: camera.width(), height: camera.height(), wanted };
-        let bytes = format.bytes() + format.pixels() * u64::from(prepared.words()) * 4;
-        let has_room = |(of, taken, layers): &&mut (Format, u64, Vec<_>)| {
-            *of == format && taken + bytes <= MOST_BYTES && layers.len() < MOST_LAYERS.min(most_layers)
-        };
-        match batches.iter_mut().rev().find(has_room) {
-            Some((_, taken, layers)) => {
-                *taken += bytes;
-                layers.push((index, camera, prepared));
-            }
-            None => batches.push((format, bytes, vec![(index, camera, prepared)])),
-        }
-    }
-    batches.into_iter().map(|(format, _, layers)| (format, layers)).collect()
-}

@@ -1,7 +1,7 @@
 //! Spaces as files: SPACE.toml, or a model file of PICT wherever one is read.
 
+use super::Verbosity;
 use crate::Error;
-use crate::cli::Verbosity;
 use crate::coverage::demand::Demand;
 use crate::coverage::pict::Model;
 use crate::coverage::{Space, SpaceError};
@@ -21,7 +21,12 @@ pub(super) struct SpaceFile {
 
 impl SpaceFile {
     pub fn read(path: &Path, verbosity: Verbosity) -> Result<Self, Error> {
-        let text = fs::read_to_string(path).map_err(Error::file("read", path))?;
+        let text = String::from_utf8(fs::read(path).map_err(Error::file("read", path))?);
+        let text = text.map_err(|error| {
+            let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
+            Error::content(path, line, "found bytes that are no UTF-8, expected a text in UTF-8")
+        })?;
         if path
             .extension()
             .and_then(OsStr::to_str)

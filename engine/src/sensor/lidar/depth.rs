@@ -1,0 +1,92 @@
+//! A LiDAR from a rendered picture: what its beams hit is read from the distances that a camera at its place sees.
+
+use super::{Beam, Point, Scan};
+use crate::sensor::SensorError;
+use crate::sensor::error::Checks;
+use nalgebra::Vector3;
+
+/// A camera without distortion that looks ahead.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pinhole {
+    /// Columns and rows of its pictures.
+    pub size: [usize; 2],
+    /// Focal lengths in pixels, across and down.
+    pub focal: [f64; 2],
+    /// Where ahead is in the picture, in pixels from the upper left corner: a pixel's middle is half a pixel from its edge.
+    pub centre: [f64; 2],
+}
+
+impl Pinhole {
+    /// A camera with square pixels, whose pictures of this size have this opening angle across, in radians.
+    pub fn new(size: [usize; 2], opening: f64) -> Self {
+        let [width, height] = size.map(|pixels| pixels as f64);
+        let focal = 0.5 * width / libm::tan(0.5 * opening);
+        Self { size, focal: [focal, focal], centre: [0.5 * width, 0.5 * height] }
+    }
+
+    fn check(&self) -> Result<(), SensorError> {
+        let checks = Checks("depth camera");
+        for (axis, setting) in ["0", "1"].into_iter().enumerate().map(|(axis, name)| (axis, format!("[{name}]"))) {
+            checks.counts(&format!("size{setting}"), self.size[axis], (1, 100_000))?;
+            checks.within(&format!("focal{setting}"), self.focal[axis], (1e-3, 1e6), "px")?;
+            checks.within(&format!("centre{setting}"), self.centre[axis], (-1e6, 1e6), "px")?;
+        }
+        Ok(())
+    }
+
+    /// Column and row of the pixel that sees what lies in this direction (x ahead, y to the left, z up), if there is one.
+    fn pixel(&self, direction: Vector3<f64>) -> Option<[usize; 2]> {
+        if direction.x <= 0.0 {
+            return None;
+        }
+        let across = self.centre[0] - self.focal[0] * direction.y / direction.x;
+        let down = self.centre[1] - self.focal[1] * direction.z / direction.x;
+        let inside = |at: f64, size: usize| (0.0..size as f64).contains(&at).then_some(at as usize);
+        Some([inside(across, self.size[0])?, inside(down, self.size[1])?])
+    }
+
+    /// The unit vector through the middle of a pixel.
+    fn direction(&self, [column, row]: [usize; 2]) -> Vector3<f64> {
+        let left = (self.centre[0] - (column as f64 + 0.5)) / self.focal[0];
+        let up = (self.centre[1] - (row as f64 + 0.5)) / self.focal[1];
+        Vector3::new(1.0, left, up).normalize()
+    }
+}
+
+/// What a LiDAR at the place of a camera sees by the camera's depth image, without noise: `depth` has the distance in metres
+/// from the camera to what each pixel sees (not its share ahead), row by row from the upper left corner, and something above
+/// `range` or no number where there is nothing. The intensity falls with `fading`, in 1/m.
+///
+/// A beam gets the point in the middle of the pixel that it falls in. So points are on the surfaces as exactly as the
+/// distances are, and their directions are off by half of a pixel's at most. Beams out of the picture see nothing.
+///
+/// # Errors
+/// The camera cannot be, the image does not have its size, the range is none or the fading is no number from 0 on.
+pub fn scan_of_depth(
+    camera: &Pinhole,
+    depth: &[f32],
+    beams: impl IntoIterator<Item = Beam>,
+    range: f64,
+    fading: f64,
+    scan: &mut Scan,
+) -> Result<(), SensorError> {
+    camera.check()?;
+    let checks = Checks("lidar");
+    checks.range(range)?;
+    checks.within("fading", fading, (0.0, 100.0), "1/m")?;
+    let [width, height] = camera.size;
+    if depth.len() != width * height {
+        return Err(SensorError::WrongSize { found: depth.len(), size: (width, height) });
+    }
+    scan.points.clear();
+    scan.points.extend(beams.into_iter().filter_map(|beam| {
+        let [column, row] = camera.pixel(beam.direction())?;
+        let distance = f64::from(depth[row * width + column]);
+        (0.0..=range).contains(&distance).then(|| Point {
+            position: (camera.direction([column, row]) * distance).cast(),
+            intensity: libm::exp(-fading * distance) as f32,
+            id: 0,
+        })
+    }));
+    Ok(())
+}

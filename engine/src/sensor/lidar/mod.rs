@@ -1,0 +1,211 @@
+//! A scanning LiDAR: rings of beams around the car, and what they hit.
+//!
+//! Bodies are upright boxes and cylinders from where they stand to their height, the ground is flat. A scan is taken at one
+//! moment: the car does not move while the beams go round. The car that carries the sensor is not hit.
+//!
+//! What comes back has the intensity exp(-(a + 2 β) d) at the distance d, where a is the attenuation of clear air and β the
+//! extinction of the fog, which light passes on its way there and back. Weak echoes are lost: none from `sure` on, and below
+//! it the more the weaker, up to all of those of which nothing is left. Surfaces are all alike.
+//!
+//! The beams are cast in 64 bits ([`scanner`]), not by parry, which computes in 32. Measured over a million beams each at
+//! 10, 50, 100 and 200 m that end in a body: parry's boxes are off by 0.18 mm at most, but without a bound where a beam
+//! grazes a face; its cylinders, which it finds by iteration, are off by up to 0.44 m, in one of 1,500 hits by more than
+//! 1 mm, and take 4 µs a beam.
+
+mod depth;
+mod scanner;
+
+pub use depth::{Pinhole, scan_of_depth};
+
+use super::error::{Checks, SensorError};
+use super::{Chance, Mount, Sensor, View};
+use nalgebra::{Vector2, Vector3};
+use scanner::Scanner;
+
+/// The steepest beam in radians, up or down: 85 degrees.
+const STEEPEST: f64 = 1.483_529_864_195_180_3;
+
+/// A LiDAR, not checked yet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LidarSettings {
+    /// Where its middle is, and where its first column of beams looks.
+    pub mount: Mount,
+    /// Seconds of one turn: between two scans.
+    pub period: f64,
+    /// How many beams are one above the other.
+    pub channels: usize,
+    /// Where the lowest channel looks, in radians above the horizon. A single channel looks half way to the highest.
+    pub lowest: f64,
+    /// Where the highest channel looks, in radians above the horizon; those in between are evenly spaced.
+    pub highest: f64,
+    /// How many times in a turn each channel fires.
+    pub columns: usize,
+    /// Metres up to which it measures.
+    pub range: f64,
+    /// Standard deviation of a distance in metres.
+    pub noise: f64,
+    /// By how much the intensity falls in clear air, in 1/m.
+    pub attenuation: f64,
+    /// The intensity from which on no echo is lost; below, as many are lost as are missing to it in proportion.
+    pub sure: f64,
+    /// The probability that an echo is lost whatever its intensity.
+    pub loss: f64,
+}
+
+impl Default for LidarSettings {
+    /// The channels, field, rate and attenuation of the LiDAR of CARLA (32 from -30 to 10 degrees, ten turns a second,
+    /// 0.004 /m) on a roof, with 1,800 columns, a range of 100 m and a noise of 2 cm.
+    fn default() -> Self {
+        Self {
+            mount: Mount::above(2.0),
+            period: 0.1,
+            channels: 32,
+            lowest: -30_f64.to_radians(),
+            highest: 10_f64.to_radians(),
+            columns: 1800,
+            range: 100.0,
+            noise: 0.02,
+            attenuation: 0.004,
+            sure: 0.8,
+            loss: 0.0,
+        }
+    }
+}
+
+/// Where a beam goes as seen from the sensor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// Radians counter-clockwise from ahead.
+    pub azimuth: f64,
+    /// Radians above the horizon.
+    pub elevation: f64,
+}
+
+impl Beam {
+    /// The unit vector along it: x ahead, y to the left, z up.
+    pub fn direction(&self) -> Vector3<f64> {
+        let (sin, cos) = libm::sincos(self.azimuth);
+        let (up, along) = libm::sincos(self.elevation);
+        Vector3::new(along * cos, along * sin, up)
+    }
+}
+
+/// A place from which an echo came.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Point {
+    /// Where it is as seen from the sensor: x ahead, y to the left, z up, in metres.
+    pub position: Vector3<f32>,
+    /// How strong the echo is, from 0 to 1.
+    pub intensity: f32,
+    /// What it truly is of: 0 for the ground or where that is not known, else one more than the index of the body.
+    pub id: u32,
+}
+
+/// A turn of a LiDAR.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Scan {
+    /// The echoes, column by column from ahead counter-clockwise, and in each from the lowest channel up.
+    pub points: Vec<Point>,
+}
+
+impl Scan {
+    /// The points as the KITTI data sets have them: x, y, z and intensity of each as little-endian 32-bit floats.
+    pub fn to_kitti(&self) -> Vec<u8> {
+        let numbers = self.points.iter().flat_map(|point| {
+            let [x, y, z] = point.position.into();
+            [x, y, z, point.intensity]
+        });
+        numbers.flat_map(f32::to_le_bytes).collect()
+    }
+}
+
+/// A LiDAR.
+#[derive(Debug, Clone)]
+pub struct Lidar {
+    settings: LidarSettings,
+    scanner: Scanner,
+}
+
+impl Lidar {
+    /// A LiDAR with these settings.
+    ///
+    /// # Errors
+    /// A setting is out of its range or no number, or the lowest of several channels is not below the highest.
+    pub fn new(settings: LidarSettings) -> Result<Self, SensorError> {
+        let checks = Checks("lidar");
+        settings.mount.check(&checks)?;
+        checks.period(settings.period)?;
+        checks.counts("channels", settings.channels, (1, 512))?;
+        checks.counts("columns", settings.columns, (1, 36_000))?;
+        checks.within("lowest", settings.lowest, (-STEEPEST, STEEPEST), "rad")?;
+        checks.within("highest", settings.highest, (-STEEPEST, STEEPEST), "rad")?;
+        checks.range(settings.range)?;
+        checks.within("noise", settings.noise, (0.0, 100.0), "m")?;
+        checks.within("attenuation", settings.attenuation, (0.0, 100.0), "1/m")?;
+        checks.within("sure", settings.sure, (0.0, 1.0), "")?;
+        checks.within("loss", settings.loss, (0.0, 1.0), "")?;
+        let LidarSettings { lowest, highest, channels, .. } = settings;
+        if channels > 1 && lowest >= highest {
+            return Err(SensorError::EmptyField { sensor: "lidar".to_owned(), lowest, highest });
+        }
+        let elevations: Vec<f64> = (0..channels).map(|channel| elevation(&settings, channel)).collect();
+        Ok(Self { scanner: Scanner::new(settings.columns, &elevations), settings })
+    }
+
+    /// Where its beams go, in the order in which a scan has its points.
+    pub fn beams(&self) -> impl Iterator<Item = Beam> + use<'_> {
+        let azimuth = |column| scanner::azimuth(column, self.settings.columns);
+        let column = move |column| {
+            let beam = move |channel| Beam { azimuth: azimuth(column), elevation: elevation(&self.settings, channel) };
+            (0..self.settings.channels).map(beam)
+        };
+        (0..self.settings.columns).flat_map(column)
+    }
+
+    /// How likely an echo of this intensity is lost.
+    fn loss(&self, intensity: f64) -> f64 {
+        let LidarSettings { sure, loss, .. } = self.settings;
+        let weak = if intensity < sure { 1.0 - intensity / sure } else { 0.0 };
+        1.0 - (1.0 - loss) * (1.0 - weak)
+    }
+}
+
+/// Where a channel looks, in radians above the horizon.
+fn elevation(settings: &LidarSettings, channel: usize) -> f64 {
+    let share = if settings.channels == 1 { 0.5 } else { channel as f64 / (settings.channels - 1) as f64 };
+    settings.lowest + share * (settings.highest - settings.lowest)
+}
+
+impl Sensor for Lidar {
+    type Reading = Scan;
+
+    fn period(&self) -> f64 {
+        self.settings.period
+    }
+
+    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Scan) {
+        let LidarSettings { mount, range, noise, attenuation, .. } = self.settings;
+        let sensor = mount.pose(view.car);
+        self.scanner.begin(mount.position.z, range);
+        for (index, state) in view.others() {
+            self.scanner.add(index as u32 + 1, state, &sensor);
+        }
+        let fading = attenuation + 2.0 * view.air.extinction;
+        reading.points.clear();
+        for echo in self.scanner.echoes() {
+            // Drawn for every beam, so that what is hit does not shift the noise of the others.
+            let (luck, noise) = (chance.unit(), noise * chance.normal());
+            let intensity = libm::exp(-fading * echo.distance);
+            if echo.distance <= range && luck >= self.loss(intensity) {
+                let position = echo.direction * (echo.distance + noise).max(0.0);
+                reading.points.push(Point { position: position.cast(), intensity: intensity as f32, id: echo.id });
+            }
+        }
+    }
+}
+
+/// The unit vector in the plane at an angle.
+fn unit(angle: f64) -> Vector2<f64> {
+    let (sin, cos) = libm::sincos(angle);
+    Vector2::new(cos, sin)
+}

@@ -1,0 +1,109 @@
+//! Sensors other than cameras: what a car measures of a world, with the noise and the gaps that sensors have.
+//!
+//! A [`Sensor`] turns a [`View`], all that there is to know at one moment, into a reading. [`Lidar`], [`Radar`], [`Gnss`],
+//! [`Imu`] and [`GroundTruth`] come with the engine; users implement the trait for their own. A [`Rig`] holds the sensors of
+//! a car: it lets each measure when its period has passed, and hands its readings out after their latency, but for those
+//! that are lost. [`Run::equip`](crate::Run::equip) gives a run a rig.
+//!
+//! All chance comes from a [`Chance`] that the rig makes anew for every reading, from its seed, the name of the sensor and
+//! the number of the reading. What one sensor draws therefore moves nothing in another, nor in its own next reading.
+//!
+//! ```
+//! use paracosm_engine::sensor::{Delivery, Imu, ImuSettings, Radar, RadarSettings, Rig};
+//! use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Run, Scenario, Setup, driver};
+//!
+//! fn empty_road(s: &mut Scenario) {
+//!     let road = s.place(RoadSegment::new(300.0));
+//!     s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+//!     s.duration(1.0);
+//! }
+//!
+//! let mut rig = Rig::new(7);
+//! let radar = rig.attach("front radar", Radar::new(RadarSettings::default())?, Delivery::after(0.05))?;
+//! let imu = rig.attach("imu", Imu::new(ImuSettings::default())?, Delivery::default())?;
+//!
+//! let program = Program { name: "empty-road", about: "a car alone", build: empty_road };
+//! let test = program.declare()?.nominal();
+//! let mut run = Run::new(&program, &test, Setup::asking_every(0.1))?;
+//! run.equip(rig);
+//! let mut turning = Vec::new();
+//! run.watch(driver::find("cruise")?.build(&[])?.as_mut(), |run| {
+//!     turning.extend(run.rig().arrived(&imu).iter().map(|sample| sample.reading.yaw_rate));
+//! });
+//! assert_eq!(turning.len(), 101);
+//! assert!(run.rig().latest(&radar).is_some_and(|sweep| sweep.time < 1.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod air;
+mod chance;
+mod drift;
+mod error;
+mod gnss;
+mod imu;
+mod lidar;
+mod mount;
+mod radar;
+mod rig;
+mod sight;
+mod truth;
+
+pub use air::Air;
+pub use chance::Chance;
+pub use drift::Inaccuracy;
+pub use error::SensorError;
+pub use gnss::{Fix, Gnss, GnssSettings};
+pub use imu::{Imu, ImuSettings, Inertia};
+pub use lidar::{Beam, Lidar, LidarSettings, Pinhole, Point, Scan, scan_of_depth};
+pub use mount::Mount;
+pub use radar::{Detection, Radar, RadarSettings};
+pub use rig::{Delivery, Handle, Rig, Sample};
+pub use truth::{GroundTruth, GroundTruthSettings, TrueBody};
+
+pub(crate) use chance::gaussian;
+pub(crate) use sight::hides;
+
+use crate::object::BodyState;
+use crate::road::Network;
+use crate::vehicle::VehicleState;
+
+/// What measures something of the world around a car, or of the car itself.
+pub trait Sensor: Send + 'static {
+    /// What it measures at one moment. A rig uses the same ones again and again.
+    type Reading: Default + Send + 'static;
+
+    /// Seconds between two readings.
+    fn period(&self) -> f64;
+
+    /// Forgets everything: a new run begins.
+    fn reset(&mut self) {}
+
+    /// Measures: writes to `reading` what there is to see, over what was left there by an earlier reading. All its noise
+    /// is drawn from `chance`.
+    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Self::Reading);
+}
+
+/// All that a sensor can know of a moment.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// Seconds since the run began.
+    pub time: f64,
+    /// The car that carries the sensor.
+    pub car: &'a VehicleState,
+    /// All bodies, that of the car first.
+    pub bodies: &'a [BodyState],
+    /// The roads.
+    pub network: &'a Network,
+    /// Light and fog.
+    pub air: Air,
+}
+
+impl<'a> View<'a> {
+    /// The bodies that are in the world, but for the car, each with its index among all.
+    pub fn others(&self) -> impl Iterator<Item = (usize, &'a BodyState)> + use<'a> {
+        self.bodies.iter().enumerate().skip(1).filter(|(_, body)| body.present)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,200 @@
+//! An automotive radar, as the list of its detections.
+//!
+//! A body answers with its nearest point. How likely it is detected follows from the radar equation: the signal-to-noise
+//! ratio falls with the fourth power of the distance and rises with the radar cross-section, and a fluctuating target
+//! (Swerling I, a single look) is detected with the probability P_fa^(1 / (1 + SNR)) (Richards, Fundamentals of Radar Signal
+//! Processing, section 6.3). What stands behind something large is not seen. Fog does nothing to the wavelengths of radars;
+//! there are no multiple reflections.
+
+use super::error::{Checks, SensorError};
+use super::sight::hidden;
+use super::{Chance, Mount, Sensor, View};
+use crate::object::{BodyState, Class, Outline};
+use crate::road::wrapped;
+use nalgebra::Vector2;
+use std::f64::consts::{FRAC_PI_3, LN_2, TAU};
+
+/// The logarithm of the probability that noise alone passes for an echo, 1e-6.
+const LN_FALSE_ALARM: f64 = -13.815_510_557_964_274;
+
+/// A radar, not checked yet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RadarSettings {
+    /// Where its antenna is.
+    pub mount: Mount,
+    /// Seconds between two sweeps.
+    pub period: f64,
+    /// Metres up to which it measures.
+    pub range: f64,
+    /// Opening angle in radians.
+    pub field_of_view: f64,
+    /// The distance in metres at which a car is detected in half of the sweeps.
+    pub half_range: f64,
+    /// Standard deviation of a range in metres.
+    pub range_noise: f64,
+    /// Standard deviation of a range rate in m/s.
+    pub range_rate_noise: f64,
+    /// Standard deviation of an azimuth in radians.
+    pub azimuth_noise: f64,
+    /// False detections in a sweep, in the mean: anywhere in the field, as many at any range.
+    pub clutter: f64,
+    /// The greatest range rate of a false detection in m/s, either way.
+    pub clutter_range_rate: f64,
+}
+
+impl Default for RadarSettings {
+    /// A long-range radar in the front bumper: twenty sweeps a second, 60 degrees, a car at 160 m in half of the sweeps, and a
+    /// false detection in two sweeps.
+    fn default() -> Self {
+        Self {
+            mount: Mount::ahead(2.25, 0.5),
+            period: 0.05,
+            range: 200.0,
+            field_of_view: FRAC_PI_3,
+            half_range: 160.0,
+            range_noise: 0.2,
+            range_rate_noise: 0.1,
+            azimuth_noise: 0.005,
+            clutter: 0.5,
+            clutter_range_rate: 30.0,
+        }
+    }
+}
+
+/// A place from which a radar believes to have an echo.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Detection {
+    /// How far away it is, in metres.
+    pub range: f64,
+    /// How fast that grows, in m/s: negative for what comes closer.
+    pub range_rate: f64,
+    /// Where it is, in radians counter-clockwise from where the radar looks.
+    pub azimuth: f64,
+    /// What it truly is of: the index of a body, or nothing. No radar knows this; it is there to be compared with.
+    pub body: Option<usize>,
+}
+
+/// A radar. Its reading are the detections of a sweep: those of bodies, then clutter.
+#[derive(Debug, Clone)]
+pub struct Radar {
+    settings: RadarSettings,
+}
+
+impl Radar {
+    /// A radar with these settings.
+    ///
+    /// # Errors
+    /// A setting is out of its range or no number.
+    pub fn new(settings: RadarSettings) -> Result<Self, SensorError> {
+        let checks = Checks("radar");
+        settings.mount.check(&checks)?;
+        checks.period(settings.period)?;
+        checks.range(settings.range)?;
+        checks.within("field_of_view", settings.field_of_view, (1e-3, TAU), "rad")?;
+        checks.within("half_range", settings.half_range, (0.1, 10_000.0), "m")?;
+        checks.within("range_noise", settings.range_noise, (0.0, 100.0), "m")?;
+        checks.within("range_rate_noise", settings.range_rate_noise, (0.0, 100.0), "m/s")?;
+        checks.within("azimuth_noise", settings.azimuth_noise, (0.0, 1.0), "rad")?;
+        checks.within("clutter", settings.clutter, (0.0, 10_000.0), "")?;
+        checks.within("clutter_range_rate", settings.clutter_range_rate, (0.0, 1000.0), "m/s")?;
+        Ok(Self { settings })
+    }
+
+    /// How likely a sweep detects a body of this class at this distance in metres, if nothing hides it.
+    pub fn probability(&self, class: Class, range: f64) -> f64 {
+        let nearer = self.settings.half_range / range;
+        // At the half range a car has the ratio that makes one half of the formula.
+        let at_half = -LN_FALSE_ALARM / LN_2 - 1.0;
+        let ratio = at_half * (cross_section(class) / cross_section(Class::Car)) * (nearer * nearer * nearer * nearer);
+        libm::exp(LN_FALSE_ALARM / (1.0 + ratio))
+    }
+
+    /// What there is to measure of a body, if it is in the field and not hidden.
+    fn echo(&self, view: &View<'_>, index: usize, state: &BodyState) -> Option<Detection> {
+        let RadarSettings { mount, range, field_of_view, .. } = self.settings;
+        let pose = mount.pose(view.car);
+        let nearest = nearest(state, pose.position);
+        let seen = pose.to_local(nearest);
+        let (distance, azimuth) = (seen.norm(), libm::atan2(seen.y, seen.x));
+        let in_field = distance > 0.0 && distance <= range && azimuth.abs() <= 0.5 * field_of_view;
+        if !in_field || hidden(view.bodies, index, pose.position, nearest) {
+            return None;
+        }
+        let relative = state.velocity - mount.velocity(view.car);
+        let range_rate = relative.dot(&(nearest - pose.position)) / distance;
+        Some(Detection { range: distance, range_rate, azimuth, body: Some(index) })
+    }
+
+    fn clutter(&self, chance: &mut Chance) -> Detection {
+        let RadarSettings { range, field_of_view, clutter_range_rate, .. } = self.settings;
+        Detection {
+            range: chance.between(0.0, range),
+            range_rate: chance.between(-clutter_range_rate, clutter_range_rate),
+            azimuth: chance.between(-0.5 * field_of_view, 0.5 * field_of_view),
+            body: None,
+        }
+    }
+}
+
+impl Sensor for Radar {
+    type Reading = Vec<Detection>;
+
+    fn period(&self) -> f64 {
+        self.settings.period
+    }
+
+    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Vec<Detection>) {
+        reading.clear();
+        let RadarSettings { range_noise, range_rate_noise, azimuth_noise, .. } = self.settings;
+        // Drawn for all bodies, so that what is out of sight does not shift the noise of what is seen.
+        for (index, state) in view.bodies.iter().enumerate().skip(1) {
+            let luck = chance.unit();
+            let noise = [chance.normal(), chance.normal(), chance.normal()];
+            if !state.present {
+                continue;
+            }
+            let Some(echo) = self.echo(view, index, state) else { continue };
+            if luck < self.probability(state.body.class, echo.range) {
+                reading.push(Detection {
+                    range: (echo.range + noise[0] * range_noise).max(0.0),
+                    range_rate: echo.range_rate + noise[1] * range_rate_noise,
+                    azimuth: wrapped(echo.azimuth + noise[2] * azimuth_noise),
+                    ..echo
+                });
+            }
+        }
+        let clutter = chance.poisson(self.settings.clutter);
+        reading.extend((0..clutter).map(|_| self.clutter(chance)));
+    }
+}
+
+/// The radar cross-section in m² of a body of this class at 77 GHz: the order of magnitude of what is measured in the mean
+/// over all aspects.
+fn cross_section(class: Class) -> f64 {
+    match class {
+        Class::Car => 10.0,
+        Class::Truck => 50.0,
+        Class::Bicycle => 2.0,
+        Class::Pedestrian => 0.5,
+        Class::Building => 100.0,
+        Class::Tree => 1.0,
+        Class::Sign => 5.0,
+        Class::Prop => 1.0,
+    }
+}
+
+/// The point of what a body covers of the ground that is nearest to another point.
+fn nearest(state: &BodyState, to: Vector2<f64>) -> Vector2<f64> {
+    let seen = state.pose.to_local(to);
+    let local = match state.body.outline {
+        Outline::Rectangle { .. } => {
+            let half = state.body.outline.half_extent();
+            seen.sup(&-half).inf(&half)
+        }
+        Outline::Disc { radius } => {
+            let distance = seen.norm();
+            if distance > radius { seen * (radius / distance) } else { seen }
+        }
+    };
+    state.pose.position + state.pose.turn_to_plane(local)
+}

@@ -1,0 +1,207 @@
+//! The sensors of a car: which of them measures when, and when what it has measured is known.
+
+use super::error::{Checks, SensorError};
+use super::{Chance, Sensor, View};
+use std::any::Any;
+use std::collections::VecDeque;
+use std::fmt;
+use std::marker::PhantomData;
+
+/// A whisker of time in seconds, because times are sums of ticks.
+const WHISKER: f64 = 1e-9;
+
+/// What becomes of readings on their way from a sensor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Delivery {
+    /// Seconds from the measurement to when it is known.
+    pub latency: f64,
+    /// The probability that a reading is lost on the way, each by itself.
+    pub loss: f64,
+}
+
+impl Delivery {
+    /// All readings arrive after this many seconds.
+    pub fn after(latency: f64) -> Self {
+        Self { latency, loss: 0.0 }
+    }
+}
+
+/// A reading, and when it was taken.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sample<R> {
+    /// Which of the sensor's readings it is: the k-th is due at k periods.
+    pub number: u64,
+    /// When it was taken, in seconds since the run began.
+    pub time: f64,
+    /// What was measured.
+    pub reading: R,
+}
+
+/// A sensor of a rig, by which its readings are asked for.
+pub struct Handle<S> {
+    index: usize,
+    sensor: PhantomData<fn() -> S>,
+}
+
+/// The sensors that a car carries.
+///
+/// It is shown the run at one moment after the other by [`Rig::see`]: at every tick of a run that it
+/// [equips](crate::Run::equip). A sensor measures at the first moment at which a reading is due; where moments are further
+/// apart than its period, what was due in between is left out.
+#[derive(Default)]
+pub struct Rig {
+    seed: u64,
+    sensors: Vec<Box<dyn Attached>>,
+}
+
+impl Rig {
+    /// A rig without sensors, and the seed of all noise there will be.
+    pub fn new(seed: u64) -> Self {
+        Self { seed, sensors: Vec::new() }
+    }
+
+    /// Attaches a sensor. Its noise depends on its name, and on no other sensor.
+    ///
+    /// # Errors
+    /// Another sensor has that name; the latency is no number from 0 to 100 s, the loss no probability, or the sensor's
+    /// period no number from 0.0001 to 10,000 s.
+    pub fn attach<S: Sensor>(&mut self, name: &str, sensor: S, delivery: Delivery) -> Result<Handle<S>, SensorError> {
+        let checks = Checks(name);
+        checks.period(sensor.period())?;
+        checks.within("latency", delivery.latency, (0.0, 100.0), "s")?;
+        checks.within("loss", delivery.loss, (0.0, 1.0), "")?;
+        if self.sensors.iter().any(|other| other.name() == name) {
+            return Err(SensorError::NameTaken { name: name.to_owned() });
+        }
+        self.sensors.push(Box::new(Port::new(name, sensor, delivery)));
+        Ok(Handle { index: self.sensors.len() - 1, sensor: PhantomData })
+    }
+
+    /// Forgets everything: a new run begins.
+    pub fn reset(&mut self) {
+        self.sensors.iter_mut().for_each(|sensor| sensor.reset());
+    }
+
+    /// Shows all sensors the next moment: those measure whose period has passed, and what is known by now arrives.
+    pub fn see(&mut self, view: &View<'_>) {
+        for sensor in &mut self.sensors {
+            sensor.see(self.seed, view);
+        }
+    }
+
+    /// Drops what has arrived, but for the last of every sensor: only what arrives from now on is new. A run does this
+    /// whenever its driver has answered.
+    pub fn clear(&mut self) {
+        self.sensors.iter_mut().for_each(|sensor| sensor.clear());
+    }
+
+    /// What has arrived from a sensor since the rig was last [cleared](Rig::clear), the earliest first. Nothing from a sensor
+    /// of another rig.
+    pub fn arrived<S: Sensor>(&self, sensor: &Handle<S>) -> &[Sample<S::Reading>] {
+        self.port(sensor).map_or(&[], |port| &port.arrived)
+    }
+
+    /// The last reading that has arrived from a sensor so far.
+    pub fn latest<S: Sensor>(&self, sensor: &Handle<S>) -> Option<&Sample<S::Reading>> {
+        let port = self.port(sensor)?;
+        port.arrived.last().or(port.known.as_ref())
+    }
+
+    fn port<S: Sensor>(&self, sensor: &Handle<S>) -> Option<&Port<S>> {
+        let port: &dyn Any = &**self.sensors.get(sensor.index)?;
+        port.downcast_ref()
+    }
+}
+
+impl fmt::Debug for Rig {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<_> = self.sensors.iter().map(|sensor| sensor.name()).collect();
+        f.debug_struct("Rig").field("seed", &self.seed).field("sensors", &names).finish()
+    }
+}
+
+/// A port of any sensor.
+trait Attached: Any + Send {
+    fn name(&self) -> &str;
+    fn reset(&mut self);
+    fn clear(&mut self);
+    fn see(&mut self, seed: u64, view: &View<'_>);
+}
+
+/// A sensor and what has come from it. Samples are used again, so that readings need no allocations.
+struct Port<S: Sensor> {
+    name: String,
+    sensor: S,
+    period: f64,
+    delivery: Delivery,
+    /// The number of its last reading.
+    last: Option<u64>,
+    /// What is on its way, the earliest first.
+    flying: VecDeque<Sample<S::Reading>>,
+    /// What has arrived and is new, and the last of what had arrived before.
+    arrived: Vec<Sample<S::Reading>>,
+    known: Option<Sample<S::Reading>>,
+    spare: Vec<Sample<S::Reading>>,
+}
+
+impl<S: Sensor> Port<S> {
+    fn new(name: &str, sensor: S, delivery: Delivery) -> Self {
+        Self {
+            name: name.to_owned(),
+            period: sensor.period(),
+            sensor,
+            delivery,
+            last: None,
+            flying: VecDeque::new(),
+            arrived: Vec::new(),
+            known: None,
+            spare: Vec::new(),
+        }
+    }
+
+    /// Takes a reading, if one is due.
+    fn measure(&mut self, seed: u64, view: &View<'_>) {
+        let number = ((view.time + WHISKER) / self.period).floor() as u64;
+        if self.last.is_some_and(|last| number <= last) {
+            return;
+        }
+        self.last = Some(number);
+        let mut chance = Chance::of(seed, &self.name, number);
+        let lost = chance.happens(self.delivery.loss);
+        let mut sample = self.spare.pop().unwrap_or_default();
+        (sample.number, sample.time) = (number, view.time);
+        self.sensor.sense(view, &mut chance, &mut sample.reading);
+        if lost {
+            self.spare.push(sample);
+        } else {
+            self.flying.push_back(sample);
+        }
+    }
+}
+
+impl<S: Sensor> Attached for Port<S> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn reset(&mut self) {
+        self.last = None;
+        self.spare.extend(self.flying.drain(..).chain(self.arrived.drain(..)).chain(self.known.take()));
+        self.sensor.reset();
+    }
+
+    fn clear(&mut self) {
+        if let Some(newest) = self.arrived.pop() {
+            self.spare.extend(self.known.replace(newest));
+            self.spare.append(&mut self.arrived);
+        }
+    }
+
+    fn see(&mut self, seed: u64, view: &View<'_>) {
+        self.measure(seed, view);
+        let known = view.time - self.delivery.latency + WHISKER;
+        while let Some(sample) = self.flying.pop_front_if(|sample| sample.time <= known) {
+            self.arrived.push(sample);
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! What a system answers, read and checked.
+
+use crate::json::Number;
+use paracosm_coverage::Record;
+use paracosm_oracles::Trace;
+use serde::de::Visitor;
+use serde::{Deserialize, Deserializer};
+use std::fmt;
+
+/// The answer to a test.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Answer {
+    /// What happened, to its end.
+    Trace(Trace),
+    /// The robustness of requirements by their ids.
+    Robustness(Vec<(String, f64)>),
+    /// The system says that it could not do the test, and why.
+    Error(String),
+}
+
+/// What is expected of an answer, in words.
+const EXPECTED: &str = "an answer as JSON, {\"index\": …} with `trace`, `robustness` or `error`";
+
+/// By how much of the sample period a time may be off.
+const TOLERANCE: f64 = 1e-3;
+
+/// How much of an answer is quoted, in characters.
+const QUOTED: usize = 40;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    index: usize,
+    trace: Option<Record<Vec<Sample>>>,
+    robustness: Option<Record<Number>>,
+    error: Option<String>,
+}
+
+/// A sample of a signal: a truth is 1 or 0, and what has no value is NaN.
+#[derive(Clone, Copy)]
+struct Sample(f64);
+
+impl Answer {
+    /// Reads the answer to the test of this index.
+    pub fn read(line: &str, index: usize) -> Result<Self, String> {
+        let text = line.trim();
+        let answer: Line = serde_json::from_str(text).map_err(|error| no_answer(text, &error))?;
+        if answer.index != index {
+            return Err(format!("found the answer to test {}, expected that to test {index}", answer.index));
+        }
+        match (answer.trace, answer.robustness, answer.error) {
+            (Some(trace), None, None) => read_trace(&trace).map(Self::Trace),
+            (None, Some(robustness), None) => read_robustness(&robustness).map(Self::Robustness),
+            (None, None, Some(error)) => Ok(Self::Error(error)),
+            (None, None, None) => Err(format!("found only an index, expected {EXPECTED}")),
+            _ => Err("found several of `trace`, `robustness` and `error`, expected one".into()),
+        }
+    }
+}
+
+/// What is wrong with a line that is no answer: the place, if it is no JSON.
+fn no_answer(text: &str, error: &serde_json::Error) -> String {
+    let column = if error.is_data() { 1 } else { error.column() };
+    // The column counts bytes from 1.
+    let at = (0..column.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
+    let found: String = text[at..].chars().take(QUOTED).collect();
+    let error = error.to_string();
+    let why = error.split(" at line ").next().unwrap_or_default();
+    format!("found `{found}` in column {} ({why}), expected {EXPECTED}", at + 1)
+}
+
+fn read_robustness(robustness: &Record<Number>) -> Result<Vec<(String, f64)>, String> {
+    let worth = |(id, number): (&str, &Number)| {
+        let number = number.0.filter(|number| !number.is_nan());
+        let number = number.ok_or_else(|| format!("the robustness of `{id}` is no number"))?;
+        Ok((id.to_owned(), number))
+    };
+    let all: Vec<_> = robustness.iter().map(worth).collect::<Result<_, String>>()?;
+    if all.is_empty() { Err("found the robustness of nothing, expected a requirement".into()) } else { Ok(all) }
+}
+
+fn read_trace(answer: &Record<Vec<Sample>>) -> Result<Trace, String> {
+    let time = answer.get("time").ok_or("the trace has no `time`")?;
+    for (name, samples) in answer.iter() {
+        if samples.len() != time.len() {
+            return Err(format!("`{name}` has {} samples, expected {} as `time` has", samples.len(), time.len()));
+        }
+        if let Some(at) = samples.iter().position(|sample| !sample.0.is_finite()) {
+            return Err(format!("`{name}` has no finite value at sample {at}"));
+        }
+    }
+    let dt = period(time)?;
+    let (names, signals): (Vec<_>, Vec<_>) = answer.iter().filter(|(name, _)| *name != "time").unzip();
+    if names.is_empty() {
+        return Err("the trace has no signal beside `time`".into());
+    }
+    let mut trace = Trace::new(dt, names.into_iter().map(str::to_owned).collect());
+    trace.reserve(time.len());
+    for tick in 0..time.len() {
+        trace.record(&signals.iter().map(|samples| samples[tick].0).collect::<Vec<_>>());
+    }
+    trace.finish();
+    Ok(trace)
+}
+
+/// The sample period of evenly spaced times from 0 on, in seconds.
+fn period(time: &[Sample]) -> Result<f64, String> {
+    let [first, .., last] = time else {
+        return Err(format!("found {} samples, expected two at least", time.len()));
+    };
+    if first.0 != 0.0 {
+        return Err(format!("the trace begins at {} s, expected 0 s", first.0));
+    }
+    if let Some(at) = time.windows(2).position(|pair| pair[1].0 <= pair[0].0) {
+        let [before, after] = [time[at].0, time[at + 1].0];
+        return Err(format!("`time` goes from {before} to {after} at sample {}, expected it to rise", at + 1));
+    }
+    // Rounded to twelve digits, so that times that were added up give the period that was meant.
+    let mean = last.0 / (time.len() - 1) as f64;
+    let dt: f64 = format!("{mean:.11e}").parse().expect("a number as it was written");
+    let uneven = |(tick, at): (usize, &Sample)| (at.0 - tick as f64 * dt).abs() > TOLERANCE * dt;
+    match time.iter().enumerate().position(uneven) {
+        None if dt > 0.0 => Ok(dt),
+        at => {
+            let at = at.unwrap_or(0);
+            let (found, expected) = (time[at].0, at as f64 * dt);
+            Err(format!("the samples are not evenly spaced: sample {at} is at {found} s, expected {expected} s"))
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Sample {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct AnySample;
+        impl Visitor<'_> for AnySample {
+            type Value = Sample;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number or a truth")
+            }
+
+            fn visit_bool<E>(self, truth: bool) -> Result<Sample, E> {
+                Ok(Sample(f64::from(u8::from(truth))))
+            }
+
+            fn visit_i64<E>(self, number: i64) -> Result<Sample, E> {
+                Ok(Sample(number as f64))
+            }
+
+            fn visit_u64<E>(self, number: u64) -> Result<Sample, E> {
+                Ok(Sample(number as f64))
+            }
+
+            fn visit_f64<E>(self, number: f64) -> Result<Sample, E> {
+                Ok(Sample(number))
+            }
+
+            fn visit_unit<E>(self) -> Result<Sample, E> {
+                Ok(Sample(f64::NAN))
+            }
+        }
+        deserializer.deserialize_any(AnySample)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refuses(line: &str, says: &str) {
+        let message = Answer::read(line, 3).unwrap_err();
+        assert!(message.contains(says), "{message}");
+    }
+
+    #[test]
+    fn answers_are_traces_robustness_and_errors() {
+        let mut trace = Trace::new(0.1, vec!["a".into(), "b".into()]);
+        [[1.0, 1.0], [2.0, 0.0], [3.5, 1.0]].iter().for_each(|row| trace.record(row));
+        trace.finish();
+        // The sum of three tenths is not quite 0.3.
+        let line = r#"{"index":3,"trace":{"a":[1,2,3.5],"time":[0,0.1,0.20000000000000001],"b":[true,false,true]}}"#;
+        assert_eq!(Answer::read(line, 3), Ok(Answer::Trace(trace)));
+        let line = r#" {"robustness":{"x":-1,"y":"inf"},"index":3} "#;
+        let robustness = vec![("x".to_owned(), -1.0), ("y".to_owned(), f64::INFINITY)];
+        assert_eq!(Answer::read(line, 3), Ok(Answer::Robustness(robustness)));
+        assert_eq!(Answer::read(r#"{"index":3,"error":"no"}"#, 3), Ok(Answer::Error("no".into())));
+    }
+
+    #[test]
+    fn the_period_of_times_that_were_added_up_is_the_one_that_was_meant() {
+        let mut time = vec![Sample(0.0)];
+        for tick in 0..3000 {
+            time.push(Sample(time[tick].0 + 0.01));
+        }
+        assert_eq!(period(&time), Ok(0.01));
+        let thirds: Vec<Sample> = (0..1000).map(|tick| Sample(f64::from(tick) / 60.0)).collect();
+        assert!((period(&thirds).unwrap() * 60.0 - 1.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn what_is_no_answer_is_quoted() {
+        refuses("", "found `` in column 1");
+        refuses("é hello", "found `é hello` in column 1");
+        refuses(r#"{"index":3,"trace":{"time":[0,Infinity]}}"#, "found `Infinity]}}` in column 31");
+        refuses(r#"{"trace":{"time":[0,1],"a":[0,1]}}"#, "missing field `index`");
+        refuses(r#"{"index":3,"robustnes":{"a":1}}"#, "unknown field `robustnes`, expected one of");
+        refuses(r#"{"index":3}"#, "found only an index");
+        refuses(r#"{"index":3,"error":"x","robustness":{"a":1}}"#, "several");
+        refuses(r#"{"index":3.5,"error":"x"}"#, "invalid type");
+        refuses(r#"{"index":4,"error":"x"}"#, "found the answer to test 4, expected that to test 3");
+        refuses(r#"[1,2]"#, "expected an answer as JSON");
+        refuses(r#"{"index":3,"robustness":{}}"#, "robustness of nothing");
+        refuses(r#"{"index":3,"robustness":{"a":null}}"#, "the robustness of `a` is no number");
+        refuses(r#"{"index":3,"robustness":{"a":1,"a":2}}"#, "`a` has two values");
+    }
+
+    #[test]
+    fn what_is_no_trace_says_where() {
+        let trace = |columns: &str| format!(r#"{{"index":3,"trace":{{{columns}}}}}"#);
+        refuses(&trace(r#""a":[0,1]"#), "no `time`");
+        refuses(&trace(r#""time":[0,1]"#), "no signal beside `time`");
+        refuses(&trace(r#""time":[],"a":[]"#), "found 0 samples, expected two");
+        refuses(&trace(r#""time":[0],"a":[1]"#), "found 1 samples, expected two");
+        refuses(&trace(r#""time":[0,1],"a":[1,2,3]"#), "`a` has 3 samples, expected 2");
+        refuses(&trace(r#""time":[0,1],"a":[1,null]"#), "`a` has no finite value at sample 1");
+        refuses(&trace(r#""time":[0,1],"a":[1,"x"]"#), "expected a number or a truth");
+        refuses(&trace(r#""time":[1,2],"a":[1,2]"#), "begins at 1 s, expected 0 s");
+        refuses(&trace(r#""time":[0,1,1],"a":[1,2,3]"#), "from 1 to 1 at sample 2");
+        refuses(&trace(r#""time":[0,1,3],"a":[1,2,3]"#), "not evenly spaced: sample 1 is at 1 s, expected 1.5 s");
+    }
+}

@@ -1,0 +1,43 @@
+//! Reading the arguments: what clap says, but for people where a number was expected.
+
+use super::complain;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Command, Parser};
+use std::error::Error;
+use std::num::{IntErrorKind, ParseFloatError, ParseIntError};
+use std::process;
+
+/// The program's arguments; ends the program where they are wrong, or where only help was asked for.
+pub(super) fn parse<C: Parser>() -> C {
+    let matches = with_negative_numbers(C::command()).try_get_matches();
+    let read = matches.and_then(|mut matches| C::from_arg_matches_mut(&mut matches));
+    read.unwrap_or_else(|error| match explained(&error) {
+        Some(message) => {
+            complain(&format_args!("error: {message}\n\nFor more information, try '--help'."));
+            process::exit(2)
+        }
+        None => error.exit(),
+    })
+}
+
+/// Takes `-1` for the value that it is, so that who is given it can say what was expected.
+fn with_negative_numbers(command: Command) -> Command {
+    command.allow_negative_numbers(true).mut_subcommands(with_negative_numbers)
+}
+
+/// What was found and what was expected, where that is a number.
+fn explained(error: &clap::Error) -> Option<String> {
+    let text = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text),
+        _ => None,
+    };
+    let source = Some(error).filter(|error| error.kind() == ErrorKind::ValueValidation)?.source()?;
+    let whole = source.downcast_ref().map(|error: &ParseIntError| match error.kind() {
+        IntErrorKind::Zero => "a whole number from 1 on",
+        IntErrorKind::PosOverflow => "a smaller number",
+        _ => "a whole number from 0 on",
+    });
+    let expected = whole.or_else(|| source.is::<ParseFloatError>().then_some("a number"))?;
+    let (option, found) = (text(ContextKind::InvalidArg)?, text(ContextKind::InvalidValue)?);
+    Some(format!("{option}: found `{found}`, expected {expected}"))
+}

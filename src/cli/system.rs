@@ -1,0 +1,38 @@
+//! The options of `paracosm-fuzz run` by which a system that others wrote takes the place of a scenario.
+
+use super::Verbosity;
+use super::space_file::SpaceFile;
+use crate::coverage::demand::Demand;
+use crate::{BlackBox, Error, Study};
+use clap::Args;
+use std::path::PathBuf;
+
+/// A system in its own process, and the space of its tests.
+#[derive(Debug, Args)]
+pub(super) struct System {
+    /// Test a system of your own instead of a scenario: a command that reads a test as a line of JSON from standard input
+    /// and answers with a line of JSON. It is started once for each worker
+    #[arg(long, value_name = "COMMAND", requires = "space", conflicts_with_all = ["scenario", "driver", "open", "set"])]
+    system: Option<String>,
+    /// The parameters of the system's tests, or a model file of PICT
+    #[arg(long, value_name = "SPACE.toml", requires = "system")]
+    space: Option<PathBuf>,
+    /// How long the system may take for an answer [default: 60]
+    #[arg(long, value_name = "SECONDS", requires = "system")]
+    timeout: Option<f64>,
+}
+
+impl System {
+    /// The study of the system, if there is one.
+    pub fn study(&self, verbosity: Verbosity) -> Result<Option<Study>, Error> {
+        let (Some(command), Some(path)) = (&self.system, &self.space) else { return Ok(None) };
+        let system = BlackBox::new(command, self.timeout)?;
+        let SpaceFile { space, demand } = SpaceFile::read(path, verbosity)?;
+        if demand != Demand::default() {
+            let message = "asks for groups of more parameters or has negative values, which campaigns do not know; \
+                           `paracosm-cover generate` makes such tests";
+            return Err(Error::content(path, None, message));
+        }
+        Ok(Some(Study::of_system(system, space)))
+    }
+}

@@ -1,0 +1,82 @@
+//! What all answers of a system have in common, and what is to become of a campaign in which none is to be had.
+//!
+//! Which requirements a system judges itself by is known by its first answer. Trials are checked against it in the order
+//! of their indices, so that it does not matter who was answered first.
+
+use crate::{Error, Study, Subject, Trial};
+use paracosm_engine::Outcome;
+use paracosm_oracles::Verdict;
+
+/// After how many tests, all of them in error, a system is given up: it may take its time to fail.
+const GIVEN_UP: usize = 50;
+
+/// What trials have said so far.
+#[derive(Debug, Clone)]
+pub struct Expected {
+    /// Whether they are of a system that others wrote; of a scenario nothing is expected.
+    is_system: bool,
+    /// The requirements of the first trial that was answered.
+    first: Option<(usize, Vec<String>)>,
+    /// How many there were before it, and what was wrong with the first.
+    failed: usize,
+    why: Option<String>,
+}
+
+impl Expected {
+    /// What is to be expected after these trials of a study.
+    pub fn of(study: &Study, trials: &[Trial]) -> Self {
+        let is_system = matches!(study.subject, Subject::System(_));
+        let mut expected = Self { is_system, first: None, failed: 0, why: None };
+        trials.iter().for_each(|trial| expected.learn(trial));
+        expected
+    }
+
+    /// The trial, or one in error where its requirements are not those that were judged before.
+    pub fn check(&mut self, trial: Trial) -> Trial {
+        self.learn(&trial);
+        let found = requirements(&trial);
+        match &self.first {
+            Some((first, names)) if trial.covers() && found != *names => {
+                let message = format!(
+                    "found the robustness of {}, expected that of {} as in test {first}",
+                    found.join(", "),
+                    names.join(", ")
+                );
+                Trial::new(trial.index, trial.test, Outcome::broken(Verdict::Error, message), None)
+            }
+            _ => trial,
+        }
+    }
+
+    /// Checks that it makes sense to go on.
+    ///
+    /// # Errors
+    /// The system did none of so many tests.
+    pub fn go_on(&self) -> Result<(), Error> {
+        match (&self.first, &self.why) {
+            (None, Some(why)) if self.failed >= GIVEN_UP => {
+                Err(Error::Unanswered { tests: self.failed, why: why.clone() })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn learn(&mut self, trial: &Trial) {
+        if self.first.is_some() || !self.is_system {
+            return;
+        }
+        if trial.covers() {
+            self.first = Some((trial.index, requirements(trial)));
+        } else {
+            self.failed += 1;
+            self.why = self.why.take().or_else(|| trial.error.clone());
+        }
+    }
+}
+
+/// In alphabetical order: in which they are answered says nothing.
+fn requirements(trial: &Trial) -> Vec<String> {
+    let mut names: Vec<String> = trial.requirements().map(str::to_owned).collect();
+    names.sort_unstable();
+    names
+}

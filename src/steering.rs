@@ -1,0 +1,144 @@
+//! What a campaign asks for tests: one search, driven by the worst of all requirements; or, where an adaptive strategy
+//! has several requirements to violate, one search for each and a bandit between them.
+//!
+//! Which requirements there are follows from the study or, of a system that answers with robustness, from its first
+//! answer. So everything follows from the study and the trials in their order, and a resumed campaign goes on as it
+//! would have.
+
+use crate::{Error, Study, Trial};
+use paracosm_coverage::Point;
+use paracosm_generators::{Bandit, Generator};
+
+/// The source of a campaign's tests.
+pub(crate) struct Steering<'a> {
+    study: &'a Study,
+    search: Search,
+    /// The tests that were told before any requirement was known: all came to nothing.
+    before: Vec<Point>,
+}
+
+enum Search {
+    One(Box<dyn Generator>),
+    Several { ids: Vec<String>, bandit: Bandit },
+}
+
+impl<'a> Steering<'a> {
+    /// The source of the tests of a study.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub fn new(study: &'a Study) -> Result<Self, Error> {
+        let mut steering = Self { study, search: Search::One(study.generator()?), before: Vec::new() };
+        steering.know(study.requirements.iter().map(|requirement| requirement.id.as_str()))?;
+        Ok(steering)
+    }
+
+    /// The next tests, at most `n`; none once there are no more.
+    pub fn ask(&mut self, n: usize) -> Vec<Point> {
+        match &mut self.search {
+            Search::One(search) => search.ask(n),
+            Search::Several { bandit, .. } => bandit.ask(n),
+        }
+    }
+
+    /// What became of tests that were asked for.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub fn tell(&mut self, tests: &[Point], trials: &[Trial]) -> Result<(), Error> {
+        let study = self.study;
+        if let (Search::One(_), Some(first)) = (&self.search, trials.iter().find(|trial| trial.covers())) {
+            self.know(first.requirements())?;
+        }
+        match &mut self.search {
+            Search::One(search) => {
+                let worst: Vec<_> = trials.iter().map(|trial| study.objective(trial)).collect();
+                search.tell(tests, &worst);
+                if worst.iter().all(Option::is_none) {
+                    self.before.extend_from_slice(tests);
+                }
+            }
+            Search::Several { ids, bandit } => {
+                let of = |trial: &Trial| ids.iter().map(|id| study.clipped(trial, id)).collect();
+                bandit.tell(tests, &trials.iter().map(of).collect::<Vec<_>>());
+            }
+        }
+        Ok(())
+    }
+
+    /// Begins a search for each of these requirements, if that makes sense.
+    fn know<'i>(&mut self, ids: impl Iterator<Item = &'i str>) -> Result<(), Error> {
+        let ids: Vec<String> = ids.map(str::to_owned).collect();
+        if ids.len() < 2 || !self.study.is_adaptive()? {
+            return Ok(());
+        }
+        let searches = ids.iter().map(|_| self.study.generator()).collect::<Result<_, _>>()?;
+        let mut bandit = Bandit::new(searches);
+        bandit.tell(&self.before, &vec![Vec::new(); self.before.len()]);
+        self.search = Search::Several { ids, bandit };
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BlackBox;
+    use paracosm_coverage::Space;
+    use paracosm_engine::Outcome;
+    use paracosm_oracles::Verdict;
+
+    fn study(seed: u64) -> Study {
+        let system = BlackBox::new("none", None).unwrap();
+        let study = Study::of_system(system, Space::unit_cube(5)).strategy("cmaes").unwrap();
+        study.budget(400).unwrap().seed(Some(seed))
+    }
+
+    /// The outcome of a test: of two requirements the second is violated within a small ball, and the first never, though
+    /// it is the worse nearly everywhere.
+    fn outcome(test: &Point, is_one: bool) -> Outcome {
+        let away = test.continuous.iter().map(|u| (u - 0.7) * (u - 0.7)).sum::<f64>().sqrt();
+        let both = [0.05 + 0.02 * test.continuous[0], away - 0.18];
+        let robustness = match is_one {
+            true => vec![("worst".to_owned(), Some(both[0].min(both[1])))],
+            false => vec![("near".to_owned(), Some(both[0])), ("ball".to_owned(), Some(both[1]))],
+        };
+        let verdict = if both[1] < 0.0 { Verdict::Fail } else { Verdict::Pass };
+        Outcome { verdict, robustness, metrics: vec![], trace: None, error: None }
+    }
+
+    /// All tests up to the first failure, cut into portions told by this many; the first comes to nothing.
+    fn tests(study: &Study, is_one: bool) -> Vec<Point> {
+        let mut steering = Steering::new(study).unwrap();
+        let mut all: Vec<Point> = Vec::new();
+        while all.len() < 400 {
+            let tests = steering.ask(16);
+            let trial = |(i, test): (usize, &Point)| {
+                let index = all.len() + i;
+                let outcome = if all.is_empty() { Outcome::broken(Verdict::Error, "") } else { outcome(test, is_one) };
+                Trial::new(index, study.space.decode(test), outcome, None)
+            };
+            let trials: Vec<Trial> = tests.iter().enumerate().map(trial).collect();
+            steering.tell(&tests, &trials).unwrap();
+            all.extend(tests);
+            if trials.iter().any(Trial::is_failure) {
+                break;
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn a_requirement_that_another_one_hides_is_violated() {
+        let sum = |is_one: bool| -> usize { (0..5).map(|seed| tests(&study(seed), is_one).len()).sum() };
+        let (bandit, worst) = (sum(false), sum(true));
+        assert!(2 * bandit < worst, "{bandit} tests with a bandit, {worst} by the worst");
+    }
+
+    #[test]
+    fn no_test_is_proposed_twice_and_the_same_trials_give_the_same_tests() {
+        let once = tests(&study(1), false);
+        assert_eq!(once, tests(&study(1), false));
+        assert!((1..once.len()).all(|i| !once[..i].contains(&once[i])));
+    }
+}

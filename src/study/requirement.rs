@@ -1,0 +1,124 @@
+//! What is asked of every run: the requirements of a scenario, and the formulas that were given beside them.
+
+use super::{Study, Subject};
+use crate::Error;
+use paracosm_engine::Outcome;
+use paracosm_oracles::{Formula, Requirement, Trace, Truth, Verdict};
+use serde::{Deserialize, Serialize};
+
+/// A requirement as it is written down.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RequirementText {
+    /// The short name.
+    pub id: String,
+    /// One sentence.
+    pub text: String,
+    /// What is asked.
+    pub formula: String,
+    /// The unit of its robustness.
+    pub unit: String,
+    /// How much robustness is a lot, in that unit.
+    pub scale: f64,
+    /// Whether it is none of the scenario's own, but was given with the study.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    pub given: bool,
+}
+
+impl From<Requirement> for RequirementText {
+    fn from(requirement: Requirement) -> Self {
+        let Requirement { id, text, formula, unit, scale } = requirement;
+        Self { id, text, formula: formula.to_string(), unit, scale, given: false }
+    }
+}
+
+impl Study {
+    /// Asks this formula, too, of every trace: as `spec-1`, the next as `spec-2`, in no unit and with the scale 1. To be
+    /// called when all parameters are opened, fixed and varied.
+    ///
+    /// # Errors
+    /// The text is no formula, speaks of a signal that the scenario does not have, or has a time bound between two ticks.
+    pub fn spec(mut self, text: &str) -> Result<Self, Error> {
+        let wrong = |message: String| Error::Usage(format!("--spec {text}: {message}"));
+        let formula: Formula = text.parse().map_err(|error| wrong(format!("{error}")))?;
+        if let (Subject::Scenario(simulation), Some(signals)) = (&self.subject, self.signals()?) {
+            let describe = format!("`paracosm-fuzz describe {}` shows its signals", simulation.scenario);
+            Formula::parse(text, &signals).map_err(|error| wrong(format!("{error}; {describe}")))?;
+            let nothing = Trace::new(simulation.dt(), signals);
+            formula.evaluate(&nothing).map_err(|error| wrong(error.to_string()))?;
+        }
+        let number = 1 + self.requirements.iter().filter(|requirement| requirement.given).count();
+        let formula = formula.to_string();
+        self.requirements.push(RequirementText {
+            id: format!("spec-{number}"),
+            text: formula.clone(),
+            formula,
+            unit: String::new(),
+            scale: 1.0,
+            given: true,
+        });
+        Ok(self)
+    }
+
+    /// Given formulas that look further ahead than a test of the scenario lasts, each with the part that does.
+    ///
+    /// # Errors
+    /// A requirement was read from a file and is no formula.
+    pub fn outlasting(&self) -> Result<Vec<(String, String)>, Error> {
+        let Subject::Scenario(simulation) = &self.subject else { return Ok(Vec::new()) };
+        let specs = Specs::of(self)?;
+        let part = |(id, formula): &(String, Formula)| {
+            formula.outlasting(simulation.duration()).map(|part| (id.clone(), part.to_string()))
+        };
+        Ok(specs.0.iter().filter_map(part).collect())
+    }
+}
+
+/// The formulas that were given with a study, by their ids.
+#[derive(Debug, Clone)]
+pub(crate) struct Specs(Vec<(String, Formula)>);
+
+impl Specs {
+    /// Those of a study.
+    ///
+    /// # Errors
+    /// One of them was read from a file and is no formula.
+    pub fn of(study: &Study) -> Result<Self, Error> {
+        let given = study.requirements.iter().filter(|requirement| requirement.given);
+        let parse = |requirement: &RequirementText| {
+            let formula = requirement.formula.parse().map_err(|error| {
+                Error::Usage(format!("requirement `{}`, `{}`: {error}", requirement.id, requirement.formula))
+            })?;
+            Ok((requirement.id.clone(), formula))
+        };
+        Ok(Self(given.map(parse).collect::<Result<_, Error>>()?))
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Asks them of the trace of a run that came to a verdict, and joins what they say with that.
+    pub fn judge(&self, outcome: &mut Outcome) {
+        let Some(trace) = outcome.trace.as_ref().filter(|_| outcome.error.is_none()) else { return };
+        let mut wrong = None;
+        for (id, formula) in &self.0 {
+            let (truth, robustness) = match formula.evaluate(trace) {
+                Ok(evaluation) => (evaluation.truth, evaluation.robustness),
+                Err(error) => {
+                    wrong.get_or_insert(format!("{id}: {error}"));
+                    (Truth::Undecided, f64::NAN)
+                }
+            };
+            outcome.robustness.push((id.clone(), (truth != Truth::Undecided).then_some(robustness)));
+            outcome.verdict = match (truth, outcome.verdict) {
+                (Truth::Violated, _) | (_, Verdict::Fail) => Verdict::Fail,
+                (Truth::Undecided, _) => Verdict::Inconclusive,
+                (Truth::Holds, verdict) => verdict,
+            };
+        }
+        if wrong.is_some() {
+            outcome.verdict = Verdict::Error;
+            outcome.error = wrong;
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! Systems that others wrote: shell scripts that answer as they should, and as they should not.
+
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+const SPACE: &str = "parameter = [{ name = \"x\", interval = [-1, 1] }, { name = \"y\", interval = [0, 1] }]\n";
+
+/// A system that has the index of a test in `$i` and its first value in `$x` when it does this.
+fn script(dir: &Path, answer: &str) {
+    let read = "i=${line#*:}; i=${i%%,*}; x=${line#*'\"x\":'}; x=${x%%,*}";
+    fs::write(dir.join("system.sh"), format!("while read -r line; do {read}\n{answer}\ndone\n")).unwrap();
+    fs::write(dir.join("SPACE.toml"), SPACE).unwrap();
+}
+
+const ROBUSTNESS: &str = r#"echo "{\"index\":$i,\"robustness\":{\"above\":$x,\"far\":2}}""#;
+const TRACE: &str =
+    r#"echo "{\"index\":$i,\"trace\":{\"time\":[0,0.1,0.2],\"speed\":[1,$x,1],\"on\":[true,true,false]}}""#;
+
+fn run(dir: &Path, out: &str, more: &[&str]) -> Output {
+    let system = ["--system", "sh system.sh", "--space", "SPACE.toml", "-q", "--out", out];
+    fuzz(dir, &[&system[..], more].concat())
+}
+
+fn log(dir: &Path, out: &str) -> String {
+    fs::read_to_string(dir.join(out).join("trials.jsonl")).unwrap()
+}
+
+fn trials(dir: &Path, out: &str) -> Vec<Value> {
+    log(dir, out).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+#[test]
+fn robustness_is_judged_by_its_sign_and_shown_in_every_file() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), ROBUSTNESS);
+    let summary = succeeds(run(dir.path(), "out", &["--budget", "40", "--format", "table"]));
+    assert!(stdout(&summary).starts_with("system sh system.sh, strategy halton: 40 tests\n"), "{}", stdout(&summary));
+    for trial in trials(dir.path(), "out") {
+        let x = trial["test"]["x"].as_f64().unwrap();
+        assert_eq!(trial["verdict"], if x < 0.0 { "fail" } else { "pass" }, "{trial}");
+        assert_eq!(trial["robustness"], json!({"above": x, "far": 2.0}));
+        assert_eq!((&trial["trace_hash"], &trial["ticks"]), (&Value::Null, &json!(0)));
+    }
+    let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    assert!(read("trials.csv").starts_with("index,x,y,verdict,robustness.above,robustness.far,ticks,"));
+    assert!(read("failure-map.svg").contains("system sh system.sh"));
+    let study: Value = serde_json::from_str(&read("campaign.json")).unwrap();
+    assert_eq!((&study["system"], &study["timeout"]), (&json!("sh system.sh"), &json!(60.0)));
+    let replay = succeeds(fuzz(dir.path(), &["replay", "out", "7", "--format", "table", "--trace", "trace.csv"]));
+    assert!(stdout(&replay).contains("trace hash            none, as logged"), "{}", stdout(&replay));
+    assert!(stderr(&replay).contains("no trace to write") && !dir.path().join("trace.csv").exists());
+    // A system that answers otherwise by now.
+    script(dir.path(), &ROBUSTNESS.replace('2', "3"));
+    refused(&fuzz(dir.path(), &["replay", "out", "7"]), &["test 7 differs from the log", "robustness"]);
+    let drawn = fuzz(dir.path(), &["replay", "out", "7", "--draw", "test.svg"]);
+    refused(&drawn, &["test.svg", "cannot be seen"]);
+}
+
+#[test]
+fn formulas_are_asked_of_traces_and_each_is_reported() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), TRACE);
+    let specs = ["--spec", "always (speed > -0.5)", "--spec", "on until[0,0.2] (speed > 0 and not on)"];
+    let summary = succeeds(run(dir.path(), "out", &[&specs[..], &["--budget", "30"]].concat()));
+    let trials = trials(dir.path(), "out");
+    for trial in &trials {
+        let x = trial["test"]["x"].as_f64().unwrap();
+        assert_eq!(trial["verdict"], if x <= -0.5 { "fail" } else { "pass" }, "{trial}");
+        assert_eq!(trial["robustness"]["spec-1"], x.min(1.0) + 0.5);
+        assert_eq!(trial["ticks"], 2);
+        assert_eq!(trial["trace_hash"].as_str().unwrap().len(), 32);
+    }
+    let failed = trials.iter().filter(|trial| trial["verdict"] == "fail").count();
+    let requirements: Value = serde_json::from_str::<Value>(&stdout(&summary)).unwrap()["requirements"].take();
+    assert_eq!((&requirements[0]["id"], &requirements[0]["violated"]), (&json!("spec-1"), &json!(failed)));
+    assert_eq!((&requirements[1]["id"], &requirements[1]["violated"]), (&json!("spec-2"), &json!(0)));
+    succeeds(fuzz(dir.path(), &["replay", "out", "2", "--trace", "trace.csv"]));
+    let trace = fs::read_to_string(dir.path().join("trace.csv")).unwrap();
+    assert_eq!(trace, "time,speed,on\n0,1,1\n0.1,0.5,1\n0.2,1,0\n");
+    let late = run(dir.path(), "late", &["--spec", "eventually[0,5] (speed > 9)", "--budget", "4"]);
+    assert!(stdout(&late).contains("\"inconclusive\": 4"), "{}", stdout(&succeeds(late)));
+}
+
+/// Answers of test 2, and what is said of them.
+const BAD: &[(&str, &str)] = &[
+    ("echo garbage", "found `garbage` in column 1"),
+    ("echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"speed\":[NaN,1]}}'", "found `NaN,1]}}` in column 43"),
+    ("echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"speed\":[1,null]}}'", "`speed` has no finite value at sample 1"),
+    ("echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"sped\":[0,0]}}'", "no signal `speed` (did you mean `sped`?)"),
+    ("echo '{\"index\":1,\"trace\":{\"time\":[0,1],\"speed\":[0,0]}}'", "found the answer to test 1, expected that to"),
+    ("echo '{\"index\":2,\"robustness\":{\"a\":1}}'", "answers with robustness, expected a trace"),
+    ("echo '{\"index\":2,\"error\":\"diverged\"}'", "diverged"),
+    ("echo; echo", "found `` in column 1"),
+    ("printf '\\377\\n'", "no UTF-8"),
+    ("echo half; kill -9 $$", "found `half`"),
+    ("printf '{\"index\":2,'; kill -9 $$", "ended without an answer (signal: 9"),
+    ("echo out of fuel >&2; exit 3", "ended without an answer (exit status: 3); its last words: out of fuel"),
+    ("exec >&-; sleep 1000", "closed its output without an answer"),
+    ("sleep 1000 & sleep 1000 | sleep 1000", "no answer within 0.5 s"),
+];
+
+#[test]
+fn bad_answers_are_errors_that_say_why_and_the_rest_goes_on_for_any_number_of_workers() {
+    let dir = tempfile::tempdir().unwrap();
+    let good = TRACE;
+    for (i, (bad, says)) in BAD.iter().enumerate() {
+        script(dir.path(), &format!("case $i in 2) {bad};; *) {good};; esac"));
+        let run = |out: &str, jobs: &str| {
+            let options = ["--budget", "6", "--timeout", "0.5", "--spec", "always (speed > -2)", "--jobs", jobs];
+            succeeds(run(dir.path(), out, &options));
+        };
+        let (one, many) = (format!("one-{i}"), format!("many-{i}"));
+        run(&one, "1");
+        for trial in trials(dir.path(), &one) {
+            assert_eq!(trial["verdict"] == "error", trial["index"] == 2, "{bad}: {trial}");
+            let error = trial["error"].as_str().unwrap_or(says);
+            assert!(error.contains(says), "{bad}: `{says}` is missing in {error}");
+        }
+        run(&many, "3");
+        assert_eq!(log(dir.path(), &one), log(dir.path(), &many), "{bad}");
+    }
+    // A replay comes to the same end.
+    succeeds(fuzz(dir.path(), &["replay", "one-13", "2"]));
+}
+
+#[test]
+fn what_a_process_started_ends_with_it() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), &format!("case $i in 1) sleep 1000 & echo $! >> pids; wait;; *) {ROBUSTNESS};; esac"));
+    succeeds(run(dir.path(), "out", &["--budget", "4", "--timeout", "0.3"]));
+    let pids = fs::read_to_string(dir.path().join("pids")).unwrap();
+    assert!(!pids.is_empty());
+    for pid in pids.lines() {
+        // Whoever inherits an orphan may not have buried it yet.
+        let state = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap_or_default();
+        assert!(state.is_empty() || state.contains(") Z "), "{state}");
+    }
+}
+
+#[test]
+fn a_process_is_started_once_for_each_worker_also_by_adaptive_strategies() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), ROBUSTNESS);
+    let system = fs::read_to_string(dir.path().join("system.sh")).unwrap();
+    fs::write(dir.path().join("system.sh"), format!("echo started >> starts\n{system}")).unwrap();
+    succeeds(run(dir.path(), "out", &["--budget", "50", "--jobs", "2", "--strategy", "cmaes", "--batch", "5"]));
+    let starts = fs::read_to_string(dir.path().join("starts")).unwrap().lines().count();
+    assert!(starts <= 2, "it was started {starts} times");
+}
+
+#[test]
+fn a_process_that_ends_between_tests_is_started_again() {
+    let dir = tempfile::tempdir().unwrap();
+    // The second ends before its answer arrives.
+    for (out, answer) in
+        [("at-once", format!("{ROBUSTNESS}; exit 0")), ("late", format!("(sleep 0.1; {ROBUSTNESS}) & exit 0"))]
+    {
+        script(dir.path(), &answer);
+        succeeds(run(dir.path(), out, &["--budget", "8", "--jobs", "1"]));
+        assert!(trials(dir.path(), out).iter().all(|trial| trial["error"].is_null()), "{}", log(dir.path(), out));
+    }
+}
+
+#[test]
+fn all_answers_judge_the_same_requirements() {
+    let dir = tempfile::tempdir().unwrap();
+    script(
+        dir.path(),
+        r#"case $i in 5) name=below;; *) name=above;; esac; echo "{\"index\":$i,\"robustness\":{\"$name\":1}}""#,
+    );
+    succeeds(run(dir.path(), "out", &["--budget", "9"]));
+    let trials = trials(dir.path(), "out");
+    assert_eq!(trials[5]["error"], "found the robustness of below, expected that of above as in test 0");
+    assert_eq!(trials.iter().filter(|trial| trial["verdict"] == "pass").count(), 8);
+    succeeds(fuzz(dir.path(), &["replay", "out", "5"]));
+}
+
+#[test]
+fn systems_that_answer_nothing_are_failed_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), TRACE);
+    refused(&run(dir.path(), "no-spec", &["--budget", "4"]), &["every test ended in an error", "without a --spec"]);
+    assert_eq!(trials(dir.path(), "no-spec").len(), 4);
+    script(dir.path(), "echo no licence >&2; exit 1");
+    for _ in 0..2 {
+        let given_up = run(dir.path(), "none", &["--resume"]);
+        refused(&given_up, &["first 50 tests ended in an error", "given up", "no licence"]);
+        assert_eq!(trials(dir.path(), "none").len(), 50);
+    }
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_before_anything_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), TRACE);
+    fs::write(dir.path().join("model.pict"), "a: 1, 2\nb: 1, ~2\n").unwrap();
+    let cases: &[(&[&str], &[&str])] = &[
+        (&["--system", "sh system.sh"], &["--space"]),
+        (&["--space", "SPACE.toml"], &["--system"]),
+        (&["--timeout", "3"], &["--system"]),
+        (&["--system", "no-such-program -x", "--space", "SPACE.toml"], &["cannot start", "`no-such-program`"]),
+        (&["--system", "", "--space", "SPACE.toml"], &["found no program"]),
+        (&["--system", "sh 'system.sh", "--space", "SPACE.toml"], &["quote is not closed"]),
+        (&["--system", "sh system.sh", "--space", "SPACE.tml"], &["cannot read SPACE.tml"]),
+        (&["--system", "sh system.sh", "--space", "model.pict"], &["model.pict", "negative values"]),
+        (&["--system", "sh system.sh", "--space", "SPACE.toml", "--timeout", "0"], &["time-out is 0"]),
+        (&["--system", "sh system.sh", "--space", "SPACE.toml", "--timeout", "NaN"], &["time-out is NaN"]),
+        (&["--system", "sh system.sh", "--space", "SPACE.toml", "--driver", "aeb"], &["--driver"]),
+        (&["--system", "sh system.sh", "--space", "SPACE.toml", "--set", "x=1"], &["--set"]),
+        (&["pedestrian-crossing", "--system", "sh system.sh", "--space", "SPACE.toml"], &["SCENARIO"]),
+        (&["--system", "sh system.sh", "--space", "SPACE.toml", "--spec", "G (speed <"], &["column 11", "the end"]),
+    ];
+    for (arguments, says) in cases {
+        refused(&fuzz(dir.path(), &[arguments, &["--out", "out"][..]].concat()), says);
+        assert!(!dir.path().join("out").exists(), "{arguments:?} wrote something");
+    }
+}
+
+#[test]
+fn a_campaign_of_a_system_that_is_killed_is_completed_to_the_same_log() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), &format!("case $i in 17) exit 1;; esac; {ROBUSTNESS}"));
+    for strategy in ["halton", "cmaes", "bayes"] {
+        let options = ["--budget", "60", "--strategy", strategy, "--seed", "1"];
+        let out = |name: &str| format!("{strategy}-{name}");
+        succeeds(run(dir.path(), &out("whole"), &[&options[..], &["--jobs", "1"]].concat()));
+        let whole = log(dir.path(), &out("whole"));
+        let name = out("killed");
+        let resume = [&options[..], &["--resume"]].concat();
+        // It kills the campaign once it has come so far.
+        let killer =
+            format!("case $i in 33) if [ ! -e {name}.done ]; then touch {name}.done; kill -9 $PPID; fi;; esac");
+        let system = fs::read_to_string(dir.path().join("system.sh")).unwrap();
+        fs::write(dir.path().join("system.sh"), system.replace("case $i in 17)", &format!("{killer}; case $i in 17)")))
+            .unwrap();
+        assert_eq!(run(dir.path(), &name, &resume).status.code(), None);
+        fs::write(dir.path().join("system.sh"), system).unwrap();
+        assert!(log(dir.path(), &name).len() < whole.len());
+        succeeds(run(dir.path(), &name, &resume));
+        assert_eq!(log(dir.path(), &name), whole, "{strategy}");
+    }
+}
+
+#[test]
+fn an_interrupt_does_not_wait_for_a_system_that_hangs() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), &format!("case $i in 3) kill -INT $PPID; sleep 1000;; *) {ROBUSTNESS};; esac"));
+    let options = ["--system", "sh system.sh", "--space", "SPACE.toml", "--timeout", "1000", "--jobs", "1"];
+    let mut campaign = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"));
+    let campaign = campaign.args(options).current_dir(dir.path()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let output = campaign.spawn().unwrap().wait_with_output().unwrap();
+    refused(&output, &["interrupted", "the first 3 trials are safe", "--resume"]);
+}
