@@ -55,11 +55,11 @@ impl Tests {
     }
 
     /// Reads tests of a space without continuous parameters that may say nothing yet of some of the others: an empty
-    /// cell is no level.
+    /// cell is no level. Each comes with its line.
     ///
     /// # Errors
     /// As [`Tests::read`].
-    pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<Vec<Option<usize>>>, Error> {
+    pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<(usize, Vec<Option<usize>>)>, Error> {
         let mut file = TestsFile::open(path, Some(space.clone()))?;
         let mut rows = Vec::new();
         while let Some((line, record)) = file.next(rows.len())? {
@@ -74,7 +74,8 @@ impl Tests {
                 constant.check(&value).map_err(|error| file.wrong(line, error.to_string(), None))?;
                 Ok(constant.levels().and_then(|levels| levels.iter().position(|level| *level == value)))
             };
-            rows.push(space.discrete().zip(&file.columns).map(level).collect::<Result<_, Error>>()?);
+            let levels = space.discrete().zip(&file.columns).map(level).collect::<Result<_, Error>>()?;
+            rows.push((line.unwrap_or_default(), levels));
         }
         Ok(rows)
     }

@@ -6,6 +6,7 @@ mod compare;
 mod estimate;
 mod generate;
 mod plan;
+mod reached;
 mod space_file;
 mod strength;
 
