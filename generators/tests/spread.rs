@@ -40,7 +40,7 @@ fn tests(strategy: Strategy, request: &Request) -> Vec<Point> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(100))]
 
     #[test]
     fn no_row_is_left_worse_than_with_equal_shares(
@@ -48,7 +48,7 @@ proptest! {
         levels in prop::collection::vec(1..4usize, 1..4),
         strategy in prop::sample::select(&STRATEGIES[..]),
         discrete in prop::sample::select(&[DiscreteFamily::Ipog, DiscreteFamily::Cross][..]),
-        budget in 1..150usize,
+        budget in 1..100usize,
         seed in prop::option::of(0..100u64),
     ) {
         let space = mixed(dims, &levels);

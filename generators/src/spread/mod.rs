@@ -11,6 +11,8 @@
 //! no row is left worse than with equal shares. That is true as long as the boxes fit in memory ([`row`]); beyond, it is
 //! no more than likely.
 //!
+//! Random points are chosen in this way too: whoever asks for an epsilon does not ask for independent ones.
+//!
 //! Which set a row uses is known only when it gets no more points, so all is planned before the first test. Of what was
 //! planned the tests come first that split the largest holes: a campaign that is stopped has looked at all rows.
 
@@ -27,7 +29,7 @@ use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 /// How many sets a row chooses from, and how many there are for all rows if these are many.
-const SETS: u64 = 32;
+const SETS: u64 = 16;
 const MOST_SETS: u64 = 1 << 14;
 
 /// The length of a row's block where the budget does not say one.

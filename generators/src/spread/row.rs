@@ -17,7 +17,7 @@ const MOST_MEMORY: usize = 200_000_000;
 const MOST_FACES: usize = 500_000_000;
 
 /// How many boxes a row's sets may have together while more than two are compared.
-const MOST_COMPARED: usize = 100_000;
+const MOST_COMPARED: usize = 20_000;
 
 /// When a row is done, and what it may take.
 pub(super) struct Limits {
