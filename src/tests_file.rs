@@ -59,7 +59,7 @@ impl Tests {
     ///
     /// # Errors
     /// As [`Tests::read`].
-    pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<(usize, Vec<Option<usize>>)>, Error> {
+    pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<(usize, PartialRow)>, Error> {
         let mut file = TestsFile::open(path, Some(space.clone()))?;
         let mut rows = Vec::new();
         while let Some((line, record)) = file.next(rows.len())? {
@@ -93,6 +93,9 @@ impl Tests {
         Ok(Self { k: study.strength(), ..Self::new(study.space.clone(), points) })
     }
 }
+
+/// A test of discrete parameters that may leave some levels open.
+pub(crate) type PartialRow = Vec<Option<usize>>;
 
 /// Whether a cell says nothing of a parameter: it is empty, and the parameter does not take the empty word.
 fn is_open(text: &str, parameter: &Parameter) -> bool {

@@ -39,8 +39,14 @@ const LONG: u64 = 1 << 20;
 pub(crate) struct Spread {
     /// What is to be planned; nothing once it is.
     plan: Option<Plan>,
+    planned: Planned,
+}
+
+/// The tests to come.
+#[derive(Default)]
+struct Planned {
     rows: Vec<(Vec<usize>, Set)>,
-    /// The tests to come: a row and the number of its point.
+    /// For each test its row and the number of its point.
     tests: std::vec::IntoIter<(usize, u64)>,
 }
 
@@ -74,20 +80,21 @@ impl Spread {
         let row = |number| Row::new(dims, family.row(number), existing.remove(&number).unwrap_or_default(), &limits);
         let rows = (0..family.len()).map(row).collect();
         let plan = Plan { rows, sets, budget: request.budget, limits };
-        Ok(Self { plan: Some(plan), rows: Vec::new(), tests: Vec::new().into_iter() })
+        Ok(Self { plan: Some(plan), planned: Planned::default() })
     }
 }
 
 impl Generator for Spread {
     fn ask(&mut self, n: usize) -> Vec<Point> {
         if let Some(plan) = self.plan.take() {
-            (self.rows, self.tests) = plan.tests();
+            self.planned = plan.carry_out();
         }
+        let Planned { rows, tests } = &mut self.planned;
         let test = |(row, number): (usize, u64)| {
-            let (discrete, set) = &self.rows[row];
+            let (discrete, set) = &rows[row];
             Point { continuous: set.point(number), discrete: discrete.clone() }
         };
-        self.tests.by_ref().take(n).map(test).collect()
+        tests.take(n).map(test).collect()
     }
 }
 
@@ -102,7 +109,7 @@ struct Plan {
 impl Plan {
     /// Gives points to the row with the largest hole for as long as it takes; then says what set each row has, and the
     /// order of the tests.
-    fn tests(mut self) -> (Vec<(Vec<usize>, Set)>, std::vec::IntoIter<(usize, u64)>) {
+    fn carry_out(mut self) -> Planned {
         // Volumes are not below 0, and their bits are in their order. Of rows alike the one with the fewest points comes
         // next, then the first.
         let key = |number: usize, row: &Row| (row.hole().to_bits(), Reverse((row.points(), number)));
@@ -134,7 +141,7 @@ impl Plan {
         }
         tests.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         let tests: Vec<(usize, u64)> = tests.into_iter().map(|(_, point, _, row)| (row, point)).collect();
-        (rows, tests.into_iter())
+        Planned { rows, tests: tests.into_iter() }
     }
 }
 

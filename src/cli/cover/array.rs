@@ -11,6 +11,7 @@ use crate::coverage::{Coordinate, Deadline, Space};
 use crate::estimate::named_level;
 use crate::generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
 use crate::generators::{GeneratorError, Request};
+use crate::tests_file::PartialRow;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -97,9 +98,6 @@ impl ArrayOptions {
         Ok(rows)
     }
 }
-
-/// An existing test, that may leave some levels open.
-type PartialRow = Vec<Option<usize>>;
 
 /// So many tests that do not count are listed, each with the reason.
 const MOST_REFUSED: usize = 10;
