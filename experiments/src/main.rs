@@ -2,6 +2,7 @@
 //!
 //! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints what it found.
 
+mod boundary;
 mod fig9;
 mod recovery;
 mod samplers;
@@ -26,7 +27,13 @@ struct Study {
     run: fn(&Path, &ProgressBar) -> Done,
 }
 
-const STUDIES: [Study; 2] = [
+const STUDIES: [Study; 3] = [
+    Study {
+        name: "boundary",
+        about: "how much of the pedestrian study's map is known after 25 to 400 tests, by boundary and by sampling",
+        time: "2 min",
+        run: boundary::run,
+    },
     Study {
         name: "fig9",
         about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, at 25, 100 and 500 tests",

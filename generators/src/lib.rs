@@ -34,6 +34,7 @@ mod sequence;
 mod spread;
 mod strategy;
 
+pub use adaptive::{FailingShare, FailureModel};
 pub use error::GeneratorError;
 pub use family::DiscreteFamily;
 pub use greedy::Aim;

@@ -15,6 +15,9 @@ use faer::{Mat, Par, Side};
 /// The smallest variance, in shares of the process's, that is told from 0.
 const LEAST_VARIANCE: f64 = 1e-12;
 
+/// What is added to variances, in the same shares, so that draws at places that are almost one have a factor.
+const DRAW_NOISE: f64 = 1e-8;
+
 /// How alike two places are.
 #[derive(Debug, Clone)]
 pub(super) struct Kernel {
@@ -99,6 +102,27 @@ impl Process {
         (mean.is_finite() && variance.is_finite()).then_some(Self { kernel, places, factor, pull, mean, variance })
     }
 
+    /// The process through values at places, with as much noise as it takes: without any, places that are almost one have
+    /// no factor.
+    pub(super) fn with_noise(kernel: &Kernel, places: &[Vec<f64>], values: &[f64]) -> Option<Self> {
+        [1.0, 1e2, 1e4].into_iter().find_map(|more| {
+            let kernel = Kernel { noise: kernel.noise * more, ..kernel.clone() };
+            Self::new(kernel, places.to_vec(), values, Mean::Unknown)
+        })
+    }
+
+    /// Mean and deviation at each place if the value there were not known, but mean, variance and kernel were (Rasmussen
+    /// and Williams, equation 5.12).
+    pub(super) fn leave_one_out(&self, values: &[f64]) -> Vec<(f64, f64)> {
+        let n = self.places.len();
+        let inverse = self.factor.solve(Mat::<f64>::identity(n, n));
+        let one = |i: usize| {
+            let share = 1.0 / inverse[(i, i)];
+            (values[i] - self.pull[i] * share, (share * self.variance).sqrt())
+        };
+        (0..n).map(one).collect()
+    }
+
     /// The logarithm of the likelihood of the values, mean and variance being the most likely ones, up to a constant.
     pub(super) fn log_likelihood(&self) -> f64 {
         let n = self.places.len();
@@ -172,6 +196,31 @@ impl Posterior<'_> {
 
     pub(super) fn deviation(&self, index: usize) -> f64 {
         (self.share[index] * self.process.variance).sqrt()
+    }
+
+    /// Values at some of the places together, by the process: one for each list of standard normal numbers.
+    pub(super) fn draws(&self, at: &[usize], normals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let kernel = &self.process.kernel;
+        let share = |i: usize, j: usize| {
+            if i == j {
+                return self.share[at[i]] + DRAW_NOISE;
+            }
+            let (a, b) = (self.whitened.col(at[i]), self.whitened.col(at[j]));
+            let explained: f64 = a.iter().zip(b.iter()).map(|(a, b)| a * b).sum();
+            kernel.correlation(&self.places[at[i]], &self.places[at[j]]) - explained
+        };
+        let shares = Mat::from_fn(at.len(), at.len(), |i, j| if j <= i { share(i, j) } else { 0.0 });
+        let factor = shares.llt(Side::Lower).ok();
+        let deviation = self.process.variance.sqrt();
+        let value = |normals: &[f64], i: usize| {
+            let step: f64 = match &factor {
+                Some(factor) => (0..=i).map(|j| factor.L()[(i, j)] * normals[j]).sum(),
+                // Rounding errors have made it no covariance: then they vary as one.
+                None => self.share[at[i]].sqrt() * normals[0],
+            };
+            self.mean[at[i]] + deviation * step
+        };
+        normals.iter().map(|normals| (0..at.len()).map(|i| value(normals, i)).collect()).collect()
     }
 
     /// Believes that a test at one of the places comes out as expected (kriging believer; Ginsbourger et al. 2010): no mean
