@@ -22,6 +22,8 @@ const SURE: f64 = 0.95;
 /// The estimated probability of failure on a grid over two coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailureEstimate {
+    /// The names of the two coordinates.
+    pub names: [String; 2],
     /// The values of the first coordinate, from its least to its greatest.
     pub x: Vec<f64>,
     /// The values of the second.
@@ -92,9 +94,13 @@ impl FailureEstimate {
         let grid = (0..nodes[1]).flat_map(|j| (0..nodes[0]).map(move |i| (i, j)));
         let groups: Vec<Vec<Point>> =
             grid.map(|(i, j)| others.iter().map(|other| place(other, at(0, i), at(1, j))).collect()).collect();
-        let parameters: Vec<_> = study.space.continuous().map(|coordinate| coordinate.parameter).collect();
-        let values = |axis: usize| (0..nodes[axis]).map(|i| parameters[axes[axis]].value_at(at(axis, i))).collect();
-        Ok(Some(Self { x: values(0), y: values(1), shares: model.shares(&groups) }))
+        let coordinates: Vec<_> = study.space.continuous().collect();
+        let values = |axis: usize| {
+            let parameter = coordinates[axes[axis]].parameter;
+            (0..nodes[axis]).map(|i| parameter.value_at(at(axis, i))).collect()
+        };
+        let names = axes.map(|axis| coordinates[axis].name());
+        Ok(Some(Self { names, x: values(0), y: values(1), shares: model.shares(&groups) }))
     }
 
     /// What is known at a node.
@@ -102,12 +108,23 @@ impl FailureEstimate {
         &self.shares[j * self.x.len() + i]
     }
 
-    /// The estimate as CSV: the coordinates, by these names, the probability, its standard deviation, and `fail`, `pass` or
+    /// The probability over the whole of both coordinates: the mean of the grid's.
+    pub fn mean(&self) -> f64 {
+        self.shares.iter().map(|share| share.mean).sum::<f64>() / self.shares.len() as f64
+    }
+
+    /// The share of the places of which it is sure whether more than half fails or less.
+    pub fn decided(&self) -> f64 {
+        self.shares.iter().filter(|share| decided(share).is_some()).count() as f64 / self.shares.len() as f64
+    }
+
+    /// The estimate as CSV: the coordinates, the probability, its standard deviation, and `fail`, `pass` or
     /// nothing for where more or less than half fails for sure.
-    pub(crate) fn csv(&self, names: [&str; 2]) -> Vec<u8> {
+    pub(crate) fn csv(&self) -> Vec<u8> {
         let mut csv = csv::Writer::from_writer(Vec::new());
         let mut write = |row: [String; 5]| csv.write_record(row).expect("rows of one length fit into memory");
-        write([names[0], names[1], "probability", "deviation", "decided"].map(str::to_owned));
+        let [x, y] = &self.names;
+        write([x, y, "probability", "deviation", "decided"].map(str::to_owned));
         for (j, y) in self.y.iter().enumerate() {
             for (i, x) in self.x.iter().enumerate() {
                 let share = self.at(i, j);

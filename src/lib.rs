@@ -25,7 +25,9 @@ pub mod compare;
 mod error;
 mod estimate;
 mod executor;
+mod explanation;
 mod extension;
+mod failure_estimate;
 mod folder;
 mod json;
 mod live;
@@ -48,7 +50,9 @@ pub use error::Error;
 pub use estimate::{
     Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Strength, Tests, Watch,
 };
+pub use explanation::{Accuracy, Explanation, Rule};
 pub use extension::Extension;
+pub use failure_estimate::FailureEstimate;
 pub use folder::Folder;
 pub use live::LiveCoverage;
 pub use plan::{Guarantee, Need, Plan};

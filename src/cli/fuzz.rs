@@ -1,6 +1,6 @@
 //! The arguments of `paracosm-fuzz`.
 
-use super::{Failure, Found, Verbosity, describe, list, replay, run};
+use super::{Failure, Found, Verbosity, describe, list, map, replay, run};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -8,6 +8,7 @@ Examples:
   paracosm-fuzz --strategy halton --budget 500       the pedestrian study of the paper, into paracosm-out/
   paracosm-fuzz pedestrian-crossing --driver aeb --open friction=0.3..0.8 --out slippery
   paracosm-fuzz --open friction:piecewise-linear:3   the friction varies while a test runs
+  paracosm-fuzz map paracosm-out --x speed --y friction    the failure map over other parameters
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
@@ -40,6 +41,10 @@ enum Verb {
                             paracosm-fuzz describe pedestrian-crossing --draw world.svg"
     )]
     Describe(describe::Options),
+    /// Draw the failure map of a campaign again, over other parameters: its tests, and how probable a failure is
+    #[command(after_help = "Examples:\n  paracosm-fuzz map paracosm-out --x speed --y friction\n  \
+                            paracosm-fuzz map paracosm-out --x distance --y friction --out slippery.svg")]
+    Map(map::Options),
     /// Run a logged test again and compare its trace hash with the log's
     #[command(after_help = "Examples:\n  paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv\n  \
                             paracosm-fuzz replay paracosm-out 17 --draw test-17.gif")]
@@ -53,6 +58,7 @@ impl Command {
             Some(Verb::Run(options)) => options.execute(self.verbosity),
             Some(Verb::List(options)) => options.execute(),
             Some(Verb::Describe(options)) => options.execute(self.verbosity),
+            Some(Verb::Map(options)) => options.execute(self.verbosity),
             Some(Verb::Replay(options)) => options.execute(self.verbosity),
         }
     }

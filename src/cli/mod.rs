@@ -8,6 +8,7 @@ mod describe;
 mod draw;
 mod fuzz;
 mod list;
+mod map;
 mod output;
 mod progress;
 mod replay;

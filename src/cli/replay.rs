@@ -39,7 +39,7 @@ impl Options {
             Error::Usage(format!("{} has no test {}, expected {there}", self.dir.display(), self.index))
         })?;
         let target =
-            self.draw.as_ref().map(|file| Target::new(file, &[Kind::Svg, Kind::Png, Kind::Gif])).transpose()?;
+            self.draw.as_ref().map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif])).transpose()?;
         let mut driver = study.driver.build()?;
         let mut record = Record::default();
         let (program, watched) = (study.program()?, target.is_some());
@@ -80,6 +80,7 @@ fn draw(record: &Record, kind: Kind, caption: &str) -> Result<Vec<u8>, Failure> 
         Kind::Svg => Ok(story()?.svg().into_bytes()),
         Kind::Png => plot::png(&story()?),
         Kind::Gif => plot::gif(&record.film(FILM, caption).ok_or(nothing)?),
+        Kind::Csv => unreachable!("it is none of the kinds"),
     }
 }
 

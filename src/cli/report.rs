@@ -4,7 +4,7 @@ use super::output::{Table, digits, percent, plural, shell_word, value_words};
 use super::suspects::Guilt;
 use crate::coverage::Value;
 use crate::oracles::Verdict;
-use crate::{Coverage, Promise, Study, Summary, Trial};
+use crate::{Coverage, Explanation, Promise, Study, Summary, Trial};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -17,6 +17,7 @@ pub(super) struct Report<'a> {
     pub(super) coverage: &'a Coverage,
     pub(super) promise: Option<&'a Promise>,
     pub(super) guilt: &'a Guilt,
+    pub(super) explanation: Option<&'a Explanation>,
     pub(super) out: &'a Path,
 }
 
@@ -55,6 +56,9 @@ impl Report<'_> {
             }
         }
         self.guilt.show(&mut table);
+        if let Some(explanation) = self.explanation {
+            table.row("explanation", &explanation.words);
+        }
         table.row("written to", &self.out.display().to_string());
         if let Some(worst) = summary.worst() {
             let trial = &self.trials[worst.index];
@@ -82,6 +86,9 @@ impl Report<'_> {
         if let Some(promise) = self.promise {
             summary["random_rows"] = json!(promise);
             summary["random_rows"]["different"] = self.different_rows().into();
+        }
+        if let Some(explanation) = self.explanation {
+            summary["explanation"] = json!(explanation);
         }
         self.guilt.add_to(&mut summary);
         summary

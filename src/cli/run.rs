@@ -1,5 +1,6 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
+use super::map;
 use super::output::{Format, json, plural};
 use super::progress::Progress;
 use super::report::Report;
@@ -9,7 +10,7 @@ use super::{Failure, Found, Verbosity, print};
 use crate::coverage::{Domain, Shape, Value};
 use crate::generators::Strategy;
 use crate::oracles::Verdict;
-use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Study, Tests, Trial};
+use crate::{Campaign, Coverage, Error, Explanation, Folder, Measure, Study, Tests, Trial};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -131,6 +132,10 @@ impl Options {
         progress.bar.finish_and_clear();
         let coverage = coverage?;
         let guilt = Guilt::of(&study, &trials, &folder, self.locate)?;
+        let explanation = Explanation::of(&study, &trials)?;
+        if let Some(explanation) = &explanation {
+            folder.write("explanation.json", json(explanation).as_bytes())?;
+        }
         let promise = study.promise()?;
         let report = Report {
             study: &study,
@@ -139,6 +144,7 @@ impl Options {
             coverage: &coverage,
             promise: promise.as_ref(),
             guilt: &guilt,
+            explanation: explanation.as_ref(),
             out: &self.out,
         };
         print(&match Format::or_fitting(self.format) {
@@ -237,17 +243,9 @@ impl Options {
         let tests = Tests::of_trials(study, trials)?;
         let coverage = tests.measure(&Measure::ALL, None, Some(COVERAGE_LIMIT))?;
         folder.write("coverage.json", json(&coverage).as_bytes())?;
-        match FailureMap::of(study, trials) {
+        match map::of_campaign(study, trials)? {
             None => verbosity.note("no failure map: it needs two continuous open parameters"),
-            Some(map) => {
-                let picture = Picture::of(map);
-                let failed = |name: &str| {
-                    let path = self.out.join(name);
-                    move |error: Failure| Error::Picture { path, message: error.to_string() }
-                };
-                folder.write("failure-map.svg", picture.svg().map_err(failed("failure-map.svg"))?.as_bytes())?;
-                folder.write("failure-map.png", &picture.png().map_err(failed("failure-map.png"))?)?;
-            }
+            Some(failures) => map::write(&self.out, &failures)?,
         }
         Ok(coverage)
     }

@@ -5,10 +5,12 @@
 //! The font is in the program: pictures look the same on a machine without any.
 
 mod animation;
+mod contour;
 mod log_axis;
 mod log_log;
 mod map;
 mod raster;
+mod shade;
 
 pub(crate) use animation::gif;
 pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};

@@ -108,3 +108,93 @@ impl FailureModel {
         shares
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Request, Strategy};
+
+    fn tests(space: &Space, n: usize) -> Vec<Point> {
+        Strategy::Halton.build(&Request::new(space, n)).unwrap().ask(n)
+    }
+
+    /// How much of 2,000 other tests the model tells right.
+    fn right(space: &Space, n: usize, robustness: impl Fn(&Point) -> f64) -> f64 {
+        let known = tests(space, n);
+        let told: Vec<f64> = known.iter().map(&robustness).collect();
+        let model = FailureModel::fit(space, &known, &told).unwrap();
+        let others = Strategy::Random.build(&Request::new(space, 2000)).unwrap().ask(2000);
+        let probabilities = model.probabilities(&others);
+        let right = others.iter().zip(probabilities).filter(|(at, p)| (*p > 0.5) == (robustness(at) < 0.0)).count();
+        right as f64 / 2000.0
+    }
+
+    fn ball(at: &Point) -> f64 {
+        let square = |u: &f64| (u - 0.45) * (u - 0.45);
+        at.continuous.iter().map(square).sum::<f64>().sqrt() - 0.3
+    }
+
+    #[test]
+    fn a_ball_is_known_after_few_tests_by_a_robustness_that_is_its_distance() {
+        assert!(right(&Space::unit_cube(3), 60, ball) > 0.98);
+    }
+
+    #[test]
+    fn it_is_known_after_some_where_the_robustness_jumps() {
+        let jumping = |at: &Point| if ball(at) < 0.0 { -9.0 + 5.0 * at.continuous[0] } else { ball(at).min(0.1) };
+        assert!(right(&Space::unit_cube(2), 150, jumping) > 0.97);
+    }
+
+    #[test]
+    fn of_many_tests_it_sees_those_that_tell_most() {
+        assert!(right(&Space::unit_cube(2), 3000, |at| if ball(at) < 0.0 { -5.0 } else { 1.0 }) > 0.985);
+    }
+
+    #[test]
+    fn words_are_told_apart() {
+        let text = "parameter = [{ name = \"x\", interval = [0, 1] }, { name = \"sky\", choice = [\"day\", \"dusk\", \"night\"] }]";
+        let space = Space::from_toml(text).unwrap();
+        assert!(right(&space, 90, |at| if at.discrete[0] == 2 { at.continuous[0] - 0.5 } else { 1.0 }) > 0.95);
+    }
+
+    #[test]
+    fn the_share_of_tests_that_fail_is_known_as_well_as_they_are() {
+        let space = Space::unit_cube(2);
+        let known = tests(&space, 100);
+        let fails = |at: &Point| 0.6 - at.continuous[0];
+        let model = FailureModel::fit(&space, &known, &known.iter().map(fails).collect::<Vec<_>>()).unwrap();
+        let at = |x: f64, y: f64| Point { continuous: vec![x, y], discrete: Vec::new() };
+        let group = |x: [f64; 4]| x.map(|x| at(x, 0.5)).to_vec();
+        let found = model.shares(&[group([0.1, 0.2, 0.3, 0.4]), group([0.2, 0.3, 0.4, 0.9]), group([0.9; 4])]);
+        let expected = [(0.0, 0.0), (0.25, 0.0), (1.0, 1.0)];
+        for (found, (mean, above)) in found.iter().zip(expected) {
+            assert!((found.mean - mean).abs() < 0.02 && found.deviation < 0.05 && found.above_half == above, "{found:?}");
+        }
+        // At the edge nothing is sure, and the mean is that of the probabilities.
+        let edge = [at(0.6, 0.5), at(0.6001, 0.5)];
+        let unsure = model.shares(&[edge.to_vec()])[0];
+        assert!(unsure.deviation > 0.1 && (0.05..0.95).contains(&unsure.above_half), "{unsure:?}");
+        let mean = model.probabilities(&edge).iter().sum::<f64>() / 2.0;
+        assert!((unsure.mean - mean).abs() < 1e-12);
+    }
+
+    #[test]
+    fn whatever_it_is_told_there_are_probabilities_or_no_model() {
+        let space = Space::unit_cube(2);
+        let known = tests(&space, 12);
+        for told in [f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, 1e-300, 1e300, f64::NAN] {
+            let mixed: Vec<f64> = (0..12).map(|i| if i % 3 == 0 { -1.0 } else { told }).collect();
+            for told in [vec![told; 12], mixed] {
+                let Some(model) = FailureModel::fit(&space, &known, &told) else {
+                    assert!(told.iter().all(|told| told.is_nan()));
+                    continue;
+                };
+                assert!(model.probabilities(&known).iter().all(|p| (0.0..=1.0).contains(p)), "{told:?}");
+            }
+        }
+        assert!(FailureModel::fit(&space, &known[..1], &[1.0]).is_none());
+        let doubled: Vec<Point> = known.iter().chain(&known).cloned().collect();
+        let told: Vec<f64> = (0..24).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        assert!(FailureModel::fit(&space, &doubled, &told).is_some());
+    }
+}

@@ -344,6 +344,52 @@ mod tests {
         }
 
         #[test]
+        fn leaving_one_out_is_a_process_without_it((kernel, places, values, _) in cases()) {
+            let process = Process::new(kernel.clone(), places.clone(), &values, Mean::Unknown).unwrap();
+            let left_out = process.leave_one_out(&values);
+            for index in (0..places.len()).filter(|_| places.len() > 2) {
+                let without = |i: &usize| *i != index;
+                let others: Vec<Vec<f64>> = (0..places.len()).filter(without).map(|i| places[i].clone()).collect();
+                let rest: Vec<f64> = (0..places.len()).filter(without).map(|i| values[i]).collect();
+                let smaller = Process::new(kernel.clone(), others, &rest, Mean::Known(process.mean)).unwrap();
+                let posterior = smaller.posterior(vec![places[index].clone()]);
+                let (mean, deviation) = left_out[index];
+                prop_assert!((posterior.mean(0) - mean).abs() < 1e-6);
+                // The noise of the value itself counts, and the variance is that of all.
+                let share = posterior.share[0] + kernel.noise;
+                prop_assert!((share * process.variance - deviation * deviation).abs() < 1e-6);
+            }
+        }
+
+        #[test]
+        fn draws_vary_together_as_the_process_says((kernel, places, values, at) in cases()) {
+            let process = Process::new(kernel, places, &values, Mean::Unknown).unwrap();
+            let posterior = process.posterior(at.clone());
+            let all: Vec<usize> = (0..at.len()).collect();
+            // With one normal number at a time a draw is a column of the covariance's factor.
+            let unit = |one: usize| (0..at.len()).map(|i| f64::from(u8::from(i == one))).collect();
+            let units: Vec<Vec<f64>> = all.iter().map(|&one| unit(one)).collect();
+            let columns = posterior.draws(&all, &units);
+            for &i in &all {
+                let variance: f64 = columns.iter().map(|column| (column[i] - posterior.mean(i)).powi(2)).sum();
+                let found = posterior.deviation(i) * posterior.deviation(i);
+                prop_assert!((variance - found).abs() < 1e-6 * process.variance, "{variance} {found}");
+            }
+            // What is believed of the first takes away as much of the others as its covariance with them.
+            let mut believing = process.posterior(at.clone());
+            believing.believe(0);
+            let noisy = posterior.share[0] + process.kernel.noise;
+            for &i in &all {
+                let covariance: f64 = columns
+                    .iter()
+                    .map(|column| (column[0] - posterior.mean(0)) * (column[i] - posterior.mean(i)))
+                    .sum::<f64>() / process.variance;
+                let left = posterior.share[i] - covariance * covariance / noisy;
+                prop_assert!((left - believing.share[i]).abs() < 1e-5, "{left} {}", believing.share[i]);
+            }
+        }
+
+        #[test]
         fn the_gradient_is_the_difference_quotient((kernel, places, values, _) in cases()) {
             let of = |kernel: &Kernel| Process::new(kernel.clone(), places.clone(), &values, Mean::Unknown).unwrap();
             let gradient = of(&kernel).log_likelihood_gradient();

@@ -13,7 +13,7 @@ use super::bend::Bend;
 use super::cube::Axis;
 use super::fit::{fit, prior};
 use super::log_ei::normal_below;
-use super::process::{Kernel, Mean, Process};
+use super::process::{Kernel, Process};
 
 /// The slopes that are tried, as logarithms: from -2 in steps of a quarter.
 const LEAST_SLOPE: f64 = -2.0;
