@@ -67,7 +67,8 @@ impl FailureEstimate {
     /// # Errors
     /// A trial is none of the study's space, or its constraints cannot be kept.
     pub(crate) fn of(study: &Study, trials: &[Trial], axes: Axes) -> Result<Option<Self>, Error> {
-        let judged: Vec<&Trial> = trials.iter().filter(|t| matches!(t.verdict, Verdict::Fail | Verdict::Pass)).collect();
+        let judged: Vec<&Trial> =
+            trials.iter().filter(|t| matches!(t.verdict, Verdict::Fail | Verdict::Pass)).collect();
         let failures = judged.iter().filter(|trial| trial.is_failure()).count();
         if failures == 0 || failures == judged.len() {
             return Ok(None);
@@ -143,7 +144,9 @@ impl FailureEstimate {
 
 /// Whether more than half fails for sure, or less; `None` where neither is sure.
 pub(crate) fn decided(share: &FailingShare) -> Option<bool> {
-    [(share.above_half >= SURE, true), (share.above_half <= 1.0 - SURE, false)].into_iter().find_map(|(is, what)| is.then_some(what))
+    [(share.above_half >= SURE, true), (share.above_half <= 1.0 - SURE, false)]
+        .into_iter()
+        .find_map(|(is, what)| is.then_some(what))
 }
 
 /// What the tests at a place differ by: one where they vary nothing but the axes.

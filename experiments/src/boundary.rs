@@ -76,20 +76,22 @@ impl Tests {
 }
 
 fn sample(strategy: &'static str, seed: u64, tests: &Tests, map: &Tests) -> Sample {
-    let space = Study::of("pedestrian-crossing").and_then(|study| study.open("friction", None)).expect("as before").space;
+    let space =
+        Study::of("pedestrian-crossing").and_then(|study| study.open("friction", None)).expect("as before").space;
     let model = FailureModel::fit(&space, &tests.points, &tests.robustness).expect("there are tests");
     let probabilities = model.probabilities(&map.points);
     let fails = |robustness: &f64| robustness.is_sign_negative();
     let share = |right: usize| right as f64 / map.points.len() as f64;
     let told = map.robustness.iter().zip(&probabilities);
     let model = share(told.clone().filter(|(robustness, p)| fails(robustness) == (**p > 0.5)).count());
-    let square = |(robustness, p): (&f64, &f64)| (p - f64::from(fails(robustness))) * (p - f64::from(fails(robustness)));
+    let square =
+        |(robustness, p): (&f64, &f64)| (p - f64::from(fails(robustness))) * (p - f64::from(fails(robustness)));
     let brier = told.map(square).sum::<f64>() / map.points.len() as f64;
     let nearest = |at: &Point| {
-        let square = |other: &Point| {
-            at.continuous.iter().zip(&other.continuous).map(|(a, b)| (a - b) * (a - b)).sum::<f64>()
-        };
-        let nearest = (0..tests.points.len()).min_by(|&a, &b| square(&tests.points[a]).total_cmp(&square(&tests.points[b])));
+        let square =
+            |other: &Point| at.continuous.iter().zip(&other.continuous).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        let nearest =
+            (0..tests.points.len()).min_by(|&a, &b| square(&tests.points[a]).total_cmp(&square(&tests.points[b])));
         fails(&tests.robustness[nearest.expect("there are tests")])
     };
     let nearest = share(map.points.iter().zip(&map.robustness).filter(|(at, r)| nearest(at) == fails(r)).count());
@@ -107,7 +109,10 @@ fn write_samples(path: &Path, samples: &[Sample]) -> Done {
 
 /// Medians, with the worst and the best of the seeds.
 fn table(samples: &[Sample]) -> String {
-    let mut text = format!("{:<10}{:>6}{:>10}{:>28}{:>28}{:>10}\n", "strategy", "tests", "failures", "nearest test right", "model right", "Brier");
+    let mut text = format!(
+        "{:<10}{:>6}{:>10}{:>28}{:>28}{:>10}\n",
+        "strategy", "tests", "failures", "nearest test right", "model right", "Brier"
+    );
     for strategy in STRATEGIES {
         for size in SIZES {
             let of = |measure: fn(&Sample) -> f64| {

@@ -96,8 +96,8 @@ pub(super) fn write(dir: &Path, map: &FailureMap) -> Result<(), Error> {
     let kinds = [("svg", Kind::Svg), ("png", Kind::Png), ("csv", Kind::Csv)];
     for (ending, kind) in kinds.into_iter().filter(|(_, kind)| *kind != Kind::Csv || map.estimate.is_some()) {
         let path = dir.join(format!("{NAME}.{ending}"));
-        let drawn = contents(map, kind)
-            .map_err(|error| Error::Picture { path: path.clone(), message: error.to_string() })?;
+        let drawn =
+            contents(map, kind).map_err(|error| Error::Picture { path: path.clone(), message: error.to_string() })?;
         write_whole(&path, &drawn)?;
     }
     Ok(())

@@ -38,8 +38,11 @@ impl Options {
             let there = if count == 0 { "none".to_owned() } else { format!("0 to {}", count - 1) };
             Error::Usage(format!("{} has no test {}, expected {there}", self.dir.display(), self.index))
         })?;
-        let target =
-            self.draw.as_ref().map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif])).transpose()?;
+        let target = self
+            .draw
+            .as_ref()
+            .map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif]))
+            .transpose()?;
         let mut driver = study.driver.build()?;
         let mut record = Record::default();
         let (program, watched) = (study.program()?, target.is_some());

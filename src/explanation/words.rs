@@ -1,7 +1,7 @@
 //! The rules of a tree in words.
 
-use super::tree::Test;
 use super::Explanation;
+use super::tree::Test;
 use paracosm_coverage::{Coordinate, Space, Value};
 
 /// What the columns of a tree are called.
@@ -25,8 +25,8 @@ impl<'a> Names<'a> {
     }
 
     /// The coordinates, the discrete ones with their number among the discrete ones and how many levels they have.
-    pub(super) fn columns(&self) -> impl Iterator<Item = &(Coordinate<'a>, Option<(usize, usize)>)> {
-        self.columns.iter()
+    pub(super) fn columns(&self) -> impl Iterator<Item = (Coordinate<'a>, Option<(usize, usize)>)> {
+        self.columns.iter().copied()
     }
 
     /// What was asked and answered on the way to a leaf: one condition for each coordinate that was asked about.
@@ -85,17 +85,22 @@ pub(super) fn sentence(explanation: &Explanation) -> String {
     let always = format!("always saying {verdict}");
     if explanation.rules.is_empty() {
         let share = percent(explanation.always);
-        return format!("no rule of at most {} leaves does better than {always}, which is right of {share}", super::MOST_LEAVES);
+        let other = if verdict == "pass" { "fail" } else { "pass" };
+        return format!(
+            "no tree of at most {} leaves finds where most tests {other}; {always} is right of {share}",
+            super::MOST_LEAVES
+        );
     }
     let rules = explanation.rules.iter().map(|rule| {
         let conditions = if rule.conditions.is_empty() { "always".to_owned() } else { rule.conditions.join(" and ") };
         format!("{conditions} ({} of {} tests)", rule.failures, rule.tests)
     });
     format!(
-        "fails when {}; accuracy {} by {}-fold cross-validation, {} would be had by {always}",
+        "fails when {}; by {}-fold cross-validation {} of all tests are told right, and {} of the failing ones; {always} is right of {}",
         rules.collect::<Vec<_>>().join(", or when "),
-        percent(explanation.cross_validated.accuracy),
         super::FOLDS,
+        percent(explanation.cross_validated.accuracy),
+        percent(explanation.cross_validated.recall),
         percent(explanation.always)
     )
 }

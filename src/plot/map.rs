@@ -51,7 +51,7 @@ pub struct FailureMap {
 }
 
 /// How wide the bar of shades is with its numbers, in heights of the text.
-const BAR: f64 = 6.0;
+const BAR: f64 = 5.4;
 
 /// In the order in which they are drawn and listed: what matters most is drawn last, over all else.
 const ORDER: [Verdict; 5] = [Verdict::Pass, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error, Verdict::Fail];
@@ -103,7 +103,7 @@ impl FailureMap {
         match (self.others.is_empty(), &self.estimate) {
             (true, _) => self.note.clone(),
             (false, None) => format!("{}; not shown, but varied too: {others}", self.note),
-            (false, Some(_)) => format!("{}; probability over {others}, which are not shown but vary", self.note),
+            (false, Some(_)) => format!("{}; varied too, and averaged over: {others}", self.note),
         }
     }
 
@@ -131,7 +131,7 @@ impl FailureMap {
             .y_label_area_size(px(3.6 * text))
             .build_cartesian_2d(Ends(self.x.range), Ends(self.y.range))?;
         if let Some(estimate) = &self.estimate {
-            shade::draw(&chart.plotting_area().strip_coord_spec(), estimate, scale)?;
+            shade::draw_shades(&chart.plotting_area().strip_coord_spec(), estimate)?;
         }
         chart
             .configure_mesh()
@@ -145,7 +145,8 @@ impl FailureMap {
             .x_labels(if small { 6 } else { 11 })
             .y_labels(if small { 7 } else { 12 })
             .draw()?;
-        if let Some(bar) = &bar {
+        if let (Some(estimate), Some(bar)) = (&self.estimate, &bar) {
+            shade::draw_lines(&chart.plotting_area().strip_coord_spec(), estimate, scale)?;
             let height = body.dim_in_pixel().1;
             shade::draw_bar(bar, (0, (height - px(3.3 * text)) as i32), "probability of failure", text * scale)?;
         }
@@ -160,7 +161,13 @@ impl FailureMap {
     }
 
     /// Title, note, and the legend with counts.
-    fn draw_header<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, text: f64, side: f64, scale: f64) -> Result<B> {
+    fn draw_header<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        text: f64,
+        side: f64,
+        scale: f64,
+    ) -> Result<B> {
         let style = |size: f64| TextStyle::from((FAMILY, size).into_font()).color(&INK);
         let left = (0.8 * text) as i32;
         area.draw(&Text::new(self.title.clone(), (left, (0.5 * text) as i32), style(1.15 * text)))?;

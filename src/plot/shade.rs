@@ -32,7 +32,12 @@ struct Cells<'a> {
     size: (f64, f64),
 }
 
-impl Cells<'_> {
+impl<'a> Cells<'a> {
+    fn over<B: DrawingBackend>(area: &DrawingArea<B, Shift>, estimate: &'a FailureEstimate) -> Self {
+        let (width, height) = area.dim_in_pixel();
+        Self { estimate, size: (f64::from(width - 1), f64::from(height - 1)) }
+    }
+
     fn columns(&self) -> usize {
         self.estimate.x.len() - 1
     }
@@ -50,7 +55,8 @@ impl Cells<'_> {
 
     /// The mean probability at a cell's corners.
     fn probability(&self, i: usize, j: usize) -> f64 {
-        [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].iter().map(|&(i, j)| self.estimate.at(i, j).mean).sum::<f64>() / 4.0
+        [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].iter().map(|&(i, j)| self.estimate.at(i, j).mean).sum::<f64>()
+            / 4.0
     }
 
     /// Whether any corner of a cell is not decided.
@@ -59,16 +65,26 @@ impl Cells<'_> {
     }
 }
 
-/// Draws an estimate over the whole of an area, whose sides are the axes; lengths are times `scale`.
-pub(super) fn draw<B: DrawingBackend>(area: &DrawingArea<B, Shift>, estimate: &FailureEstimate, scale: f64) -> Result<B> {
-    let (width, height) = area.dim_in_pixel();
-    let cells = Cells { estimate, size: (f64::from(width - 1), f64::from(height - 1)) };
+/// Draws the shades of an estimate over the whole of an area, whose sides are the axes.
+pub(super) fn draw_shades<B: DrawingBackend>(area: &DrawingArea<B, Shift>, estimate: &FailureEstimate) -> Result<B> {
+    let cells = Cells::over(area, estimate);
     let at = |i: usize, j: usize| cells.pixel((i as f64, j as f64));
     for j in 0..cells.rows() {
         for (i, end, shade) in runs(cells.columns(), |i| Some(colour(cells.probability(i, j)))) {
             area.draw(&Rectangle::new([at(i, j + 1), at(end, j)], shade.filled()))?;
         }
     }
+    Ok(())
+}
+
+/// Draws the line at one half and the hatch over the same area; lengths are times `scale`.
+pub(super) fn draw_lines<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    estimate: &FailureEstimate,
+    scale: f64,
+) -> Result<B> {
+    let cells = Cells::over(area, estimate);
+    let at = |i: usize, j: usize| cells.pixel((i as f64, j as f64));
     // Along each diagonal, every other one: a run of open cells is one stroke.
     for diagonal in (1 - cells.rows() as isize..cells.columns() as isize).step_by(2) {
         let begin = (-diagonal).max(0) as usize;
@@ -123,10 +139,10 @@ pub(super) fn draw_bar<B: DrawingBackend>(
     }
     let style = style.transform(FontTransform::Rotate90);
     let (length, _) = area.estimate_text_size(label, &style)?;
-    area.draw(&Text::new(label.to_owned(), (5 * width, (top + bottom - length as i32) / 2), style))
+    area.draw(&Text::new(label.to_owned(), ((3.7 * text) as i32, (top + bottom - length as i32) / 2), style))
 }
 
-/// Draws what the line and the hatch mean, from a place on; how wide that is.
+/// Draws what the line and the hatch mean, from a place on.
 pub(super) fn draw_key<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     (mut x, y): (i32, i32),
@@ -135,7 +151,7 @@ pub(super) fn draw_key<B: DrawingBackend>(
 ) -> Result<B> {
     let (side, stroke) = ((0.4 * text).round() as i32, scale.round() as u32);
     let style = TextStyle::from((FAMILY, 0.9 * text).into_font()).color(&INK);
-    for (label, is_line) in [("50 %", true), ("undecided", false)] {
+    for (label, is_line) in [("50 % fail", true), ("undecided", false)] {
         if is_line {
             area.draw(&PathElement::new([(x, y), (x + 3 * side, y)], INK.stroke_width(2 * stroke)))?;
         } else {

@@ -11,6 +11,7 @@ mod covering;
 mod extend;
 mod generate;
 mod guilty;
+mod maps;
 mod pedestrian_study;
 mod pictures;
 mod plan;

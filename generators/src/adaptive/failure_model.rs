@@ -49,9 +49,8 @@ impl FailureModel {
     pub fn fit(space: &Space, tests: &[Point], robustness: &[f64]) -> Option<Self> {
         let axes = axes(space);
         let known = tests.iter().zip(robustness).filter(|(_, robustness)| !robustness.is_nan());
-        let known = known.map(|(test, &robustness)| {
-            (place(&axes, test), robustness.clamp(-MOST_ROBUSTNESS, MOST_ROBUSTNESS))
-        });
+        let known =
+            known.map(|(test, &robustness)| (place(&axes, test), robustness.clamp(-MOST_ROBUSTNESS, MOST_ROBUSTNESS)));
         let (places, robustness): (Vec<Vec<f64>>, Vec<f64>) = known.unzip();
         if places.len() < 2 {
             return None;
@@ -168,7 +167,10 @@ mod tests {
         let found = model.shares(&[group([0.1, 0.2, 0.3, 0.4]), group([0.2, 0.3, 0.4, 0.9]), group([0.9; 4])]);
         let expected = [(0.0, 0.0), (0.25, 0.0), (1.0, 1.0)];
         for (found, (mean, above)) in found.iter().zip(expected) {
-            assert!((found.mean - mean).abs() < 0.02 && found.deviation < 0.05 && found.above_half == above, "{found:?}");
+            assert!(
+                (found.mean - mean).abs() < 0.02 && found.deviation < 0.05 && found.above_half == above,
+                "{found:?}"
+            );
         }
         // At the edge nothing is sure, and the mean is that of the probabilities.
         let edge = [at(0.6, 0.5), at(0.6001, 0.5)];
