@@ -19,6 +19,8 @@ const STRATEGIES: [&str; 3] = ["boundary", "halton", "random"];
 /// The tests of the map, and the seed they come from.
 const MAP: usize = 20_000;
 const MAP_SEED: u64 = 1_000_000;
+/// How sure a model is where it counts as sure.
+const SURE: f64 = 0.95;
 
 /// Tests with their robustness.
 #[derive(Default)]
@@ -37,6 +39,9 @@ struct Sample {
     model: f64,
     /// The mean squared difference of probability and outcome (Brier 1950).
     brier: f64,
+    /// The share of the map of which the model is 95 % sure, and how much of that it tells right.
+    sure: f64,
+    sure_right: f64,
 }
 
 pub(crate) fn run(out: &Path, bar: &ProgressBar) -> Done {
@@ -86,7 +91,10 @@ fn sample(strategy: &'static str, seed: u64, tests: &Tests, map: &Tests) -> Samp
     let model = share(told.clone().filter(|(robustness, p)| fails(robustness) == (**p > 0.5)).count());
     let square =
         |(robustness, p): (&f64, &f64)| (p - f64::from(fails(robustness))) * (p - f64::from(fails(robustness)));
-    let brier = told.map(square).sum::<f64>() / map.points.len() as f64;
+    let brier = told.clone().map(square).sum::<f64>() / map.points.len() as f64;
+    let sure = told.clone().filter(|(_, p)| (**p - 0.5).abs() >= SURE - 0.5);
+    let sure_right = sure.clone().filter(|(robustness, p)| fails(robustness) == (**p > 0.5)).count();
+    let (sure, sure_right) = (share(sure.clone().count()), sure_right as f64 / sure.count().max(1) as f64);
     let nearest = |at: &Point| {
         let square =
             |other: &Point| at.continuous.iter().zip(&other.continuous).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
@@ -96,13 +104,13 @@ fn sample(strategy: &'static str, seed: u64, tests: &Tests, map: &Tests) -> Samp
     };
     let nearest = share(map.points.iter().zip(&map.robustness).filter(|(at, r)| nearest(at) == fails(r)).count());
     let failures = tests.robustness.iter().filter(|robustness| fails(robustness)).count();
-    Sample { strategy, seed, tests: tests.points.len(), failures, nearest, model, brier }
+    Sample { strategy, seed, tests: tests.points.len(), failures, nearest, model, brier, sure, sure_right }
 }
 
 fn write_samples(path: &Path, samples: &[Sample]) -> Done {
-    let mut text = "strategy,seed,tests,failures,nearest,model,brier\n".to_owned();
-    for Sample { strategy, seed, tests, failures, nearest, model, brier } in samples {
-        text += &format!("{strategy},{seed},{tests},{failures},{nearest},{model},{brier}\n");
+    let mut text = "strategy,seed,tests,failures,nearest,model,brier,sure,sure_right\n".to_owned();
+    for Sample { strategy, seed, tests, failures, nearest, model, brier, sure, sure_right } in samples {
+        text += &format!("{strategy},{seed},{tests},{failures},{nearest},{model},{brier},{sure},{sure_right}\n");
     }
     write(path, text)
 }
@@ -110,8 +118,8 @@ fn write_samples(path: &Path, samples: &[Sample]) -> Done {
 /// Medians, with the worst and the best of the seeds.
 fn table(samples: &[Sample]) -> String {
     let mut text = format!(
-        "{:<10}{:>6}{:>10}{:>28}{:>28}{:>10}\n",
-        "strategy", "tests", "failures", "nearest test right", "model right", "Brier"
+        "{:<10}{:>6}{:>10}{:>24}{:>24}{:>8}{:>8}{:>8}\n",
+        "strategy", "tests", "failures", "nearest test right", "model right", "Brier", "sure", "right"
     );
     for strategy in STRATEGIES {
         for size in SIZES {
@@ -123,11 +131,13 @@ fn table(samples: &[Sample]) -> String {
             };
             let range = |[median, worst, best]: [f64; 3]| format!("{median:.3} ({worst:.3}..{best:.3})");
             text += &format!(
-                "{strategy:<10}{size:>6}{:>10}{:>28}{:>28}{:>10.4}\n",
+                "{strategy:<10}{size:>6}{:>10}{:>24}{:>24}{:>8.4}{:>8.3}{:>8.3}\n",
                 of(|sample| sample.failures as f64)[0],
                 range(of(|sample| sample.nearest)),
                 range(of(|sample| sample.model)),
-                of(|sample| sample.brier)[0]
+                of(|sample| sample.brier)[0],
+                of(|sample| sample.sure)[0],
+                of(|sample| sample.sure_right)[0]
             );
         }
     }

@@ -84,11 +84,10 @@ pub(super) fn sentence(explanation: &Explanation) -> String {
     let verdict = if 2 * explanation.failures > explanation.tests { "fail" } else { "pass" };
     let always = format!("always saying {verdict}");
     if explanation.rules.is_empty() {
-        let share = percent(explanation.always);
-        let other = if verdict == "pass" { "fail" } else { "pass" };
         return format!(
-            "no tree of at most {} leaves finds where most tests {other}; {always} is right of {share}",
-            super::MOST_LEAVES
+            "no tree of at most {} leaves tells failing from passing tests better than chance; {always} is right of {}",
+            super::MOST_LEAVES,
+            percent(explanation.always)
         );
     }
     let rules = explanation.rules.iter().map(|rule| {

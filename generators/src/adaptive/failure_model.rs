@@ -172,8 +172,15 @@ mod tests {
                 "{found:?}"
             );
         }
-        // At the edge nothing is sure, and the mean is that of the probabilities.
-        let edge = [at(0.6, 0.5), at(0.6001, 0.5)];
+        // Between tests of which no more than the verdict is known nothing is sure; the mean is that of the probabilities.
+        let verdicts: Vec<f64> = known.iter().map(|at| 1.0_f64.copysign(fails(at))).collect();
+        let model = FailureModel::fit(&space, &known[..30], &verdicts[..30]).unwrap();
+        let (mut last, mut first) = (0.0_f64, 1.0_f64);
+        for test in &known[..30] {
+            let x = test.continuous[0];
+            if fails(test) < 0.0 { first = first.min(x) } else { last = last.max(x) }
+        }
+        let edge = [at(0.5 * (last + first), 0.5), at(0.5 * (last + first) + 1e-4, 0.5)];
         let unsure = model.shares(&[edge.to_vec()])[0];
         assert!(unsure.deviation > 0.1 && (0.05..0.95).contains(&unsure.above_half), "{unsure:?}");
         let mean = model.probabilities(&edge).iter().sum::<f64>() / 2.0;

@@ -1,38 +1,39 @@
 //! Which of many tests a model sees: those that tell most, as many as it has room for.
 //!
-//! Half of them lie where passing turns into failing: of the tests with another verdict near by those that are farthest
-//! from each other. The other half fill the space: always the test that is farthest from all chosen ones (Gonzalez
-//! 1985, the k-centre greedy). They alternate, so that the first hundred tell as much of the whole as a hundred can.
+//! Half of them lie where passing turns into failing, on both sides of it: of the tests of a verdict that have the other
+//! near by, always the one that is farthest from those of its side that are chosen (the k-centre greedy of Gonzalez
+//! 1985). The other half fill the space in the same way. They take turns, so that the first hundred tell as much of the
+//! whole as a hundred can.
 
 use super::process::Kernel;
 
 /// So many tests of one verdict are looked at, evenly from first to last; else a choice takes too long.
 const MOST_OF_A_VERDICT: usize = 2048;
 
-/// Out of so many times the wanted tests those at the boundary are chosen.
-const CLOSE: usize = 2;
-
 /// The indices of the most telling tests, at most `most`, by the kernel's distance.
 pub(super) fn telling(kernel: &Kernel, places: &[&[f64]], failed: &[bool], most: usize) -> Vec<usize> {
     let distance = |a: usize, b: usize| kernel.scaled_distance(places[a], places[b]);
     let sides = [true, false].map(|side| thinned((0..places.len()).filter(|&i| failed[i] == side).collect()));
-    let mut close: Vec<(f64, usize)> = Vec::new();
-    for (side, others) in [(&sides[0], &sides[1]), (&sides[1], &sides[0])] {
+    // Twice as many are close as are taken for that.
+    let close = |side: &[usize], others: &[usize]| {
         let nearest = |i: usize| others.iter().map(|&j| distance(i, j)).min_by(f64::total_cmp);
-        close.extend(side.iter().filter_map(|&i| Some((nearest(i)?, i))));
-    }
-    close.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let close: Vec<usize> = close.into_iter().take(CLOSE * most).map(|(_, i)| i).collect();
+        let mut close: Vec<(f64, usize)> = side.iter().filter_map(|&i| Some((nearest(i)?, i))).collect();
+        close.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        Spread::new(close.into_iter().take(most.div_ceil(2)).map(|(_, i)| i).collect())
+    };
     let mut all = sides.concat();
     all.sort_unstable();
     let most = most.min(all.len());
-    let (mut at_boundary, mut anywhere) = (Spread::new(close), Spread::new(all));
+    let mut turns = [close(&sides[0], &sides[1]), close(&sides[1], &sides[0]), Spread::new(all)];
     let mut chosen: Vec<usize> = Vec::with_capacity(most);
-    while chosen.len() < most {
-        let first = if chosen.len() % 2 == 0 { &mut at_boundary } else { &mut anywhere };
-        let Some(next) = first.farthest().or_else(|| anywhere.farthest()) else { break };
-        at_boundary.take(next, distance);
-        anywhere.take(next, distance);
+    for turn in [0, 2, 1, 2].into_iter().cycle() {
+        if chosen.len() == most {
+            break;
+        }
+        let Some(next) = turns[turn].farthest().or_else(|| turns[2].farthest()) else { break };
+        // At the boundary tests of the other verdict are no neighbours.
+        turns[usize::from(!failed[next])].take(next, distance);
+        turns[2].take(next, distance);
         chosen.push(next);
     }
     chosen

@@ -15,9 +15,9 @@ use super::fit::{fit, prior};
 use super::log_ei::normal_below;
 use super::process::{Kernel, Process};
 
-/// The slopes that are tried, as logarithms: from -2 in steps of a quarter.
+/// The slopes that are tried, as logarithms: from -2 to 8 in steps of a half.
 const LEAST_SLOPE: f64 = -2.0;
-const SLOPES: usize = 25;
+const SLOPES: usize = 21;
 
 /// How many steps the first fit takes, and those after it.
 const FIRST_FIT: usize = 40;
@@ -90,6 +90,6 @@ fn best_slope(process: &Process, values: &[f64]) -> (f64, f64) {
         };
         values.iter().zip(&left_out).map(one).sum()
     };
-    let slopes = (0..SLOPES).map(|i| libm::exp(LEAST_SLOPE + 0.25 * i as f64));
+    let slopes = (0..SLOPES).map(|i| libm::exp(LEAST_SLOPE + 0.5 * i as f64));
     slopes.map(|slope| (likelihood(slope), slope)).max_by(|a, b| a.0.total_cmp(&b.0)).expect("there are slopes")
 }
