@@ -1,9 +1,10 @@
 //! Which of many tests a model sees: those that tell most, as many as it has room for.
 //!
-//! Half of them lie where passing turns into failing, on both sides of it: of the tests of a verdict that have the other
-//! near by, always the one that is farthest from those of its side that are chosen (the k-centre greedy of Gonzalez
-//! 1985). The other half fill the space in the same way. They take turns, so that the first hundred tell as much of the
-//! whole as a hundred can.
+//! The first half of them fill the space: always the test that is farthest from all chosen ones (the k-centre greedy of
+//! Gonzalez 1985). The others lie where passing turns into failing, on both sides in turn: of the tests of a verdict that
+//! have the other near by, always the one farthest from those of its verdict that are chosen. So the first hundred, by
+//! which lengths are fitted, tell of the whole: where a search has put its tests, all at the edge, a process takes what it
+//! sees for noise or for very short lengths.
 
 use super::process::Kernel;
 
@@ -26,10 +27,8 @@ pub(super) fn telling(kernel: &Kernel, places: &[&[f64]], failed: &[bool], most:
     let most = most.min(all.len());
     let mut turns = [close(&sides[0], &sides[1]), close(&sides[1], &sides[0]), Spread::new(all)];
     let mut chosen: Vec<usize> = Vec::with_capacity(most);
-    for turn in [0, 2, 1, 2].into_iter().cycle() {
-        if chosen.len() == most {
-            break;
-        }
+    while chosen.len() < most {
+        let turn = if chosen.len() < most.div_ceil(2) { 2 } else { chosen.len() % 2 };
         let Some(next) = turns[turn].farthest().or_else(|| turns[2].farthest()) else { break };
         // At the boundary tests of the other verdict are no neighbours.
         turns[usize::from(!failed[next])].take(next, distance);
