@@ -139,9 +139,18 @@ mod tests {
     }
 
     #[test]
-    fn it_is_known_after_some_where_the_robustness_jumps() {
+    fn where_the_robustness_jumps_it_knows_more_than_the_nearest_test() {
         let jumping = |at: &Point| if ball(at) < 0.0 { -9.0 + 5.0 * at.continuous[0] } else { ball(at).min(0.1) };
-        assert!(right(&Space::unit_cube(2), 150, jumping) > 0.97);
+        let space = Space::unit_cube(2);
+        let known = tests(&space, 150);
+        let square = |a: &Point, b: &Point| -> f64 {
+            a.continuous.iter().zip(&b.continuous).map(|(a, b)| (a - b) * (a - b)).sum()
+        };
+        let others = Strategy::Random.build(&Request::new(&space, 2000)).unwrap().ask(2000);
+        let nearest = |at: &Point| known.iter().min_by(|a, b| square(a, at).total_cmp(&square(b, at))).unwrap();
+        let told = others.iter().filter(|at| (jumping(nearest(at)) < 0.0) == (jumping(at) < 0.0)).count();
+        let (nearest, model) = (told as f64 / 2000.0, right(&space, 150, jumping));
+        assert!(model > nearest, "{model} {nearest}");
     }
 
     #[test]

@@ -123,7 +123,8 @@ proptest! {
         let units: Vec<Vec<f64>> = all.iter().map(|&one| unit(one)).collect();
         let columns = posterior.draws(&all, &units);
         for &i in &all {
-            let variance: f64 = columns.iter().map(|column| (column[i] - posterior.mean(i)).powi(2)).sum();
+            let off = |column: &Vec<f64>| column[i] - posterior.mean(i);
+            let variance: f64 = columns.iter().map(|column| off(column) * off(column)).sum();
             let found = posterior.deviation(i) * posterior.deviation(i);
             prop_assert!((variance - found).abs() < 1e-6 * process.variance, "{variance} {found}");
         }
