@@ -216,7 +216,7 @@ mod tests {
         // Of a hundred coins that depend on nothing a tree learns some by heart, but not those that it was not shown.
         let column = |by: u64| Column::Numbers((0..100).map(|i| (mix(100 * by + i) % 997) as f64).collect());
         let columns = (0..8).map(column).collect();
-        let table = Table { columns, failed: (0..100).map(|i| mix(i + 5000) % 2 == 0).collect() };
+        let table = Table { columns, failed: (0..100).map(|i| mix(i + 5000).is_multiple_of(2)).collect() };
         let rows: Vec<usize> = (0..100).collect();
         let told = left_out(&table, &rows, FOLDS, |rows| vec![Tree::grow(&table, rows, MOST_LEAVES, 1)]);
         let left_out = Accuracy::of(&told[0], &table.failed);
