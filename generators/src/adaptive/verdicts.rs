@@ -18,7 +18,7 @@ use super::bend::{Bend, is_failure};
 use super::cube::Axis;
 use super::fit::{fit, prior};
 use super::log_ei::normal_below;
-use super::process::{Kernel, Process};
+use super::process::{Kernel, Mean, Process};
 use super::surrogate::snapped;
 use crate::seeded::{Purpose, seeded};
 
@@ -32,6 +32,10 @@ const PLACES: usize = 1024;
 /// How many steps the first fit takes, and those after it.
 const FIRST_FIT: usize = 40;
 const LATER_FIT: usize = 8;
+
+/// Besides the fitted noise these are tried: tests of either verdict that are very near to each other, of which there are none
+/// where lengths are fitted, may ask for more.
+const NOISES: [f64; 3] = [1e-3, 1e-2, 1e-1];
 
 /// No verdict is less probable than this: one surprise is no end of the world.
 const LEAST_PROBABLE: f64 = 1e-6;
@@ -67,10 +71,14 @@ impl Fitter {
         for (&bend, kernel) in bends.iter().zip(&mut self.kernels) {
             let values: Vec<f64> = robustness.iter().map(|&value| bend.apply(value)).collect();
             *kernel = fit(kernel, places, &values, steps);
-            let Some(process) = Process::with_noise(kernel, places, &values) else { continue };
-            let (likelihood, slope) = best_slope(&process, &values, &weights);
-            if best.as_ref().is_none_or(|(other, _)| likelihood > *other) {
-                best = Some((likelihood, Verdicts { bend, process, slope }));
+            let more = NOISES.into_iter().filter(|&noise| noise > kernel.noise);
+            for noise in std::iter::once(kernel.noise).chain(more) {
+                let kernel = Kernel { noise, ..kernel.clone() };
+                let Some(process) = Process::new(kernel, places.to_vec(), &values, Mean::Unknown) else { continue };
+                let (likelihood, slope) = best_slope(&process, &values, &weights);
+                if best.as_ref().is_none_or(|(other, _)| likelihood > *other) {
+                    best = Some((likelihood, Verdicts { bend, process, slope }));
+                }
             }
         }
         best.map(|(_, verdicts)| verdicts)
