@@ -7,7 +7,8 @@ pub(super) enum Bend {
     Low { median: f64, scale: f64 },
     /// Bent alike on both sides of 0, which stays 0.
     Signed { scale: f64 },
-    /// Flat beyond what is usual on its side of 0: from -1 to 1, whatever the two sides measure.
+    /// The verdict and, for half of it, how clear it is by what is usual on its side of 0, whatever the two sides measure: -1
+    /// to -1/2, and 1/2 to 1. The same step on both sides leaves the edge in the middle between two tests.
     Sides { below: f64, above: f64 },
     /// Nothing but the verdict: -1 or 1.
     Verdict,
@@ -37,7 +38,10 @@ impl Bend {
                 if z > 0.0 { libm::log1p(z) } else { z }
             }
             Self::Signed { scale } => libm::asinh(value / scale),
-            Self::Sides { below, above } => libm::tanh(value / if is_failure(value) { below } else { above }),
+            Self::Sides { below, above } => {
+                let size = libm::tanh(value.abs() / if is_failure(value) { below } else { above });
+                (0.5 + 0.5 * size).copysign(value)
+            }
             Self::Verdict => 1.0_f64.copysign(value),
         }
     }
