@@ -21,3 +21,4 @@ mod signals;
 mod spec;
 mod strength;
 mod system;
+mod worked_examples;
