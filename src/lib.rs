@@ -34,6 +34,8 @@ mod live;
 mod plan;
 mod plot;
 mod promise;
+#[cfg(feature = "camera")]
+pub mod record;
 pub mod statistics;
 mod steering;
 mod study;
@@ -70,6 +72,8 @@ pub use paracosm_coverage as coverage;
 pub use paracosm_engine as engine;
 pub use paracosm_generators as generators;
 pub use paracosm_oracles as oracles;
+#[cfg(feature = "camera")]
+pub use paracosm_render as render;
 pub use paracosm_scenarios as scenarios;
 
 /// The examples of the README, as tests.

@@ -1,6 +1,6 @@
 //! The arguments of `paracosm-fuzz`.
 
-use super::{Failure, Found, Verbosity, describe, list, replay, run};
+use super::{Failure, Found, Verbosity, describe, doctor, list, record, replay, run};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -11,6 +11,7 @@ Examples:
   paracosm-fuzz --spec 'always[0,10] (car.speed > 1)'           ask more of every run
   paracosm-fuzz --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)'    a system of your own
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
+  paracosm-fuzz record pedestrian-crossing --budget 20 --out images      what cameras see of tests, labelled
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
 Exit status: 0 done, 1 a violation was found (with --fail-on-violation), 2 wrong use, bad input or a failed run.";
@@ -45,8 +46,15 @@ enum Verb {
     Describe(describe::Options),
     /// Run a logged test again and compare its trace hash with the log's
     #[command(after_help = "Examples:\n  paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv\n  \
-                            paracosm-fuzz replay paracosm-out 17 --draw test-17.gif")]
+                            paracosm-fuzz replay paracosm-out 17 --draw test-17.gif\n  \
+                            paracosm-fuzz replay paracosm-out 17 --camera front-17.gif")]
     Replay(replay::Options),
+    /// Run a campaign and record what cameras see of its tests: images, masks, depths, boxes and controls
+    #[command(after_help = record::EXAMPLES)]
+    Record(Box<record::Options>),
+    /// Show what this machine draws with, and how fast
+    #[command(after_help = "Example:\n  paracosm-fuzz doctor")]
+    Doctor(doctor::Options),
 }
 
 impl Command {
@@ -57,6 +65,8 @@ impl Command {
             Some(Verb::List(options)) => options.execute(),
             Some(Verb::Describe(options)) => options.execute(self.verbosity),
             Some(Verb::Replay(options)) => options.execute(self.verbosity),
+            Some(Verb::Record(options)) => options.execute(self.verbosity),
+            Some(Verb::Doctor(options)) => options.execute(),
         }
     }
 }

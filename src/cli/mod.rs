@@ -6,12 +6,14 @@
 mod arguments;
 mod cover;
 mod describe;
+mod doctor;
 mod draw;
 mod fuzz;
 mod interrupt;
 mod list;
 mod output;
 mod progress;
+mod record;
 mod replay;
 mod report;
 mod run;

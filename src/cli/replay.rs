@@ -6,6 +6,7 @@ use super::{Failure, Found, Verbosity, on_interrupt, print};
 use crate::engine::Metric;
 use crate::engine::picture::Record;
 use crate::expected::Expected;
+use crate::record::{Cameras, Clip};
 use crate::{Error, Folder, Study, Subject, Trial, Worker, plot, write_trace};
 use clap::Args;
 use std::path::PathBuf;
@@ -25,6 +26,12 @@ pub(super) struct Options {
     /// Draw the run from above to a file that does not exist yet: as one picture (.svg, .png) or as a film (.gif)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
+    /// Film what a camera at the front sees, into a FILE.gif or a FOLDER of PNG files that does not exist yet
+    #[arg(long, value_name = "FILE.gif|FOLDER")]
+    camera: Option<PathBuf>,
+    /// Film with the first camera in this file; `paracosm-fuzz record --print-cameras` prints one
+    #[arg(long, value_name = "CAMERAS.toml", requires = "camera")]
+    cameras: Option<PathBuf>,
     /// Exit with status 1 if the test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
@@ -43,9 +50,13 @@ impl Options {
         })?;
         let target =
             self.draw.as_ref().map(|file| Target::new(file, &[Kind::Svg, Kind::Png, Kind::Gif])).transpose()?;
-        if let (Some(file), Subject::System(_)) = (&self.draw, &study.subject) {
+        let clip = self.camera.as_deref().map(Clip::new).transpose()?;
+        let cameras = self.cameras.as_deref().map_or_else(|| Ok(Cameras::for_people()), Cameras::read)?;
+        let seen = [("--draw", &self.draw), ("--camera", &self.camera)];
+        let seen = seen.into_iter().find_map(|(option, file)| Some((option, file.as_ref()?)));
+        if let (Some((option, file)), Subject::System(_)) = (seen, &study.subject) {
             let message =
-                format!("--draw {}: what a system does cannot be seen; --trace writes it down", file.display());
+                format!("{option} {}: what a system does cannot be seen; --trace writes it down", file.display());
             return Err(Error::Usage(message).into());
         }
         let mut record = Record::default();
@@ -76,6 +87,9 @@ impl Options {
         }
         if trial != *logged {
             return Err(difference(&study, logged, &trial).into());
+        }
+        if let Some(clip) = &clip {
+            verbosity.note(clip.write(&study, logged, &cameras)?);
         }
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(&study, &trial),

@@ -14,10 +14,21 @@ use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Stu
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// The time that `coverage.json` may take, as `estimate --time-limit 5`.
 const COVERAGE_LIMIT: Duration = Duration::from_secs(5);
+
+/// A campaign that was run to its end.
+pub(super) struct Conducted {
+    pub study: Study,
+    pub trials: Vec<Trial>,
+    pub found: Found,
+    /// What an interrupt sets.
+    pub stop: Arc<AtomicBool>,
+}
 
 /// What `run` takes.
 #[derive(Debug, Args)]
@@ -49,7 +60,7 @@ pub(super) struct Options {
     #[arg(long, value_name = "NAME", default_value = "aeb")]
     driver: String,
     #[command(flatten)]
-    system: System,
+    pub system: System,
     /// Ask a formula of every trace, too; several times for several. Its requirements are called spec-1, spec-2, ..;
     /// `paracosm-fuzz describe SCENARIO` shows the signals that it may speak of
     #[arg(long, value_name = "FORMULA")]
@@ -63,7 +74,7 @@ pub(super) struct Options {
     jobs: Option<NonZeroUsize>,
     /// Where to write
     #[arg(long, value_name = "DIR", default_value = "paracosm-out")]
-    out: PathBuf,
+    pub out: PathBuf,
     /// Continue the campaign in the folder
     #[arg(long)]
     resume: bool,
@@ -81,6 +92,11 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        self.conduct(verbosity).map(|conducted| conducted.found)
+    }
+
+    /// Runs the campaign and prints its summary.
+    pub fn conduct(&self, verbosity: Verbosity) -> Result<Conducted, Failure> {
         let study = self.study(verbosity)?;
         if self.locate.is_some() && study.space.levels().is_empty() {
             let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
@@ -104,7 +120,8 @@ impl Options {
         let mut progress = Progress::new(&study, verbosity, known.len())?;
         let mut trials = known.clone();
         trials.iter().for_each(|trial| progress.count(&study, trial));
-        on_interrupt(campaign.stop());
+        let stop = campaign.stop();
+        on_interrupt(stop.clone());
         let run = campaign.resume(known).run(|trial| {
             folder.append(trial)?;
             progress.show(&study, trial);
@@ -163,7 +180,9 @@ impl Options {
             return Err(format!("every test ended in an error; the first: {first}").into());
         }
         let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
-        Ok(if violated { Found::Violation } else { Found::Nothing })
+        let found = if violated { Found::Violation } else { Found::Nothing };
+        drop(progress);
+        Ok(Conducted { study, trials, found, stop })
     }
 
     fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {

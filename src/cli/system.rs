@@ -23,6 +23,11 @@ pub(super) struct System {
 }
 
 impl System {
+    /// Whether there is one.
+    pub fn is_given(&self) -> bool {
+        self.system.is_some()
+    }
+
     /// The study of the system, if there is one.
     pub fn study(&self, verbosity: Verbosity) -> Result<Option<Study>, Error> {
         let (Some(command), Some(path)) = (&self.system, &self.space) else { return Ok(None) };
