@@ -181,7 +181,6 @@ impl Options {
         }
         let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
         let found = if violated { Found::Violation } else { Found::Nothing };
-        drop(progress);
         Ok(Conducted { study, trials, found, stop })
     }
 

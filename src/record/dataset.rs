@@ -76,7 +76,6 @@ struct Recording {
     kept: Kept,
     /// The seed of colours, where they are drawn.
     colours: Option<u64>,
-    #[serde(flatten)]
     cameras: Cameras,
 }
 
@@ -145,6 +144,7 @@ impl Dataset {
         let mut annotations = Annotations::new();
         let mut controls = CONTROLS.to_owned();
         let mut images = 0;
+        fs::create_dir_all(folder).map_err(Error::file("create", folder))?;
         for (index, (name, camera)) in cameras.all.iter().enumerate() {
             for kind in kept.kinds() {
                 let path = folder.join(name).join(kind);
@@ -166,7 +166,6 @@ impl Dataset {
         }
         for (name, contents) in files {
             let path = folder.join(name);
-            fs::create_dir_all(folder).map_err(Error::file("create", folder))?;
             fs::write(&path, contents).map_err(Error::file("write", &path))?;
         }
         Ok(images)

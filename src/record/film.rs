@@ -104,9 +104,13 @@ impl Film {
     /// Runs a test of a campaign again and films it.
     ///
     /// # Errors
-    /// The study is of no scenario, its world cannot be built, or the run is not the one that was logged.
+    /// The study is of no scenario, the test ended as invalid or in an error, or the run is not the one that was logged.
     pub fn of(study: &Study, trial: &Trial, cameras: &Cameras, stages: &Stages) -> Result<Self, Error> {
         let simulation = study.subject.scenario()?;
+        if !trial.covers() {
+            let message = format!("test {} ended as {}, so that there is nothing to see", trial.index, trial.verdict);
+            return Err(Error::Usage(message));
+        }
         let values: Values = study.complete(&trial.test);
         let mut driver = Overheard { driver: simulation.driver.build()?, answers: Vec::new() };
         let setup = Setup { model: simulation.vehicle, ..Setup::asking_every(driver.period()) };

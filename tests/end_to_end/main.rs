@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod bad_input;
+mod cameras;
 mod campaign;
 mod certificate;
 mod commands;
