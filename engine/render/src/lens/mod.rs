@@ -1,8 +1,8 @@
 //! What a lens and a sensor do to light: from the linear light of a [`Frame`] to the image that a camera gives.
 //!
 //! Light passes in this order: it is smeared by motion, spread by defocus and by blur, dimmed towards the corners, exposed,
-//! counted as electrons with their noise, cut off where the sensor is full, and written in sRGB. All is computed on the processor, so that an
-//! image is the same whatever it was drawn beside.
+//! counted as electrons with their noise, cut off where the sensor is full, and written in sRGB. All is computed on the
+//! processor, so that an image is the same whatever it was drawn beside.
 
 mod kernel;
 
@@ -26,14 +26,15 @@ pub struct Effects {
     pub defocus: f64,
     /// The standard deviation in pixels of the Gaussian that the lens makes of a point.
     pub blur: f64,
-    /// How much darker it gets towards the corners: from 0, not at all, to 1, with the fourth power of the cosine of the angle
-    /// from the axis.
+    /// How much darker it gets towards the corners: from 0, not at all, to 1, with the fourth power of the cosine of the
+    /// angle from the axis.
     pub vignetting: f64,
     /// How long it is exposed, in stops: with 1 the sensor gets twice as much light.
     pub exposure: f64,
     /// How many electrons a pixel takes of a white surface in full sun before it is full; 0 for a sensor without shot noise.
     pub full_well: f64,
-    /// The standard deviation of the noise of reading a pixel out, in electrons of the full well, or of 10,000 where that is 0.
+    /// The standard deviation of the noise of reading a pixel out, in electrons of the full well, or of 10,000 where that
+    /// is 0.
     pub read_noise: f64,
 }
 
