@@ -58,7 +58,8 @@ impl<'a> Campaign<'a> {
         self.stop.clone()
     }
 
-    /// Runs what is not known yet; `watch` sees every new trial in order, and its first error ends the campaign.
+    /// Runs what is not known yet; `watch` sees every new trial in order, and its first error ends the campaign. So does
+    /// the first failing trial, if the study [stops](Study::stop_at_first) there.
     ///
     /// # Errors
     /// That of `watch`, a known trial that is not of this campaign, or a system that did none of its first tests.
@@ -80,10 +81,22 @@ impl<'a> Campaign<'a> {
             }
             let mut trials: Vec<Trial> = known.iter().take(tests.len()).cloned().collect();
             let begun = trials.len();
-            self.run_batch(&tests[begun..], done + begun, &mut expected, |trial| {
+            let ends = |trial: &Trial| study.stops_at_first() && trial.is_failure();
+            if let Some(last) = trials.iter().position(ends) {
+                return known.get(last + 1).map_or(Ok(()), |trial| Err(foreign(trial)));
+            }
+            let mut ended = false;
+            let ran = self.run_batch(&tests[begun..], done + begun, &mut expected, |trial| {
                 trials.push(trial.clone());
-                watch(trial)
-            })?;
+                watch(trial)?;
+                ended = ends(trial);
+                // The workers stop at an error.
+                if ended { Err(Error::Interrupted) } else { Ok(()) }
+            });
+            if ended {
+                return Ok(());
+            }
+            ran?;
             steering.tell(&points, &trials)?;
             done += points.len();
         }

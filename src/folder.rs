@@ -16,7 +16,16 @@ const TRIALS: &str = "trials.jsonl";
 /// The tests that the study counts as done.
 const EXTENDED: &str = "extended.csv";
 /// What is derived from the trials at the end of a campaign.
-const DERIVED: [&str; 5] = ["trials.csv", "coverage.json", "failure-map.svg", "failure-map.png", "located.json"];
+const DERIVED: [&str; 8] = [
+    "trials.csv",
+    "coverage.json",
+    "failure-map.svg",
+    "failure-map.png",
+    "failure-map.csv",
+    "modes.json",
+    "explanation.json",
+    "located.json",
+];
 
 /// The folder of a campaign, open for appending.
 #[derive(Debug)]

@@ -27,13 +27,21 @@ mod error;
 mod estimate;
 mod executor;
 mod expected;
+mod explanation;
 mod extension;
+mod failure_estimate;
 mod folder;
 mod json;
+pub mod likelihood;
 mod live;
+mod modes;
 mod plan;
 mod plot;
 mod promise;
+#[cfg(feature = "camera")]
+pub mod record;
+mod regression;
+mod shrink;
 pub mod statistics;
 mod steering;
 mod study;
@@ -53,12 +61,17 @@ pub use error::Error;
 pub use estimate::{
     Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Strength, Tests, Watch,
 };
+pub use explanation::{Accuracy, Explanation, Rule};
 pub use extension::Extension;
+pub use failure_estimate::FailureEstimate;
 pub use folder::Folder;
 pub use live::LiveCoverage;
+pub use modes::{Extent, Mode, Modes, Touch};
 pub use plan::{Guarantee, Need, Plan};
 pub use plot::{Axis, FailureMap, Picture};
 pub use promise::Promise;
+pub use regression::{Expectation, Regression, Replayed};
+pub use shrink::{Change, Sameness, Shrunk};
 pub use study::{DriverChoice, RequirementText, Simulation, Study, Subject};
 pub use summary::{Judged, Summary, Worst};
 pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
@@ -70,6 +83,8 @@ pub use paracosm_coverage as coverage;
 pub use paracosm_engine as engine;
 pub use paracosm_generators as generators;
 pub use paracosm_oracles as oracles;
+#[cfg(feature = "camera")]
+pub use paracosm_render as render;
 pub use paracosm_scenarios as scenarios;
 
 /// The examples of the README, as tests.

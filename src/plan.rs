@@ -93,7 +93,7 @@ impl Plan {
     /// Making a covering array may take half of `limit`, and the measuring what is left of it.
     ///
     /// # Errors
-    /// The space is empty, `k` is not in 1 to the number of discrete parameters, or epsilon or delta not in (0, 1).
+    /// The space is empty, `k` is not in 1 to the number of parameters, or epsilon or delta not in (0, 1).
     pub fn of(
         space: &Space,
         k: Option<usize>,
@@ -111,15 +111,10 @@ impl Plan {
             return Err(Error::Usage("the space has no parameters, so there is nothing to plan".into()));
         }
         let (dims, levels) = (space.dims(), space.levels());
-        let k = match (k, levels.len()) {
-            (None, parameters) => parameters.min(2),
-            (Some(k), parameters) if (1..=parameters).contains(&k) => k,
-            (Some(_), 0) => return Err(Error::Usage("--k is for discrete parameters, of which there are none".into())),
-            (Some(k), parameters) => {
-                let message = format!("k is {k}, expected 1 to {parameters}, the number of discrete parameters");
-                return Err(Error::Usage(message));
-            }
-        };
+        if k.is_some() && levels.is_empty() {
+            return Err(Error::Usage("--k is for discrete parameters, of which there are none".into()));
+        }
+        let k = Request { k, ..Request::new(space, 1) }.discrete_strength()?;
         let (rules, kinds) = (space.rules()?, demand.kinds(space)?);
         let deadline = Deadline::after(limit);
         let request = CoveringRequest {

@@ -35,10 +35,7 @@ impl Promise {
         if parameters == 0 || !strategy.has_rows(request) {
             return Ok(None);
         }
-        let k = request.k.unwrap_or(parameters.min(2));
-        if !(1..=parameters).contains(&k) {
-            return Err(GeneratorError::Strength { k, parameters }.into());
-        }
+        let k = request.discrete_strength()?;
         let random = RandomRows::new(&request.space.rules()?, k).ok_or(GeneratorError::RandomUnderConstraints)?;
         let rows_for_delta = random.family_size(delta);
         let rows = rows_for_delta.min(tests);

@@ -1,5 +1,5 @@
-//! What a campaign asks for tests: one search, driven by the worst of all requirements; or, where an adaptive strategy
-//! has several requirements to violate, one search for each and a bandit between them.
+//! What a campaign asks for tests: one search, driven by the worst of all requirements; or, where a strategy is after a
+//! failure and there are several requirements to violate, one search for each and a bandit between them.
 //!
 //! Which requirements there are follows from the study or, of a system that answers with robustness, from its first
 //! answer. So everything follows from the study and the trials in their order, and a resumed campaign goes on as it
@@ -69,7 +69,7 @@ impl<'a> Steering<'a> {
     /// Begins a search for each of these requirements, if that makes sense.
     fn know<'i>(&mut self, ids: impl Iterator<Item = &'i str>) -> Result<(), Error> {
         let ids: Vec<String> = ids.map(str::to_owned).collect();
-        if ids.len() < 2 || !self.study.is_adaptive()? {
+        if ids.len() < 2 || !self.study.seeks_a_failure()? {
             return Ok(());
         }
         let searches = ids.iter().map(|_| self.study.generator()).collect::<Result<_, _>>()?;

@@ -55,11 +55,11 @@ impl Tests {
     }
 
     /// Reads tests of a space without continuous parameters that may say nothing yet of some of the others: an empty
-    /// cell is no level.
+    /// cell is no level. Each comes with its line.
     ///
     /// # Errors
     /// As [`Tests::read`].
-    pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<Vec<Option<usize>>>, Error> {
+    pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<(usize, PartialRow)>, Error> {
         let mut file = TestsFile::open(path, Some(space.clone()))?;
         let mut rows = Vec::new();
         while let Some((line, record)) = file.next(rows.len())? {
@@ -74,7 +74,8 @@ impl Tests {
                 constant.check(&value).map_err(|error| file.wrong(line, error.to_string(), None))?;
                 Ok(constant.level(&value))
             };
-            rows.push(space.discrete().zip(&file.columns).map(level).collect::<Result<_, Error>>()?);
+            let levels = space.discrete().zip(&file.columns).map(level).collect::<Result<_, Error>>()?;
+            rows.push((line.unwrap_or_default(), levels));
         }
         Ok(rows)
     }
@@ -92,6 +93,9 @@ impl Tests {
         Ok(Self { k: study.strength(), ..Self::new(study.space.clone(), points) })
     }
 }
+
+/// A test of discrete parameters that may leave some levels open.
+pub(crate) type PartialRow = Vec<Option<usize>>;
 
 /// Whether a cell says nothing of a parameter: it is empty, and the parameter does not take the empty word.
 fn is_open(text: &str, parameter: &Parameter) -> bool {

@@ -54,6 +54,18 @@ impl Trial {
         self.robustness.iter().map(|(id, _)| id)
     }
 
+    /// Whether it violates this requirement. A robustness of 0 says so of a failure that no other requirement explains.
+    pub fn violates(&self, requirement: &str) -> bool {
+        let below = |id: &str| self.robustness(id).is_some_and(|robustness| robustness < 0.0);
+        let is_zero = self.robustness(requirement) == Some(0.0);
+        below(requirement) || is_zero && self.is_failure() && !self.requirements().any(below)
+    }
+
+    /// The ids of the requirements that it violates, in order.
+    pub fn violated(&self) -> impl Iterator<Item = &str> {
+        self.requirements().filter(|id| self.violates(id))
+    }
+
     /// What was measured under that name.
     pub fn metric(&self, name: &str) -> Option<&Metric> {
         self.metrics.get(name).map(|value| &value.0)
@@ -67,13 +79,6 @@ impl Trial {
     /// Whether it violates a requirement.
     pub fn is_failure(&self) -> bool {
         self.verdict == Verdict::Fail
-    }
-
-    /// Whether it violates this requirement. A robustness of 0 says so of a failure that no other requirement explains.
-    pub fn violates(&self, requirement: &str) -> bool {
-        let below = |id: &str| self.robustness(id).is_some_and(|robustness| robustness < 0.0);
-        let is_zero = self.robustness(requirement) == Some(0.0);
-        below(requirement) || is_zero && self.is_failure() && !self.requirements().any(below)
     }
 
     /// Whether it says anything of the place where it is: broken and impossible tests cover nothing.

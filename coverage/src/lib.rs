@@ -7,7 +7,7 @@
 //! [`kwise_dispersion`]. [`empty_boxes`] knows the holes as tests arrive one by one, and [`proof`] proves that there are
 //! no larger ones. [`theory`] holds the bounds that are known without looking at any point.
 //!
-//! Where tests failed, [`suspects`] says which combinations of discrete values are behind it.
+//! How likely parameters have which values is a [`Distribution`]. Where tests failed, [`suspects`] says which combinations of discrete values are behind it.
 //!
 //! Which tests make sense is said by constraints: [`constraint`] is their language, [`rules`] what follows from
 //! them, and [`pict`] reads spaces and constraints from the model files of PICT. What tests are to cover beyond all
@@ -20,6 +20,7 @@ mod bracket;
 pub mod constraint;
 pub mod demand;
 pub mod dispersion;
+pub mod distribution;
 pub mod empty_boxes;
 pub mod extreme;
 pub mod fill;
@@ -37,6 +38,7 @@ pub mod suspects;
 pub mod theory;
 
 pub use bracket::{Bracket, Deadline};
+pub use distribution::Distribution;
 pub use names::{did_you_mean, nearest};
 pub use points::{PointSet, PointSetError};
 pub use space::{Coordinate, Domain, Parameter, Point, Record, Shape, Space, SpaceError, Value, Values};

@@ -227,3 +227,36 @@ fn where_parameters_are_too_entangled_to_be_counted_nothing_is_promised() {
     assert!(rules.uniform().is_none());
     assert_eq!(RandomRows::new(&rules, 2), None);
 }
+
+#[test]
+fn a_delta_that_is_the_very_sum_takes_no_row_more_and_one_below_it_does() {
+    // n rows miss a value of one parameter with two levels with 2 (1/2)^n, one with four levels with 4 (3/4)^n, and a
+    // pair of these with 8 (7/8)^n: all of them exact.
+    let cases: [(&[usize], usize, u32); 4] = [(&[2], 1, 60), (&[4], 1, 30), (&[2, 4], 2, 17), (&[2, 2], 2, 30)];
+    for (levels, k, most) in cases {
+        let random = RandomRows::new(&Rules::free(levels), k).unwrap();
+        let odds: u64 = levels.iter().product::<usize>() as u64;
+        let missed = |n: u32| odds as f64 * (0..n).fold(1.0, |power, _| power * (odds - 1) as f64 / odds as f64);
+        for n in (1..=most).filter(|&n| missed(n) < 1.0) {
+            assert_eq!(random.missed(n.into()), missed(n));
+            assert_eq!(random.union_bound(missed(n)), n.into(), "{levels:?}, {n} rows");
+            assert_eq!(random.union_bound(missed(n).next_down()), u64::from(n) + 1, "{levels:?}, {n} rows");
+        }
+    }
+}
+
+#[test]
+fn what_is_rounded_is_rounded_up() {
+    // 3 (2/3)^n in whole numbers: 2^n / 3^(n-1), against the float times the denominator.
+    let random = RandomRows::new(&Rules::free(&[3]), 1).unwrap();
+    for n in 4..40u32 {
+        let missed = random.missed(n.into());
+        // missed = mantissa / 2^scale, exactly.
+        let scale = 52 - (((missed.to_bits() >> 52) as i32) - 1023);
+        let mantissa = u128::from(missed.to_bits() & ((1 << 52) - 1) | 1 << 52);
+        let above = mantissa * 3u128.pow(n - 1);
+        assert!(above >= 1u128 << (scale as u32 + n), "{n} rows");
+        let few = mantissa - 1000;
+        assert!(few * 3u128.pow(n - 1) < 1u128 << (scale as u32 + n), "{n} rows: and hardly");
+    }
+}

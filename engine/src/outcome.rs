@@ -32,8 +32,11 @@ pub struct Outcome {
     /// The robustness of each requirement by its id; `None` where the run ended before it was decided: it is inconclusive
     /// then, unless another was violated.
     pub robustness: Vec<(String, Option<f64>)>,
-    /// `travelled` (m), `impact_speed` (the car's at the contact, m/s; 0 without one), `contact_face`, and
-    /// `triggered`: whether the premise of the scenario came about.
+    /// `travelled` (m); of a contact `impact_speed` (the car's, m/s; 0 without one), `contact_face` (the side of the car),
+    /// `contact_with` (the name of the object), `contact_class` (what it is taken for), `contact_motion` (whether the car
+    /// was `driving`, `braking` or `standing`) and `other_speed` (the object's, m/s); `triggered`: whether the premise of
+    /// the scenario came about. For each violated requirement ID `critical_time.ID` (s), the time at which its formula came
+    /// to be worth what it is, with `critical_travelled.ID` (m) and `critical_speed.ID` (m/s) of the car then.
     pub metrics: Vec<(String, Metric)>,
     /// The record of the run; `None` where there was none.
     pub trace: Option<Trace>,

@@ -1,7 +1,9 @@
 //! Once a run has begun, its streams allocate nothing.
 
 use paracosm_coverage::Shape;
-use paracosm_engine::{AutonomousVehicle, Control, Program, RoadSegment, Run, Scenario, Setup, Step, Stream};
+use paracosm_engine::{
+    AutonomousVehicle, Control, Environment, Program, RoadSegment, Run, Scenario, Setup, Step, Stream,
+};
 use paracosm_engine::{eventually, never};
 
 /// Every combinator there is.
@@ -11,6 +13,7 @@ fn everything(s: &mut Scenario) {
     let weather = s.choice("weather", ["clear", "fog"]).signal(Shape::PiecewiseConstant { pieces: 5 });
     let road = s.place(RoadSegment::new(200.0).friction(friction));
     let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+    s.place(Environment::new().fog(Stream::constant(0.3)));
     s.duration(5.0);
 
     let foggy = Stream::from(weather).equals("fog") & !car.speed().above(light);
@@ -36,6 +39,7 @@ fn no_tick_allocates() {
     let mut go = |questions: usize| {
         for _ in 0..questions {
             assert!(matches!(run.advance(), Step::Need(_)), "the run ended early");
+            assert_eq!(run.weather().fog, 0.3);
             run.supply(Control::default());
         }
     };

@@ -6,7 +6,7 @@ use paracosm_engine::object::{Body, BodyState, Class, Input, Output, Outputs, Ph
 use paracosm_engine::road::{CrossIntersection, Path, RoadSegment};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{
-    AutonomousVehicle, Car, Environment, Fixture, Mover, Outcome, Pedestrian, Place, Pose, Program, Road, Run,
+    AutonomousVehicle, Car, Environment, Fixture, Metric, Mover, Outcome, Pedestrian, Place, Pose, Program, Road, Run,
     Scenario, Setup, Side, Stream, Temporal, Weather, always, driver, eventually, never, simulate,
 };
 use paracosm_oracles::Verdict;
@@ -74,8 +74,31 @@ fn the_car_collides_with_another_car_by_the_side_that_meets_it() {
     let clearance = signal(&outcome, "car.clearance");
     assert!((clearance[0] - (40.0 - 5.0 - 2.254)).abs() < 1e-9);
     assert!((outcome.robustness[0].1.unwrap() + 64.0 / (2.0 * 0.8 * 9.80665)).abs() < 0.1);
-    let face = outcome.metrics.iter().find(|(name, _)| name == "contact_face").unwrap();
-    assert_eq!(face.1.to_string(), "front");
+    let metric = |name: &str| outcome.metrics.iter().find(|(other, _)| other == name).unwrap().1.clone();
+    let words =
+        ["contact_face", "contact_with", "contact_class", "contact_motion"].map(|name| metric(name).to_string());
+    assert_eq!(words, ["front", "truck", "truck", "driving"]);
+    assert!(matches!(metric("other_speed"), Metric::Number(speed) if (speed - 2.0).abs() < 1e-9));
+    // The contact is what the violation comes down to, and the last that was recorded.
+    assert_eq!(metric("critical_time.no-collision"), Metric::Number((clearance.len() - 1) as f64 * 0.01));
+    assert_eq!(metric("critical_speed.no-collision"), metric("impact_speed"));
+    assert_eq!(metric("critical_travelled.no-collision"), metric("travelled"));
+}
+
+#[test]
+fn a_violation_without_a_contact_has_its_time_and_place_and_what_holds_has_none() {
+    let outcome = run(|s| {
+        let (_, car) = rolling(s);
+        s.require("slow", always(car.travelled().below(7.0)));
+        s.require("far", eventually(car.travelled().at_least(7.0)));
+    });
+    let metric = |name: &str| outcome.metrics.iter().find(|(other, _)| other == name).map(|(_, metric)| metric.clone());
+    // It goes on to the end, where it is farthest over the line.
+    let travelled = signal(&outcome, "car.travelled");
+    assert_eq!(metric("critical_time.slow"), Some(Metric::Number((travelled.len() - 1) as f64 * 0.01)));
+    assert_eq!(metric("critical_travelled.slow"), Some(Metric::Number(*travelled.last().unwrap())));
+    assert_eq!(metric("critical_time.far"), None);
+    assert_eq!(metric("contact_with"), Some(Metric::Word(None)));
 }
 
 /// A ball that is kicked for half a second.

@@ -1,10 +1,15 @@
 //! The studies of the paper and ours, each by name.
 //!
-//! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints what it found.
+//! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints what it found. The system
+//! that one of them is about can be tested from the command line, too.
 
+mod automatic_transmission;
+mod boundary;
 mod fig9;
 mod recovery;
 mod samplers;
+mod system;
+mod transmission;
 
 use clap::Parser;
 use indicatif::ProgressBar;
@@ -26,7 +31,19 @@ struct Study {
     run: fn(&Path, &ProgressBar) -> Done,
 }
 
-const STUDIES: [Study; 2] = [
+const STUDIES: [Study; 4] = [
+    Study {
+        name: "automatic-transmission",
+        about: "after how many simulations each strategy falsifies the automatic transmission benchmark",
+        time: "1 min",
+        run: automatic_transmission::run,
+    },
+    Study {
+        name: "boundary",
+        about: "how much of the pedestrian study's map is known after 25 to 400 tests, by boundary and by sampling",
+        time: "2 min",
+        run: boundary::run,
+    },
     Study {
         name: "fig9",
         about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, at 25, 100 and 500 tests",
@@ -48,8 +65,10 @@ const STUDIES: [Study; 2] = [
     after_help = "Example:\n  cargo run --release -p paracosm-experiments -- fig9"
 )]
 struct Arguments {
-    /// The study, or `list`
+    /// The study; `list`; or `system`, to be a system that answers tests on standard input
     name: String,
+    /// Of `system`, which one: `automatic-transmission`
+    system: Option<String>,
     /// Where to write [default: experiments/out/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -73,8 +92,17 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Done {
+    match (arguments.name.as_str(), arguments.system.as_deref()) {
+        ("system", Some(system::NAME)) => return system::serve(),
+        ("system", Some(other)) => {
+            return Err(format!("no system is called `{other}`, expected `{}`", system::NAME).into());
+        }
+        ("system", None) => return Err(format!("found no name of a system, expected `{}`", system::NAME).into()),
+        (_, Some(more)) => return Err(format!("found `{more}` after the study, expected nothing").into()),
+        (_, None) => {}
+    }
     if arguments.name == "list" {
-        let line = |Study { name, about, time, .. }: &Study| format!("{name:<10}{time:<8}{about}\n");
+        let line = |Study { name, about, time, .. }: &Study| format!("{name:<24}{time:<8}{about}\n");
         return print(&STUDIES.iter().map(line).collect::<String>());
     }
     let Some(study) = STUDIES.iter().find(|study| study.name == arguments.name) else {

@@ -78,6 +78,23 @@ impl FromStr for DiscreteFamily {
     }
 }
 
+impl Request<'_> {
+    /// How many discrete parameters the rows cover together: `k`, or all of them where fewer are discrete.
+    ///
+    /// # Errors
+    /// `k` is given, and is 0, more than there are parameters of both kinds, or about none, for none is discrete.
+    pub fn discrete_strength(&self) -> Result<usize, GeneratorError> {
+        let discrete = self.space.levels().len();
+        let parameters = discrete + self.space.dims();
+        match self.k {
+            None => Ok(discrete.min(2)),
+            Some(k) if discrete == 0 || k == 0 => Err(GeneratorError::Strength { k, parameters: discrete }),
+            Some(k) if k > parameters => Err(GeneratorError::AllStrength { k, parameters }),
+            Some(k) => Ok(k.min(discrete)),
+        }
+    }
+}
+
 /// The rows for one space. A space without discrete parameters has one empty row.
 pub(crate) struct Family {
     levels: Vec<usize>,
@@ -101,15 +118,10 @@ impl Family {
         let levels = rules.levels();
         let parameters = levels.len();
         let seed = request.seed.unwrap_or(0);
-        if let Some(k) = request.k
-            && !(1..=parameters).contains(&k)
-        {
-            return Err(GeneratorError::Strength { k, parameters });
-        }
+        let k = request.discrete_strength()?;
         if let Some(rows) = request.rows {
             return Ok(Self::listed(levels, rows.to_vec()));
         }
-        let k = request.k.unwrap_or(parameters.min(2));
         let too_large = |rows, advice| Err(GeneratorError::FamilyTooLarge { rows, advice });
         let is_free = rules.groups() == 0;
         match request.discrete {

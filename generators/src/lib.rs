@@ -35,6 +35,7 @@ mod sequence;
 mod spread;
 mod strategy;
 
+pub use adaptive::{FailingShare, FailureModel};
 pub use bandit::Bandit;
 pub use error::GeneratorError;
 pub use family::DiscreteFamily;

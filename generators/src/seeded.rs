@@ -26,6 +26,8 @@ pub(crate) enum Purpose {
     Corners = 6,
     /// What an adaptive strategy leaves to chance.
     Search = 7,
+    /// Draws of what a model is not sure of.
+    Draws = 8,
 }
 
 /// The generator for one purpose and, within it, one `number`.

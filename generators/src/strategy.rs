@@ -75,7 +75,8 @@ pub enum Strategy {
 pub struct Request<'a> {
     /// The parameters to vary.
     pub space: &'a Space,
-    /// How many tests are wanted, at least 1. Sets that depend on their size are made for it.
+    /// How many tests are wanted, at least 1. Sets that depend on their size are made for it. With an epsilon it is the
+    /// most there may be; `usize::MAX` is as many as it takes.
     pub budget: usize,
     /// The source of all chance. None is the plain set where a strategy has one (`halton sobol kronecker
     /// hammersley fibonacci`) and seed 0 in all else, such as the copies of a plain set for further rows.
@@ -86,10 +87,12 @@ pub struct Request<'a> {
     /// How discrete parameters are covered.
     pub discrete: DiscreteFamily,
     /// How many parameters are covered together: the discrete ones by a family of rows, all of them by `greedy` where
-    /// it aims at k-wise dispersion. None is 2, or as many as there are.
+    /// it aims at k-wise dispersion. None is 2, or as many as there are; of fewer discrete ones than k all combinations
+    /// are covered.
     pub k: Option<usize>,
-    /// Go on until the points of every row of the discrete family leave no empty box above this volume, and give the
-    /// next test to the row with the largest until then. None is equal shares of the budget.
+    /// Go on until the points of every row of the discrete family leave no empty box above this volume, with as few
+    /// tests as that takes; where the budget is too small, spread the tests so that the largest empty box of any row is
+    /// as small as can be. None is equal shares of the budget.
     pub epsilon: Option<f64>,
     /// When the search for tests that reach epsilon ends, whatever it has found.
     pub deadline: Deadline,
@@ -237,6 +240,11 @@ impl Strategy {
         )
     }
 
+    /// Whether it is after a failure, whatever it violates; an adaptive strategy that is not maps where tests fail.
+    pub fn seeks_a_failure(self) -> bool {
+        self.is_adaptive() && self != Self::Boundary
+    }
+
     /// A generator of this strategy.
     ///
     /// In a space with discrete parameters it is exhausted after the budget, or without continuous ones after
@@ -283,22 +291,13 @@ impl Strategy {
             return Err(self.cannot_cover(dims));
         }
         if let Some(epsilon) = request.epsilon {
-            let family = family.without(&[]);
-            let rows = (0..family.len()).map(|index| family.row(index));
-            return Ok(Box::new(Spread::new(self, request, rows, epsilon)?));
+            return Ok(Box::new(Spread::new(self, request, &family.without(&[]), first, epsilon)?));
         }
         if self != Self::Greedy && !existing.is_empty() {
             return Err(GeneratorError::NoExtension { strategy: self.name() });
         }
         let deal = Deal::new(family.len(), budget as u64);
         let sequence: Box<dyn Sequence> = match self {
-            Self::Random => Box::new(Uniform::new(dims, seed_or_0)),
-            Self::Halton => Box::new(Halton::new(dims, seed)),
-            Self::HaltonShifted => Box::new(Halton::new(dims, Some(seed_or_0))),
-            Self::HaltonScrambled => Box::new(HaltonScrambled::new(dims, seed_or_0)),
-            Self::Sobol => Box::new(Sobol::new(dims, seed)),
-            Self::SobolOwen => Box::new(Sobol::owen(dims, seed_or_0)),
-            Self::Kronecker => Box::new(Kronecker::new(dims, seed)),
             Self::Hammersley => Box::new(PerRow::new(deal, Hammersley::new(dims, seed))),
             Self::Fibonacci => Box::new(PerRow::new(deal, Fibonacci::new(seed))),
             Self::Greedy => {
@@ -306,13 +305,28 @@ impl Strategy {
             }
             Self::Lhs => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Random)?)),
             Self::LhsCentred => Box::new(PerRow::new(deal, Lhs::new(dims, seed_or_0, &deal, Place::Centre)?)),
-            _ => unreachable!("adaptive strategies were built above"),
+            _ => self.sequence(dims, seed).expect("adaptive strategies were built above"),
         };
         let (end, len) = (first.saturating_add(deal.indices()), sequence.len());
         if end > len {
             return Err(GeneratorError::IndexLimit { strategy: self.name(), len, last: end - 1 });
         }
         Ok(Box::new(Mixed::new(family, sequence, deal, first)))
+    }
+
+    /// The strategy as a sequence that goes on; none where it makes sets of their size, or looks at what is there.
+    pub(crate) fn sequence(self, dims: usize, seed: Option<u64>) -> Option<Box<dyn Sequence>> {
+        let seed_or_0 = seed.unwrap_or(0);
+        Some(match self {
+            Self::Random => Box::new(Uniform::new(dims, seed_or_0)),
+            Self::Halton => Box::new(Halton::new(dims, seed)),
+            Self::HaltonShifted => Box::new(Halton::new(dims, Some(seed_or_0))),
+            Self::HaltonScrambled => Box::new(HaltonScrambled::new(dims, seed_or_0)),
+            Self::Sobol => Box::new(Sobol::new(dims, seed)),
+            Self::SobolOwen => Box::new(Sobol::owen(dims, seed_or_0)),
+            Self::Kronecker => Box::new(Kronecker::new(dims, seed)),
+            _ => return None,
+        })
     }
 
     /// Whether its points can be asked for one by one, without saying beforehand how many there will be.

@@ -275,6 +275,16 @@ fn the_random_family_has_as_many_rows_as_the_proposition_asks_for() {
 }
 
 #[test]
+fn of_fewer_discrete_parameters_than_k_all_combinations_are_covered() {
+    let space = mixed(1, &[2, 3]);
+    for k in [2, 3] {
+        let all = tests(Strategy::Halton, &Request { k: Some(k), ..Request::new(&space, 6) });
+        let rows: BTreeSet<_> = all.into_iter().map(|test| test.discrete).collect();
+        assert_eq!(rows.len(), 6, "{k}");
+    }
+}
+
+#[test]
 fn the_cross_family_is_all_combinations_the_first_parameter_slowest() {
     let space = mixed(0, &[2, 3, 2]);
     let rows = rows(&Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 1) });
@@ -313,10 +323,10 @@ fn what_cannot_be_built_is_refused_with_the_numbers() {
         let message = format!("`{strategy}` is no sequence and cannot skip; the sequences are {sequences}");
         check(strategy, Request { skip: Some(3), ..Request::new(&cube, 5) }, &message);
     }
-    for k in [0, 3] {
-        let message = format!("k is {k}, but the space has 2 discrete parameters; k must be from 1 to their number");
-        check(Halton, Request { k: Some(k), ..Request::new(&rows, 5) }, &message);
-    }
+    let none = "k is 0, but the space has 2 discrete parameters; k must be from 1 to their number";
+    check(Halton, Request { k: Some(0), ..Request::new(&rows, 5) }, none);
+    let all = "k is 4, but the space has 3 parameters; k must be from 1 to their number";
+    check(Halton, Request { k: Some(4), ..Request::new(&rows, 5) }, all);
     for delta in [0.0, 1.0, f64::NAN, -0.5] {
         let message = format!("delta is {delta}; a probability of failure must be above 0 and below 1");
         check(Halton, Request { discrete: random(delta), ..Request::new(&rows, 5) }, &message);

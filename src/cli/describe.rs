@@ -33,7 +33,7 @@ impl Options {
         let program = study.program()?;
         let declaration = program.declare()?;
         if let Some(file) = &self.draw {
-            let target = Target::new(file, &[Kind::Svg, Kind::Png])?;
+            let target = Target::new("--draw", file, &[Kind::Svg, Kind::Png])?;
             verbosity.note(target.write(|kind| draw(&program, &declaration, kind))?);
             return Ok(Found::Nothing);
         }
@@ -52,7 +52,7 @@ fn draw(program: &Program, declaration: &Declaration, kind: Kind) -> Result<Vec<
     let drawing = picture::world(&run, program.name);
     match kind {
         Kind::Svg => Ok(drawing.svg().into_bytes()),
-        Kind::Png | Kind::Gif => plot::png(&drawing),
+        Kind::Png | Kind::Gif | Kind::Csv => plot::png(&drawing),
     }
 }
 

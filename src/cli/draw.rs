@@ -1,4 +1,4 @@
-//! The option `--draw` of `paracosm-fuzz describe` and `replay`.
+//! The files that pictures are written to: `--draw` of `paracosm-fuzz describe` and `replay`, `--out` of `map`.
 
 use crate::folder::{is_new, write_whole};
 use crate::{Error, Folder};
@@ -11,6 +11,7 @@ pub(super) enum Kind {
     Svg,
     Png,
     Gif,
+    Csv,
 }
 
 impl Kind {
@@ -19,11 +20,12 @@ impl Kind {
             Kind::Svg => "svg",
             Kind::Png => "png",
             Kind::Gif => "gif",
+            Kind::Csv => "csv",
         }
     }
 }
 
-/// A file for a picture, which does not exist yet.
+/// A file for a picture or its numbers, which does not exist yet.
 #[derive(Debug)]
 pub(super) struct Target {
     path: PathBuf,
@@ -31,23 +33,23 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// Checks, before anything takes time, that a picture of one of these kinds can be written there.
+    /// Checks, before anything takes time, that a picture of one of these kinds can be written to the file of an option.
     ///
     /// # Errors
     /// The file exists, belongs to a campaign, or has another ending.
-    pub fn new(path: &Path, kinds: &[Kind]) -> Result<Self, Error> {
+    pub fn new(option: &str, path: &Path, kinds: &[Kind]) -> Result<Self, Error> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let Some(kind) = kinds.iter().find(|kind| kind.ending() == ending) else {
             let known: Vec<_> = kinds.iter().map(|kind| kind.ending()).collect();
             let found = if ending.is_empty() { "no ending".to_owned() } else { format!("the ending `.{ending}`") };
             let (path, meant) = (path.display(), did_you_mean(&nearest(&ending, known.iter().copied())));
             let known: Vec<_> = known.iter().map(|ending| format!(".{ending}")).collect();
-            let message = format!("--draw {path}: found {found}, expected {}{meant}", known.join(" or "));
+            let message = format!("{option} {path}: found {found}, expected {}{meant}", known.join(" or "));
             return Err(Error::Usage(message));
         };
         is_new(path, "a picture")?;
         if path.file_name().is_some_and(Folder::owns) {
-            let message = format!("--draw {} has the name of a campaign's own file", path.display());
+            let message = format!("{option} {} has the name of a campaign's own file", path.display());
             return Err(Error::Usage(message));
         }
         Ok(Self { path: path.to_owned(), kind: *kind })

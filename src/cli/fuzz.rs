@@ -1,6 +1,6 @@
 //! The arguments of `paracosm-fuzz`.
 
-use super::{Failure, Found, Verbosity, describe, list, replay, run};
+use super::{Failure, Found, Verbosity, describe, doctor, likelihood, list, map, record, replay, run, shrink};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -10,10 +10,30 @@ Examples:
   paracosm-fuzz --open friction:piecewise-linear:3   the friction varies while a test runs
   paracosm-fuzz --spec 'always[0,10] (car.speed > 1)'           ask more of every run
   paracosm-fuzz --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)'    a system of your own
+  paracosm-fuzz map paracosm-out --x speed --y friction    the failure map over other parameters
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
+  paracosm-fuzz shrink paracosm-out 17               the simplest test near test 17 that still fails
+  paracosm-fuzz record pedestrian-crossing --budget 20 --out images      what cameras see of tests, labelled
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
 Exit status: 0 done, 1 a violation was found (with --fail-on-violation), 2 wrong use, bad input or a failed run.";
+
+const REPLAYS: &str = "\
+Examples:
+  paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv
+  paracosm-fuzz replay paracosm-out 17 --draw test-17.gif
+  paracosm-fuzz replay paracosm-out 17 --camera front-17.gif
+  paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json
+  paracosm-fuzz replay regressions/*.json                      the failures are still the same
+  paracosm-fuzz replay regressions/*.json --fail-on-violation  in CI: what was mended stays so
+
+A regression file says how its test is to end: `\"expect\": \"fail\"` as it is written, `\"pass\"`
+once you have mended what failed and edited the file. Every file is run, and a line says what
+became of it and whether that was expected.
+
+Exit status: 0 all tests were run; 1 with --fail-on-violation, a test violated a requirement,
+expected or not; 2 a file cannot be run, a test broke, or one that is to fail had another trace
+than the same version of the software recorded.";
 
 /// Tests a driver over the open parameters of a scenario.
 #[derive(Debug, Parser)]
@@ -34,6 +54,9 @@ enum Verb {
     /// Run one campaign; what is done when no command is named
     #[command(after_help = EXAMPLES)]
     Run(Box<run::Options>),
+    /// Estimate how likely a test fails, when parameters are distributed as you say
+    #[command(after_help = likelihood::EXAMPLES)]
+    Likelihood(likelihood::Options),
     /// Show scenarios, strategies and drivers with their parameters
     #[command(after_help = "Example:\n  paracosm-fuzz list")]
     List(list::Options),
@@ -43,10 +66,26 @@ enum Verb {
                             paracosm-fuzz describe pedestrian-crossing --draw world.svg"
     )]
     Describe(describe::Options),
-    /// Run a logged test again and compare its trace hash with the log's
-    #[command(after_help = "Examples:\n  paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv\n  \
-                            paracosm-fuzz replay paracosm-out 17 --draw test-17.gif")]
+    /// Draw the failure map of a campaign again, over other parameters: its tests, and how probable a failure is
+    #[command(after_help = "Examples:\n  paracosm-fuzz map paracosm-out --x speed --y friction\n  \
+                            paracosm-fuzz map paracosm-out --x distance --y friction --out slippery.svg")]
+    Map(map::Options),
+    /// Run a logged test again and compare its trace hash with the log's, or run regression files
+    #[command(
+        override_usage = "paracosm-fuzz replay DIR INDEX [OPTIONS]\n       paracosm-fuzz replay FILE... [OPTIONS]"
+    )]
+    #[command(after_help = REPLAYS)]
     Replay(replay::Options),
+    /// Find the simplest test near a failing one that still fails
+    #[command(after_help = "Examples:\n  paracosm-fuzz shrink paracosm-out 17\n  \
+                            paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json")]
+    Shrink(shrink::Options),
+    /// Run a campaign and record what cameras see of its tests: images, masks, depths, boxes and controls
+    #[command(after_help = record::EXAMPLES)]
+    Record(Box<record::Options>),
+    /// Show what this machine draws with, and how fast
+    #[command(after_help = "Example:\n  paracosm-fuzz doctor")]
+    Doctor(doctor::Options),
 }
 
 impl Command {
@@ -54,9 +93,14 @@ impl Command {
         match self.verb {
             None => self.run.execute(self.verbosity),
             Some(Verb::Run(options)) => options.execute(self.verbosity),
+            Some(Verb::Likelihood(options)) => options.execute(self.verbosity),
             Some(Verb::List(options)) => options.execute(),
             Some(Verb::Describe(options)) => options.execute(self.verbosity),
+            Some(Verb::Map(options)) => options.execute(self.verbosity),
             Some(Verb::Replay(options)) => options.execute(self.verbosity),
+            Some(Verb::Shrink(options)) => options.execute(self.verbosity),
+            Some(Verb::Record(options)) => options.execute(self.verbosity),
+            Some(Verb::Doctor(options)) => options.execute(),
         }
     }
 }

@@ -6,17 +6,24 @@
 mod arguments;
 mod cover;
 mod describe;
+mod doctor;
 mod draw;
 mod fuzz;
 mod interrupt;
+mod likelihood;
 mod list;
+mod map;
 mod output;
 mod progress;
+mod record;
+mod regressions;
 mod replay;
 mod report;
 mod run;
 mod sampling;
+mod shrink;
 mod space_file;
+mod subject;
 mod suspects;
 mod system;
 

@@ -7,6 +7,16 @@ use crate::oracles::Verdict;
 use crate::{Error, LiveCoverage, Study, Summary, Trial};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
+/// A bar of so many tests, hidden where nothing is to be said.
+pub(super) fn bar(verbosity: Verbosity, tests: usize) -> ProgressBar {
+    let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(tests as u64) };
+    let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {rate} tests/s  {eta} left  {msg}";
+    let style = ProgressStyle::with_template(template).expect("the template is one");
+    bar.with_style(style.with_key("rate", |state: &ProgressState, text: &mut dyn std::fmt::Write| {
+        let _ = write!(text, "{:.0}", state.per_sec());
+    }))
+}
+
 /// The progress bar, with the counts that it shows.
 pub(super) struct Progress {
     pub(super) bar: ProgressBar,
@@ -17,13 +27,7 @@ pub(super) struct Progress {
 
 impl Progress {
     pub(super) fn new(study: &Study, verbosity: Verbosity, known: usize) -> Result<Self, Error> {
-        let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(study.budget as u64) };
-        let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {rate} tests/s  {eta} left  {msg}";
-        let style = ProgressStyle::with_template(template).expect("the template is one");
-        let style = style.with_key("rate", |state: &ProgressState, text: &mut dyn std::fmt::Write| {
-            let _ = write!(text, "{:.0}", state.per_sec());
-        });
-        let bar = bar.with_style(style).with_position(known as u64);
+        let bar = bar(verbosity, study.budget).with_position(known as u64);
         // The rate is that of this session, not of what was there before.
         bar.reset_eta();
         let mut coverage = LiveCoverage::new(&study.space, study.strength()).ok();

@@ -1,31 +1,40 @@
-//! `paracosm-fuzz replay`: one logged test once more.
+//! `paracosm-fuzz replay`: tests once more, one of a campaign's log or those in regression files.
 
 use super::draw::{Kind, Target};
 use super::output::{Format, Table, digits, json, value_words};
-use super::{Failure, Found, Verbosity, on_interrupt, print};
+use super::{Failure, Found, Verbosity, on_interrupt, print, regressions};
 use crate::engine::Metric;
 use crate::engine::picture::Record;
 use crate::expected::Expected;
-use crate::{Error, Folder, Study, Subject, Trial, Worker, plot, write_trace};
-use clap::Args;
-use std::path::PathBuf;
+use crate::record::{Cameras, Clip};
+use crate::{Error, Expectation, Folder, Study, Subject, Trial, Worker, plot, write_trace};
+use clap::{Args, ValueEnum};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 /// What `replay` takes.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// The folder of the campaign
-    dir: PathBuf,
-    /// The index of the test
-    index: usize,
+    /// The folder of a campaign and the index of a test; or regression files, as `shrink --save` writes them
+    #[arg(required = true, value_name = "DIR INDEX | FILE")]
+    what: Vec<PathBuf>,
     /// Where to write the trace [default: DIR/trace-INDEX.csv]
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
     /// Draw the run from above to a file that does not exist yet: as one picture (.svg, .png) or as a film (.gif)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
-    /// Exit with status 1 if the test violates a requirement
+    /// Film what a camera at the front sees, into a FILE.gif or a FOLDER of PNG files that does not exist yet
+    #[arg(long, value_name = "FILE.gif|FOLDER")]
+    camera: Option<PathBuf>,
+    /// Film with the first camera in this file; `paracosm-fuzz record --print-cameras` prints one
+    #[arg(long, value_name = "CAMERAS.toml", requires = "camera")]
+    cameras: Option<PathBuf>,
+    /// How the tests in regression files are to end, whatever the files say
+    #[arg(long, value_name = "VERDICT")]
+    expect: Option<Ending>,
+    /// Exit with status 1 if a test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
     /// How to print the outcome [default: table on a terminal, json elsewhere]
@@ -33,19 +42,51 @@ pub(super) struct Options {
     format: Option<Format>,
 }
 
+/// How a test is to end.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Ending {
+    /// It violates what it violated before
+    Fail,
+    /// It violates nothing
+    Pass,
+}
+
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        let (study, trials) = Folder::read(&self.dir)?;
-        let logged = trials.get(self.index).ok_or_else(|| {
-            let count = trials.len();
-            let there = if count == 0 { "none".to_owned() } else { format!("0 to {}", count - 1) };
-            Error::Usage(format!("{} has no test {}, expected {there}", self.dir.display(), self.index))
-        })?;
-        let target =
-            self.draw.as_ref().map(|file| Target::new(file, &[Kind::Svg, Kind::Png, Kind::Gif])).transpose()?;
-        if let (Some(file), Subject::System(_)) = (&self.draw, &study.subject) {
+        let found = match self.what.as_slice() {
+            [dir, index] if !dir.is_file() => self.replay(dir, parse_index(index)?, verbosity)?,
+            [dir] if dir.is_dir() => {
+                let message = format!("{} is a folder: expected the index of a test after it", dir.display());
+                return Err(Error::Usage(message).into());
+            }
+            _ if self.trace.is_some() || self.draw.is_some() || self.camera.is_some() => {
+                let message = "--trace, --draw and --camera are for a test of a campaign: replay DIR INDEX";
+                return Err(Error::Usage(message.into()).into());
+            }
+            files => regressions::replay(files, self.expect.map(Expectation::from), self.format)?,
+        };
+        Ok(if self.fail_on_violation { found } else { Found::Nothing })
+    }
+
+    /// Runs a logged test again.
+    fn replay(&self, dir: &Path, index: usize, verbosity: Verbosity) -> Result<Found, Failure> {
+        if self.expect.is_some() {
+            return Err(Error::Usage("--expect is for regression files; the log says how a test ended".into()).into());
+        }
+        let (study, trials) = Folder::read(dir)?;
+        let logged = logged(dir, &trials, index)?;
+        let target = self
+            .draw
+            .as_ref()
+            .map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif]))
+            .transpose()?;
+        let clip = self.camera.as_deref().map(Clip::new).transpose()?;
+        let cameras = self.cameras.as_deref().map_or_else(|| Ok(Cameras::for_people()), Cameras::read)?;
+        let seen = [("--draw", &self.draw), ("--camera", &self.camera)];
+        let seen = seen.into_iter().find_map(|(option, file)| Some((option, file.as_ref()?)));
+        if let (Some((option, file)), Subject::System(_)) = (seen, &study.subject) {
             let message =
-                format!("--draw {}: what a system does cannot be seen; --trace writes it down", file.display());
+                format!("{option} {}: what a system does cannot be seen; --trace writes it down", file.display());
             return Err(Error::Usage(message).into());
         }
         let mut record = Record::default();
@@ -53,17 +94,18 @@ impl Options {
         on_interrupt(Arc::clone(&stop));
         let mut worker = Worker::until(&study, stop.clone())?;
         worker.start()?;
-        let (trial, trace) = worker.watch(self.index, &logged.test, |run| {
-            if target.is_some() {
+        let watched = target.is_some();
+        let (trial, trace) = worker.watch(index, &logged.test, |run| {
+            if watched {
                 record.see(run);
             }
         });
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted.into());
         }
-        let trial = Expected::of(&study, &trials[..self.index]).check(trial);
+        let trial = Expected::of(&study, &trials[..index]).check(trial);
         if let Some(trace) = &trace {
-            let default = || self.dir.join(format!("trace-{}.csv", self.index));
+            let default = || dir.join(format!("trace-{index}.csv"));
             let path = self.trace.clone().unwrap_or_else(default);
             write_trace(&path, trace)?;
             verbosity.note(format_args!("trace of {} ticks written to {}", trial.ticks, path.display()));
@@ -77,12 +119,38 @@ impl Options {
         if trial != *logged {
             return Err(difference(&study, logged, &trial).into());
         }
+        if let Some(clip) = &clip {
+            verbosity.note(clip.write(&study, logged, &cameras)?);
+        }
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(&study, &trial),
             Format::Json => json(&trial),
         })?;
-        Ok(if self.fail_on_violation && trial.is_failure() { Found::Violation } else { Found::Nothing })
+        Ok(if trial.is_failure() { Found::Violation } else { Found::Nothing })
     }
+}
+
+impl From<Ending> for Expectation {
+    fn from(ending: Ending) -> Self {
+        match ending {
+            Ending::Fail => Expectation::Fail,
+            Ending::Pass => Expectation::Pass,
+        }
+    }
+}
+
+fn parse_index(index: &Path) -> Result<usize, Error> {
+    let text = index.to_string_lossy();
+    text.parse().map_err(|_| Error::Usage(format!("found `{text}`, expected the index of a test after the folder")))
+}
+
+/// The trial of that index in the log of a folder.
+pub(super) fn logged<'a>(dir: &Path, trials: &'a [Trial], index: usize) -> Result<&'a Trial, Error> {
+    trials.get(index).ok_or_else(|| {
+        let count = trials.len();
+        let there = if count == 0 { "none".to_owned() } else { format!("0 to {}", count - 1) };
+        Error::Usage(format!("{} has no test {index}, expected {there}", dir.display()))
+    })
 }
 
 /// Width of a film in pixels.
@@ -96,6 +164,7 @@ fn draw(record: &Record, kind: Kind, caption: &str) -> Result<Vec<u8>, Failure> 
         Kind::Svg => Ok(story()?.svg().into_bytes()),
         Kind::Png => plot::png(&story()?),
         Kind::Gif => plot::gif(&record.film(FILM, caption).ok_or(nothing)?),
+        Kind::Csv => unreachable!("it is none of the kinds"),
     }
 }
 

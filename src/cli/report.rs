@@ -5,10 +5,13 @@ use super::suspects::Guilt;
 use crate::coverage::Value;
 use crate::json::Number;
 use crate::oracles::Verdict;
-use crate::{Coverage, Judged, Promise, Study, Summary, Trial};
+use crate::{Coverage, Explanation, Judged, Modes, Promise, Study, Summary, Trial};
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::Path;
+
+/// How many failure modes a table shows.
+const MODES_SHOWN: usize = 5;
 
 /// What is printed at the end.
 pub(super) struct Report<'a> {
@@ -18,6 +21,8 @@ pub(super) struct Report<'a> {
     pub(super) coverage: &'a Coverage,
     pub(super) promise: Option<&'a Promise>,
     pub(super) guilt: &'a Guilt,
+    pub(super) modes: &'a Modes,
+    pub(super) explanation: Option<&'a Explanation>,
     pub(super) out: &'a Path,
 }
 
@@ -43,6 +48,9 @@ impl Report<'_> {
         for (i, judged) in summary.requirements().iter().enumerate() {
             table.row(if i == 0 { "requirements" } else { "" }, &self.in_words(judged));
         }
+        if self.stopped() {
+            table.row("stopped", &format!("at the first failing test; the budget is {}", study.budget));
+        }
         if let Some(known) = &study.extends {
             table.row(
                 "extends",
@@ -58,6 +66,10 @@ impl Report<'_> {
             }
         }
         self.guilt.show(&mut table);
+        self.show_modes(&mut table);
+        if let Some(explanation) = self.explanation {
+            table.row("explanation", &explanation.words);
+        }
         table.row("written to", &self.out.display().to_string());
         if let Some(worst) = summary.worst() {
             let trial = &self.trials[worst.index];
@@ -65,6 +77,9 @@ impl Report<'_> {
             let robustness = self.robustness(&worst.requirement, robustness);
             table.row("worst test", &format!("{}: {} {robustness}", worst.index, worst.requirement));
             table.row("  where", &in_words(study, trial));
+            if trial.is_failure() {
+                table.row("  shrink", &self.command("shrink", worst.index));
+            }
             table.row("  replay", &self.replay(worst.index));
         }
         table.finish()
@@ -97,7 +112,14 @@ impl Report<'_> {
             summary["random_rows"] = json!(promise);
             summary["random_rows"]["different"] = self.different_rows().into();
         }
+        if let Some(explanation) = self.explanation {
+            summary["explanation"] = json!(explanation);
+        }
         self.guilt.add_to(&mut summary);
+        if self.study.stops_at_first() {
+            summary["stopped_at_first"] = self.stopped().into();
+        }
+        summary["modes"] = json!(self.modes.modes);
         summary
     }
 
@@ -120,16 +142,41 @@ impl Report<'_> {
         format!("{} {unit}", digits(robustness)).trim_end().to_owned()
     }
 
+    /// Whether the first failing test has ended the campaign.
+    fn stopped(&self) -> bool {
+        self.study.stops_at_first() && self.summary.count(Verdict::Fail) > 0
+    }
+
+    /// The ways in which tests fail.
+    fn show_modes(&self, table: &mut Table) {
+        let Modes { modes, .. } = self.modes;
+        for (i, mode) in modes.iter().take(MODES_SHOWN).enumerate() {
+            let tests = match mode.count {
+                1 => format!("test {}", mode.representative),
+                count => format!("{count} tests such as {}", mode.representative),
+            };
+            table.row(if i == 0 { "failure modes" } else { "" }, &format!("{tests}: {}", mode.words));
+        }
+        if modes.len() > MODES_SHOWN {
+            table.row("", &format!("and {} more in modes.json", modes.len() - MODES_SHOWN));
+        }
+    }
+
     /// How many different combinations of all discrete values were tested.
     fn different_rows(&self) -> usize {
         let points = self.trials.iter().filter_map(|trial| self.study.space.encode(&trial.test).ok());
         points.map(|point| point.discrete).collect::<BTreeSet<_>>().len()
     }
 
-    /// The command that runs a test again, with the program as it was called.
+    /// The command that runs a test again.
     fn replay(&self, index: usize) -> String {
+        self.command("replay", index)
+    }
+
+    /// A command about a test, with the program as it was called.
+    fn command(&self, verb: &str, index: usize) -> String {
         let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
-        format!("{} replay {} {index}", shell_word(&program), shell_word(&self.out.to_string_lossy()))
+        format!("{} {verb} {} {index}", shell_word(&program), shell_word(&self.out.to_string_lossy()))
     }
 }
 

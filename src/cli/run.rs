@@ -1,30 +1,40 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
+use super::map;
 use super::output::{Format, json, plural};
 use super::progress::Progress;
 use super::report::Report;
 use super::sampling::Sampling;
+use super::subject::Subject;
 use super::suspects::Guilt;
-use super::system::System;
 use super::{Failure, Found, Verbosity, on_interrupt, print};
-use crate::coverage::{Domain, Shape, Value};
 use crate::generators::Strategy;
 use crate::oracles::Verdict;
-use crate::{Campaign, Coverage, Error, FailureMap, Folder, Measure, Picture, Study, Tests, Trial};
+use crate::{Campaign, Coverage, Error, Explanation, Folder, Measure, Modes, Study, Tests, Trial};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// The time that `coverage.json` may take, as `estimate --time-limit 5`.
 const COVERAGE_LIMIT: Duration = Duration::from_secs(5);
 
+/// A campaign that was run to its end.
+pub(super) struct Conducted {
+    pub study: Study,
+    pub trials: Vec<Trial>,
+    pub found: Found,
+    /// What an interrupt sets.
+    pub stop: Arc<AtomicBool>,
+}
+
 /// What `run` takes.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// The world to test in; `paracosm-fuzz list` shows them all
-    #[arg(default_value = "pedestrian-crossing")]
-    scenario: String,
+    #[command(flatten)]
+    pub subject: Subject,
     /// How tests are chosen; `paracosm-fuzz list` shows all strategies [default: halton; greedy with --extend]
     #[arg(long, value_name = "S")]
     strategy: Option<String>,
@@ -37,23 +47,6 @@ pub(super) struct Options {
     /// [default: 16]
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
-    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one. With a SHAPE each test
-    /// lets it vary over time: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES, per-tick,
-    /// constant
-    #[arg(long, value_name = "NAME[:SHAPE][=LO..HI|=A,B,C]")]
-    open: Vec<String>,
-    /// Fix a parameter, a signal at one value or at A,B,C; or change a setting of the driver with driver.NAME=VALUE
-    #[arg(long, value_name = "NAME=VALUE")]
-    set: Vec<String>,
-    /// The system under test
-    #[arg(long, value_name = "NAME", default_value = "aeb")]
-    driver: String,
-    #[command(flatten)]
-    system: System,
-    /// Ask a formula of every trace, too; several times for several. Its requirements are called spec-1, spec-2, ..;
-    /// `paracosm-fuzz describe SCENARIO` shows the signals that it may speak of
-    #[arg(long, value_name = "FORMULA")]
-    spec: Vec<String>,
     /// Count the tests in this file as done: run only tests that complete them, and measure the coverage of all together.
     /// Its columns are the open parameters
     #[arg(long, value_name = "TESTS.csv")]
@@ -63,7 +56,7 @@ pub(super) struct Options {
     jobs: Option<NonZeroUsize>,
     /// Where to write
     #[arg(long, value_name = "DIR", default_value = "paracosm-out")]
-    out: PathBuf,
+    pub out: PathBuf,
     /// Continue the campaign in the folder
     #[arg(long)]
     resume: bool,
@@ -71,6 +64,9 @@ pub(super) struct Options {
     /// [default: 200]
     #[arg(long, value_name = "N", num_args = 0..=1, require_equals = true, default_missing_value = "200")]
     locate: Option<usize>,
+    /// End with the first test that violates a requirement, in the order of their indices
+    #[arg(long)]
+    stop_at_first: bool,
     /// Exit with status 1 if a test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
@@ -81,6 +77,11 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        self.conduct(verbosity).map(|conducted| conducted.found)
+    }
+
+    /// Runs the campaign and prints its summary.
+    pub fn conduct(&self, verbosity: Verbosity) -> Result<Conducted, Failure> {
         let study = self.study(verbosity)?;
         if self.locate.is_some() && study.space.levels().is_empty() {
             let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
@@ -104,7 +105,8 @@ impl Options {
         let mut progress = Progress::new(&study, verbosity, known.len())?;
         let mut trials = known.clone();
         trials.iter().for_each(|trial| progress.count(&study, trial));
-        on_interrupt(campaign.stop());
+        let stop = campaign.stop();
+        on_interrupt(stop.clone());
         let run = campaign.resume(known).run(|trial| {
             folder.append(trial)?;
             progress.show(&study, trial);
@@ -115,7 +117,8 @@ impl Options {
             progress.bar.finish_and_clear();
             return Err(cut_short(&error, &self.out, trials.len()));
         }
-        if trials.len() < study.budget {
+        let stopped = study.stops_at_first() && trials.last().is_some_and(Trial::is_failure);
+        if trials.len() < study.budget && !stopped {
             let beside = study.extends.as_ref().map(|known| format!(" beside the {} in {}", known.tests, known.name));
             let beside = beside.unwrap_or_default();
             verbosity.note(match (self.sampling.epsilon, trials.len()) {
@@ -136,7 +139,14 @@ impl Options {
         progress.bar.finish_and_clear();
         let coverage = coverage?;
         let guilt = Guilt::of(&study, &trials, &folder, self.locate)?;
-        let promise = study.promise()?;
+        let modes = Modes::of(&study, &trials);
+        folder.write("modes.json", json(&modes).as_bytes())?;
+        let explanation = Explanation::of(&study, &trials)?;
+        if let Some(explanation) = &explanation {
+            folder.write("explanation.json", json(explanation).as_bytes())?;
+        }
+        // What rows promise that were not run came to nothing.
+        let promise = if stopped { None } else { study.promise()? };
         let report = Report {
             study: &study,
             trials: &trials,
@@ -144,6 +154,8 @@ impl Options {
             coverage: &coverage,
             promise: promise.as_ref(),
             guilt: &guilt,
+            modes: &modes,
+            explanation: explanation.as_ref(),
             out: &self.out,
         };
         print(&match Format::or_fitting(self.format) {
@@ -163,75 +175,29 @@ impl Options {
             return Err(format!("every test ended in an error; the first: {first}").into());
         }
         let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
-        Ok(if violated { Found::Violation } else { Found::Nothing })
+        let found = if violated { Found::Violation } else { Found::Nothing };
+        Ok(Conducted { study, trials, found, stop })
     }
 
     fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
-        let mut driver_settings = Vec::new();
-        let mut fixed = Vec::new();
-        let mut vehicle = None;
-        for text in &self.set {
-            let (name, value) = text.split_once('=').ok_or_else(|| {
-                Error::Usage(format!("--set {text}: expected NAME=VALUE, driver.NAME=VALUE or vehicle=MODEL"))
-            })?;
-            match name.strip_prefix("driver.") {
-                None if name == "vehicle" => vehicle = Some(value),
-                None if value.contains(',') => fixed.push((name, value.split(',').map(Value::parse).collect())),
-                None => fixed.push((name, Value::parse(value))),
-                Some(setting) => {
-                    let number = value
-                        .parse()
-                        .map_err(|_| Error::Usage(format!("--set {text}: found `{value}`, expected a number")))?;
-                    driver_settings.push((setting.to_owned(), number));
-                }
-            }
-        }
         let sampling = &self.sampling;
-        let study = match self.system.study(verbosity)? {
-            Some(study) => study,
-            None => Study::of(&self.scenario)?.driver(&self.driver, &driver_settings)?,
-        };
-        let mut study = study
+        let mut study = self
+            .subject
+            .study(verbosity)?
             .strategy(self.strategy())?
             .batch(self.batch)?
             .delta(sampling.delta)
             .k(sampling.k)
             .epsilon(sampling.epsilon)
             .budget(self.budget)?
+            .stop_at_first(self.stop_at_first)
             .seed(sampling.seed)
             .skip(sampling.skip);
-        if let Some(model) = vehicle {
-            study = study.vehicle(model)?;
-        }
         if let Some(family) = &sampling.discrete {
             study = study.discrete(family)?;
         }
         if let Some(measure) = sampling.measure(self.strategy()) {
             study = study.measure(measure)?;
-        }
-        for text in &self.open {
-            let (name, over) = match text.split_once('=') {
-                None => (text.as_str(), None),
-                Some((name, over)) => (name, Some(domain(text, over)?)),
-            };
-            let (name, shape) = match name.split_once(':') {
-                None => (name, None),
-                Some((name, shape)) => (name, Some(signal(text, shape, &study)?)),
-            };
-            study = study.open(name, over)?;
-            if let Some(shape) = shape {
-                study = study.vary(name, shape)?;
-            }
-        }
-        for (i, (name, value)) in fixed.iter().enumerate() {
-            let opened = self.open.iter().any(|text| text.split(['=', ':']).next() == Some(name));
-            if opened || fixed[..i].iter().any(|(other, _)| other == name) {
-                return Err(Error::Usage(format!("parameter `{name}` is set and opened, or set twice")));
-            }
-            study = study.set(name, value.clone())?;
-        }
-        for formula in &self.spec {
-            study = study.spec(formula)?;
         }
         match &self.extend {
             Some(path) => study.extend(path),
@@ -255,39 +221,11 @@ impl Options {
         let tests = Tests::of_trials(study, trials)?;
         let coverage = tests.measure(&Measure::ALL, None, Some(COVERAGE_LIMIT))?;
         folder.write("coverage.json", json(&coverage).as_bytes())?;
-        match FailureMap::of(study, trials) {
+        match map::of_campaign(study, trials)? {
             None => verbosity.note("no failure map: it needs two continuous open parameters"),
-            Some(map) => {
-                let picture = Picture::of(map);
-                let failed = |name: &str| {
-                    let path = self.out.join(name);
-                    move |error: Failure| Error::Picture { path, message: error.to_string() }
-                };
-                folder.write("failure-map.svg", picture.svg().map_err(failed("failure-map.svg"))?.as_bytes())?;
-                folder.write("failure-map.png", &picture.png().map_err(failed("failure-map.png"))?)?;
-            }
+            Some(failures) => map::write(&self.out, &failures)?,
         }
         Ok(coverage)
-    }
-}
-
-/// Part of a parameter's domain as `--open` takes it: LO..HI or A,B,C.
-fn domain(text: &str, over: &str) -> Result<Domain, Error> {
-    let Some((lo, hi)) = over.split_once("..") else {
-        return Ok(Domain::Choice(over.split(',').map(Value::parse).collect()));
-    };
-    match (lo.parse(), hi.parse()) {
-        (Ok(lo), Ok(hi)) => Ok(Domain::Interval { lo, hi }),
-        _ => Err(Error::Usage(format!("--open {text}: found `{over}`, expected numbers LO..HI or values A,B,C"))),
-    }
-}
-
-/// How a parameter varies over time, as `--open` takes it.
-fn signal(text: &str, shape: &str, study: &Study) -> Result<Option<Shape>, Error> {
-    match shape {
-        "constant" => Ok(None),
-        "per-tick" => Ok(Some(Shape::PiecewiseConstant { pieces: study.subject.scenario()?.ticks() })),
-        shape => shape.parse().map(Some).map_err(|message| Error::Usage(format!("--open {text}: {message}"))),
     }
 }
 

@@ -19,10 +19,11 @@ pub(super) struct Sampling {
     /// The probability with which random rows may miss a combination [default: 0.05]
     #[arg(long, value_name = "D")]
     pub delta: Option<f64>,
-    /// How many parameters are covered together [default: 2]
+    /// How many parameters are covered together; where fewer are discrete, all combinations of these [default: 2]
     #[arg(long, value_name = "K")]
     pub k: Option<usize>,
-    /// Go on until no row of discrete values has an empty box above this volume; with --budget, as far as that goes
+    /// Go on until no row of discrete values has an empty box above this volume, with as few tests as that takes; where
+    /// --budget is too small, the largest is made as small as can be
     #[arg(long, value_name = "E")]
     pub epsilon: Option<f64>,
     /// What greedy makes small: dispersion or k-wise-dispersion [default: dispersion of continuous spaces and for each

@@ -1,4 +1,4 @@
-//! The options of `paracosm-fuzz run` by which a system that others wrote takes the place of a scenario.
+//! The options by which a system that others wrote takes the place of a scenario.
 
 use super::Verbosity;
 use super::space_file::SpaceFile;
@@ -23,6 +23,11 @@ pub(super) struct System {
 }
 
 impl System {
+    /// Whether there is one.
+    pub fn is_given(&self) -> bool {
+        self.system.is_some()
+    }
+
     /// The study of the system, if there is one.
     pub fn study(&self, verbosity: Verbosity) -> Result<Option<Study>, Error> {
         let (Some(command), Some(path)) = (&self.system, &self.space) else { return Ok(None) };

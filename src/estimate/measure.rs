@@ -22,7 +22,8 @@ pub enum Measure {
     Wraparound,
     /// The mixture discrepancy, squared.
     Mixture,
-    /// The share of combinations of k discrete parameters that are covered.
+    /// The share of combinations of k discrete parameters that are covered, and for which epsilon the tests are
+    /// (k, epsilon)-covering.
     KWise,
     /// The largest dispersion that any k parameters show.
     KWiseDispersion,

@@ -113,8 +113,7 @@ impl Tests {
         };
         let counted = discrete.as_ref().and_then(Option::as_ref);
         let dims = self.space.dims();
-        let is_measured = dims == 0 || continuous.as_ref().is_some_and(|continuous| continuous.dispersion.is_some());
-        let k_epsilon = counted.filter(|_| is_measured).map(|discrete| {
+        let k_epsilon = counted.map(|discrete| {
             let complete = discrete.covered == discrete.valid;
             // Without continuous parameters a row has no hole to leave.
             let Bracket { lower, upper } =

@@ -16,7 +16,8 @@ pub struct Coverage {
     /// The discrete half; `Some(None)`, null, where the space has none, and absent where it was not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub discrete: Option<Option<Discrete>>,
-    /// Whether the tests are (k, epsilon)-covering; absent where one half is all.
+    /// Whether the tests are (k, epsilon)-covering; absent where nothing is discrete, or k-wise coverage was not asked
+    /// for. Without continuous parameters a row has no hole, and epsilon is 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_epsilon: Option<KEpsilon>,
     /// Both halves together.

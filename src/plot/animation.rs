@@ -19,11 +19,13 @@ const UNCHANGED: u8 = 255;
 /// How many bits of red, green and blue tell two colours apart.
 const BITS: u32 = 5;
 
+type Failure = Box<dyn StdError + Send + Sync>;
+
 /// The film as the contents of a GIF file that repeats for ever.
 ///
 /// # Errors
 /// The encoder fails: the film is more than 65,535 pixels wide, say.
-pub(crate) fn gif(film: &Film) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
+pub(crate) fn gif(film: &Film) -> Result<Vec<u8>, Failure> {
     let scenes: Vec<_> = film.scenes.iter().map(|scene| rasterised(scene, 1.0)).collect();
     let pixels = |index: usize| {
         let frame = &film.frames[index];
@@ -31,17 +33,38 @@ pub(crate) fn gif(film: &Film) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync
         draw(&mut pixels, &frame.drawing, 1.0);
         opaque(&pixels)
     };
-    let last = film.frames.len() - 1;
+    animated(film.frames.len(), pixels, [scenes[0].width(), scenes[0].height()], DELAY)
+}
+
+/// Images as the contents of a GIF file that repeats for ever: red, green and blue of each pixel, `size` across and down,
+/// each shown for so many seconds.
+///
+/// # Errors
+/// As [`gif`].
+#[cfg(feature = "camera")]
+pub(crate) fn gif_of_images(images: &[Vec<u8>], size: [u32; 2], seconds: f64) -> Result<Vec<u8>, Failure> {
+    // Most who show films take a delay below two hundredths for a slip and slow down.
+    let delay = (100.0 * seconds).round().clamp(2.0, f64::from(LAST_DELAY)) as u16;
+    animated(images.len(), |index| images[index].clone(), size, delay)
+}
+
+fn animated(
+    count: usize,
+    pixels: impl Fn(usize) -> Vec<u8>,
+    [width, height]: [u32; 2],
+    delay: u16,
+) -> Result<Vec<u8>, Failure> {
+    let last = count - 1;
     let mut palette = Palette::of((0..SAMPLES).map(|i| pixels(i * last / (SAMPLES - 1))));
-    let (width, height) = (u16::try_from(scenes[0].width())?, u16::try_from(scenes[0].height())?);
+    let (width, height) = (u16::try_from(width)?, u16::try_from(height)?);
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width, height, &palette.colours)?;
     encoder.set_repeat(Repeat::Infinite)?;
     let mut before: Option<Vec<u8>> = None;
-    for index in 0..film.frames.len() {
+    for index in 0..count {
         let now: Vec<u8> = pixels(index).chunks_exact(3).map(|rgb| palette.index([rgb[0], rgb[1], rgb[2]])).collect();
         let mut frame = changes(before.as_deref(), &now, usize::from(width));
-        frame.delay = if index == last { LAST_DELAY } else { DELAY };
+        frame.delay = if index == last { LAST_DELAY } else { delay };
         encoder.write_frame(&frame)?;
         before = Some(now);
     }

@@ -1,7 +1,8 @@
 //! The failure map: every test a mark at the values of two of its parameters, as in the paper's Figure 9.
 
-use super::{FAMILY, GRID, INK};
-use crate::{Study, Trial};
+use super::{FAMILY, GRID, INK, shade};
+use crate::failure_estimate::{self, Axes, FailureEstimate};
+use crate::{Error, Study, Trial};
 use paracosm_coverage::{Coordinate, Domain};
 use paracosm_oracles::Verdict;
 use plotters::coord::Shift;
@@ -37,13 +38,20 @@ pub struct FailureMap {
     pub title: String,
     /// The second line, smaller.
     pub note: String,
+    /// What varies too, though the map does not show it.
+    pub others: Vec<String>,
     /// The horizontal axis.
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
     /// The tests.
     pub marks: Vec<(f64, f64, Verdict)>,
+    /// How probable a failure is, if that is to be seen behind the tests.
+    pub estimate: Option<FailureEstimate>,
 }
+
+/// How wide the bar of shades is with its numbers, in heights of the text.
+const BAR: f64 = 5.4;
 
 /// In the order in which they are drawn and listed: what matters most is drawn last, over all else.
 const ORDER: [Verdict; 5] = [Verdict::Pass, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error, Verdict::Fail];
@@ -54,28 +62,49 @@ const RED: RGBColor = RGBColor(0xcc, 0x33, 0x11);
 const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
 const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
 
-/// What varies too, though the map does not show it.
-fn others(study: &Study, shown: [Coordinate; 2]) -> String {
-    let others: Vec<String> = study.space.coordinates().filter(|c| !shown.contains(c)).map(|c| c.name()).collect();
-    if others.is_empty() { String::new() } else { format!("; not shown, but varied too: {}", others.join(", ")) }
-}
-
-type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+pub(super) type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 impl FailureMap {
     /// The map of a campaign over its first two continuous coordinates; `None` where it has less than two.
     pub fn of(study: &Study, trials: &[Trial]) -> Option<Self> {
-        let mut continuous = study.space.continuous();
-        let (x, y) = (continuous.next()?, continuous.next()?);
+        Self::at(study, trials, [0, 1])
+    }
+
+    /// The map of a campaign over the continuous coordinates with these names, with the probability of failure.
+    ///
+    /// # Errors
+    /// A name is none of a continuous coordinate, or both are one; a trial is none of the study's space.
+    pub fn over(study: &Study, trials: &[Trial], names: [&str; 2]) -> std::result::Result<Self, Error> {
+        let axes = failure_estimate::axes(study, names)?;
+        let map = Self::at(study, trials, axes).expect("there are coordinates of these names");
+        Ok(Self { estimate: FailureEstimate::of(study, trials, axes)?, ..map })
+    }
+
+    fn at(study: &Study, trials: &[Trial], axes: Axes) -> Option<Self> {
+        let continuous: Vec<Coordinate> = study.space.continuous().collect();
+        let [x, y] = axes.map(|axis| continuous.get(axis).copied());
+        let (x, y) = (x?, y?);
         let at = |trial: &Trial, c: &Coordinate| c.value(trial.test.get(&c.parameter.name)?)?.number();
         let mark = |trial: &Trial| Some((at(trial, &x)?, at(trial, &y)?, trial.verdict));
         Some(Self {
             title: study.subject.title(),
-            note: format!("{} tests, strategy {}{}", trials.len(), study.strategy_label(), others(study, [x, y])),
+            note: format!("{} tests, strategy {}", trials.len(), study.strategy_label()),
+            others: study.space.coordinates().filter(|c| ![x, y].contains(c)).map(|c| c.name()).collect(),
             x: Axis::of(&x)?,
             y: Axis::of(&y)?,
             marks: trials.iter().filter_map(mark).collect(),
+            estimate: None,
         })
+    }
+
+    /// The second line: what the map shows, and what varies too though it does not show it.
+    fn note(&self) -> String {
+        let others = self.others.join(", ");
+        match (self.others.is_empty(), &self.estimate) {
+            (true, _) => self.note.clone(),
+            (false, None) => format!("{}; not shown, but varied too: {others}", self.note),
+            (false, Some(_)) => format!("{}; varied too, and averaged over: {others}", self.note),
+        }
     }
 
     /// Draws the map over the whole area, every length in pixels times `scale`.
@@ -84,7 +113,14 @@ impl FailureMap {
         let small = area.dim_in_pixel().0 < px(600.0);
         let (text, side) = if small { (14.0, 2.2) } else { (18.0, 3.2) };
         let (header, body) = area.split_vertically(px(5.0 * text));
-        self.draw_header(&header, text * scale, side * scale)?;
+        self.draw_header(&header, text * scale, side * scale, scale)?;
+        let (body, bar) = match &self.estimate {
+            None => (body, None),
+            Some(_) => {
+                let (body, bar) = body.split_horizontally(body.dim_in_pixel().0 - px(BAR * text));
+                (body, Some(bar))
+            }
+        };
 
         let ink = TextStyle::from((FAMILY, px(text - 2.0)).into_font()).color(&INK);
         let mut chart = ChartBuilder::on(&body)
@@ -94,6 +130,9 @@ impl FailureMap {
             .x_label_area_size(px(2.8 * text))
             .y_label_area_size(px(3.6 * text))
             .build_cartesian_2d(Ends(self.x.range), Ends(self.y.range))?;
+        if let Some(estimate) = &self.estimate {
+            shade::draw_shades(&chart.plotting_area().strip_coord_spec(), estimate)?;
+        }
         chart
             .configure_mesh()
             .x_desc(&self.x.label)
@@ -106,6 +145,11 @@ impl FailureMap {
             .x_labels(if small { 6 } else { 11 })
             .y_labels(if small { 7 } else { 12 })
             .draw()?;
+        if let (Some(estimate), Some(bar)) = (&self.estimate, &bar) {
+            shade::draw_lines(&chart.plotting_area().strip_coord_spec(), estimate, scale)?;
+            let height = body.dim_in_pixel().1;
+            shade::draw_bar(bar, (0, (height - px(3.3 * text)) as i32), "probability of failure", text * scale)?;
+        }
         for verdict in ORDER {
             let marks = self.marks.iter().filter(|mark| mark.2 == verdict);
             // A thousand marks have room; more of them become smaller, so that they do not run together.
@@ -117,11 +161,17 @@ impl FailureMap {
     }
 
     /// Title, note, and the legend with counts.
-    fn draw_header<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, text: f64, side: f64) -> Result<B> {
+    fn draw_header<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        text: f64,
+        side: f64,
+        scale: f64,
+    ) -> Result<B> {
         let style = |size: f64| TextStyle::from((FAMILY, size).into_font()).color(&INK);
         let left = (0.8 * text) as i32;
         area.draw(&Text::new(self.title.clone(), (left, (0.5 * text) as i32), style(1.15 * text)))?;
-        area.draw(&Text::new(self.note.clone(), (left, (1.95 * text) as i32), style(0.85 * text)))?;
+        area.draw(&Text::new(self.note(), (left, (1.95 * text) as i32), style(0.85 * text)))?;
         let line = (3.8 * text) as i32;
         let mut at = left + side as i32;
         for verdict in ORDER.into_iter().rev() {
@@ -139,7 +189,7 @@ impl FailureMap {
             area.draw(&Text::new(label, (at, line - (0.42 * f64::from(height)) as i32), style))?;
             at += width as i32 + (1.8 * text) as i32;
         }
-        Ok(())
+        if self.estimate.is_some() { shade::draw_key(area, (at, line), text, scale) } else { Ok(()) }
     }
 }
 

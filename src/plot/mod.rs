@@ -5,12 +5,16 @@
 //! The font is in the program: pictures look the same on a machine without any.
 
 mod animation;
+mod contour;
 mod log_axis;
 mod log_log;
 mod map;
 mod raster;
+mod shade;
 
 pub(crate) use animation::gif;
+#[cfg(feature = "camera")]
+pub(crate) use animation::gif_of_images;
 pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
 pub use map::{Axis, FailureMap};
 pub(crate) use raster::png;

@@ -1,6 +1,7 @@
 //! Intervals by resampling (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapter 13).
 
 use super::quantile;
+use super::random::SplitMix64;
 
 /// How often values are drawn anew; a thousand are enough for the ends of a 95 % interval.
 pub const RESAMPLES: usize = 2_000;
@@ -24,23 +25,6 @@ pub fn bootstrap_interval(n: usize, mut statistic: impl FnMut(&[usize]) -> f64) 
         .collect();
     found.sort_by(f64::total_cmp);
     [quantile(&found, 0.025), quantile(&found, 0.975)]
-}
-
-/// SplitMix64 (Steele, Lea, Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
-struct SplitMix64(u64);
-
-impl SplitMix64 {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let word = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let word = (word ^ (word >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        word ^ (word >> 31)
-    }
-
-    /// A number below `n`, every one as likely but for a part in 2^64 / n.
-    fn below(&mut self, n: usize) -> usize {
-        ((u128::from(self.next()) * n as u128) >> 64) as usize
-    }
 }
 
 #[cfg(test)]

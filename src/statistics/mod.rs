@@ -5,9 +5,12 @@
 //! point estimates, and a correction for many tests.
 
 mod bootstrap;
+mod interval;
+pub(crate) mod random;
 mod signed_rank;
 
 pub use bootstrap::{RESAMPLES, bootstrap_interval};
+pub use interval::{clopper_pearson, log_normal_mean_interval, mean_interval, student_quantile};
 pub use signed_rank::{MOST_EXACT, signed_rank_p};
 
 /// The quantile of sorted values, between two of them in proportion (type 7 of Hyndman and Fan, Sample quantiles in

@@ -1,5 +1,6 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
+mod failures;
 mod parameters;
 mod requirement;
 mod subject;
@@ -51,6 +52,8 @@ pub struct Study {
     batch: Option<usize>,
     /// How many tests are run.
     pub budget: usize,
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    stop_at_first: bool,
     /// The tests that count as done.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub extends: Option<Extension>,
@@ -105,6 +108,7 @@ impl Study {
             seed: None,
             batch: None,
             budget: 500,
+            stop_at_first: false,
             extends: None,
         }
     }
@@ -189,9 +193,9 @@ impl Study {
         Ok(self)
     }
 
-    /// Whether the strategy goes by how tests went.
-    pub(crate) fn is_adaptive(&self) -> Result<bool, Error> {
-        Ok(self.strategy.parse::<Strategy>()?.is_adaptive())
+    /// Whether the strategy is after a failure, whatever it violates.
+    pub(crate) fn seeks_a_failure(&self) -> Result<bool, Error> {
+        Ok(self.strategy.parse::<Strategy>()?.seeks_a_failure())
     }
 
     /// How many tests the strategy is asked for at a time, where that matters.

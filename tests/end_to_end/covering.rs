@@ -180,25 +180,6 @@ fn all_combinations_under_constraints_are_those_that_keep_them() {
 }
 
 #[test]
-fn every_row_gets_points_until_none_has_a_larger_hole_than_asked_for() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
-    for strategy in ["halton", "greedy"] {
-        let arguments = ["--space", "SPACE.toml", "--strategy", strategy, "--k", "2", "--epsilon", "0.2"];
-        let (csv, notes) = generated(dir.path(), &arguments);
-        assert!(notes.contains("-covering: measured"), "{notes}");
-        fs::write(dir.path().join("tests.csv"), csv).unwrap();
-        let reached = &measured(dir.path(), &["tests.csv", "--space", "SPACE.toml"])["k_epsilon"];
-        assert_eq!(reached["complete"], true);
-        assert!(reached["epsilon"].as_f64().unwrap() <= 0.2, "{reached}");
-    }
-    refused(
-        &cover(dir.path(), &["generate", "--space", "SPACE.toml", "--strategy", "lhs", "--epsilon", "0.2"]),
-        &["`lhs` makes its set for a number of tests", "halton or greedy"],
-    );
-}
-
-#[test]
 fn a_certificate_claims_nothing_of_what_constraints_exclude() {
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
@@ -234,7 +215,7 @@ fn rows_that_are_begun_are_completed_and_count_as_new() {
     fs::write(dir.path().join("SPACE.toml"), discrete_space()).unwrap();
     fs::write(dir.path().join("begun.csv"), "lanes,sky,car,wet\n2,,truck,\n4,fog,small,no\n,fog,,yes\n").unwrap();
     let (added, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--extend", "begun.csv"]);
-    assert!(notes.contains("(3 of them existing)"), "{notes}");
+    assert!(notes.contains("(3 of them existing, 2 completed)"), "{notes}");
     let rows = rows(&added);
     assert!(rows.iter().any(|row| row[0] == "2" && row[2] == "truck" && row[1] != "fog"));
     assert!(!rows.contains(&["4", "fog", "small", "no"].map(str::to_owned).to_vec()), "it is there already");
@@ -297,22 +278,6 @@ fn delta_is_refused_where_nothing_is_random() {
 }
 
 #[test]
-fn tests_that_do_not_reach_epsilon_in_time_are_printed_with_what_they_reach() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("SPACE.toml"), SPACE).unwrap();
-    let (csv, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--epsilon", "1e-9", "--time-limit", "0.2"]);
-    assert!(notes.contains("the time limit of 0.2 s came before epsilon 0.000000001"), "{notes}");
-    // What was reached stands in the notes, measured; it is not what was asked for.
-    let reached = notes.split("(2, ").nth(1).and_then(|rest| rest.split(')').next()).expect("what was reached");
-    assert!(reached.parse::<f64>().unwrap() > 1e-9, "{notes}");
-    assert!(notes.contains(&format!("{} tests by halton", rows(&csv).len())), "{notes}");
-    let (csv, _) = generated(dir.path(), &["--space", "SPACE.toml", "--epsilon", "0.1", "--time-limit", "0"]);
-    assert_eq!(rows(&csv).len(), 0);
-    let without = cover(dir.path(), &["generate", "--space", "SPACE.toml", "--time-limit", "1"]);
-    refused(&without, &["--epsilon"]);
-}
-
-#[test]
 fn a_campaign_with_random_rows_says_what_they_promise_and_what_they_cover() {
     let dir = tempfile::tempdir().unwrap();
     let campaign = |more: &[&str]| {
@@ -332,4 +297,43 @@ fn a_campaign_with_random_rows_says_what_they_promise_and_what_they_cover() {
     let guaranteed = 1.0 - missed;
     assert!((random["guaranteed_probability"].as_f64().unwrap() - guaranteed).abs() < 1e-9, "{random}");
     assert_eq!(random["different"], summary["coverage"]["discrete"]["covered"]);
+}
+
+#[test]
+fn tests_that_do_not_count_are_named_by_line_and_reason() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("SPACE.toml"), discrete_space()).unwrap();
+    let begun = "lanes,sky,car,wet\n2,,truck,\n2,fog,,\n4,rain,small,no\n6,clear,truck,yes\n2,fog,,\n";
+    fs::write(dir.path().join("begun.csv"), begun).unwrap();
+    let (_, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--extend", "begun.csv"]);
+    assert!(notes.contains("2 different existing rows violate a constraint and do not count\n"), "{notes}");
+    let refused: Vec<&str> = notes.lines().filter(|line| line.contains("excluded by")).collect();
+    assert_eq!(refused.len(), 2, "{notes}");
+    assert!(refused[0].starts_with("line 3: lanes 2, sky fog: excluded by `"), "{notes}");
+    assert!(refused[1].starts_with("line 5: lanes 6, sky clear, car truck, wet yes: excluded by `"), "{notes}");
+    assert!(notes.contains("(2 of them existing, 1 completed)"), "{notes}");
+    // Where a test cannot be begun, tests are counted instead of lines.
+    fs::write(dir.path().join("MIXED.toml"), SPACE).unwrap();
+    fs::write(dir.path().join("mixed.csv"), "speed,lanes,sky,car,wet\n1,4,fog,small,no\n2,2,fog,small,no\n").unwrap();
+    let mixed = ["--space", "MIXED.toml", "--discrete", "ipog", "--extend", "mixed.csv", "--budget", "20"];
+    let (_, notes) = generated(dir.path(), &mixed);
+    assert!(notes.contains("test 2: lanes 2, sky fog, car small, wet no: excluded by `"), "{notes}");
+}
+
+#[test]
+fn a_budget_below_the_rows_says_what_its_tests_cover() {
+    let dir = tempfile::tempdir().unwrap();
+    let choice = |name| format!("[[parameter]]\nname = \"{name}\"\nchoice = [1, 2, 3]\n");
+    let space: String = ["a", "b", "c", "d"].map(choice).concat();
+    fs::write(dir.path().join("SPACE.toml"), &space).unwrap();
+    let (csv, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--budget", "5"]);
+    // The nine rows of the array have each of the 54 pairs once, six a row.
+    assert_eq!(rows(&csv).len(), 5);
+    assert!(notes.contains("5 of the 9 rows: 30 of 54 pairs\n"), "{notes}");
+    let (_, notes) = generated(dir.path(), &["--space", "SPACE.toml", "--budget", "9"]);
+    assert!(!notes.contains("of the 9 rows"), "{notes}");
+    let speed = "[[parameter]]\nname = \"speed\"\ninterval = [0, 1]\n";
+    fs::write(dir.path().join("MIXED.toml"), speed.to_owned() + &space).unwrap();
+    let (_, notes) = generated(dir.path(), &["--space", "MIXED.toml", "--budget", "5"]);
+    assert!(notes.contains("5 of the 9 rows: 30 of 54 pairs\nnot 2-wise complete"), "{notes}");
 }

@@ -1,6 +1,6 @@
 //! Ctrl-C during a search: what there is so far is printed.
 
-use crate::common::{cover, stderr, stdout, succeeds};
+use crate::common::{cover, stdout, succeeds};
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -54,21 +54,14 @@ fn an_interrupted_optimisation_prints_the_smallest_array_so_far() {
 fn interrupted_tests_that_are_to_reach_epsilon_are_printed_with_what_they_reach() {
     let dir = tempfile::tempdir().unwrap();
     let arguments = ["--dims", "2", "--epsilon", "1e-9", "--time-limit", "600"];
-    let mut program = Command::new(env!("CARGO_BIN_EXE_paracosm-cover"));
-    let program = program.arg("generate").args(arguments).current_dir(dir.path());
-    let mut child = program.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    let mut csv = BufReader::new(child.stdout.take().unwrap());
-    // The search has begun when its first tests are there.
-    let mut first = [0; 100];
-    csv.read_exact(&mut first).unwrap();
+    let (child, mut said) = searching(dir.path(), &arguments, "Ctrl-C");
     interrupt(&child);
-    let mut rest = Vec::new();
-    csv.read_to_end(&mut rest).unwrap();
     let output = child.wait_with_output().unwrap();
-    let notes = stderr(&output);
+    let mut notes = String::new();
+    said.read_to_string(&mut notes).unwrap();
     assert_eq!(output.status.code(), Some(0), "{notes}");
     assert!(notes.contains("an interrupt came before epsilon 0.000000001\n"), "{notes}");
-    let all = String::from_utf8([&first[..], &rest].concat()).unwrap();
+    let all = stdout(&output);
     assert!(all.ends_with('\n') && all.lines().all(|line| line.split(',').count() == 2), "no test is cut off");
     fs::write(dir.path().join("tests.csv"), &all).unwrap();
     succeeds(cover(dir.path(), &["estimate", "tests.csv", "--measures", "l2_star"]));

@@ -1,7 +1,9 @@
 //! The product from outside: its programs as users call them, and campaigns as users of the library run them.
 
 mod adaptive;
+mod after_failure;
 mod bad_input;
+mod cameras;
 mod campaign;
 mod certificate;
 mod commands;
@@ -13,6 +15,9 @@ mod generate;
 mod guilty;
 #[cfg(unix)]
 mod interrupt;
+mod k_epsilon;
+mod likelihood;
+mod maps;
 mod pedestrian_study;
 mod pictures;
 mod plan;
@@ -21,3 +26,4 @@ mod signals;
 mod spec;
 mod strength;
 mod system;
+mod worked_examples;

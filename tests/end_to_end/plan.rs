@@ -59,7 +59,7 @@ fn what_cannot_be_planned_is_refused() {
         (&[], &["--space <SPACE.toml|MODEL.pict>|--dims <D>"]),
         (&["--dims", "0"], &["no parameters"]),
         (&["--dims", "2", "--k", "2"], &["--k is for discrete parameters"]),
-        (&["--space", "SPACE.toml", "--k", "4"], &["k is 4", "1 to 3"]),
+        (&["--space", "SPACE.toml", "--k", "6"], &["k is 6", "has 5 parameters"]),
         (&["--dims", "2", "--epsilon", "1"], &["epsilon is 1", "above 0 and below 1"]),
         (&["--dims", "2", "--delta", "nan"], &["delta is NaN", "above 0 and below 1"]),
     ];

@@ -1,6 +1,7 @@
 //! One parameter: its name, what values it takes, and its unit.
 
 use super::{Shape, SpaceError, Value, signal};
+use crate::Distribution;
 use crate::names::nearest;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -49,12 +50,14 @@ pub struct Parameter {
     pub default: Option<Value>,
     /// How it varies over time; `None` of what is constant in each test.
     pub signal: Option<Shape>,
+    /// How likely its values are, where a probability is asked for.
+    pub distribution: Distribution,
 }
 
 impl Parameter {
     /// A parameter without unit and nominal value, constant over time.
     pub fn new(name: impl Into<String>, domain: Domain) -> Self {
-        Self { name: name.into(), domain, unit: None, default: None, signal: None }
+        Self { name: name.into(), domain, unit: None, default: None, signal: None, distribution: Distribution::Uniform }
     }
 
     /// The values of a discrete parameter; `None` of a continuous one.
@@ -155,6 +158,8 @@ impl Parameter {
             }
         }
         self.signal.map_or(Ok(()), |shape| self.check_signal(shape))?;
+        let distributed = self.distribution.check(&self.domain);
+        distributed.map_err(|message| SpaceError::Distribution { name: name(), message })?;
         self.default.as_ref().map_or(Ok(()), |value| self.check(value))
     }
 }
@@ -177,6 +182,12 @@ pub(super) struct Entry {
     default: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     signal: Option<signal::Entry>,
+    #[serde(default, skip_serializing_if = "is_uniform")]
+    distribution: Distribution,
+}
+
+fn is_uniform(distribution: &Distribution) -> bool {
+    *distribution == Distribution::Uniform
 }
 
 impl Entry {
@@ -221,7 +232,8 @@ impl TryFrom<Entry> for Parameter {
         };
         let shape = entry.signal.map(|signal| signal.shape()).transpose();
         let signal = shape.map_err(in_parameter)?.flatten();
-        Ok(Self { name: entry.name, domain, unit: entry.unit, default: entry.default, signal })
+        let Entry { name, unit, default, distribution, .. } = entry;
+        Ok(Self { name, domain, unit, default, signal, distribution })
     }
 }
 
@@ -234,7 +246,7 @@ impl From<Parameter> for Entry {
         let levels = choice.as_deref().unwrap_or_default();
         let otherwise = levels.iter().any(|level| matches!(level, Value::Written(..)));
         let written = otherwise.then(|| levels.iter().map(ToString::to_string).collect());
-        let Parameter { name, unit, default, .. } = parameter;
-        Self { name, interval, choice, written, unit, default, signal: parameter.signal.map(Into::into) }
+        let Parameter { name, unit, default, distribution, .. } = parameter;
+        Self { name, interval, choice, written, unit, default, signal: parameter.signal.map(Into::into), distribution }
     }
 }

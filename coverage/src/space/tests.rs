@@ -303,3 +303,40 @@ proptest! {
         prop_assert_eq!(space.encode(&space.decode(&point)).unwrap(), point);
     }
 }
+
+#[test]
+fn distributions_are_read_written_and_checked() {
+    let text = |distribution: &str| {
+        format!("parameter = [{{ name = \"speed\", interval = [0.5, 10.0], distribution = {distribution} }}]")
+    };
+    let space = Space::from_toml(&text("{ beta = [2, 5] }")).unwrap();
+    assert_eq!(space.parameters()[0].distribution, crate::Distribution::Beta(2.0, 5.0));
+    assert_eq!(Space::from_toml(&space.to_toml()).unwrap(), space);
+    let uniform = Space::from_toml(&text("\"uniform\"")).unwrap();
+    assert!(!uniform.to_toml().contains("distribution"), "what is usual is not written");
+    for (wrong, says) in [
+        ("{ beat = [2, 5] }", "`beta`"),
+        ("{ beta = 2 }", "two numbers"),
+        ("{ beta = [2, \"x\"] }", "`x`"),
+        ("{ beta = [2, 5], normal = [1, 1] }", "one distribution"),
+        ("3", "{ beta = [2.0, 5.0] }"),
+        ("{ weights = [1, 2] }", "choice"),
+        ("{ triangular = 11 }", "[0.5, 10]"),
+    ] {
+        let message = Space::from_toml(&text(wrong)).unwrap_err().to_string();
+        assert!(message.contains(says), "{wrong}: {message}");
+    }
+}
+
+#[test]
+fn quantiles_become_tests_in_the_order_of_the_coordinates() {
+    let space = Space::from_toml(
+        "[[parameter]]\nname = \"weather\"\nchoice = [\"clear\", \"rain\", \"fog\"]\ndistribution = { weights = [7, 2, 1] }\n\
+         [[parameter]]\nname = \"speed\"\ninterval = [0, 10]\nsignal = { shape = \"piecewise-linear\", pieces = 1 }\n\
+         distribution = { triangular = 0 }\n\
+         [[parameter]]\nname = \"lanes\"\nchoice = [2, 4]\n",
+    )
+    .unwrap();
+    let point = space.at_quantiles(&[0.75, 0.0, 0.75, 0.5]);
+    assert_eq!(point, Point { continuous: vec![0.0, 0.5], discrete: vec![1, 1] });
+}

@@ -9,7 +9,7 @@ use std::ops::Range;
 use toml::Spanned;
 
 /// What SPACE.toml may hold, but this version does not read yet.
-const RESERVED: [&str; 2] = ["distribution", "scale"];
+const RESERVED: [&str; 1] = ["scale"];
 
 impl Space {
     /// Reads a SPACE.toml.
@@ -23,6 +23,7 @@ impl Space {
     ///     interval = [0.5, 10.0]
     ///     unit = "m/s"
     ///     default = 1.4
+    ///     distribution = { beta = [2.0, 5.0] }
     ///
     ///     [[parameter]]
     ///     name = "lanes"

@@ -54,15 +54,15 @@ impl RandomRows {
     /// Without constraints p is 1/P_S for each of the P_S combinations of a set S of k parameters. Where there are
     /// more than 16,384 different p (a hundred parameters, each with another number of levels), or constraints make
     /// more than 1,024 among parameters that they join, these are rounded down, by less than 1 % for each factor of a p.
+    /// What does not fit in a float is rounded up, and what fits is exact: a `delta` that is the very sum is kept.
     pub fn missed(&self, rows: u64) -> f64 {
         if rows == 0 {
             return 1.0;
         }
         let missed = |(&odds, &combinations): (&u64, &f64)| {
-            // log1p(-1) is -inf: what every test has is in the first row.
-            combinations * libm::exp(rows as f64 * libm::log1p(-1.0 / f64::from_bits(odds)))
+            product_above(combinations, power_above(complement_above(f64::from_bits(odds)), rows))
         };
-        self.combinations.iter().map(missed).sum::<f64>().min(1.0)
+        self.combinations.iter().map(missed).fold(0.0, sum_above).min(1.0)
     }
 
     /// The least number of rows for which the union bound promises all valid combinations with probability at least
@@ -107,6 +107,43 @@ impl RandomRows {
             needed
         }
     }
+}
+
+/// `1 - 1/odds`, of odds that are at least 1, or the next float above it.
+fn complement_above(odds: f64) -> f64 {
+    let complement = (odds - 1.0) / odds;
+    // What is left of a division that was not exact, and odds too large to take 1 from, are exact in one operation.
+    let is_exact = odds - 1.0 + 1.0 == odds && libm::fma(complement, odds, 1.0 - odds) >= 0.0;
+    if is_exact { complement } else { complement.next_up().min(1.0) }
+}
+
+/// `base` to the power of `exponent`, of numbers from 0 to 1, and not below it: the exact power where it fits.
+fn power_above(mut base: f64, mut exponent: u64) -> f64 {
+    let mut power = 1.0;
+    while exponent > 0 {
+        if exponent % 2 == 1 {
+            power = product_above(power, base);
+        }
+        base = product_above(base, base);
+        exponent /= 2;
+    }
+    power
+}
+
+/// The product of numbers that are not negative, or the next float above it.
+fn product_above(a: f64, b: f64) -> f64 {
+    let product = a * b;
+    // Where the product is too small for its remainder to be a float, nobody knows whether it is exact.
+    let is_tiny = product < 1e-250 && a > 0.0 && b > 0.0;
+    if is_tiny || libm::fma(a, b, -product) > 0.0 { product.next_up() } else { product }
+}
+
+/// The sum of two numbers, or the next float above it.
+fn sum_above(a: f64, b: f64) -> f64 {
+    let sum = a + b;
+    // What rounding took away (Knuth's sum of two floats with its remainder).
+    let rest = sum - a;
+    if (a - (sum - rest)) + (b - rest) > 0.0 { sum.next_up() } else { sum }
 }
 
 /// How many combinations there are by their odds, 1 to how many: the bits of floats, which sort as the floats do.

@@ -20,11 +20,11 @@ const PORTRAIT: f64 = 50.0;
 const WIDE: f64 = 24.0;
 /// Scenarios, with the second at which each is looked at.
 const SCENARIOS: [(&str, f64); 6] = [
-    ("pedestrian-crossing", 1.0),
-    ("follow-leader", 1.0),
+    ("pedestrian-crossing", 5.0),
+    ("follow-leader", 3.0),
     ("t-loop", 2.0),
     ("grid-traffic", 6.0),
-    ("roundabout-entry", 2.0),
+    ("roundabout-entry", 5.0),
     ("highway-traffic", 3.0),
 ];
 
@@ -150,8 +150,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("people", &people, 7.0),
         ("house", &[standing(Body::block(Class::Building, 10.0, 8.0, 7.0), 0.0)], 24.0),
         ("flats", &[standing(Body::block(Class::Building, 24.0, 14.0, 21.0), 0.0)], 60.0),
-        ("trees", &[tree(0.0, 6.0), tree(4.0, 7.0), tree(-4.3, 6.0)], 20.0),
-        ("signs", &[sign(0.0, 2.5), sign(1.1, 2.5), sign(2.0, 2.5), sign(-1.05, 2.5), sign(-2.0, 6.0)], 9.0),
+        ("trees", &[tree(-1.0, 6.0), tree(4.0, 7.0), tree(-6.0, 7.0)], 20.0),
+        (
+            "signs",
+            &[sign(0.0, 2.5), sign(0.9, 2.5), sign(1.7, 2.5), sign(-0.9, 2.5), sign(-1.8, 2.5), sign(-2.6, 5.0)],
+            9.0,
+        ),
         ("props", &props, 7.0),
     ];
     for (name, bodies, far) in portraits {
@@ -163,6 +167,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, at) in SCENARIOS {
         gallery.scenario(&stages, name, at, None)?;
     }
-    let dusk = Air { light: 0.25, sun_elevation: 0.05, sun_azimuth: 2.3, extinction: 0.02 };
-    gallery.scenario(&stages, "pedestrian-crossing", 1.0, Some(dusk))
+    let dusk = Air { light: 0.25, sun_elevation: 0.05, sun_azimuth: 2.3, extinction: 0.012 };
+    gallery.scenario(&stages, "highway-traffic", 3.0, Some(dusk))
 }

@@ -103,6 +103,16 @@ pub enum CameraError {
         /// What it is.
         found: f64,
     },
+    /// An effect of a lens or a sensor that there is not.
+    #[error("{what} of {found}, expected {expected}")]
+    Effect {
+        /// Which effect.
+        what: &'static str,
+        /// What it is.
+        found: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
     /// A mount that is nowhere.
     #[error("a mount with a number that is not finite: {0}")]
     Mount(String),

@@ -12,6 +12,7 @@ mod camera;
 mod error;
 mod frame;
 pub mod gltf;
+pub mod lens;
 mod light;
 pub mod mesh;
 mod palette;

@@ -35,7 +35,45 @@ const COLOURS: [[u8; 3]; 29] = [
     [180, 165, 180],
 ];
 
+/// The names of the classes in the order of their numbers, as CARLA has them.
+const NAMES: [&str; 29] = [
+    "unlabeled",
+    "road",
+    "sidewalk",
+    "building",
+    "wall",
+    "fence",
+    "pole",
+    "traffic_light",
+    "traffic_sign",
+    "vegetation",
+    "terrain",
+    "sky",
+    "pedestrian",
+    "rider",
+    "car",
+    "truck",
+    "bus",
+    "train",
+    "motorcycle",
+    "bicycle",
+    "static",
+    "dynamic",
+    "other",
+    "water",
+    "road_line",
+    "ground",
+    "bridge",
+    "rail_track",
+    "guard_rail",
+];
+
 impl Semantic {
+    /// The names of all classes, in the order of their numbers.
+    pub fn names() -> &'static [&'static str] {
+        &NAMES
+    }
+
     /// The colour in which CARLA draws the class: red, green and blue.
     pub fn colour(self) -> [u8; 3] {
         COLOURS[self as usize]

@@ -3,7 +3,9 @@
 use nalgebra::{Point3, Vector2, Vector3};
 use paracosm_coverage::Values;
 use paracosm_engine::object::{Body, BodyState, Class};
-use paracosm_engine::road::{CrossIntersection, Network, RoadSegment, Roundabout, Surface, TIntersection, grid_city};
+use paracosm_engine::road::{
+    CrossIntersection, Network, RoadSegment, Roundabout, Strip, Surface, TIntersection, grid_city,
+};
 use paracosm_engine::{
     AutonomousVehicle, Environment, Pedestrian, Pose, Program, Run, Scenario, Setup, Side, Stream, Weather, driver,
     eventually, never,
@@ -154,7 +156,7 @@ fn a_road_has_the_area_of_its_strips() {
         let ground = Stage::of(&network).scene_of([], Air::default());
         let strips = network.strips();
         let of = |wanted: &dyn Fn(Surface) -> bool, shrunk: f64| -> f64 {
-            let parts = strips.iter().filter(|strip| wanted(strip.surface)).flat_map(|strip| strip.solid_parts());
+            let parts = strips.iter().filter(|strip| wanted(strip.surface)).flat_map(Strip::solid_parts);
             parts.map(|part| part.middle().length() * (part.left - part.right - shrunk)).sum()
         };
         let lines = of(&|surface| surface >= Surface::CentreLine, 0.0);

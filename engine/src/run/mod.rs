@@ -7,13 +7,14 @@
 //! 3. the driver is asked, if its period has passed, and otherwise keeps its control;
 //! 4. the inputs of the objects are read and everything moves on by `dt`.
 
+mod metrics;
 mod scene;
 mod sensing;
 
 use crate::driver::Driver;
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
-use crate::outcome::{Metric, Outcome};
+use crate::outcome::Outcome;
 use crate::program::{Program, ProgramError, Test};
 use crate::road::{Network, Path, wrapped};
 use crate::scenario::Weather;
@@ -288,15 +289,18 @@ impl Run {
     }
 
     fn judged(&mut self) -> Outcome {
-        let Scene { contact, ego, .. } = &self.scene;
-        if contact.is_none() {
+        if self.scene.contact.is_none() {
             self.trace.finish();
         }
+        let mut metrics = metrics::of_run(&self.scene, self.triggered);
         let mut robustness = Vec::new();
         let (mut violated, mut open) = (false, false);
         for requirement in &self.requirements {
             let evaluation = requirement.judge(&self.trace).expect("its signal has a column");
-            violated |= evaluation.truth == Truth::Violated;
+            if evaluation.truth == Truth::Violated {
+                violated = true;
+                metrics.extend(metrics::of_violation(requirement, &self.trace));
+            }
             let decided = evaluation.truth != Truth::Undecided;
             open |= !decided;
             robustness.push((requirement.id.clone(), decided.then_some(evaluation.robustness)));
@@ -308,14 +312,6 @@ impl Run {
         } else {
             Verdict::Pass
         };
-        let impact_speed = if contact.is_some() { ego.dynamics.state().speed() } else { 0.0 };
-        let metrics = [
-            ("travelled", Metric::Number(ego.dynamics.state().travelled)),
-            ("impact_speed", Metric::Number(impact_speed)),
-            ("contact_face", Metric::Word(contact.map(|contact| contact.face.to_string()))),
-            ("triggered", Metric::Flag(self.triggered)),
-        ];
-        let metrics = metrics.map(|(name, metric)| (name.to_owned(), metric)).into();
         let trace = std::mem::replace(&mut self.trace, Trace::new(self.dt, vec![String::new()]));
         Outcome { verdict, robustness, metrics, trace: Some(trace), error: None }
     }

@@ -116,11 +116,13 @@ impl Scene {
     /// What two bodies that overlap are called: for a world that cannot begin.
     pub fn overlapping(&self) -> Option<String> {
         let (a, b) = overlapping(&self.bodies)?;
-        let name = |body| {
-            let object = self.objects.iter().find(|object| (object.own.0..object.own.1).contains(&body));
-            object.map_or("car", |object| &object.name)
-        };
-        Some(format!("{} and {}", name(a), name(b)))
+        Some(format!("{} and {}", self.name(a), self.name(b)))
+    }
+
+    /// What the object is called that a body is of.
+    pub fn name(&self, body: usize) -> &str {
+        let object = self.objects.iter().find(|object| (object.own.0..object.own.1).contains(&body));
+        object.map_or("car", |object| &object.name)
     }
 
     /// Shows the outputs of all objects as they stand.

@@ -17,12 +17,14 @@ impl Run {
 
     /// What there is to know at this tick.
     pub fn view(&self) -> View<'_> {
+        let weather = self.weather();
         View {
             time: self.time(),
             car: self.scene.ego.dynamics.state(),
             bodies: &self.scene.bodies,
             network: &self.scene.network,
-            air: Air::of(&self.weather()),
+            weather,
+            air: Air::of(&weather),
         }
     }
 

@@ -65,6 +65,7 @@ pub(crate) use sight::hides;
 
 use crate::object::BodyState;
 use crate::road::Network;
+use crate::scenario::Weather;
 use crate::vehicle::VehicleState;
 
 /// What measures something of the world around a car, or of the car itself.
@@ -94,7 +95,9 @@ pub struct View<'a> {
     pub bodies: &'a [BodyState],
     /// The roads.
     pub network: &'a Network,
-    /// Light and fog.
+    /// Light, fog and the sun.
+    pub weather: Weather,
+    /// What of the weather is in the way of light: [`Air::of`] it.
     pub air: Air,
 }
 

@@ -64,7 +64,7 @@ impl Boundary {
 impl Search for Boundary {
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
         let candidates = self.candidates();
-        self.surrogate.choose(n, View::Level, candidates, |_, mean, deviation, runs| {
+        self.surrogate.choose(n, View::Sides, candidates, |_, mean, deviation, runs| {
             DEVIATIONS * deviation - mean.abs() - ERROR * (1.0 - runs)
         })
     }

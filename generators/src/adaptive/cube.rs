@@ -30,9 +30,7 @@ pub(super) struct Cube {
 
 impl Cube {
     pub(super) fn new(space: &Space, rules: Rules) -> Self {
-        let dims = space.dims();
-        let discrete = space.discrete().filter_map(|coordinate| coordinate.parameter.levels()).map(axis_of);
-        Self { axes: std::iter::repeat_n(Axis::Continuous, dims).chain(discrete).collect(), dims, rules }
+        Self { axes: axes(space), dims: space.dims(), rules }
     }
 
     /// The kinds of all axes, the continuous ones first.
@@ -55,11 +53,9 @@ impl Cube {
         }
     }
 
-    /// The place of a test: a level is in the middle of its slice.
+    /// The place of a test.
     pub(super) fn place(&self, point: &Point) -> Vec<f64> {
-        let middle = |(&level, &levels): (&usize, &usize)| middle(level, levels);
-        let discrete = point.discrete.iter().zip(self.rules.levels()).map(middle);
-        point.continuous.iter().copied().chain(discrete).collect()
+        place(&self.axes, point)
     }
 
     fn repaired(&self, row: &[usize]) -> Vec<usize> {
@@ -71,6 +67,22 @@ impl Cube {
         }
         fixed.into_iter().map(|level| level.expect("what is fixed so far is part of a valid test")).collect()
     }
+}
+
+/// The kinds of a space's axes, the continuous ones first.
+pub(super) fn axes(space: &Space) -> Vec<Axis> {
+    let discrete = space.discrete().filter_map(|coordinate| coordinate.parameter.levels()).map(axis_of);
+    std::iter::repeat_n(Axis::Continuous, space.dims()).chain(discrete).collect()
+}
+
+/// The place of a test: a level is in the middle of its slice.
+pub(super) fn place(axes: &[Axis], point: &Point) -> Vec<f64> {
+    let middle = |(&level, axis): (&usize, &Axis)| match *axis {
+        Axis::Ordered(levels) | Axis::Nominal(levels) => middle(level, levels),
+        Axis::Continuous => unreachable!("discrete axes come last"),
+    };
+    let discrete = point.discrete.iter().zip(&axes[point.continuous.len()..]).map(middle);
+    point.continuous.iter().copied().chain(discrete).collect()
 }
 
 fn axis_of(levels: &[Value]) -> Axis {

@@ -14,11 +14,13 @@
 mod anneal;
 mod auto;
 mod bayes;
+mod bend;
 mod boundary;
 mod chains;
 mod cmaes;
 mod cube;
 mod evolution;
+mod failure_model;
 mod fit;
 mod log_ei;
 mod nelder_mead;
@@ -28,6 +30,10 @@ mod pso;
 mod region;
 mod solver;
 mod surrogate;
+mod telling;
+mod verdicts;
+
+pub use failure_model::{FailingShare, FailureModel};
 
 use crate::{
     DiscreteFamily, Generator, GeneratorError, Request, Strategy,

@@ -7,10 +7,13 @@
 //!
 //! The tests of a batch, and those that are still out, are believed to come out as the model expects: so a batch spreads.
 
+use super::bend::{Bend, is_failure};
 use super::cube::{Axis, level, middle};
 use super::fit::{fit, prior};
 use super::log_ei::normal_below;
 use super::process::{Kernel, Mean, Posterior, Process};
+use super::telling::telling;
+use super::verdicts::Fitter;
 use super::{Trial, normal};
 use rand::Rng;
 use std::collections::BTreeMap;
@@ -35,53 +38,12 @@ const LEAST_PROBABLE: f64 = 1e-12;
 /// How many tests a batch has at most: those beyond it would be chosen by nothing but beliefs.
 const MOST_BATCH: usize = 32;
 
-/// How a robustness enters the model.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Bend {
-    /// In multiples of the spread below the median; above it only its logarithm counts: what is worst need not be known well.
-    Low { median: f64, scale: f64 },
-    /// Bent alike on both sides of 0, which stays 0.
-    Signed { scale: f64 },
-}
-
-impl Bend {
-    fn low(values: &[f64]) -> Self {
-        let median = median(values.to_vec());
-        Self::Low { median, scale: scale(values.iter().map(|value| (value - median).abs()).collect()) }
-    }
-
-    fn signed(values: &[f64]) -> Self {
-        Self::Signed { scale: scale(values.iter().map(|value| value.abs()).collect()) }
-    }
-
-    pub(super) fn apply(self, value: f64) -> f64 {
-        match self {
-            Self::Low { median, scale } => {
-                let z = (value - median) / scale;
-                if z > 0.0 { libm::log1p(z) } else { z }
-            }
-            Self::Signed { scale } => libm::asinh(value / scale),
-        }
-    }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
-}
-
-/// The median of these, or their mean where that is 0, or 1.
-fn scale(values: Vec<f64>) -> f64 {
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    [median(values), mean].into_iter().find(|&scale| scale > 1e-12).unwrap_or(1.0)
-}
-
 /// Which tests matter, and how.
 pub(super) enum View<'a> {
     /// Low values, near a place.
     Near(&'a [f64]),
-    /// Values near 0.
-    Level,
+    /// Which side of 0 values are on.
+    Sides,
 }
 
 /// The tests so far.
@@ -89,6 +51,7 @@ pub(super) struct Surrogate {
     axes: Vec<Axis>,
     kernel: Kernel,
     is_fitted: bool,
+    sides: Fitter,
     trials: Vec<Trial>,
     /// The proposals that are out.
     out: BTreeMap<usize, Vec<f64>>,
@@ -99,9 +62,9 @@ pub(super) struct Surrogate {
 
 impl Surrogate {
     pub(super) fn new(axes: Vec<Axis>) -> Self {
-        let kernel = prior(&axes);
+        let (kernel, sides) = (prior(&axes), Fitter::new(&axes));
         let (trials, out, repaired) = (Vec::new(), BTreeMap::new(), Vec::new());
-        Self { axes, kernel, is_fitted: false, trials, out, repaired, proposals: 0 }
+        Self { axes, kernel, is_fitted: false, sides, trials, out, repaired, proposals: 0 }
     }
 
     pub(super) fn axes(&self) -> &[Axis] {
@@ -203,45 +166,56 @@ impl Surrogate {
 
     /// The bend, the process of robustness and that of errors.
     fn model(&mut self, view: View) -> Option<(Bend, Process, Option<Process>)> {
-        let mut ran: Vec<(&Trial, f64)> = self.trials.iter().filter_map(|t| t.robustness.map(|r| (t, r))).collect();
+        let (mut errored, ran): (Vec<&Trial>, Vec<&Trial>) = self.trials.iter().partition(|t| t.robustness.is_none());
         if ran.len() < 2 {
             return None;
         }
-        let all: Vec<f64> = ran.iter().map(|trial| trial.1).collect();
-        let mut failed: Vec<&Trial> = self.trials.iter().filter(|trial| trial.robustness.is_none()).collect();
-        let kernel = self.kernel.clone();
-        let bend = match view {
+        let all: Vec<f64> = ran.iter().filter_map(|trial| trial.robustness).collect();
+        let mut seen = ran;
+        match view {
             View::Near(at) => {
-                let distance = |trial: &Trial| kernel.scaled_distance(&trial.at, at);
-                ran.sort_by(|a, b| distance(a.0).total_cmp(&distance(b.0)));
-                failed.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
-                Bend::low(&all)
+                let distance = |trial: &Trial| self.kernel.scaled_distance(&trial.at, at);
+                seen.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+                errored.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+                seen.truncate(MOST_TESTS);
             }
-            View::Level => {
-                ran.sort_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-                Bend::signed(&all)
+            View::Sides => {
+                let places: Vec<&[f64]> = seen.iter().map(|trial| trial.at.as_slice()).collect();
+                let failed: Vec<bool> = all.iter().map(|&robustness| is_failure(robustness)).collect();
+                let chosen = telling(&self.kernel, &places, &failed, MOST_TESTS);
+                seen = chosen.into_iter().map(|index| seen[index]).collect();
+            }
+        }
+        let places: Vec<Vec<f64>> = seen.iter().map(|trial| trial.at.clone()).collect();
+        let robustness: Vec<f64> = seen.iter().filter_map(|trial| trial.robustness).collect();
+        let errors = errors(&self.axes, &places, &errored);
+        let (bend, process) = match view {
+            View::Near(_) => {
+                let bend = Bend::low(&all);
+                let values: Vec<f64> = robustness.iter().map(|&value| bend.apply(value)).collect();
+                let steps = if self.is_fitted { LATER_FIT } else { FIRST_FIT };
+                self.kernel = fit(&self.kernel, &places, &values, steps);
+                self.is_fitted = true;
+                (bend, Process::with_noise(&self.kernel, &places, &values)?)
+            }
+            View::Sides => {
+                let verdicts = self.sides.fit(&places, &robustness)?;
+                (verdicts.bend, verdicts.process)
             }
         };
-        ran.truncate(MOST_TESTS);
-        failed.truncate(MOST_TESTS / 2);
-        let places: Vec<Vec<f64>> = ran.iter().map(|trial| trial.0.at.clone()).collect();
-        let values: Vec<f64> = ran.iter().map(|trial| bend.apply(trial.1)).collect();
-        let steps = if self.is_fitted { LATER_FIT } else { FIRST_FIT };
-        self.kernel = fit(&kernel, &places, &values, steps);
-        self.is_fitted = true;
-        // Without noise places that are almost one have no factor; with some they do.
-        let process = [1.0, 1e2, 1e4].into_iter().find_map(|more| {
-            let kernel = Kernel { noise: self.kernel.noise * more, ..self.kernel.clone() };
-            Process::new(kernel, places.clone(), &values, Mean::Unknown)
-        })?;
-        let errors = (!failed.is_empty()).then(|| {
-            let kernel = Kernel { noise: ERROR_NOISE, ..prior(&self.axes) };
-            let ran = places.iter().take(MOST_TESTS / 2).map(|at| (at.clone(), 0.0));
-            let (places, labels): (Vec<_>, Vec<f64>) = ran.chain(failed.iter().map(|t| (t.at.clone(), 1.0))).unzip();
-            Process::new(kernel, places, &labels, Mean::Known(0.0))
-        });
-        Some((bend, process, errors.flatten()))
+        Some((bend, process, errors))
     }
+}
+
+/// The process of errors, once there are some.
+fn errors(axes: &[Axis], ran: &[Vec<f64>], errored: &[&Trial]) -> Option<Process> {
+    let most = MOST_TESTS / 2;
+    let ran = ran.iter().take(most).map(|at| (at.clone(), 0.0));
+    let errored = errored.iter().take(most).map(|trial| (trial.at.clone(), 1.0));
+    let some = errored.len() > 0;
+    let (places, labels): (Vec<_>, Vec<f64>) = ran.chain(errored).unzip();
+    let kernel = Kernel { noise: ERROR_NOISE, ..prior(axes) };
+    some.then(|| Process::new(kernel, places, &labels, Mean::Known(0.0))).flatten()
 }
 
 /// The probability that a label, 0 where a test runs and 1 where it does not, is the former's side of a half.

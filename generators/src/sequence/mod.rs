@@ -29,7 +29,7 @@ pub(crate) use per_row::{PerRow, RowSet};
 pub(crate) use uniform::Uniform;
 
 /// Points of `[0,1)^d`, numbered from 0.
-pub(crate) trait Sequence: Send {
+pub(crate) trait Sequence: Send + Sync {
     /// How many points there are.
     fn len(&self) -> u64;
 

@@ -8,7 +8,7 @@ use super::{Sequence, radical::INDICES};
 use crate::deal::Deal;
 
 /// A point set of every size, and another one for every row.
-pub(crate) trait RowSet: Send {
+pub(crate) trait RowSet: Send + Sync {
     /// Point `index` of the `size` points of row `row`.
     fn point(&self, row: u64, size: u64, index: u64) -> Vec<f64>;
 }

@@ -5,11 +5,16 @@ use super::{strength, time_limit};
 use crate::Error;
 use crate::cli::interrupt::Interruptible;
 use crate::cli::{Verbosity, complain};
+use crate::coverage::constraint::Constraint;
 use crate::coverage::demand::Demand;
-use crate::coverage::{Deadline, Space};
-use crate::generators::GeneratorError;
+use crate::coverage::rules::Rules;
+use crate::coverage::{Coordinate, Deadline, Space};
+use crate::estimate::named_level;
 use crate::generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
+use crate::generators::{GeneratorError, Request};
+use crate::tests_file::PartialRow;
 use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// The options that a covering array is made by.
@@ -22,22 +27,25 @@ pub(super) struct ArrayOptions {
 
 impl ArrayOptions {
     /// The rows of a covering array of a space with discrete parameters, after those of existing tests, which may leave
-    /// some levels open.
+    /// some levels open. Each existing test comes with its place in its file.
     pub fn rows(
         &self,
         space: &Space,
         demand: &Demand,
-        mut existing: Vec<Vec<Option<usize>>>,
+        existing: Vec<(String, PartialRow)>,
         verbosity: Verbosity,
     ) -> Result<Vec<Vec<usize>>, Error> {
         let limit = self.optimise.map(|seconds| time_limit("--optimise", seconds)).transpose()?;
         let (rules, kinds) = (space.rules()?, demand.kinds(space)?);
-        let k = self.k.unwrap_or(space.levels().len().min(2));
+        let k = Request { k: self.k, ..Request::new(space, 1) }.discrete_strength()?;
         for note in strength::pointless(k, &demand.groups, space) {
             verbosity.note(note);
         }
-        existing.sort_unstable();
-        existing.dedup();
+        let mut places: BTreeMap<PartialRow, String> = BTreeMap::new();
+        for (place, row) in existing {
+            places.entry(row).or_insert(place);
+        }
+        let (existing, places): (Vec<PartialRow>, Vec<String>) = places.into_iter().unzip();
         let request = CoveringRequest {
             kinds: &kinds,
             groups: &demand.groups,
@@ -60,8 +68,23 @@ impl ArrayOptions {
                 "rows violate a constraint and do"
             };
             verbosity.note(format_args!("{} different existing {of} not count", invalid.len()));
+            let mut refused: Vec<(&str, &PartialRow)> =
+                invalid.iter().map(|&index| (&places[index][..], &existing[index])).collect();
+            // As they stand in the file: `line 9` comes before `line 10`.
+            refused.sort_unstable_by_key(|(place, _)| (place.len(), *place));
+            for (place, row) in refused.iter().take(MOST_REFUSED) {
+                verbosity.note(format_args!("{place}: {}", why_refused(space, &rules, row)));
+            }
+            if refused.len() > MOST_REFUSED {
+                verbosity.note(format_args!("and {} more", refused.len() - MOST_REFUSED));
+            }
         }
-        let kept = if kept == 0 { String::new() } else { format!(" ({kept} of them existing)") };
+        let is_begun = |index: &usize| existing[*index].contains(&None) && !invalid.contains(index);
+        let kept = match (kept, (0..existing.len()).filter(is_begun).count()) {
+            (0, _) => String::new(),
+            (_, 0) => format!(" ({kept} of them existing)"),
+            (_, begun) => format!(" ({kept} of them existing, {begun} completed)"),
+        };
         let bound = match rows.len() as u64 == lower_bound {
             true => "proved to be the fewest".to_owned(),
             false => format!("at least {lower_bound} are needed: proved"),
@@ -77,6 +100,38 @@ impl ArrayOptions {
             verbosity.note(format_args!("{negative} of the {verb} {message}"));
         }
         Ok(rows)
+    }
+}
+
+/// So many tests that do not count are listed, each with the reason.
+const MOST_REFUSED: usize = 10;
+
+/// What combinations of so many parameters are called.
+pub(super) fn combinations(k: usize) -> String {
+    match k {
+        1 => "values".to_owned(),
+        2 => "pairs".to_owned(),
+        3 => "triples".to_owned(),
+        _ => format!("combinations of {k}"),
+    }
+}
+
+/// Which values a test has that no valid one has together, and which constraint says so, if one alone does.
+fn why_refused(space: &Space, rules: &Rules, row: &PartialRow) -> String {
+    let fixed: Vec<(usize, usize)> = row.iter().enumerate().filter_map(|(i, level)| Some((i, (*level)?))).collect();
+    let discrete: Vec<Coordinate> = space.discrete().collect();
+    let word = |&(parameter, level): &(usize, usize)| {
+        let (name, value) = named_level(&discrete, parameter, level);
+        format!("{name} {value}")
+    };
+    let values = fixed.iter().map(word).collect::<Vec<_>>().join(", ");
+    let excludes = |constraint: &&Constraint| {
+        Rules::new(&space.levels(), &[constraint.clauses().to_vec()]).is_ok_and(|alone| !alone.is_valid(&fixed))
+    };
+    match space.constraints().iter().find(excludes) {
+        Some(constraint) => format!("{values}: excluded by `{}`", constraint.text()),
+        None if rules.is_valid(&fixed) => format!("{values}: a test has one negative value (`~`) at most"),
+        None => format!("{values}: excluded by several constraints together"),
     }
 }
 

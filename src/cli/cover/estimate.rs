@@ -33,14 +33,15 @@ pub(super) struct Options {
     /// The space of the tests in a CSV; without it its columns are in [0,1]
     #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "strategy")]
     space: Option<PathBuf>,
-    /// How many parameters are looked at together [default: 2]
+    /// How many parameters are looked at together; where fewer are discrete, k-wise looks at all of these [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
     /// A group of discrete parameters of which K are looked at together, beside k of all
     #[arg(long, value_name = "NAME,NAME,..=K")]
     strength: Vec<String>,
     /// What to measure, of dispersion, star, extreme, fill, l2_star, centered, wraparound, mixture, k-wise,
-    /// k-wise-dispersion [default: all]
+    /// k-wise-dispersion [default: all]. k-wise also says for which epsilon the tests are (k, epsilon)-covering: the
+    /// `k_epsilon` of JSON
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     measures: Vec<Measure>,
     /// Time that the measuring may take, all together; what does not finish comes back as a bracket
@@ -85,6 +86,9 @@ impl Options {
             return Err(Error::Usage(message.into()).into());
         }
         tests.demand.groups.extend(strength::groups(&self.strength, &tests.space)?);
+        if measures.contains(&Measure::KWise) {
+            strength::capped(self.k, &tests.space).into_iter().for_each(|note| verbosity.note(note));
+        }
         if verbosity.verbose {
             let names: Vec<&str> = measures.iter().map(|measure| measure.name()).collect();
             verbosity.note(format_args!("measuring {} of {} tests", names.join(", "), tests.points.len()));

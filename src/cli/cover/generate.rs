@@ -1,21 +1,18 @@
 //! `paracosm-cover generate`: tests by a strategy, as CSV.
 
 use super::array::ArrayOptions;
+use super::reached::Reached;
 use super::{open_loop, strength, time_limit};
 use crate::cli::interrupt::Interruptible;
-use crate::cli::output::digits;
 use crate::cli::sampling::Sampling;
 use crate::cli::space_file::SpaceFile;
 use crate::cli::{Failure, Verbosity, complain};
 use crate::coverage::demand::Demand;
-use crate::coverage::kwise::KwiseError;
-use crate::coverage::kwise_dispersion::row_dispersion;
 use crate::coverage::{Deadline, Point, Space};
 use crate::generators::{DiscreteFamily, Generator, Request, Strategy};
-use crate::{Error, Measure, Promise, Tests};
+use crate::{Error, Promise, Tests};
 use clap::{ArgGroup, Args};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::collections::BTreeSet;
 use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -81,14 +78,18 @@ impl Options {
             // Rows of a covering array may be begun and left for us to complete.
             (Some(space), Some(path)) if space.dims() == 0 => {
                 let rows = Tests::read_partial(path, &space)?;
-                let complete = rows.iter().filter_map(|row| row.iter().copied().collect());
+                let complete = rows.iter().filter_map(|(_, row)| row.iter().copied().collect());
                 let existing: Vec<Point> =
                     complete.map(|discrete| Point { continuous: Vec::new(), discrete }).collect();
-                (space, existing, rows)
+                let named = |(line, levels)| (format!("line {line}"), levels);
+                (space, existing, rows.into_iter().map(named).collect())
             }
             (space, Some(path)) => {
                 let Tests { space, points, .. } = Tests::read(path, space)?;
-                let rows = points.iter().map(|test| test.discrete.iter().copied().map(Some).collect()).collect();
+                let row = |(number, test): (usize, &Point)| {
+                    (format!("test {}", number + 1), test.discrete.iter().copied().map(Some).collect())
+                };
+                let rows = points.iter().enumerate().map(row).collect();
                 (space, points, rows)
             }
             (Some(space), None) => (space, Vec::new(), Vec::new()),
@@ -101,6 +102,9 @@ impl Options {
             None => Strategy::Halton,
         };
         let request = self.request(&space, strategy, &existing)?;
+        if strategy.has_rows(&request) {
+            strength::capped(self.sampling.k, &space).into_iter().for_each(|note| verbosity.note(note));
+        }
         let limit = time_limit("--time-limit", self.time_limit.unwrap_or(TIME_LIMIT))?;
         let uses_array =
             request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && strategy.has_rows(&request);
@@ -126,47 +130,68 @@ impl Options {
             None if space.dims() == 0 || self.sampling.epsilon.is_some() => usize::MAX,
             None => DEFAULT_BUDGET,
         };
-        let is_random = matches!(request.discrete, DiscreteFamily::Random { .. });
         let search = self.sampling.epsilon.map(|_| Interruptible::new(Deadline::after(limit)));
+        if let Some(epsilon) = self.sampling.epsilon {
+            let seconds = limit.as_secs_f64();
+            verbosity
+                .note(format_args!("{seconds} s at most to reach epsilon {epsilon}; Ctrl-C prints the tests so far"));
+        }
         let deadline = search.as_ref().map_or(Deadline::never(), |search| search.deadline);
         let request = Request { rows: rows.as_deref(), deadline, ..request };
         let generator = strategy.build(&request).map_err(Error::from)?;
+        // How many rows of an array a budget covers is for a note even where nobody asks.
+        let has_rows = !space.levels().is_empty() && strategy.has_rows(&request);
+        let is_noted = has_rows && (self.budget.is_some() || space.dims() > 0) && most <= MOST_UNASKED;
         let mut points = existing.clone();
         let written = write(generator, &space, most, verbosity, |tests| {
-            if self.sampling.epsilon.is_some() || is_random {
+            if self.sampling.epsilon.is_some() || is_random || is_noted {
                 points.extend(tests);
             }
         })?;
-        let ran_out = written < most && deadline.passed();
+        let cut_short = deadline.passed() && written < most;
         let interrupted = search.is_some_and(Interruptible::end);
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
         verbosity.note(format_args!("{written} tests{by}{}", after.unwrap_or_default()));
-        let promise = Promise::of(strategy, &request, if ran_out { written } else { most } as u64)?;
-        let tests = Tests { k: self.sampling.k, ..Tests::new(space.clone(), points) };
+        let measuring = match self.sampling.epsilon {
+            Some(_) => REPORT_LIMIT,
+            None if is_noted => UNASKED_LIMIT,
+            None => Duration::ZERO,
+        };
+        let tests = Tests { k: self.sampling.k, demand, ..Tests::new(space.clone(), points) };
+        let reached = Reached::of(tests, existing.len(), measuring);
+        // Whether the time was enough is for the tests to say: the limit may have come just after the last of them.
+        let end = if interrupted { "an interrupt" } else { &format!("the time limit of {} s", limit.as_secs_f64()) };
+        let missed = self.sampling.epsilon.filter(|_| cut_short).and_then(|epsilon| reached.missed(epsilon, end));
+        let promise = Promise::of(strategy, &request, if missed.is_some() { written } else { most } as u64)?;
         if let Some(promise) = promise {
-            verbosity.note(kept(&promise, &tests, existing.len())?);
+            verbosity.note(reached.kept(&promise)?);
         }
-        if let Some(epsilon) = self.sampling.epsilon {
-            if ran_out {
-                // The set is not what was asked for: that has to be known.
-                let seconds = limit.as_secs_f64();
-                let what = if interrupted { "an interrupt" } else { &format!("the time limit of {seconds} s") };
-                complain(&format_args!("{what} came before epsilon {epsilon}"));
-            }
-            verbosity.note(reached(&tests)?);
+        if let Some(note) =
+            rows.as_deref().filter(|_| is_noted).map(|rows| reached.cut_short(rows)).transpose()?.flatten()
+        {
+            verbosity.note(note);
+        }
+        if let Some(missed) = missed {
+            // The set is not what was asked for: that has to be known.
+            complain(&missed);
+        }
+        if self.sampling.epsilon.is_some() || (is_noted && space.dims() > 0) {
+            verbosity.note(reached.words()?);
         }
         Ok(())
     }
 
     fn request<'a>(&self, space: &'a Space, strategy: Strategy, existing: &'a [Point]) -> Result<Request<'a>, Error> {
+        // As many as it takes, where epsilon says when it is enough.
+        let budget = if self.sampling.epsilon.is_some() { usize::MAX } else { DEFAULT_BUDGET };
         let mut request = Request {
             seed: self.sampling.seed,
             skip: self.sampling.skip,
             k: self.sampling.k,
             epsilon: self.sampling.epsilon,
             existing,
-            ..Request::new(space, self.budget.unwrap_or(DEFAULT_BUDGET))
+            ..Request::new(space, self.budget.unwrap_or(budget))
         };
         request.discrete = self.sampling.family()?;
         request.aim = self.sampling.measure(strategy.name()).map(str::parse).transpose()?;
@@ -179,47 +204,12 @@ const DEFAULT_BUDGET: usize = 500;
 /// How long tests are looked for that reach epsilon.
 const TIME_LIMIT: f64 = 60.0;
 
-/// What random rows promise, and beside it what the tests do.
-fn kept(promise: &Promise, tests: &Tests, existing: usize) -> Result<String, Error> {
-    let rows: BTreeSet<&Vec<usize>> = tests.points[existing..].iter().map(|test| &test.discrete).collect();
-    let measured = match tests.measure(&[Measure::KWise], Some(promise.k), Some(Duration::ZERO)) {
-        Ok(coverage) => {
-            coverage.discrete.flatten().map(|found| format!("{} of {} covered", found.covered, found.valid))
-        }
-        Err(Error::Kwise(error @ KwiseError::TooMany { .. })) => Some(format!("not, for {error}")),
-        Err(error) => return Err(error),
-    };
-    let (drawn, different) = (promise.rows, rows.len());
-    let measured = measured.expect("there are discrete parameters");
-    Ok(format!(
-        "{drawn} random rows, {different} of them different; guaranteed: {}; measured: {measured}",
-        promise.words()
-    ))
-}
-
-/// What the tests are good for, measured.
-fn reached(tests: &Tests) -> Result<String, Error> {
-    let Tests { space, points, k, .. } = tests;
-    if space.dims() == 0 {
-        return Ok("nothing continuous to measure".to_owned());
-    }
-    let rows = row_dispersion(space.dims(), points, Deadline::after(REPORT_LIMIT));
-    let epsilon = if rows.is_exact() { digits(rows.upper) } else { format!("at most {}", digits(rows.upper)) };
-    if space.levels().is_empty() {
-        return Ok(format!("dispersion {epsilon}: measured"));
-    }
-    let coverage = tests.measure(&[Measure::KWise], *k, Some(Duration::ZERO))?;
-    Ok(match coverage.discrete.flatten() {
-        Some(discrete) if discrete.covered == discrete.valid => {
-            format!("({}, {epsilon})-covering: measured", discrete.k)
-        }
-        Some(discrete) => format!("not {}-wise complete; over the rows there are, dispersion {epsilon}", discrete.k),
-        None => format!("dispersion {epsilon} over the rows: measured"),
-    })
-}
-
-/// The time that the measuring after `--epsilon` may take.
+/// The time that the measuring after `--epsilon` may take, and where nobody asked for it.
 const REPORT_LIMIT: Duration = Duration::from_secs(10);
+const UNASKED_LIMIT: Duration = Duration::from_secs(2);
+
+/// More tests than this are not kept to be measured where nobody asked for it.
+const MOST_UNASKED: usize = 100_000;
 
 /// Writes at most that many tests as they are made.
 fn write(

@@ -6,6 +6,7 @@ mod compare;
 mod estimate;
 mod generate;
 mod plan;
+mod reached;
 mod strength;
 
 use super::{Failure, Verbosity};

@@ -28,7 +28,7 @@ pub(super) struct Options {
     /// The unit cube of that many dimensions
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
-    /// How many discrete parameters are covered together [default: 2]
+    /// How many parameters are covered together; where fewer are discrete, all combinations of these [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
     /// A group of discrete parameters of which K are covered together, more than of all
@@ -60,6 +60,7 @@ impl Options {
         demand.groups.extend(strength::groups(&self.strength, &space)?);
         let limit = time_limit("--time-limit", self.time_limit)?;
         let plan = Plan::of(&space, self.k, &demand, self.epsilon, self.delta, limit)?;
+        strength::capped(self.k, &space).into_iter().for_each(|note| verbosity.note(note));
         for note in plan.k.iter().flat_map(|&k| strength::pointless(k, &demand.groups, &space)) {
             verbosity.note(note);
         }

@@ -42,6 +42,14 @@ pub(super) fn beside(k: usize, groups: &[Group], space: &Space) -> String {
     if words.is_empty() { String::new() } else { format!(" ({})", words.join("; ")) }
 }
 
+/// What is to be said where `k` is more than there are discrete parameters, beside which there are continuous ones.
+pub(super) fn capped(k: Option<usize>, space: &Space) -> Option<String> {
+    let (discrete, dims) = (space.levels().len(), space.dims());
+    let k = k.filter(|k| dims > 0 && (1..*k).contains(&discrete) && *k <= discrete + dims)?;
+    let (parameters, them) = if discrete == 1 { ("parameter is", "it") } else { ("parameters are", "them") };
+    Some(format!("k is {k}, but only {discrete} {parameters} discrete: for {them} k is {discrete}"))
+}
+
 /// What is to be said of groups that add nothing, one note for each.
 pub(super) fn pointless<'a>(k: usize, groups: &'a [Group], space: &'a Space) -> impl Iterator<Item = String> + 'a {
     let lower = groups.iter().filter(move |(_, strength)| *strength <= k);

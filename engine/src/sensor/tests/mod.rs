@@ -10,7 +10,7 @@ mod truth;
 use super::{Air, SensorError, View};
 use crate::object::{Body, BodyState, Class};
 use crate::road::{Network, RoadSegment};
-use crate::scenario::Pose;
+use crate::scenario::{Pose, Weather};
 use crate::vehicle::VehicleState;
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -48,7 +48,8 @@ impl World {
 
     fn view(&self, time: f64) -> View<'_> {
         let air = Air { extinction: self.extinction, ..Air::default() };
-        View { time, car: &self.car, bodies: &self.bodies, network: &self.network, air }
+        let weather = Weather::default();
+        View { time, car: &self.car, bodies: &self.bodies, network: &self.network, weather, air }
     }
 }
 

@@ -1,0 +1,57 @@
+//! What is measured of a run beside its requirements: the figures and words by which runs, and failures above all, are
+//! told apart.
+
+use super::scene::Scene;
+use crate::outcome::Metric;
+use crate::vehicle::VehicleState;
+use paracosm_oracles::{Requirement, Trace};
+
+/// Speed in m/s below which the car stands at a contact.
+const STANDING: f64 = 0.1;
+/// Deceleration in m/s² above which the car brakes at a contact: more than rolling resistance and sensor noise make.
+const BRAKING: f64 = 0.5;
+
+/// The metrics of a run as it ends.
+pub(super) fn of_run(scene: &Scene, triggered: bool) -> Vec<(String, Metric)> {
+    let car = scene.ego.dynamics.state();
+    let contact = scene.contact;
+    let touched = contact.map(|contact| &scene.bodies[contact.body]);
+    let metrics = [
+        ("travelled", Metric::Number(car.travelled)),
+        ("impact_speed", Metric::Number(if contact.is_some() { car.speed() } else { 0.0 })),
+        ("contact_face", Metric::Word(contact.map(|contact| contact.face.to_string()))),
+        ("contact_with", Metric::Word(contact.map(|contact| scene.name(contact.body).to_owned()))),
+        ("contact_class", Metric::Word(touched.map(|touched| touched.body.class.to_string()))),
+        ("contact_motion", Metric::Word(touched.map(|_| motion(car).to_owned()))),
+        ("other_speed", Metric::Number(touched.map_or(0.0, |touched| touched.velocity.norm()))),
+        ("triggered", Metric::Flag(triggered)),
+    ];
+    metrics.map(|(name, metric)| (name.to_owned(), metric)).into()
+}
+
+/// What the car does at a contact.
+fn motion(car: &VehicleState) -> &'static str {
+    if car.speed() < STANDING {
+        "standing"
+    } else if car.acceleration.x < -BRAKING {
+        "braking"
+    } else {
+        "driving"
+    }
+}
+
+/// When and where a violated requirement came to be worth what it is: its critical time, and how far the car had come
+/// then and how fast it was.
+pub(super) fn of_violation(requirement: &Requirement, trace: &Trace) -> Vec<(String, Metric)> {
+    let Ok(Some(cause)) = requirement.formula.explain(trace) else { return Vec::new() };
+    let tick = (cause.time / trace.dt()).round() as usize;
+    let at = |signal: &str| trace.signal(signal).and_then(|mut samples| samples.nth(tick));
+    let metrics = [
+        ("critical_time", Some(cause.time)),
+        ("critical_travelled", at("car.travelled")),
+        ("critical_speed", at("car.speed")),
+    ];
+    let named =
+        |(name, value): (&str, Option<f64>)| Some((format!("{name}.{}", requirement.id), Metric::Number(value?)));
+    metrics.into_iter().filter_map(named).collect()
+}

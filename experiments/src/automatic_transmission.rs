@@ -1,0 +1,182 @@
+//! After how many simulations each strategy falsifies the automatic transmission: five requirements of the benchmark, 30
+//! seeds each, in batches as campaigns have them. A run without a failure counts as all that it may take.
+
+use crate::transmission::{SAMPLES_PER_SECOND, run as simulate};
+use crate::{Done, print, system, write};
+use indicatif::ProgressBar;
+use paracosm::coverage::{Point, Space};
+use paracosm::generators::{Generator, Request, Strategy};
+use paracosm::oracles::{Formula, Trace, Truth};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// The space of the tests, the same file that the command line is given.
+const SPACE: &str = include_str!("../systems/automatic-transmission.toml");
+
+/// How many simulations a run may take.
+const BUDGET: usize = 300;
+const SEEDS: u64 = 30;
+/// How many tests an adaptive strategy is asked for at a time, as in a campaign.
+const BATCH: usize = 16;
+
+/// The requirements by their names in the benchmark.
+const REQUIREMENTS: [(&str, &str); 5] = [
+    ("AT1", "always[0,20] (speed < 120)"),
+    ("AT2", "always[0,10] (rpm < 4750)"),
+    ("AT6a", "always[0,30] (rpm < 3000) implies always[0,4] (speed < 35)"),
+    ("AT6b", "always[0,30] (rpm < 3000) implies always[0,8] (speed < 50)"),
+    ("AT6c", "always[0,30] (rpm < 3000) implies always[0,20] (speed < 65)"),
+];
+
+/// Where tests come from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Source {
+    Strategy(Strategy),
+    /// The control: every coordinate at a random one of its ends, all by themselves.
+    RandomCorners,
+}
+
+const SOURCES: [Source; 10] = [
+    Source::Strategy(Strategy::Random),
+    Source::Strategy(Strategy::Halton),
+    Source::RandomCorners,
+    Source::Strategy(Strategy::Anneal),
+    Source::Strategy(Strategy::Pso),
+    Source::Strategy(Strategy::NelderMead),
+    Source::Strategy(Strategy::Cmaes),
+    Source::Strategy(Strategy::Bayes),
+    Source::Strategy(Strategy::Boundary),
+    Source::Strategy(Strategy::Auto),
+];
+
+impl Source {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Strategy(strategy) => strategy.name(),
+            Self::RandomCorners => "random corners",
+        }
+    }
+
+    fn generator(self, request: &Request) -> Result<Box<dyn Generator>, Box<dyn std::error::Error + Send + Sync>> {
+        let strategy = if let Self::Strategy(strategy) = self { strategy } else { Strategy::Random };
+        Ok(strategy.build(request)?)
+    }
+
+    /// What is tested in place of a point.
+    fn moved(self, mut point: Point) -> Point {
+        if self == Self::RandomCorners {
+            point.continuous.iter_mut().for_each(|u| *u = if *u < 0.5 { 0.0 } else { 1.0_f64.next_down() });
+        }
+        point
+    }
+}
+
+/// The simulations that a run took, of one source for one requirement.
+type Runs = Vec<Option<usize>>;
+
+/// Runs the study and writes it to a folder.
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
+    let space = Space::from_toml(SPACE)?;
+    bar.set_length((REQUIREMENTS.len() * SOURCES.len()) as u64 * SEEDS);
+    let mut table = String::from("requirement,strategy,seed,simulations\n");
+    for (name, formula) in REQUIREMENTS {
+        let formula: Formula = formula.parse()?;
+        bar.suspend(|| {
+            print(&format!("{name}: {formula}\n  {:<16}{:>8}{:>8}{:>8}\n", "strategy", "mean", "median", "found"))
+        })?;
+        for source in SOURCES {
+            let seeds: Vec<u64> = (0..SEEDS).collect();
+            let runs: Result<Runs, _> = seeds
+                .into_par_iter()
+                .map(|seed| {
+                    let first = first_failure(&space, &formula, source, seed);
+                    bar.inc(1);
+                    first
+                })
+                .collect();
+            let runs = runs?;
+            for (seed, run) in runs.iter().enumerate() {
+                let simulations = run.map_or_else(String::new, |run| run.to_string());
+                table += &format!("{name},{},{seed},{simulations}\n", source.name());
+            }
+            bar.suspend(|| print(&line(source.name(), &runs)))?;
+        }
+    }
+    bar.finish_and_clear();
+    write(&out.join("simulations.csv"), &table)
+}
+
+/// Mean and median, and in how many runs there was a failure.
+fn line(name: &str, runs: &[Option<usize>]) -> String {
+    let found = runs.iter().flatten().count();
+    let mut counts: Vec<usize> = runs.iter().map(|run| run.unwrap_or(BUDGET)).collect();
+    counts.sort_unstable();
+    let mean = counts.iter().sum::<usize>() as f64 / counts.len() as f64;
+    let median = (counts[(counts.len() - 1) / 2] + counts[counts.len() / 2]) as f64 / 2.0;
+    format!("  {name:<16}{mean:>8.1}{median:>8.1}{:>8}\n", format!("{found}/{}", counts.len()))
+}
+
+/// After how many simulations the first one fails, if any does within the budget.
+fn first_failure(
+    space: &Space,
+    formula: &Formula,
+    source: Source,
+    seed: u64,
+) -> Result<Option<usize>, Box<dyn std::error::Error + Send + Sync>> {
+    let mut generator = source.generator(&Request { seed: Some(seed), ..Request::new(space, BUDGET) })?;
+    let mut done = 0;
+    while done < BUDGET {
+        let tests = generator.ask(BATCH.min(BUDGET - done));
+        if tests.is_empty() {
+            break;
+        }
+        let mut robustness = Vec::new();
+        for (index, test) in tests.iter().enumerate() {
+            let trace = trace(space, source.moved(test.clone()))?;
+            let evaluation = formula.evaluate(&trace)?;
+            if evaluation.truth == Truth::Violated {
+                return Ok(Some(done + index + 1));
+            }
+            robustness.push(Some(evaluation.robustness));
+        }
+        generator.tell(&tests, &robustness);
+        done += tests.len();
+    }
+    Ok(None)
+}
+
+fn trace(space: &Space, test: Point) -> Result<Trace, String> {
+    let [throttle, brake] = system::inputs(&space.decode(&test))?;
+    let mut trace = Trace::new(1.0 / SAMPLES_PER_SECOND, ["speed", "rpm", "gear"].map(str::to_owned).to_vec());
+    for sample in simulate(&throttle, &brake) {
+        trace.record(&[sample.speed, sample.rpm, sample.gear as f64]);
+    }
+    trace.finish();
+    Ok(trace)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn truths(throttle: [f64; 7]) -> Vec<Truth> {
+        let space = Space::from_toml(SPACE).unwrap();
+        let continuous = throttle.into_iter().map(|percent| percent / 100.0).chain([0.0; 3]).collect();
+        let trace = trace(&space, Point { continuous, discrete: Vec::new() }).unwrap();
+        let truth = |(_, text): &(&str, &str)| text.parse::<Formula>().unwrap().evaluate(&trace).unwrap().truth;
+        REQUIREMENTS.iter().map(truth).collect()
+    }
+
+    #[test]
+    fn every_requirement_can_be_violated_and_holds_without_throttle() {
+        use Truth::{Holds, Violated};
+        assert_eq!(truths([0.0; 7]), [Holds; 5]);
+        assert_eq!(truths([99.999; 7])[..2], [Violated; 2]);
+        assert_eq!(truths([48.0, 40.0, 34.0, 30.0, 30.0, 20.0, 20.0])[2..], [Violated; 3]);
+    }
+
+    #[test]
+    fn a_run_without_a_failure_counts_as_the_whole_budget() {
+        assert_eq!(line("x", &[Some(10), None]), format!("  {:<16}{:>8}{:>8}{:>8}\n", "x", "155.0", "155.0", "1/2"));
+    }
+}

@@ -1,0 +1,106 @@
+//! The automatic transmission as a system of its own, which `paracosm-fuzz --system` tests like any other: a test as a line
+//! of JSON in, the trace of its run as a line of JSON out.
+
+use crate::transmission::{SAMPLES_PER_SECOND, Sample, run};
+use crate::{Done, print};
+use paracosm::coverage::{Value, Values};
+use serde::{Deserialize, Serialize};
+use std::io::{self, BufRead};
+
+/// The name by which it is asked for.
+pub const NAME: &str = "automatic-transmission";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Question {
+    index: usize,
+    test: Values,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    index: usize,
+    #[serde(flatten)]
+    outcome: Outcome,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Outcome {
+    Trace { time: Vec<f64>, speed: Vec<f64>, rpm: Vec<f64>, gear: Vec<usize> },
+    Error(String),
+}
+
+/// Answers until there are no more questions.
+pub fn serve() -> Done {
+    for line in io::stdin().lock().lines() {
+        print(&(answer(&line?)? + "\n"))?;
+    }
+    Ok(())
+}
+
+/// The answer to a question.
+///
+/// # Errors
+/// It is no question, so that there is no index to answer with.
+pub fn answer(line: &str) -> Result<String, serde_json::Error> {
+    let Question { index, test } = serde_json::from_str(line)?;
+    let outcome = match inputs(&test) {
+        Ok([throttle, brake]) => trace(&run(&throttle, &brake)),
+        Err(message) => Outcome::Error(message),
+    };
+    serde_json::to_string(&Answer { index, outcome })
+}
+
+/// The throttle and the brake of a test.
+///
+/// # Errors
+/// One of them is missing, or has no number or one that is none.
+pub fn inputs(test: &Values) -> Result<[Vec<f64>; 2], String> {
+    let signal = |name: &str| {
+        let value = test.get(name).ok_or_else(|| format!("the test has no `{name}`"))?;
+        let numbers: Option<Vec<f64>> = value.scalars().iter().map(Value::number).collect();
+        let numbers = numbers.filter(|numbers| !numbers.is_empty() && numbers.iter().all(|number| number.is_finite()));
+        numbers.ok_or_else(|| format!("`{name}` is {value}, expected a number or a list of numbers"))
+    };
+    Ok([signal("throttle")?, signal("brake")?])
+}
+
+fn trace(samples: &[Sample]) -> Outcome {
+    Outcome::Trace {
+        time: (0..samples.len()).map(|sample| sample as f64 / SAMPLES_PER_SECOND).collect(),
+        speed: samples.iter().map(|sample| sample.speed).collect(),
+        rpm: samples.iter().map(|sample| sample.rpm).collect(),
+        gear: samples.iter().map(|sample| sample.gear).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn answered(test: Value) -> Value {
+        serde_json::from_str(&answer(&json!({"index": 5, "test": test}).to_string()).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_test_is_answered_with_its_index_and_a_trace_of_30_seconds() {
+        let said = answered(json!({"throttle": [100, 0], "brake": 0}));
+        assert_eq!(said["index"], 5);
+        let column = |name: &str| said["trace"][name].as_array().unwrap().clone();
+        assert_eq!(["time", "speed", "rpm", "gear"].map(|name| column(name).len()), [301; 4]);
+        assert_eq!(
+            (&column("time")[300], &column("speed")[0], &column("gear")[0]),
+            (&json!(30.0), &json!(0.0), &json!(1))
+        );
+    }
+
+    #[test]
+    fn what_it_cannot_run_is_answered_with_an_error_that_says_why() {
+        assert!(answered(json!({"throttle": 1}))["error"].as_str().unwrap().contains("no `brake`"));
+        assert!(answered(json!({"throttle": [], "brake": 1}))["error"].as_str().unwrap().contains("`throttle` is"));
+        assert!(answered(json!({"throttle": ["a"], "brake": 1}))["error"].as_str().unwrap().contains("`throttle` is"));
+        assert!(answer("nonsense").is_err());
+    }
+}

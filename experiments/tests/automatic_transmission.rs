@@ -1,0 +1,54 @@
+//! The automatic transmission, tested from outside as the system that it is.
+
+use paracosm::coverage::Space;
+use paracosm::{BlackBox, Campaign, Study};
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_paracosm-experiments");
+
+fn experiments(arguments: &[&str], input: &str) -> Output {
+    let mut command = Command::new(PROGRAM);
+    let command = command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut process = command.spawn().unwrap();
+    // One that has ended already does not read.
+    let _ = process.stdin.take().unwrap().write_all(input.as_bytes());
+    process.wait_with_output().unwrap()
+}
+
+#[test]
+fn a_campaign_falsifies_its_speed_limit_in_the_opening() {
+    let command = format!("'{PROGRAM}' system automatic-transmission");
+    let space = Space::from_toml(include_str!("../systems/automatic-transmission.toml")).unwrap();
+    let study = Study::of_system(BlackBox::new(&command, None).unwrap(), space);
+    let study = study.spec("always[0,20] (speed < 120)").unwrap().strategy("auto").unwrap().budget(20).unwrap();
+    let mut failures = Vec::new();
+    let run = Campaign::new(&study).unwrap().run(|trial| {
+        assert_eq!((trial.error.as_deref(), trial.ticks), (None, 300));
+        failures.extend(trial.is_failure().then_some(trial.index));
+        Ok(())
+    });
+    run.unwrap();
+    assert!(failures.first().is_some_and(|first| *first < 4), "{failures:?}");
+}
+
+#[test]
+fn it_answers_line_by_line_and_refuses_other_names() {
+    let answers = experiments(
+        &["system", "automatic-transmission"],
+        "{\"index\":0,\"test\":{\"throttle\":0,\"brake\":0}}\n{\"index\":1,\"test\":{}}\n",
+    );
+    let answers = String::from_utf8(answers.stdout).unwrap();
+    let lines: Vec<&str> = answers.lines().collect();
+    assert!(lines[0].starts_with("{\"index\":0,\"trace\":{\"time\":[0.0,0.1,"), "{answers}");
+    assert_eq!(lines[1], "{\"index\":1,\"error\":\"the test has no `throttle`\"}");
+    for (arguments, says) in [
+        (&["system"][..], "expected `automatic-transmission`"),
+        (&["system", "manual"], "no system is called `manual`"),
+        (&["fig9", "manual"], "found `manual` after the study"),
+    ] {
+        let refused = experiments(arguments, "");
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(String::from_utf8(refused.stderr).unwrap().contains(says));
+    }
+}

@@ -1,0 +1,149 @@
+//! A model of which tests fail: which side of 0 the robustness is on, and how sure that is.
+//!
+//! Probabilistic least-squares classification (Rasmussen and Williams 2006, section 6.5): a Gaussian process goes through
+//! the robustness as it is bent, and the probability of a failure is `Phi(-slope m / sqrt(1 + slope^2 v))` for its mean m
+//! and variance v, where the slope makes the verdicts of left-out tests most likely.
+//!
+//! How to bend depends on the system under test. Where the robustness goes steadily through 0 it tells more than the
+//! verdict does; where it jumps there, from some centimetres of clearance to metres of missing braking distance, say,
+//! a process takes the jump for short lengths, and the bare verdicts -1 and 1 are the better values. So there are three
+//! bends, and the one by which the left-out tests are told best is believed.
+//!
+//! A left-out test counts as much as the part of the space that is nearer to it than to any other. Otherwise the tests that a
+//! search has put where nothing is sure would make the model doubt what it knows everywhere else (the weights of Shimodaira
+//! 2000 for a sample that is not drawn like what it stands for).
+
+use super::anywhere;
+use super::bend::{Bend, is_failure};
+use super::cube::Axis;
+use super::fit::{fit, prior};
+use super::log_ei::normal_below;
+use super::process::{Kernel, Process};
+use super::surrogate::snapped;
+use crate::seeded::{Purpose, seeded};
+
+/// The slopes that are tried, as logarithms: from -2 to 8 in steps of a half.
+const LEAST_SLOPE: f64 = -2.0;
+const SLOPES: usize = 21;
+
+/// By so many random places it is told how much of the space a test stands for.
+const PLACES: usize = 1024;
+
+/// How many steps the first fit takes, and those after it.
+const FIRST_FIT: usize = 40;
+const LATER_FIT: usize = 8;
+
+/// No verdict is less probable than this: one surprise is no end of the world.
+const LEAST_PROBABLE: f64 = 1e-6;
+
+/// The kernels of the three bends, which every fit goes on from.
+pub(super) struct Fitter {
+    kernels: [Kernel; 3],
+    is_fitted: bool,
+}
+
+/// What a fit found.
+pub(super) struct Verdicts {
+    pub bend: Bend,
+    pub process: Process,
+    slope: f64,
+}
+
+impl Fitter {
+    pub(super) fn new(axes: &[Axis]) -> Self {
+        Self { kernels: [(); 3].map(|()| prior(axes)), is_fitted: false }
+    }
+
+    /// The best of the three models; the first places have to tell the lengths. `None` where there is no place.
+    pub(super) fn fit(&mut self, places: &[Vec<f64>], robustness: &[f64]) -> Option<Verdicts> {
+        let steps = if self.is_fitted { LATER_FIT } else { FIRST_FIT };
+        self.is_fitted = true;
+        let bends = Bend::of_sides(robustness);
+        // Of one verdict alone nothing is to be told apart, and where the other may be only the robustness knows.
+        let failures = robustness.iter().filter(|robustness| is_failure(**robustness)).count();
+        let bends = &bends[..if (1..robustness.len()).contains(&failures) { 3 } else { 1 }];
+        let weights = weights(&self.kernels[0].axes, places);
+        let mut best: Option<(f64, Verdicts)> = None;
+        for (&bend, kernel) in bends.iter().zip(&mut self.kernels) {
+            let values: Vec<f64> = robustness.iter().map(|&value| bend.apply(value)).collect();
+            *kernel = fit(kernel, places, &values, steps);
+            let Some(process) = Process::with_noise(kernel, places, &values) else { continue };
+            let (likelihood, slope) = best_slope(&process, &values, &weights);
+            if best.as_ref().is_none_or(|(other, _)| likelihood > *other) {
+                best = Some((likelihood, Verdicts { bend, process, slope }));
+            }
+        }
+        best.map(|(_, verdicts)| verdicts)
+    }
+}
+
+impl Verdicts {
+    /// The probability that a test fails whose robustness, bent, is this.
+    pub(super) fn of_value(&self, value: f64) -> f64 {
+        normal_below(-self.slope * value)
+    }
+
+    /// The probability that a test fails whose robustness, bent, has this mean and deviation.
+    pub(super) fn failure(&self, mean: f64, deviation: f64) -> f64 {
+        normal_below(-link(self.slope, mean, deviation))
+    }
+}
+
+fn link(slope: f64, mean: f64, deviation: f64) -> f64 {
+    let spread = slope * deviation;
+    slope * mean / (1.0 + spread * spread).sqrt()
+}
+
+/// How much of the space each of the places stands for: how many random ones are nearest to it, and half a one more.
+fn weights(axes: &[Axis], places: &[Vec<f64>]) -> Vec<f64> {
+    let flat = Kernel { axes: axes.to_vec(), lengths: vec![1.0; axes.len()], noise: 0.0 };
+    let mut rng = seeded(0, Purpose::Draws, 1);
+    let mut weights = vec![0.5; places.len()];
+    for _ in 0..PLACES {
+        let at = snapped(axes, anywhere(axes, &mut rng));
+        let distance = |place: &Vec<f64>| (0..at.len()).map(|axis| flat.squared(axis, place, &at)).sum::<f64>();
+        let nearest = (0..places.len()).min_by(|&a, &b| distance(&places[a]).total_cmp(&distance(&places[b])));
+        nearest.into_iter().for_each(|nearest| weights[nearest] += 1.0);
+    }
+    weights
+}
+
+/// By which slope the verdicts of left-out tests are most likely, and how likely: the logarithm.
+fn best_slope(process: &Process, values: &[f64], weights: &[f64]) -> (f64, f64) {
+    let left_out = process.leave_one_out(values);
+    let likelihood = |slope: f64| -> f64 {
+        let one = |(&value, &(mean, deviation)): (&f64, &(f64, f64))| {
+            let right = normal_below(1.0_f64.copysign(value) * link(slope, mean, deviation));
+            libm::log(right.max(LEAST_PROBABLE))
+        };
+        values.iter().zip(&left_out).map(one).zip(weights).map(|(log, weight)| weight * log).sum()
+    };
+    let slopes = (0..SLOPES).map(|i| libm::exp(LEAST_SLOPE + 0.5 * i as f64));
+    slopes.map(|slope| (likelihood(slope), slope)).max_by(|a, b| a.0.total_cmp(&b.0)).expect("there are slopes")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_counts_as_much_as_the_space_around_it() {
+        let places = [vec![0.25], vec![0.745], vec![0.755]];
+        let weights = weights(&[Axis::Continuous], &places);
+        assert_eq!(weights.iter().sum::<f64>(), 1025.5);
+        for (weight, share) in weights.iter().zip([0.4975, 0.2525, 0.25]) {
+            assert!((weight / 1025.5 - share).abs() < 0.05, "{weights:?}");
+        }
+    }
+
+    #[test]
+    fn a_robustness_that_jumps_is_taken_for_its_verdict_and_a_steady_one_for_itself() {
+        let places: Vec<Vec<f64>> = (0..60).map(|i| vec![(f64::from(i) * 0.618_034).fract()]).collect();
+        let bend = |robustness: &dyn Fn(f64) -> f64| {
+            let robustness: Vec<f64> = places.iter().map(|at| robustness(at[0])).collect();
+            Fitter::new(&[Axis::Continuous]).fit(&places, &robustness).unwrap().bend
+        };
+        assert!(matches!(bend(&|x| x - 0.37), Bend::Signed { .. }));
+        assert!(!matches!(bend(&|x| if x < 0.37 { -50.0 * x - 1.0 } else { 0.01 }), Bend::Signed { .. }));
+    }
+}

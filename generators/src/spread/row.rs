@@ -1,0 +1,165 @@
+//! A discrete row that has several sets of points to choose from, and the largest hole that each of them leaves.
+//!
+//! The sets grow side by side, and to know their holes all empty boxes are kept, of which there are many in three
+//! dimensions and more. While there are few, all sets stay in the running. Where there are many the worst sets are
+//! let go until two are left, the row's own block and the best of the others; where these take more memory than a row
+//! has, the better of the two is left, and at last its smaller boxes are forgotten.
+
+use crate::sequence::Sequence;
+use paracosm_coverage::dispersion::is_at_most;
+use paracosm_coverage::{Deadline, PointSet, empty_boxes::EmptyBoxes};
+use std::sync::Arc;
+
+/// How much memory the boxes of all rows take together, in bytes.
+const MOST_MEMORY: usize = 200_000_000;
+
+/// How many faces may have to be looked at when a point splits all boxes: a box has `2d` parts with `2d` faces each.
+const MOST_FACES: usize = 500_000_000;
+
+/// How many boxes a row's sets may have together while more than two are compared.
+const MOST_COMPARED: usize = 20_000;
+
+/// When a row is done, and what it may take.
+pub(super) struct Limits {
+    pub(super) epsilon: f64,
+    pub(super) deadline: Deadline,
+    /// The boxes of a row.
+    most: usize,
+}
+
+impl Limits {
+    pub(super) fn new(dims: usize, rows: u64, epsilon: f64, deadline: Deadline) -> Self {
+        let in_memory = MOST_MEMORY / (24 * dims + 8) / rows.max(1) as usize;
+        let most = in_memory.min(MOST_FACES / (2 * dims).saturating_mul(2 * dims).max(1)).max(100);
+        Self { epsilon, deadline, most }
+    }
+}
+
+/// The points of a sequence from an index on.
+pub(super) struct Set {
+    pub(super) sequence: Arc<dyn Sequence>,
+    pub(super) first: u64,
+}
+
+impl Set {
+    pub(super) fn point(&self, number: u64) -> Vec<f64> {
+        self.sequence.point(self.first + number)
+    }
+
+    fn has(&self, number: u64) -> bool {
+        self.first + number < self.sequence.len()
+    }
+}
+
+/// A set as far as it has grown.
+struct Candidate {
+    set: Set,
+    boxes: EmptyBoxes,
+    /// The largest hole before each of the points.
+    holes: Vec<f64>,
+}
+
+impl Candidate {
+    fn hole(&self) -> f64 {
+        self.boxes.dispersion().lower
+    }
+
+    fn grow(&mut self) {
+        let point = self.set.point(self.holes.len() as u64);
+        self.holes.push(self.hole());
+        self.boxes.add(&point).expect("a point of the cube");
+    }
+}
+
+/// A row with the points that it has so far.
+pub(super) struct Row {
+    discrete: Vec<usize>,
+    existing: Vec<Vec<f64>>,
+    /// Those of the existing points.
+    boxes: EmptyBoxes,
+    /// What there is to choose from; nothing before the first point.
+    candidates: Vec<Candidate>,
+    /// The one with the smallest hole.
+    best: usize,
+    /// With how many points it is looked again whether they are enough, where the boxes do not tell.
+    look_at: usize,
+}
+
+impl Row {
+    pub(super) fn new(dims: usize, discrete: Vec<usize>, existing: Vec<Vec<f64>>, limits: &Limits) -> Self {
+        let mut boxes = EmptyBoxes::at_most(dims, limits.most).expect("there is an axis");
+        existing.iter().for_each(|point| boxes.add(point).expect("a point of the cube"));
+        Self { discrete, existing, boxes, candidates: Vec::new(), best: 0, look_at: 1 }
+    }
+
+    fn boxes(&self) -> &EmptyBoxes {
+        self.candidates.get(self.best).map_or(&self.boxes, |best| &best.boxes)
+    }
+
+    /// The largest hole of the set with the smallest.
+    pub(super) fn hole(&self) -> f64 {
+        self.boxes().dispersion().lower
+    }
+
+    /// How many points it has been given.
+    pub(super) fn points(&self) -> usize {
+        self.candidates.first().map_or(0, |candidate| candidate.holes.len())
+    }
+
+    /// Whether no hole is above epsilon.
+    pub(super) fn is_enough(&mut self, limits: &Limits) -> bool {
+        let hole = self.boxes().dispersion();
+        let points = self.existing.len() + self.points();
+        if hole.upper <= limits.epsilon || hole.lower > limits.epsilon || points < self.look_at {
+            return hole.upper <= limits.epsilon;
+        }
+        // Boxes were forgotten that may be larger: search.
+        self.look_at = points + points.div_ceil(20);
+        let best = self.candidates.get(self.best);
+        let new = best.into_iter().flat_map(|best| (0..best.holes.len()).map(|number| best.set.point(number as u64)));
+        let points: Vec<Vec<f64>> = self.existing.iter().cloned().chain(new).collect();
+        let points = PointSet::new(points[0].len(), &points).expect("points of the cube");
+        is_at_most(&points, limits.epsilon, limits.deadline) == Some(true)
+    }
+
+    /// Gives it the sets that it chooses from, its own block first.
+    pub(super) fn choose_from(&mut self, sets: Vec<Set>) {
+        let candidate = |set| Candidate { set, boxes: self.boxes.clone(), holes: Vec::new() };
+        self.candidates = sets.into_iter().map(candidate).collect();
+    }
+
+    /// Gives it one more point. Whether it goes on then: its holes are too large, and there are more points.
+    pub(super) fn grow(&mut self, limits: &Limits) -> bool {
+        let number = self.points() as u64;
+        if !self.candidates.iter().any(|candidate| candidate.set.has(number)) {
+            return false;
+        }
+        self.candidates.retain(|candidate| candidate.set.has(number));
+        self.candidates.iter_mut().for_each(Candidate::grow);
+        self.let_go(limits.most);
+        let holes = self.candidates.iter().map(Candidate::hole).enumerate();
+        self.best = holes.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(best, _)| best);
+        !self.is_enough(limits)
+    }
+
+    /// Lets go of the worst sets where there are too many boxes to keep them all.
+    fn let_go(&mut self, most: usize) {
+        let boxes = |candidates: &[Candidate]| candidates.iter().map(|candidate| candidate.boxes.len()).sum::<usize>();
+        let worst = |candidates: &[Candidate]| {
+            let holes = candidates.iter().map(Candidate::hole).enumerate();
+            holes.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(worst, _)| worst)
+        };
+        while self.candidates.len() > 2 && boxes(&self.candidates) > most.min(MOST_COMPARED) {
+            self.candidates.remove(1 + worst(&self.candidates[1..]));
+        }
+        if self.candidates.len() == 2 && boxes(&self.candidates) > most {
+            self.candidates.remove(worst(&self.candidates));
+        }
+    }
+
+    /// The row with the set that it has chosen, and the largest hole before each point; nothing if it has none.
+    pub(super) fn chosen(mut self) -> (Vec<usize>, Option<(Set, Vec<f64>)>) {
+        let chosen = (!self.candidates.is_empty()).then(|| self.candidates.swap_remove(self.best));
+        (self.discrete, chosen.map(|candidate| (candidate.set, candidate.holes)))
+    }
+}

@@ -1,0 +1,92 @@
+//! What generated tests are good for, in notes: what random rows promise, how far a budget came through the rows of a
+//! covering array, and the (k, epsilon) that was reached. All but the promise is measured.
+
+use super::array::combinations;
+use crate::cli::output::{bracket, digits};
+use crate::coverage::kwise::KwiseError;
+use crate::coverage::kwise_dispersion::row_dispersion;
+use crate::coverage::{Bracket, Deadline};
+use crate::estimate::Discrete;
+use crate::{Error, Measure, Promise, Tests};
+use std::collections::BTreeSet;
+use std::time::Duration;
+
+/// Tests that were generated after existing ones, and what is known of them.
+pub(super) struct Reached {
+    /// All of them, the existing ones first.
+    pub tests: Tests,
+    pub existing: usize,
+    /// The largest hole of any row; none in a space without continuous parameters.
+    pub epsilon: Option<Bracket>,
+}
+
+impl Reached {
+    /// Measures the rows of tests for so long.
+    pub fn of(tests: Tests, existing: usize, limit: Duration) -> Self {
+        let dims = tests.space.dims();
+        let epsilon = (dims > 0).then(|| row_dispersion(dims, &tests.points, Deadline::after(limit)));
+        Self { tests, existing, epsilon }
+    }
+
+    /// What random rows promise, and beside it what the tests do.
+    pub fn kept(&self, promise: &Promise) -> Result<String, Error> {
+        let added = &self.tests.points[self.existing..];
+        let rows: BTreeSet<&Vec<usize>> = added.iter().map(|test| &test.discrete).collect();
+        let measured = match self.discrete(Some(promise.k)) {
+            Ok(found) => found.map(|found| format!("{} of {} covered", found.covered, found.valid)),
+            Err(Error::Kwise(error @ KwiseError::TooMany { .. })) => Some(format!("not, for {error}")),
+            Err(error) => return Err(error),
+        };
+        let (drawn, different) = (promise.rows, rows.len());
+        let measured = measured.expect("there are discrete parameters");
+        Ok(format!(
+            "{drawn} random rows, {different} of them different; guaranteed: {}; measured: {measured}",
+            promise.words()
+        ))
+    }
+
+    /// How far the tests came through the rows of a covering array, where they are not all of it.
+    pub fn cut_short(&self, rows: &[Vec<usize>]) -> Result<Option<String>, Error> {
+        let tested: BTreeSet<&Vec<usize>> = self.tests.points.iter().map(|test| &test.discrete).collect();
+        let used = rows.iter().filter(|row| tested.contains(row)).count();
+        if used == rows.len() {
+            return Ok(None);
+        }
+        let covered = |found: Discrete| {
+            let Discrete { k, covered, valid, .. } = found;
+            format!("{used} of the {} rows: {covered} of {valid} {}", rows.len(), combinations(k))
+        };
+        Ok(self.discrete(self.tests.k)?.map(covered))
+    }
+
+    /// The (k, epsilon) of the tests.
+    pub fn words(&self) -> Result<String, Error> {
+        let Some(rows) = self.epsilon else { return Ok("nothing continuous to measure".to_owned()) };
+        let epsilon = if rows.is_exact() { digits(rows.upper) } else { format!("at most {}", digits(rows.upper)) };
+        if self.tests.space.levels().is_empty() {
+            return Ok(format!("dispersion {epsilon}: measured"));
+        }
+        Ok(match self.discrete(self.tests.k)? {
+            Some(discrete) if discrete.covered == discrete.valid => {
+                format!("({}, {epsilon})-covering: measured", discrete.k)
+            }
+            Some(discrete) => {
+                format!("not {}-wise complete; over the rows there are, dispersion {epsilon}", discrete.k)
+            }
+            None => format!("dispersion {epsilon} over the rows: measured"),
+        })
+    }
+
+    /// Why the tests are not what was asked for, where `end` came before all of them; nothing where they are.
+    pub fn missed(&self, epsilon: f64, end: &str) -> Option<String> {
+        let rows = self.epsilon.filter(|rows| rows.upper > epsilon)?;
+        Some(match rows.lower > epsilon {
+            true => format!("{end} came before epsilon {epsilon}"),
+            false => format!("{end} came, and whether epsilon {epsilon} is reached is not known: {}", bracket(&rows)),
+        })
+    }
+
+    fn discrete(&self, k: Option<usize>) -> Result<Option<Discrete>, Error> {
+        Ok(self.tests.measure(&[Measure::KWise], k, Some(Duration::ZERO))?.discrete.flatten())
+    }
+}

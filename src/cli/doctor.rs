@@ -1,0 +1,170 @@
+//! `paracosm-fuzz doctor`: what this machine draws with, and how fast.
+
+use super::output::{Format, Table, json};
+use super::{Failure, Found, print};
+use crate::engine::driver;
+use crate::engine::{Run, Setup};
+use crate::render::{Adapter, Camera, Outputs, RenderError, Renderer, Scene, Stages, View};
+use crate::scenarios;
+use clap::Args;
+use nalgebra::{Isometry3, Vector3};
+use serde::Serialize;
+use std::time::{Duration, Instant};
+
+/// What `doctor` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// How to print it [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+/// What is said of this machine.
+#[derive(Debug, Serialize)]
+struct Findings {
+    version: &'static str,
+    target: &'static str,
+    threads: usize,
+    /// The drivers that can be put to the test.
+    drivers: Vec<&'static str>,
+    adapter: Option<Described>,
+    /// Why there is no adapter, or why it cannot be used, and what to do.
+    problem: Option<String>,
+    speed: Vec<Speed>,
+}
+
+#[derive(Debug, Serialize)]
+struct Described {
+    name: String,
+    kind: String,
+    backend: String,
+    driver: String,
+    max_image: u32,
+    max_layers: u32,
+    max_buffer: u64,
+}
+
+/// How many images are drawn and read back in a second.
+#[derive(Debug, Serialize)]
+struct Speed {
+    width: u32,
+    height: u32,
+    outputs: &'static str,
+    frames_per_second: f64,
+}
+
+impl From<Adapter> for Described {
+    fn from(adapter: Adapter) -> Self {
+        let Adapter { name, driver, backend, kind, max_image, max_layers, max_buffer } = adapter;
+        Self { name, kind, backend, driver, max_image, max_layers, max_buffer }
+    }
+}
+
+/// The sizes at which people train and look, and what is drawn at each.
+const SIZES: [(u32, u32, &str); 3] = [(128, 128, "rgb, depth, semantic"), (200, 66, "rgb"), (640, 480, "rgb, shadows")];
+/// How many cameras are drawn at once, and for how long at each size.
+const BATCH: usize = 64;
+const LONG_ENOUGH: Duration = Duration::from_millis(700);
+
+impl Options {
+    pub fn execute(&self) -> Result<Found, Failure> {
+        let mut findings = Findings {
+            version: env!("CARGO_PKG_VERSION"),
+            target: env!("PARACOSM_TARGET"),
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
+            drivers: driver::ALL.iter().map(|kind| kind.name).collect(),
+            adapter: None,
+            problem: None,
+            speed: Vec::new(),
+        };
+        match Renderer::new() {
+            Err(error) => {
+                findings.adapter = crate::render::adapter().ok().map(Described::from);
+                findings.problem = Some(error.to_string());
+            }
+            Ok(mut renderer) => {
+                findings.adapter = Some(renderer.adapter().clone().into());
+                match speeds(&mut renderer)? {
+                    Ok(speed) => findings.speed = speed,
+                    Err(error) => findings.problem = Some(error.to_string()),
+                }
+            }
+        }
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => table(&findings),
+            Format::Json => json(&findings),
+        })?;
+        Ok(Found::Nothing)
+    }
+}
+
+fn table(findings: &Findings) -> String {
+    let mut table = Table::default();
+    table.heading(&format!("paracosm {} on {}", findings.version, findings.target));
+    table.row("threads", &findings.threads.to_string());
+    table.row("drivers", &findings.drivers.join(", "));
+    match &findings.adapter {
+        None => table.row("graphics adapter", "none; only what asks for cameras needs one"),
+        Some(adapter) => {
+            table.row("graphics adapter", &format!("{} ({})", adapter.name, adapter.kind));
+            table.row("  driver", &format!("{}, by {}", adapter.driver, adapter.backend));
+            let (image, layers, buffer) = (adapter.max_image, adapter.max_layers, adapter.max_buffer);
+            let limits = format!("images of {image} pixels each way, {layers} at once, {} MB", buffer / 1_000_000);
+            table.row("  limits", &limits);
+        }
+    }
+    for speed in &findings.speed {
+        let Speed { width, height, outputs, frames_per_second } = speed;
+        table.row(&format!("  {width} x {height}"), &format!("{frames_per_second:.0} images/s ({outputs})"));
+    }
+    if let Some(problem) = &findings.problem {
+        table.row("problem", problem);
+    }
+    table.finish()
+}
+
+/// How fast the beginning of the pedestrian study is drawn.
+fn speeds(renderer: &mut Renderer) -> Result<Result<Vec<Speed>, RenderError>, Failure> {
+    let program = scenarios::find("pedestrian-crossing")?;
+    let test = program.declare()?.nominal();
+    let mut run = Run::new(program, &test, Setup::asking_every(0.1))?;
+    run.advance();
+    let pose = run.bodies()[0].pose;
+    let pose = Isometry3::new(Vector3::new(pose.position.x, pose.position.y, 1.35), Vector3::z() * pose.heading);
+    let scene = Stages::default().of(run.network()).scene(&run);
+    let mut measured = Vec::new();
+    for (width, height, outputs) in SIZES {
+        let wanted = Outputs {
+            rgb: true,
+            depth: outputs.contains("depth"),
+            semantic: outputs.contains("semantic"),
+            shadows: outputs.contains("shadows"),
+            ..Outputs::default()
+        };
+        let camera = Camera::new(width, height, 24.0, 36.0)?;
+        match speed(renderer, &scene, &camera, pose, wanted) {
+            Ok(frames_per_second) => measured.push(Speed { width, height, outputs, frames_per_second }),
+            Err(error) => return Ok(Err(error)),
+        }
+    }
+    Ok(Ok(measured))
+}
+
+fn speed(
+    renderer: &mut Renderer,
+    scene: &Scene,
+    camera: &Camera,
+    pose: Isometry3<f64>,
+    wanted: Outputs,
+) -> Result<f64, RenderError> {
+    let view = View { without: Some(1), ..View::new(scene, camera, pose) };
+    let views = [view; BATCH];
+    // The first batch brings meshes to the adapter and makes its programs.
+    renderer.render(&views[..1], wanted)?;
+    let begin = Instant::now();
+    let mut drawn = 0;
+    while drawn == 0 || begin.elapsed() < LONG_ENOUGH {
+        drawn += renderer.render(&views, wanted)?.len();
+    }
+    Ok(drawn as f64 / begin.elapsed().as_secs_f64())
+}

@@ -1,0 +1,174 @@
+//! `paracosm-fuzz likelihood`: how likely a test fails.
+
+use super::output::{Format, Table, digits, json, plural, value_words};
+use super::progress::bar;
+use super::subject::Subject;
+use super::{Failure, Found, Verbosity, on_interrupt, print};
+use crate::coverage::{Distribution, Domain, Parameter, Record};
+use crate::likelihood::{Likelihood, Method, Question, of_study};
+use crate::{Campaign, Error, Study};
+use clap::Args;
+use serde::Serialize;
+use std::num::NonZeroUsize;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz likelihood --distribution speed=normal:1.4,0.3 --distribution distance=beta:2,5
+  paracosm-fuzz likelihood --open lanes --distribution lanes=weights:7,2,1 --budget 5000
+  paracosm-fuzz likelihood --method subset --budget 20000 --set driver.ttc=3
+  paracosm-fuzz likelihood --system 'python3 model.py' --space SPACE.toml        its parameters say how they are distributed
+
+monte-carlo counts independent tests; its interval holds whatever the system does.
+qmc spreads tests evenly: its interval is narrower where few parameters decide.
+subset goes down to rare failures level by level, where monte-carlo finds next to none in thousands of tests.
+All are estimates: none of them shows that a system does not fail.";
+
+/// What `likelihood` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    #[command(flatten)]
+    subject: Subject,
+    /// How a parameter is distributed over its domain: uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or of a
+    /// choice weights:W,W,.. in the order of its values [default: what SPACE.toml says, or uniform]
+    #[arg(long, value_name = "NAME=DISTRIBUTION")]
+    distribution: Vec<String>,
+    /// How the probability is estimated: monte-carlo, qmc or subset
+    #[arg(long, value_name = "METHOD", default_value = "monte-carlo")]
+    method: String,
+    /// How many tests to run at most
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    budget: usize,
+    /// How often the interval is to cover the truth
+    #[arg(long, value_name = "C", default_value_t = 0.95)]
+    confidence: f64,
+    /// The source of all chance
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// How many tests run at a time; results do not depend on it [default: one per core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// How to print it [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+/// The answer with what it is about, for programs.
+#[derive(Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    likelihood: &'a Likelihood,
+    budget: usize,
+    seed: u64,
+    /// The open parameters with their distributions.
+    parameters: Record<&'a Distribution>,
+    /// The first sentence of the table.
+    sentence: String,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        let study = self.study(verbosity)?;
+        let method: Method = self.method.parse().map_err(Error::Usage)?;
+        let question = Question { method, budget: self.budget, confidence: self.confidence, seed: self.seed };
+        let mut campaign = Campaign::new(&study)?;
+        if let Some(jobs) = self.jobs {
+            campaign = campaign.jobs(jobs);
+        }
+        on_interrupt(campaign.stop());
+        let bar = bar(verbosity, self.budget);
+        let mut failures = 0;
+        let likelihood = of_study(&study, &campaign, &question, |trial| {
+            failures += usize::from(trial.is_failure());
+            bar.set_message(format!("{failures} fail"));
+            bar.inc(1);
+            Ok(())
+        });
+        bar.finish_and_clear();
+        let likelihood = likelihood?;
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => table(&likelihood, &study),
+            Format::Json => json(&Report {
+                likelihood: &likelihood,
+                budget: self.budget,
+                seed: self.seed,
+                parameters: study.space.parameters().iter().map(|p| (p.name.clone(), &p.distribution)).collect(),
+                sentence: sentence(&likelihood),
+            }),
+        })?;
+        Ok(Found::Nothing)
+    }
+
+    fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
+        let mut study = self.subject.study(verbosity)?;
+        for (i, text) in self.distribution.iter().enumerate() {
+            let (name, distribution) = text.split_once('=').ok_or_else(|| {
+                Error::Usage(format!("--distribution {text}: expected NAME=DISTRIBUTION, such as speed=beta:2,5"))
+            })?;
+            if self.distribution[..i].iter().any(|other| other.split('=').next() == Some(name)) {
+                return Err(Error::Usage(format!("parameter `{name}` is distributed twice")));
+            }
+            let distribution: Distribution =
+                distribution.parse().map_err(|message| Error::Usage(format!("--distribution {text}: {message}")))?;
+            if study.subject.fixed().get(name).is_some() {
+                let message = format!("parameter `{name}` is fixed; --open {name} lets tests vary it");
+                return Err(Error::Usage(message));
+            }
+            study.space = study.space.clone().with_distribution(name, distribution)?;
+        }
+        Ok(study)
+    }
+}
+
+fn sentence(likelihood: &Likelihood) -> String {
+    let Likelihood { probability, lower, upper, confidence, .. } = likelihood;
+    let [probability, lower, upper] = [probability, lower, upper].map(|share| three_digits(*share));
+    let confidence = digits(100.0 * confidence);
+    format!("A test fails with probability {probability} ({confidence} % interval {lower} to {upper})")
+}
+
+fn table(likelihood: &Likelihood, study: &Study) -> String {
+    let mut table = Table::default();
+    table.heading(&format!("{}, if parameters are distributed so:", sentence(likelihood)));
+    for parameter in study.space.parameters() {
+        table.row(&parameter.name, &distribution(parameter));
+    }
+    let Likelihood { method, interval, evaluations, failures, unjudged, notes, .. } = likelihood;
+    table.heading("How it was found:");
+    table.row("method", method.name());
+    table.row("interval", interval);
+    let failed = format!("{}, of which {failures} failed", plural(*evaluations, "test"));
+    let unjudged = if *unjudged > 0 { format!(" and {unjudged} could not be judged") } else { String::new() };
+    table.row("evaluations", &format!("{failed}{unjudged}"));
+    for note in notes {
+        table.row("note", note);
+    }
+    table.finish()
+}
+
+/// How a parameter is distributed over what.
+fn distribution(parameter: &Parameter) -> String {
+    let unit = parameter.unit.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
+    let each = if parameter.signal.is_some() { ", each of its coordinates" } else { "" };
+    match (&parameter.domain, &parameter.distribution) {
+        (Domain::Interval { lo, hi }, distribution) => {
+            format!("{distribution} on {}..{}{unit}{each}", digits(*lo), digits(*hi))
+        }
+        (Domain::Choice(levels), Distribution::Weights(weights)) => {
+            let sum: f64 = weights.iter().sum();
+            let share = |(level, weight)| format!("{}: {}", value_words(level), digits(weight / sum));
+            let shares: Vec<String> = levels.iter().zip(weights).map(share).collect();
+            format!("{}{unit}{each}", shares.join(", "))
+        }
+        (Domain::Choice(levels), distribution) => {
+            let levels: Vec<String> = levels.iter().map(value_words).collect();
+            format!("{distribution} over {}{unit}{each}", levels.join(", "))
+        }
+    }
+}
+
+/// As many digits as an estimate has at most.
+fn three_digits(share: f64) -> String {
+    let rounded = format!("{share:.2e}");
+    let number: f64 = rounded.parse().expect("it was written so");
+    if number != 0.0 && number < 1e-4 { rounded } else { digits(number) }
+}

@@ -1,0 +1,101 @@
+//! `paracosm-fuzz record`: a campaign, and what cameras see of its tests.
+
+use super::output::plural;
+use super::run::{self, Conducted};
+use super::{Failure, Found, Verbosity, print};
+use crate::record::{Cameras, Dataset, Kept, Projector};
+use crate::{Error, Trial};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz record pedestrian-crossing --strategy halton --budget 20 --out images
+  paracosm-fuzz record pedestrian-crossing --outputs rgb,depth --colours 7 --out images
+  paracosm-fuzz record --print-cameras > cameras.toml       the cameras, to be changed ..
+  paracosm-fuzz record pedestrian-crossing --cameras cameras.toml     .. and used
+
+Beside the files of the campaign, the folder 000017 of --out has for test 17, and for each camera, here `front`:
+  front/rgb/000003.png       colours of its fourth image, in sRGB
+  front/semantic/000003.png  the class of each pixel, numbered as CARLA numbers them
+  front/depth/000003.png     metres along the camera's axis times 256, 16 bits; 0 where there is none (as in KITTI)
+  front/instance/000003.png  which thing it is, 16 bits; 0 for what is no thing
+  annotations.json           boxes in the COCO format, with occlusion and boxes in space
+  calibration.json           the cameras' matrices and where they are mounted
+  controls.csv               for each image its time, speed, and what the driver answered to it";
+
+/// What `record` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    #[command(flatten)]
+    run: run::Options,
+    /// The cameras on the car under test [default: what --print-cameras prints]
+    #[arg(long, value_name = "CAMERAS.toml")]
+    cameras: Option<PathBuf>,
+    /// Print the file of the default camera, with an explanation of everything, and do nothing else
+    #[arg(long)]
+    print_cameras: bool,
+    /// What to keep, some of: rgb, semantic, depth, instance, boxes
+    #[arg(long, value_name = "LIST", default_value = "rgb,semantic,depth,instance,boxes")]
+    outputs: String,
+    /// Paint the cars and people of every test in colours drawn from this seed: what should not matter to a driver
+    #[arg(long, value_name = "SEED")]
+    colours: Option<u64>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        if self.print_cameras {
+            return print(Cameras::DEFAULT).map(|()| Found::Nothing);
+        }
+        if self.run.subject.is_system() {
+            return Err(
+                Error::Usage("--system: what a system does cannot be seen, so it cannot be recorded".into()).into()
+            );
+        }
+        let cameras = self.cameras.as_deref().map_or_else(|| Ok(Cameras::default()), Cameras::read)?;
+        let kept: Kept = self.outputs.parse()?;
+        // Before a long campaign, not after it, it is said that nothing can be drawn.
+        let mut projector = Projector::new(&cameras, kept.outputs())?;
+        let conducted = self.run.conduct(verbosity)?;
+        let dataset = Dataset::open(&self.run.out, cameras, kept, self.colours)?;
+        self.record(&conducted, &dataset, &mut projector, verbosity)?;
+        Ok(conducted.found)
+    }
+
+    fn record(
+        &self,
+        conducted: &Conducted,
+        dataset: &Dataset,
+        projector: &mut Projector,
+        verbosity: Verbosity,
+    ) -> Result<(), Failure> {
+        let Conducted { study, trials, stop, .. } = conducted;
+        let (sound, broken): (Vec<&Trial>, Vec<&Trial>) = trials.iter().partition(|trial| trial.covers());
+        let left: Vec<&Trial> = sound.into_iter().filter(|trial| !dataset.has(trial)).collect();
+        let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(left.len() as u64) };
+        let template = "{bar:40.blue/white} {human_pos}/{human_len} tests recorded  {eta} left  {msg}";
+        let bar = bar.with_style(ProgressStyle::with_template(template).expect("the template is one"));
+        let mut images = 0;
+        for trial in &left {
+            if stop.load(Ordering::Relaxed) {
+                bar.finish_and_clear();
+                let message = "the tests recorded so far are whole; --resume goes on from there";
+                return Err(format!("{}\n  {message}", Error::Interrupted).into());
+            }
+            images += dataset.record(study, trial, projector)?;
+            bar.set_message(plural(images, "image"));
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        let (tests, drawn) = (plural(left.len(), "test"), plural(images, "image"));
+        verbosity.note(format_args!("{drawn} of {tests} written to {}", self.run.out.display()));
+        if !broken.is_empty() {
+            verbosity
+                .note(format_args!("{} ended as invalid or in an error: nothing to see", plural(broken.len(), "test")));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,85 @@
+//! `paracosm-fuzz replay FILE...`: regression tests once more.
+
+use super::output::{Format, digits, json};
+use super::{Failure, Found, print};
+use crate::oracles::Verdict;
+use crate::{Error, Expectation, Regression, Replayed, Trial};
+use serde_json::json;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Runs regression files, all of them whatever becomes of one, and says what became of each. `expect` overrides what they
+/// say. The first that broke, or did not repeat what the same software has recorded, is the failure in the end.
+pub(super) fn replay(files: &[PathBuf], expect: Option<Expectation>, format: Option<Format>) -> Result<Found, Failure> {
+    let mut regressions = Vec::new();
+    for file in files {
+        let mut regression = Regression::read(file)?;
+        regression.expect = expect.unwrap_or(regression.expect);
+        regressions.push((file, regression));
+    }
+    let (mut lines, mut objects) = (String::new(), Vec::new());
+    let (mut found, mut wrong) = (Found::Nothing, None);
+    for (file, regression) in &regressions {
+        let replayed = regression.run().map_err(|error| Error::content(file, None, error.to_string()))?;
+        let words = words(regression, &replayed);
+        let _ = writeln!(lines, "{}: {words}", file.display());
+        objects.push(json!({"file": file, "about": regression.about, "replayed": replayed}));
+        if replayed.trial.is_failure() {
+            found = Found::Violation;
+        }
+        if broke(&replayed.trial) || replayed.same_trace == Some(false) {
+            wrong.get_or_insert(format!("{}: {words}", file.display()));
+        }
+    }
+    print(&match Format::or_fitting(format) {
+        Format::Table => lines,
+        Format::Json => json(&objects),
+    })?;
+    wrong.map_or(Ok(found), |message| Err(message.into()))
+}
+
+/// What became of a test.
+fn words(regression: &Regression, replayed: &Replayed) -> String {
+    let Replayed { expect, as_expected, same_trace, trial } = replayed;
+    let end = match trial.verdict {
+        Verdict::Fail => format!("fails, {}", violations(regression, replayed)),
+        Verdict::Pass => "passes".to_owned(),
+        verdict => {
+            format!("ends {verdict}{}", trial.error.iter().map(|error| format!(", {error}")).collect::<String>())
+        }
+    };
+    let note = match (expect, as_expected) {
+        (_, true) => ", as expected".to_owned(),
+        (Expectation::Fail, false) if trial.is_failure() => {
+            format!(", expected to violate {}", regression.violates.join(", "))
+        }
+        _ if broke(trial) => format!(", expected to {}", if *expect == Expectation::Fail { "fail" } else { "pass" }),
+        (Expectation::Fail, false) => ", expected to fail: if that is mended, set its `expect` to \"pass\"".to_owned(),
+        (Expectation::Pass, false) => ", EXPECTED TO PASS".to_owned(),
+    };
+    let hash = |hash: &Option<String>| hash.clone().unwrap_or_else(|| "none".to_owned());
+    let trace = match same_trace {
+        Some(false) => {
+            format!("; its trace hash is {}, recorded {}", hash(&trial.trace_hash), hash(&regression.trace_hash))
+        }
+        Some(true) => "; the same trace".to_owned(),
+        None => String::new(),
+    };
+    format!("{end}{note}{trace}")
+}
+
+/// Whether a test came to nothing.
+fn broke(trial: &Trial) -> bool {
+    matches!(trial.verdict, Verdict::Error | Verdict::Invalid)
+}
+
+/// What a test violates, and by how much.
+fn violations(regression: &Regression, replayed: &Replayed) -> String {
+    let requirements = regression.study().requirements.iter();
+    let violated = requirements.filter_map(|requirement| {
+        let worth = replayed.trial.robustness(&requirement.id)?;
+        let violated = replayed.trial.violates(&requirement.id);
+        violated.then(|| format!("{} {} {}", requirement.id, digits(worth), requirement.unit).trim_end().to_owned())
+    });
+    violated.collect::<Vec<_>>().join(", ")
+}

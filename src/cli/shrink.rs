@@ -1,0 +1,77 @@
+//! `paracosm-fuzz shrink`: the simplest test near a failing one that still fails.
+
+use super::output::{Format, Table, digits, json, plural, value_words};
+use super::replay::logged;
+use super::{Failure, Found, Verbosity, print};
+use crate::{Change, Folder, Regression, Sameness, Shrunk, Study};
+use clap::Args;
+use std::path::PathBuf;
+
+/// What `shrink` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The folder of the campaign
+    dir: PathBuf,
+    /// The index of a failing test
+    index: usize,
+    /// How many tests to run at most
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    budget: usize,
+    /// Keep to the failure mode as well: what the car touches, with which side, and whether it brakes then
+    #[arg(long)]
+    same_mode: bool,
+    /// Write the simplest test to a regression file that does not exist yet, which `replay` runs
+    #[arg(long, value_name = "FILE.json")]
+    save: Option<PathBuf>,
+    /// How to print the outcome [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        self.save.as_deref().map_or(Ok(()), Regression::check_path)?;
+        let (study, trials) = Folder::read(&self.dir)?;
+        let same = if self.same_mode { Sameness::Mode } else { Sameness::Requirements };
+        let shrunk = Shrunk::of(&study, logged(&self.dir, &trials, self.index)?, same, self.budget)?;
+        if let Some(path) = &self.save {
+            let about = format!("{}: {}", study.subject.title(), shrunk.sentence());
+            Regression::new(about, &study, &shrunk.trial).write(path)?;
+            verbosity.note(format_args!("regression test written to {}", path.display()));
+        }
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => table(&study, &shrunk),
+            Format::Json => {
+                let mut printed = serde_json::json!(shrunk);
+                printed["sentence"] = shrunk.sentence().into();
+                json(&printed)
+            }
+        })?;
+        Ok(Found::Nothing)
+    }
+}
+
+fn table(study: &Study, shrunk: &Shrunk) -> String {
+    let mut table = Table::default();
+    table.heading(&format!("test {} {}", shrunk.index, shrunk.sentence()));
+    for change in &shrunk.parameters {
+        table.row(&change.name, &before_and_after(change));
+    }
+    for requirement in study.requirements.iter().filter(|requirement| shrunk.violates.contains(&requirement.id)) {
+        let value = shrunk.trial.robustness(&requirement.id).map(digits).unwrap_or_default();
+        table.row(&requirement.id, &format!("{value} {}", requirement.unit));
+    }
+    let left = if shrunk.minimal { "nothing simpler fails" } else { "a larger --budget may find a simpler one" };
+    table.row("found in", &format!("{}; {left}", plural(shrunk.runs, "run")));
+    table.finish()
+}
+
+fn before_and_after(change: &Change) -> String {
+    let Change { before, after, nominal, unit, .. } = change;
+    let unit = unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
+    let nominal = if *nominal { ", nominal" } else { "" };
+    match before == after {
+        true => format!("{}{unit}{nominal}, as before", value_words(after)),
+        false => format!("{} -> {}{unit}{nominal}", value_words(before), value_words(after)),
+    }
+}

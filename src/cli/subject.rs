@@ -1,0 +1,114 @@
+//! The options that say what is tested, which all verbs that run tests share.
+
+use super::Verbosity;
+use super::system::System;
+use crate::coverage::{Domain, Shape, Value};
+use crate::{Error, Study};
+use clap::Args;
+
+/// What is tested.
+#[derive(Debug, Args)]
+pub(super) struct Subject {
+    /// The world to test in; `paracosm-fuzz list` shows them all
+    #[arg(default_value = "pedestrian-crossing")]
+    scenario: String,
+    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one. With a SHAPE each test
+    /// lets it vary over time: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES, per-tick,
+    /// constant
+    #[arg(long, value_name = "NAME[:SHAPE][=LO..HI|=A,B,C]")]
+    open: Vec<String>,
+    /// Fix a parameter, a signal at one value or at A,B,C; or change a setting of the driver with driver.NAME=VALUE
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The system under test
+    #[arg(long, value_name = "NAME", default_value = "aeb")]
+    driver: String,
+    #[command(flatten)]
+    system: System,
+    /// Ask a formula of every trace, too; several times for several. Its requirements are called spec-1, spec-2, ..;
+    /// `paracosm-fuzz describe SCENARIO` shows the signals that it may speak of
+    #[arg(long, value_name = "FORMULA")]
+    spec: Vec<String>,
+}
+
+impl Subject {
+    /// Whether it is a system that others wrote.
+    pub fn is_system(&self) -> bool {
+        self.system.is_given()
+    }
+
+    /// The study of it, with all else as it is where nothing is said.
+    pub fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
+        let mut driver_settings = Vec::new();
+        let mut fixed = Vec::new();
+        let mut vehicle = None;
+        for text in &self.set {
+            let (name, value) = text.split_once('=').ok_or_else(|| {
+                Error::Usage(format!("--set {text}: expected NAME=VALUE, driver.NAME=VALUE or vehicle=MODEL"))
+            })?;
+            match name.strip_prefix("driver.") {
+                None if name == "vehicle" => vehicle = Some(value),
+                None if value.contains(',') => fixed.push((name, value.split(',').map(Value::parse).collect())),
+                None => fixed.push((name, Value::parse(value))),
+                Some(setting) => {
+                    let number = value
+                        .parse()
+                        .map_err(|_| Error::Usage(format!("--set {text}: found `{value}`, expected a number")))?;
+                    driver_settings.push((setting.to_owned(), number));
+                }
+            }
+        }
+        let mut study = match self.system.study(verbosity)? {
+            Some(study) => study,
+            None => Study::of(&self.scenario)?.driver(&self.driver, &driver_settings)?,
+        };
+        if let Some(model) = vehicle {
+            study = study.vehicle(model)?;
+        }
+        for text in &self.open {
+            let (name, over) = match text.split_once('=') {
+                None => (text.as_str(), None),
+                Some((name, over)) => (name, Some(domain(text, over)?)),
+            };
+            let (name, shape) = match name.split_once(':') {
+                None => (name, None),
+                Some((name, shape)) => (name, Some(signal(text, shape, &study)?)),
+            };
+            study = study.open(name, over)?;
+            if let Some(shape) = shape {
+                study = study.vary(name, shape)?;
+            }
+        }
+        for (i, (name, value)) in fixed.iter().enumerate() {
+            let opened = self.open.iter().any(|text| text.split(['=', ':']).next() == Some(name));
+            if opened || fixed[..i].iter().any(|(other, _)| other == name) {
+                return Err(Error::Usage(format!("parameter `{name}` is set and opened, or set twice")));
+            }
+            study = study.set(name, value.clone())?;
+        }
+        for formula in &self.spec {
+            study = study.spec(formula)?;
+        }
+        Ok(study)
+    }
+}
+
+/// Part of a parameter's domain as `--open` takes it: LO..HI or A,B,C.
+fn domain(text: &str, over: &str) -> Result<Domain, Error> {
+    let Some((lo, hi)) = over.split_once("..") else {
+        return Ok(Domain::Choice(over.split(',').map(Value::parse).collect()));
+    };
+    match (lo.parse(), hi.parse()) {
+        (Ok(lo), Ok(hi)) => Ok(Domain::Interval { lo, hi }),
+        _ => Err(Error::Usage(format!("--open {text}: found `{over}`, expected numbers LO..HI or values A,B,C"))),
+    }
+}
+
+/// How a parameter varies over time, as `--open` takes it.
+fn signal(text: &str, shape: &str, study: &Study) -> Result<Option<Shape>, Error> {
+    match shape {
+        "constant" => Ok(None),
+        "per-tick" => Ok(Some(Shape::PiecewiseConstant { pieces: study.subject.scenario()?.ticks() })),
+        shape => shape.parse().map(Some).map_err(|message| Error::Usage(format!("--open {text}: {message}"))),
+    }
+}

@@ -1,0 +1,343 @@
+//! Small decision trees: which ranges and levels tell failing tests from passing ones.
+//!
+//! CART (Breiman, Friedman, Olshen and Stone 1984): every split is the one that lessens Gini's impurity most, over all
+//! columns and all places between two different numbers. Levels without an order are sorted by their share of failures
+//! first; for two classes no division of them is better than the best in this order (their theorem 4.5; sides of too few
+//! tests are passed over). The leaf with
+//! the most to gain is split next, so the tree of fewer leaves is always the beginning of the tree of more.
+
+/// One column of the table that a tree explains: a value for each test.
+#[derive(Debug, Clone)]
+pub(crate) enum Column {
+    /// Numbers.
+    Numbers(Vec<f64>),
+    /// Levels without an order, and how many there are.
+    Levels(Vec<usize>, usize),
+}
+
+/// Tests by columns, and whether they failed.
+#[derive(Debug, Clone)]
+pub(crate) struct Table {
+    pub columns: Vec<Column>,
+    pub failed: Vec<bool>,
+}
+
+/// What is asked at a node.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Test {
+    /// Whether the number in a column is below this.
+    Below(usize, f64),
+    /// Whether the level in a column is one of those marked.
+    Among(usize, Vec<bool>),
+}
+
+/// A tree: its nodes, the first of which is the root.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Tree {
+    pub nodes: Vec<Node>,
+}
+
+/// A node with the tests that come to it.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    pub tests: usize,
+    pub failures: usize,
+    /// What is asked, and the nodes for yes and no; none at a leaf.
+    pub split: Option<(Test, [usize; 2])>,
+}
+
+impl Node {
+    /// Whether most of its tests failed.
+    pub(crate) fn fails(&self) -> bool {
+        2 * self.failures > self.tests
+    }
+}
+
+/// A split of some tests.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Split {
+    /// How much impurity it takes away, counted in tests.
+    pub gain: f64,
+    pub test: Test,
+}
+
+impl Table {
+    fn is_yes(&self, test: &Test, row: usize) -> bool {
+        match test {
+            Test::Below(column, limit) => matches!(&self.columns[*column], Column::Numbers(all) if all[row] < *limit),
+            Test::Among(column, levels) => matches!(&self.columns[*column], Column::Levels(all, _) if levels[all[row]]),
+        }
+    }
+
+    fn failures(&self, rows: &[usize]) -> usize {
+        rows.iter().filter(|&&row| self.failed[row]).count()
+    }
+
+    /// The best split of these rows with at least `least` of them on either side; the first of equals.
+    pub(crate) fn best_split(&self, rows: &[usize], least: usize) -> Option<Split> {
+        let splits = (0..self.columns.len()).filter_map(|column| match &self.columns[column] {
+            Column::Numbers(values) => self.split_numbers(rows, column, values, least),
+            Column::Levels(values, levels) => self.split_levels(rows, column, values, *levels, least),
+        });
+        splits.fold(None, |best: Option<Split>, split| match best {
+            Some(best) if best.gain >= split.gain => Some(best),
+            _ => Some(split),
+        })
+    }
+
+    fn split_numbers(&self, rows: &[usize], column: usize, values: &[f64], least: usize) -> Option<Split> {
+        let mut rows = rows.to_vec();
+        rows.sort_by(|&a, &b| values[a].total_cmp(&values[b]).then(a.cmp(&b)));
+        let counts: Vec<[usize; 2]> = rows.iter().map(|&row| [1, usize::from(self.failed[row])]).collect();
+        let apart = |i: usize| values[rows[i - 1]] < values[rows[i]];
+        let (gain, at) = best_cut(&counts, apart, least)?;
+        Some(Split { gain, test: Test::Below(column, round_between(values[rows[at - 1]], values[rows[at]])) })
+    }
+
+    fn split_levels(
+        &self,
+        rows: &[usize],
+        column: usize,
+        values: &[usize],
+        levels: usize,
+        least: usize,
+    ) -> Option<Split> {
+        let mut counts = vec![[0, 0]; levels];
+        for &row in rows {
+            counts[values[row]][0] += 1;
+            counts[values[row]][1] += usize::from(self.failed[row]);
+        }
+        let mut order: Vec<usize> = (0..levels).filter(|&level| counts[level][0] > 0).collect();
+        let share = |level: usize| counts[level][1] as f64 / counts[level][0] as f64;
+        order.sort_by(|&a, &b| share(b).total_cmp(&share(a)).then(a.cmp(&b)));
+        let sorted: Vec<[usize; 2]> = order.iter().map(|&level| counts[level]).collect();
+        let (gain, at) = best_cut(&sorted, |_| true, least)?;
+        let mut among = vec![false; levels];
+        order[..at].iter().for_each(|&level| among[level] = true);
+        Some(Split { gain, test: Test::Among(column, among) })
+    }
+}
+
+/// Where to cut a row of (tests, failures), and how much impurity that takes away; only where `apart` says so, and with at
+/// least so many tests on either side.
+fn best_cut(counts: &[[usize; 2]], apart: impl Fn(usize) -> bool, least: usize) -> Option<(f64, usize)> {
+    let all = counts.iter().fold([0, 0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
+    let mut left = [0, 0];
+    let mut best: Option<(f64, usize)> = None;
+    for cut in 1..counts.len() {
+        left = [left[0] + counts[cut - 1][0], left[1] + counts[cut - 1][1]];
+        let right = [all[0] - left[0], all[1] - left[1]];
+        if !apart(cut) || left[0] < least || right[0] < least {
+            continue;
+        }
+        let gain = impurity(all) - impurity(left) - impurity(right);
+        // What rounding leaves is no gain.
+        if gain > 1e-9 && best.is_none_or(|(other, _)| gain > other) {
+            best = Some((gain, cut));
+        }
+    }
+    best
+}
+
+/// Gini's impurity times the number of tests: `2 p (1 - p) n`.
+pub(crate) fn impurity([tests, failures]: [usize; 2]) -> f64 {
+    2.0 * failures as f64 * (tests - failures) as f64 / tests.max(1) as f64
+}
+
+/// A number between two others with as few digits as there are in the middle half of what lies between them.
+pub(crate) fn round_between(a: f64, b: f64) -> f64 {
+    let (middle, width) = (a + 0.5 * (b - a), b - a);
+    for digits in -12_i32..=15 {
+        let step = libm::exp10(f64::from(-digits));
+        // By way of its text, so that it is the number which is written so.
+        let number = (middle / step).round();
+        let text =
+            if digits > 0 { format!("{:.*}", digits as usize, number * step) } else { format!("{:.0}", number * step) };
+        let near = text.parse::<f64>().ok().filter(|x| (x - middle).abs() <= 0.25 * width && a < *x && *x < b);
+        if let Some(near) = near {
+            return near;
+        }
+    }
+    if a < middle && middle < b { middle } else { b }
+}
+
+impl Tree {
+    /// The tree of these rows with at most so many leaves, each of at least `least` tests.
+    pub(crate) fn grow(table: &Table, rows: &[usize], leaves: usize, least: usize) -> Self {
+        let leaf = |rows: &[usize]| Node { tests: rows.len(), failures: table.failures(rows), split: None };
+        let mut tree = Self { nodes: vec![leaf(rows)] };
+        let mut open = vec![(0, rows.to_vec(), table.best_split(rows, least))];
+        for _ in 1..leaves {
+            let gain = |split: &Option<Split>| split.as_ref().map_or(0.0, |split| split.gain);
+            let best = (0..open.len()).rev().max_by(|&a, &b| gain(&open[a].2).total_cmp(&gain(&open[b].2)));
+            let Some(best) = best.filter(|&best| open[best].2.is_some()) else { break };
+            let (node, rows, Some(Split { test, .. })) = open.remove(best) else { break };
+            let sides: (Vec<usize>, Vec<usize>) = rows.into_iter().partition(|&row| table.is_yes(&test, row));
+            let children = [tree.nodes.len(), tree.nodes.len() + 1];
+            for (child, rows) in children.into_iter().zip([sides.0, sides.1]) {
+                tree.nodes.push(leaf(&rows));
+                let split = table.best_split(&rows, least);
+                open.push((child, rows, split));
+            }
+            tree.nodes[node].split = Some((test, children));
+        }
+        tree
+    }
+
+    /// The tree as it was when it had so many leaves.
+    pub(crate) fn with_leaves(&self, leaves: usize) -> Self {
+        let kept = (2 * leaves - 1).min(self.nodes.len());
+        let mut nodes = self.nodes[..kept].to_vec();
+        for node in &mut nodes {
+            node.split.take_if(|(_, children)| children[1] >= kept);
+        }
+        Self { nodes }
+    }
+
+    /// Whether a test is said to fail.
+    pub(crate) fn fails(&self, table: &Table, row: usize) -> bool {
+        let mut at = &self.nodes[0];
+        while let Some((test, [yes, no])) = &at.split {
+            at = &self.nodes[if table.is_yes(test, row) { *yes } else { *no }];
+        }
+        at.fails()
+    }
+
+    /// Takes back the splits of which both sides say the same.
+    pub(crate) fn pruned(&self) -> Self {
+        let mut tree = self.clone();
+        // Children come after their parents.
+        for index in (0..tree.nodes.len()).rev() {
+            let Some((_, [yes, no])) = &tree.nodes[index].split else { continue };
+            let (yes, no) = (&tree.nodes[*yes], &tree.nodes[*no]);
+            if yes.split.is_none() && no.split.is_none() && yes.fails() == no.fails() {
+                tree.nodes[index].split = None;
+            }
+        }
+        tree
+    }
+
+    /// The leaves that are said to fail, each with what is asked on the way to it and answered so.
+    pub(crate) fn failing(&self) -> Vec<(Vec<(&Test, bool)>, &Node)> {
+        let mut failing = Vec::new();
+        let mut open = vec![(0, Vec::new())];
+        while let Some((index, path)) = open.pop() {
+            let node = &self.nodes[index];
+            match &node.split {
+                None if node.fails() => failing.push((path, node)),
+                None => {}
+                Some((test, children)) => {
+                    for (child, answer) in children.iter().zip([true, false]).rev() {
+                        open.push((*child, path.iter().copied().chain([(test, answer)]).collect()));
+                    }
+                }
+            }
+        }
+        failing
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn tables() -> impl Strategy<Value = Table> {
+        let row = (0..12_u32, 0..6_u32, 0..4_usize, any::<bool>());
+        prop::collection::vec(row, 2..40).prop_map(|rows| Table {
+            columns: vec![
+                Column::Numbers(rows.iter().map(|row| f64::from(row.0) * 0.7).collect()),
+                Column::Numbers(rows.iter().map(|row| f64::from(row.1) - 3.0).collect()),
+                Column::Levels(rows.iter().map(|row| row.2).collect(), 4),
+            ],
+            failed: rows.iter().map(|row| row.3).collect(),
+        })
+    }
+
+    /// The greatest gain of all divisions that one question can make: every threshold, and every set of levels.
+    fn naive(table: &Table, least: usize) -> f64 {
+        let n = table.failed.len();
+        let gain = |yes: &dyn Fn(usize) -> bool| {
+            let count = |side: bool| {
+                let rows: Vec<usize> = (0..n).filter(|&row| yes(row) == side).collect();
+                [rows.len(), rows.iter().filter(|&&row| table.failed[row]).count()]
+            };
+            let (yes, no) = (count(true), count(false));
+            if yes[0].min(no[0]) < least {
+                return 0.0;
+            }
+            impurity([n, yes[1] + no[1]]) - impurity(yes) - impurity(no)
+        };
+        let mut best = 0.0_f64;
+        for column in &table.columns {
+            match column {
+                Column::Numbers(values) => {
+                    for limit in values {
+                        best = best.max(gain(&|row| values[row] < *limit));
+                    }
+                }
+                Column::Levels(values, levels) => {
+                    for set in 0..1_usize << levels {
+                        best = best.max(gain(&|row| set >> values[row] & 1 == 1));
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    proptest! {
+        #[test]
+        fn the_best_split_is_that_of_a_search_through_all(table in tables(), least in 1..4_usize) {
+            // With more than one test to a side the order of the levels is no proof any more, but of numbers all is tried.
+            let mut table = table;
+            table.columns.truncate(if least == 1 { 3 } else { 2 });
+            let rows: Vec<usize> = (0..table.failed.len()).collect();
+            let found = table.best_split(&rows, least);
+            let gain = naive(&table, least);
+            prop_assert!((found.as_ref().map_or(0.0, |split| split.gain) - gain).abs() < 1e-8, "{found:?} {gain}");
+            if let Some(Split { gain, test }) = found {
+                let count = |side: bool| {
+                    let rows = rows.iter().filter(|&&row| table.is_yes(&test, row) == side);
+                    [rows.clone().count(), rows.filter(|&&row| table.failed[row]).count()]
+                };
+                let (yes, no) = (count(true), count(false));
+                let all = impurity([yes[0] + no[0], yes[1] + no[1]]);
+                prop_assert!((all - impurity(yes) - impurity(no) - gain).abs() < 1e-8);
+            }
+        }
+
+        #[test]
+        fn smaller_trees_are_the_beginnings_of_larger_ones(table in tables(), leaves in 1..5_usize) {
+            let rows: Vec<usize> = (0..table.failed.len()).collect();
+            let (small, large) = (Tree::grow(&table, &rows, leaves, 1), Tree::grow(&table, &rows, 5, 1));
+            let cut = large.with_leaves(leaves);
+            prop_assert_eq!(small.nodes.len(), cut.nodes.len());
+            for &row in &rows {
+                prop_assert_eq!(small.fails(&table, row), cut.fails(&table, row));
+                prop_assert_eq!(small.fails(&table, row), small.pruned().fails(&table, row));
+            }
+        }
+
+        #[test]
+        fn thresholds_lie_between_the_numbers_that_they_divide(a in -1e6..1e6_f64, width in 1e-9..1e4_f64) {
+            let found = round_between(a, a + width);
+            prop_assert!(a < found && found < a + width);
+        }
+    }
+
+    #[test]
+    fn thresholds_are_short() {
+        let cases = [
+            ((4.0632, 4.1719), 4.1),
+            ((22.4, 23.9), 23.0),
+            ((0.0, 1.0), 0.5),
+            ((-3.0, -1.0), -2.0),
+            ((0.19, 0.31), 0.25),
+        ];
+        for ((a, b), expected) in cases {
+            assert_eq!(round_between(a, b), expected, "{a} {b}");
+        }
+        assert_eq!(round_between(1.0, 1.0_f64.next_up()), 1.0_f64.next_up());
+    }
+}

@@ -1,0 +1,210 @@
+//! The ways in which a campaign's tests fail: failing tests grouped by what went wrong, not by where they are in the space.
+//!
+//! Two failures are of one mode if they violate the same requirements, and the car touched the same object with the same
+//! side while doing the same (driving, braking or standing). What words tell no further apart, figures do: the
+//! critical time, the way that the car had come by then, and its speed. Where one of them leaves a [gap](gap::groups) the
+//! mode is two.
+
+mod gap;
+#[cfg(test)]
+mod tests;
+mod words;
+
+use crate::{Study, Trial};
+use gap::{Figure, Group};
+use paracosm_coverage::{Record, Value};
+use paracosm_engine::Metric;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The figures that divide modes: the name of the metric, which ends with the id of the requirement, and what is no
+/// difference in it: 0.5 s, 2 m, 1 m/s.
+const FIGURES: [(&str, f64); 3] = [("critical_time", 0.5), ("critical_travelled", 2.0), ("critical_speed", 1.0)];
+
+/// The failure modes of a campaign.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Modes {
+    /// How many tests failed.
+    pub failures: usize,
+    /// The ways in which they did, the most frequent first.
+    pub modes: Vec<Mode>,
+}
+
+/// Failing tests in which the same went wrong.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mode {
+    /// What sets it apart, in a few words: `no-collision/pedestrian/left/braking`; `#2` where figures divide it further.
+    pub name: String,
+    /// What happens, in a sentence.
+    pub words: String,
+    /// How many tests fail so.
+    pub count: usize,
+    /// The index of a typical one: the one nearest to the medians of the figures.
+    pub representative: usize,
+    /// The index of the one that is worst.
+    pub worst: usize,
+    /// What they violate.
+    pub violates: Vec<String>,
+    /// What the car touched, and how.
+    pub contact: Option<Touch>,
+    /// The least and the greatest critical time (s), way come (m) and speed (m/s) of the car then.
+    pub figures: Record<[f64; 2]>,
+    /// Where they are in the space: from the least to the greatest value of a continuous parameter, all values of a
+    /// discrete one.
+    pub parameters: Record<Extent>,
+    /// Their indices.
+    pub trials: Vec<usize>,
+}
+
+/// A contact of the car under test.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Touch {
+    /// The name of the object.
+    pub with: String,
+    /// What it is taken for.
+    pub class: String,
+    /// The side of the car.
+    pub face: String,
+    /// What the car was doing: `driving`, `braking` or `standing`.
+    pub motion: String,
+}
+
+/// The values of a parameter among some tests.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Extent {
+    /// From here to there.
+    Interval([f64; 2]),
+    /// All of them, in the order of the choice.
+    Values(Vec<Value>),
+}
+
+impl Modes {
+    /// Groups the failing trials of a study.
+    pub fn of(study: &Study, trials: &[Trial]) -> Self {
+        let failing: Vec<&Trial> = trials.iter().filter(|trial| trial.is_failure()).collect();
+        let mut kinds: BTreeMap<(Vec<String>, Option<Touch>), Vec<&Trial>> = BTreeMap::new();
+        for trial in &failing {
+            let violates = trial.violated().map(str::to_owned).collect();
+            kinds.entry((violates, Touch::of(trial))).or_default().push(trial);
+        }
+        let mut modes: Vec<Mode> = kinds.iter().flat_map(|(kind, trials)| divided(study, kind, trials)).collect();
+        modes.sort_by_key(|mode| (std::cmp::Reverse(mode.count), mode.trials[0]));
+        Self { failures: failing.len(), modes }
+    }
+}
+
+impl Touch {
+    /// How a trial ended, if the car touched anything.
+    pub(crate) fn of(trial: &Trial) -> Option<Self> {
+        let word = |name: &str| match trial.metric(name) {
+            Some(Metric::Word(word)) => word.clone(),
+            _ => None,
+        };
+        let [with, class] = [word("contact_with")?, word("contact_class")?];
+        Some(Self { with, class, face: word("contact_face")?, motion: word("contact_motion")? })
+    }
+}
+
+/// The modes of trials that words do not tell apart.
+fn divided(study: &Study, (violates, contact): &(Vec<String>, Option<Touch>), trials: &[&Trial]) -> Vec<Mode> {
+    let figures = figures(violates, trials);
+    let known: Vec<Figure> =
+        figures.iter().map(|(_, values, resolution)| Figure { values, resolution: *resolution }).collect();
+    let mut groups = gap::groups(trials.len(), &known);
+    groups.sort_by_key(|group| group.members[0]);
+    let several = groups.len() > 1;
+    let parts = [Some(violates.join("+")), contact.as_ref().map(Touch::name)];
+    let name = parts.into_iter().flatten().collect::<Vec<_>>().join("/");
+    let mode = |(i, Group { members, set_apart_by }): (usize, Group)| {
+        let all: Vec<&Trial> = members.iter().map(|member| trials[*member]).collect();
+        let ranges: Vec<(&str, [f64; 2])> = figures
+            .iter()
+            .map(|(name, values, _)| (*name, range(members.iter().map(|member| values[*member]))))
+            .collect();
+        let typical = typical(study, trials, &members, &known);
+        let apart: Vec<&str> = set_apart_by.iter().map(|figure| figures[*figure].0).collect();
+        Mode {
+            name: if several { format!("{name}#{}", i + 1) } else { name.clone() },
+            words: words::of(violates, contact.as_ref(), trials[typical], &ranges, &apart),
+            count: members.len(),
+            representative: trials[typical].index,
+            worst: all.iter().min_by(|a, b| severity(study, a).total_cmp(&severity(study, b))).map_or(0, |t| t.index),
+            violates: violates.clone(),
+            contact: contact.clone(),
+            figures: ranges.into_iter().map(|(name, range)| (name.to_owned(), range)).collect(),
+            parameters: extents(study, &all),
+            trials: all.iter().map(|trial| trial.index).collect(),
+        }
+    };
+    groups.into_iter().enumerate().map(mode).collect()
+}
+
+impl Touch {
+    fn name(&self) -> String {
+        format!("{}/{}/{}", self.with, self.face, self.motion)
+    }
+}
+
+/// The figures that all trials have, of the requirement that was the first to be violated in most of them.
+fn figures(violates: &[String], trials: &[&Trial]) -> Vec<(&'static str, Vec<f64>, f64)> {
+    let of = |trial: &Trial, figure: &str, id: &str| match trial.metric(&format!("{figure}.{id}")) {
+        Some(Metric::Number(number)) if number.is_finite() => Some(*number),
+        _ => None,
+    };
+    let time = |trial: &Trial, id: &str| of(trial, FIGURES[0].0, id).unwrap_or(f64::INFINITY);
+    let first = |trial: &Trial| violates.iter().min_by(|a, b| time(trial, a).total_cmp(&time(trial, b)));
+    let all = FIGURES.iter().filter_map(|(name, resolution)| {
+        let values: Option<Vec<f64>> = trials.iter().map(|trial| of(trial, name, first(trial)?)).collect();
+        Some((*name, values?, *resolution))
+    });
+    all.collect()
+}
+
+/// The one of some trials that comes nearest to the medians of the figures, by the figure in which it is farthest off,
+/// each in shares of its range; among equals the worst.
+fn typical(study: &Study, trials: &[&Trial], members: &[usize], figures: &[Figure]) -> usize {
+    let scales: Vec<(f64, f64)> = figures
+        .iter()
+        .map(|figure| {
+            let mut values: Vec<f64> = members.iter().map(|member| figure.values[*member]).collect();
+            values.sort_by(f64::total_cmp);
+            (values[values.len() / 2], (values[values.len() - 1] - values[0]).max(figure.resolution))
+        })
+        .collect();
+    let off = |member: usize| {
+        let off =
+            figures.iter().zip(&scales).map(|(figure, (median, range))| (figure.values[member] - median).abs() / range);
+        off.fold(0.0, f64::max)
+    };
+    let rank = |a: &usize, b: &usize| {
+        off(*a).total_cmp(&off(*b)).then(severity(study, trials[*a]).total_cmp(&severity(study, trials[*b])))
+    };
+    members.iter().copied().min_by(rank).expect("a mode has a test")
+}
+
+/// The worst robustness in multiples of its scale: less is worse.
+fn severity(study: &Study, trial: &Trial) -> f64 {
+    study.worst(trial).map_or(0.0, |(_, robustness)| robustness)
+}
+
+/// The least and the greatest.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| [least.min(value), most.max(value)])
+}
+
+/// Where some trials are in the space.
+fn extents(study: &Study, trials: &[&Trial]) -> Record<Extent> {
+    let extent = |name: &str, levels: Option<&[Value]>| {
+        let scalars = trials.iter().filter_map(|trial| trial.test.get(name)).flat_map(Value::scalars);
+        match levels {
+            None => Extent::Interval(range(scalars.filter_map(Value::number))),
+            Some(levels) => {
+                let there: Vec<&Value> = scalars.collect();
+                Extent::Values(levels.iter().filter(|level| there.contains(level)).cloned().collect())
+            }
+        }
+    };
+    let parameters = study.space.parameters().iter();
+    parameters.map(|parameter| (parameter.name.clone(), extent(&parameter.name, parameter.levels()))).collect()
+}

@@ -1,0 +1,169 @@
+//! The probability of failure behind the marks of a failure map: a shade, the line at one half, a hatch where it is not sure
+//! on which side of it a place is, and a bar that says which shade means what.
+
+use super::contour::contour;
+use super::map::Result;
+use super::{FAMILY, INK};
+use crate::failure_estimate::{FailureEstimate, decided};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// So many shades are told apart: runs of cells of one shade are one rectangle.
+const SHADES: usize = 20;
+
+/// From all pass to all fail, between them white: pale ends of Paul Tol's sunset scheme, so that marks stand out.
+const PASSING: [f64; 3] = [171.0, 206.0, 230.0];
+const FAILING: [f64; 3] = [250.0, 178.0, 140.0];
+
+const HATCH: RGBColor = RGBColor(0xa8, 0xa8, 0xa8);
+
+/// The colour of a probability.
+fn colour(probability: f64) -> RGBColor {
+    let shade = ((probability * SHADES as f64) as usize).min(SHADES - 1);
+    let off = (shade as f64 + 0.5) / SHADES as f64 * 2.0 - 1.0;
+    let end = if off < 0.0 { PASSING } else { FAILING };
+    let channel = |i: usize| (255.0 + (end[i] - 255.0) * off.abs()).round() as u8;
+    RGBColor(channel(0), channel(1), channel(2))
+}
+
+/// A grid of cells, a node at each of their corners, in the pixels of an area.
+struct Cells<'a> {
+    estimate: &'a FailureEstimate,
+    size: (f64, f64),
+}
+
+impl<'a> Cells<'a> {
+    fn over<B: DrawingBackend>(area: &DrawingArea<B, Shift>, estimate: &'a FailureEstimate) -> Self {
+        let (width, height) = area.dim_in_pixel();
+        Self { estimate, size: (f64::from(width - 1), f64::from(height - 1)) }
+    }
+
+    fn columns(&self) -> usize {
+        self.estimate.x.len() - 1
+    }
+
+    fn rows(&self) -> usize {
+        self.estimate.y.len() - 1
+    }
+
+    /// Where a place of the grid is; the first row is at the bottom.
+    fn pixel(&self, (i, j): (f64, f64)) -> (i32, i32) {
+        let x = i / self.columns() as f64 * self.size.0;
+        let y = (1.0 - j / self.rows() as f64) * self.size.1;
+        (x.round() as i32, y.round() as i32)
+    }
+
+    /// The mean probability at a cell's corners.
+    fn probability(&self, i: usize, j: usize) -> f64 {
+        [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].iter().map(|&(i, j)| self.estimate.at(i, j).mean).sum::<f64>()
+            / 4.0
+    }
+
+    /// Whether any corner of a cell is not decided.
+    fn is_open(&self, i: usize, j: usize) -> bool {
+        [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].iter().any(|&(i, j)| decided(self.estimate.at(i, j)).is_none())
+    }
+}
+
+/// Draws the shades of an estimate over the whole of an area, whose sides are the axes.
+pub(super) fn draw_shades<B: DrawingBackend>(area: &DrawingArea<B, Shift>, estimate: &FailureEstimate) -> Result<B> {
+    let cells = Cells::over(area, estimate);
+    let at = |i: usize, j: usize| cells.pixel((i as f64, j as f64));
+    for j in 0..cells.rows() {
+        for (i, end, shade) in runs(cells.columns(), |i| Some(colour(cells.probability(i, j)))) {
+            area.draw(&Rectangle::new([at(i, j + 1), at(end, j)], shade.filled()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Draws the line at one half and the hatch over the same area; lengths are times `scale`.
+pub(super) fn draw_lines<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    estimate: &FailureEstimate,
+    scale: f64,
+) -> Result<B> {
+    let cells = Cells::over(area, estimate);
+    let at = |i: usize, j: usize| cells.pixel((i as f64, j as f64));
+    // Along each diagonal, every other one: a run of open cells is one stroke.
+    for diagonal in (1 - cells.rows() as isize..cells.columns() as isize).step_by(2) {
+        let begin = (-diagonal).max(0) as usize;
+        let column = |step: usize| (begin + step).wrapping_add_signed(diagonal);
+        let steps = (cells.rows() - begin).min(cells.columns() - column(0));
+        let open = |step: usize| cells.is_open(column(step), begin + step).then_some(());
+        for (first, end, ()) in runs(steps, open) {
+            let ends = [at(column(first), begin + first), at(column(end), begin + end)];
+            area.draw(&PathElement::new(ends, HATCH.stroke_width(scale.round() as u32)))?;
+        }
+    }
+    for line in contour(estimate.x.len(), estimate.y.len(), 0.5, |i, j| estimate.at(i, j).mean) {
+        let pixels: Vec<(i32, i32)> = line.into_iter().map(|place| cells.pixel(place)).collect();
+        area.draw(&PathElement::new(pixels, INK.stroke_width((2.0 * scale).round() as u32)))?;
+    }
+    Ok(())
+}
+
+/// Runs of equal values, each with its first place and the one after its last; nothing where there is none.
+fn runs<T: PartialEq>(len: usize, value: impl Fn(usize) -> Option<T>) -> Vec<(usize, usize, T)> {
+    let mut runs: Vec<(usize, usize, T)> = Vec::new();
+    for at in 0..len {
+        match (runs.last_mut(), value(at)) {
+            (Some((_, end, last)), Some(value)) if *end == at && *last == value => *end = at + 1,
+            (_, Some(value)) => runs.push((at, at + 1, value)),
+            (_, None) => {}
+        }
+    }
+    runs
+}
+
+/// Draws the bar of shades along the left side of an area, from `top` to `bottom`, with its label to the right.
+pub(super) fn draw_bar<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    (top, bottom): (i32, i32),
+    label: &str,
+    text: f64,
+) -> Result<B> {
+    let width = text.round() as i32;
+    let y = |share: f64| bottom - (share * f64::from(bottom - top)).round() as i32;
+    for shade in 0..SHADES {
+        let (low, high) = (shade as f64 / SHADES as f64, (shade + 1) as f64 / SHADES as f64);
+        area.draw(&Rectangle::new([(0, y(high)), (width, y(low))], colour(0.5 * (low + high)).filled()))?;
+    }
+    area.draw(&Rectangle::new([(0, top), (width, bottom)], INK.stroke_width(1)))?;
+    let style = TextStyle::from((FAMILY, 0.85 * text).into_font()).color(&INK);
+    for tick in [0.0, 0.25, 0.5, 0.75, 1.0] {
+        let number = format!("{:.0} %", 100.0 * tick);
+        let (_, height) = area.estimate_text_size(&number, &style)?;
+        area.draw(&PathElement::new([(width, y(tick)), (width + width / 3, y(tick))], INK.stroke_width(1)))?;
+        area.draw(&Text::new(number, (width + width / 2, y(tick) - (0.42 * f64::from(height)) as i32), style.clone()))?;
+    }
+    let style = style.transform(FontTransform::Rotate90);
+    let (length, _) = area.estimate_text_size(label, &style)?;
+    area.draw(&Text::new(label.to_owned(), ((3.7 * text) as i32, (top + bottom - length as i32) / 2), style))
+}
+
+/// Draws what the line and the hatch mean, from a place on.
+pub(super) fn draw_key<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    (mut x, y): (i32, i32),
+    text: f64,
+    scale: f64,
+) -> Result<B> {
+    let (side, stroke) = ((0.4 * text).round() as i32, scale.round() as u32);
+    let style = TextStyle::from((FAMILY, 0.9 * text).into_font()).color(&INK);
+    for (label, is_line) in [("50 % fail", true), ("undecided", false)] {
+        if is_line {
+            area.draw(&PathElement::new([(x, y), (x + 3 * side, y)], INK.stroke_width(2 * stroke)))?;
+        } else {
+            for step in 0..3 {
+                let left = x + step * side;
+                area.draw(&PathElement::new([(left, y + side), (left + side, y - side)], HATCH.stroke_width(stroke)))?;
+            }
+        }
+        x += 4 * side;
+        let (width, height) = area.estimate_text_size(label, &style)?;
+        area.draw(&Text::new(label, (x, y - (0.42 * f64::from(height)) as i32), style.clone()))?;
+        x += width as i32 + (1.8 * text) as i32;
+    }
+    Ok(())
+}

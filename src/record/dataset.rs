@@ -1,0 +1,250 @@
+//! A labelled data set: a folder for each test, with the images of its cameras and all that is known of them.
+//!
+//! A test's folder gets its name when it is whole, so that one that is there is done, whatever happened since.
+
+use super::coco::Annotations;
+use super::image::{Pixels, depth_words, write};
+use super::{Cameras, Film, Picture, Projector, Shot};
+use crate::folder::write_whole;
+use crate::{Error, Study, Trial};
+use paracosm_coverage::{did_you_mean, nearest};
+use paracosm_render::{Outputs, Stages};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+/// What the recording is of, beside the campaign's own files.
+const RECORDING: &str = "recording.json";
+
+/// What is kept of what cameras see.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Kept {
+    /// Colours.
+    pub rgb: bool,
+    /// The class of every pixel.
+    pub semantic: bool,
+    /// How far away it is.
+    pub depth: bool,
+    /// Which thing it is.
+    pub instance: bool,
+    /// The boxes around things.
+    pub boxes: bool,
+}
+
+impl Kept {
+    /// Everything.
+    pub const ALL: Self = Self { rgb: true, semantic: true, depth: true, instance: true, boxes: true };
+
+    /// What has to be drawn.
+    pub fn outputs(self) -> Outputs {
+        Outputs {
+            rgb: self.rgb,
+            depth: self.depth,
+            semantic: self.semantic || self.boxes,
+            instance: self.instance || self.boxes,
+            alone: self.boxes,
+            ..Outputs::default()
+        }
+    }
+}
+
+impl FromStr for Kept {
+    type Err = Error;
+
+    /// Some of `rgb,semantic,depth,instance,boxes`.
+    fn from_str(list: &str) -> Result<Self, Error> {
+        const NAMES: [&str; 5] = ["rgb", "semantic", "depth", "instance", "boxes"];
+        let mut found = [false; 5];
+        for name in list.split(',').map(str::trim) {
+            let Some(place) = NAMES.iter().position(|known| *known == name) else {
+                let (known, meant) = (NAMES.join(", "), did_you_mean(&nearest(name, NAMES)));
+                return Err(Error::Usage(format!("there is no output `{name}`, expected some of {known}{meant}")));
+            };
+            found[place] = true;
+        }
+        let [rgb, semantic, depth, instance, boxes] = found;
+        Ok(Self { rgb, semantic, depth, instance, boxes })
+    }
+}
+
+/// What a data set is, so that one is never continued as another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Recording {
+    kept: Kept,
+    /// The seed of colours, where they are drawn.
+    colours: Option<u64>,
+    cameras: Cameras,
+}
+
+/// A data set in the folder of its campaign.
+#[derive(Debug)]
+pub struct Dataset {
+    folder: PathBuf,
+    recording: Recording,
+    stages: Stages,
+}
+
+impl Dataset {
+    /// The data set in the folder of a campaign, begun if there is none.
+    ///
+    /// # Errors
+    /// The folder cannot be written, or there is a data set of other cameras, outputs or colours.
+    pub fn open(folder: &Path, cameras: Cameras, kept: Kept, colours: Option<u64>) -> Result<Self, Error> {
+        let file = folder.join(RECORDING);
+        let recording = Recording { kept, colours, cameras };
+        if file.exists() {
+            let text = fs::read_to_string(&file).map_err(Error::file("read", &file))?;
+            let there: Recording =
+                serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
+            if there != recording {
+                let message = "holds a recording with other cameras, outputs or colours; repeat the command that began it, \
+                               or write elsewhere with --out";
+                return Err(Error::Usage(format!("{} {message}", file.display())));
+            }
+        } else {
+            write_whole(&file, pretty(&recording).as_bytes())?;
+        }
+        Ok(Self { folder: folder.to_owned(), recording, stages: Stages::default() })
+    }
+
+    /// Whether a test is recorded.
+    pub fn has(&self, trial: &Trial) -> bool {
+        self.path(trial).exists()
+    }
+
+    /// Records a test with a projector of its cameras and outputs: how many images it has.
+    ///
+    /// # Errors
+    /// The test is not the one that was logged, its images cannot be drawn, or its folder cannot be written.
+    pub fn record(&self, study: &Study, trial: &Trial, projector: &mut Projector) -> Result<usize, Error> {
+        let Recording { cameras, colours, .. } = &self.recording;
+        let mut film = Film::of(study, trial, cameras, &self.stages)?;
+        if let Some(seed) = colours {
+            film.repaint(*seed, trial.index);
+        }
+        let whole = self.path(trial);
+        let part = whole.with_extension("part");
+        if part.exists() {
+            fs::remove_dir_all(&part).map_err(Error::file("remove", &part))?;
+        }
+        let images = self.write(&film, projector, &part)?;
+        fs::rename(&part, &whole).map_err(Error::file("write", &whole))?;
+        Ok(images)
+    }
+
+    fn path(&self, trial: &Trial) -> PathBuf {
+        self.folder.join(format!("{:06}", trial.index))
+    }
+
+    fn write(&self, film: &Film, projector: &mut Projector, folder: &Path) -> Result<usize, Error> {
+        let Recording { cameras, kept, .. } = &self.recording;
+        let mut annotations = Annotations::new();
+        let mut controls = CONTROLS.to_owned();
+        let mut images = 0;
+        fs::create_dir_all(folder).map_err(Error::file("create", folder))?;
+        for (index, (name, camera)) in cameras.all.iter().enumerate() {
+            for kind in kept.kinds() {
+                let path = folder.join(name).join(kind);
+                fs::create_dir_all(&path).map_err(Error::file("create", &path))?;
+            }
+            projector.show(film, index, |pictures| {
+                images += pictures.len();
+                for (shot, picture) in &pictures {
+                    annotations.add(name, format!("{name}/rgb/{}", file_name(shot)), shot, picture);
+                    controls.push_str(&control_line(name, shot, camera.latency));
+                }
+                let camera = folder.join(name);
+                pictures.par_iter().try_for_each(|(shot, picture)| write_images(&camera, shot, picture, *kept))
+            })?;
+        }
+        let mut files = vec![("controls.csv", controls), ("calibration.json", pretty(&calibration(cameras)?))];
+        if kept.boxes {
+            files.push(("annotations.json", pretty(&annotations)));
+        }
+        for (name, contents) in files {
+            let path = folder.join(name);
+            fs::write(&path, contents).map_err(Error::file("write", &path))?;
+        }
+        Ok(images)
+    }
+}
+
+impl Kept {
+    /// The folders of a camera's images.
+    fn kinds(self) -> impl Iterator<Item = &'static str> {
+        let kinds =
+            [(self.rgb, "rgb"), (self.semantic, "semantic"), (self.depth, "depth"), (self.instance, "instance")];
+        kinds.into_iter().filter_map(|(kept, kind)| kept.then_some(kind))
+    }
+}
+
+fn file_name(shot: &Shot) -> String {
+    format!("{:06}.png", shot.number)
+}
+
+fn write_images(camera: &Path, shot: &Shot, picture: &Picture, kept: Kept) -> Result<(), Error> {
+    let frame = &picture.frame;
+    let size = [frame.width(), frame.height()];
+    let depth = frame.planar_depth().map(|depth| depth_words(&depth));
+    let images = [
+        (kept.rgb, "rgb", frame.rgb.as_deref().map(Pixels::Colours)),
+        (kept.semantic, "semantic", frame.semantic.as_deref().map(Pixels::Bytes)),
+        (kept.depth, "depth", depth.as_deref().map(Pixels::Words)),
+        (kept.instance, "instance", frame.instance.as_deref().map(Pixels::Words)),
+    ];
+    let wanted = images.into_iter().filter(|(kept, ..)| *kept);
+    for (folder, pixels) in wanted.filter_map(|(_, folder, pixels)| Some((folder, pixels?))) {
+        write(&camera.join(folder).join(file_name(shot)), pixels, size)?;
+    }
+    Ok(())
+}
+
+const CONTROLS: &str = "camera,frame,time,arrival,speed,travelled,steering,throttle,light,fog\n";
+
+/// A line of `controls.csv`. Names of cameras need no quotes.
+fn control_line(camera: &str, shot: &Shot, latency: f64) -> String {
+    let Shot { number, time, moment, control } = shot;
+    let arrival = time + latency;
+    let (speed, travelled, weather) = (moment.speed, moment.travelled, moment.weather);
+    let (steering, throttle) = (control.steering, control.throttle);
+    format!(
+        "{camera},{number},{time},{arrival},{speed},{travelled},{steering},{throttle},{},{}\n",
+        weather.light, weather.fog
+    )
+}
+
+/// What `calibration.json` holds: each camera's matrix, which takes x to the right, y down and z forward to pixels, and
+/// where it is mounted.
+fn calibration(cameras: &Cameras) -> Result<serde_json::Value, Error> {
+    let described = cameras.all.iter().map(|(name, mounted)| {
+        let camera = mounted.camera().map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))?;
+        let [width, height] = mounted.resolution;
+        let (focal, x, y) = (camera.focal_pixels(), f64::from(width) / 2.0, f64::from(height) / 2.0);
+        let pose = camera.mount().to_homogeneous();
+        let rows: Vec<Vec<f64>> = pose.row_iter().map(|row| row.iter().copied().collect()).collect();
+        let described = json!({
+            "width": width,
+            "height": height,
+            "K": [[focal, 0.0, x], [0.0, focal, y], [0.0, 0.0, 1.0]],
+            "camera_to_car": rows,
+            "rate": mounted.rate,
+            "latency": mounted.latency,
+            "position": mounted.position,
+            "yaw_pitch_roll": mounted.yaw_pitch_roll,
+        });
+        Ok((name.clone(), described))
+    });
+    let cameras = described.collect::<Result<serde_json::Map<_, _>, Error>>()?;
+    let axes = "of the car and of a camera: x forward, y to the left, z up, in metres; K takes x to the right, y down, \
+                z forward; depth images are metres along a camera's axis times 256, 0 for none";
+    Ok(json!({"axes": axes, "cameras": cameras}))
+}
+
+fn pretty(value: &impl Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(value).expect("what is recorded is always JSON");
+    text.push('\n');
+    text
+}

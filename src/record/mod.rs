@@ -1,0 +1,21 @@
+//! Camera recordings: what cameras on the car under test see of a test, as films and as labelled data sets.
+//!
+//! A test is run, and a [`Film`] keeps the moments at which its cameras open their shutters; a [`Projector`] draws them
+//! afterwards, many at once. The driver sees nothing of the pictures, so that nothing is lost by drawing them later, and a
+//! batch is as large with one test as with many. Everything, the noise of sensors too, depends on the test alone.
+
+mod cameras;
+mod clip;
+mod coco;
+mod dataset;
+mod film;
+mod image;
+mod projector;
+#[cfg(test)]
+mod tests;
+
+pub use cameras::{Cameras, Mounted};
+pub use clip::Clip;
+pub use dataset::{Dataset, Kept};
+pub use film::{Film, Moment, Shot};
+pub use projector::{Picture, Projector};

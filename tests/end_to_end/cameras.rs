@@ -1,0 +1,120 @@
+//! What cameras see of tests, by the command line: `record`, `replay --camera` and `doctor`.
+
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
+use std::fs;
+use std::path::Path;
+
+/// Whether there is something to draw with; a note where there is not, unless somebody insists.
+fn can_draw() -> bool {
+    match paracosm::render::adapter() {
+        Ok(_) => true,
+        Err(error) if std::env::var_os("PARACOSM_REQUIRE_ADAPTER").is_none_or(|required| required != "1") => {
+            eprintln!("SKIPPED: {error}");
+            false
+        }
+        Err(error) => panic!("PARACOSM_REQUIRE_ADAPTER=1: {error}"),
+    }
+}
+
+/// The default cameras, but small and slow.
+fn write_cameras(dir: &Path) {
+    let printed = stdout(&succeeds(fuzz(dir, &["record", "--print-cameras"])));
+    let small = printed.replace("[200, 66]", "[40, 24]").replace("rate = 10.0", "rate = 1.0");
+    assert_ne!(small, printed);
+    fs::write(dir.join("cameras.toml"), small).expect("a file");
+}
+
+#[test]
+fn a_recording_is_a_campaign_with_images_and_can_be_resumed_and_replayed() {
+    if !can_draw() {
+        return;
+    }
+    let dir = tempfile::tempdir().expect("a folder");
+    let dir = dir.path();
+    write_cameras(dir);
+    let record = ["record", "--budget", "2", "--cameras", "cameras.toml", "--out", "images"];
+    let first = succeeds(fuzz(dir, &record));
+    assert!(stderr(&first).contains("of 2 tests written to images"), "{}", stderr(&first));
+    let image = dir.join("images/000001/front/rgb/000000.png");
+    let before = fs::read(&image).expect("an image");
+    fs::remove_dir_all(dir.join("images/000001")).expect("a folder");
+    let resumed = succeeds(fuzz(dir, &[&record[..], &["--resume", "--jobs", "1"]].concat()));
+    assert!(stderr(&resumed).contains("of 1 test written to images"), "{}", stderr(&resumed));
+    assert!(before == fs::read(&image).expect("an image"));
+    refused(&fuzz(dir, &[&record[..], &["--resume", "--outputs", "rgb"]].concat()), &["other cameras, outputs"]);
+
+    let replay = ["replay", "images", "1", "--cameras", "cameras.toml", "--camera"];
+    succeeds(fuzz(dir, &[&replay[..], &["front.gif"]].concat()));
+    succeeds(fuzz(dir, &[&replay[..], &["front"]].concat()));
+    assert!(before == fs::read(dir.join("front/000000.png")).expect("an image"));
+    let film = fs::read(dir.join("front.gif")).expect("a film");
+    let mut frames = gif::DecodeOptions::new().read_info(&film[..]).expect("a GIF");
+    assert_eq!((frames.width(), frames.height()), (40, 24));
+    let mut count = 0;
+    while frames.read_next_frame().expect("a frame").is_some() {
+        count += 1;
+    }
+    assert_eq!(count, fs::read_dir(dir.join("front")).expect("a folder").count());
+    refused(&fuzz(dir, &[&replay[..], &["front.gif"]].concat()), &["front.gif exists"]);
+}
+
+#[test]
+fn what_cannot_be_recorded_is_said_before_anything_is_run() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let dir = dir.path();
+    succeeds(fuzz(dir, &["--budget", "2"]));
+    let film = |path| fuzz(dir, &["replay", "paracosm-out", "0", "--camera", path]);
+    refused(&film("front.mp4"), &["`.mp4`", "FILE.gif", "FOLDER"]);
+    refused(&fuzz(dir, &["record", "--outputs", "rgb,dept"]), &["no output `dept`", "`depth`"]);
+    fs::write(dir.join("cameras.toml"), "[camera.front]\nresolutoin = [1, 1]\n").expect("a file");
+    refused(
+        &fuzz(dir, &["record", "--cameras", "cameras.toml", "--out", "x"]),
+        &["cameras.toml, line 2", "resolution"],
+    );
+    fs::write(dir.join("space.toml"), "[[parameter]]\nname = \"x\"\ninterval = [0.0, 1.0]\n").expect("a file");
+    refused(&fuzz(dir, &["record", "--system", "cat", "--space", "space.toml"]), &["--system"]);
+    assert!(!dir.join("x").exists());
+}
+
+#[test]
+fn the_doctor_says_what_there_is_and_what_to_install_where_there_is_nothing() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let found: serde_json::Value =
+        serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &["doctor", "--format", "json"])))).expect("JSON");
+    assert_eq!(found["version"], env!("CARGO_PKG_VERSION"));
+    assert!(found["drivers"].as_array().expect("a list").iter().any(|name| name == "aeb"));
+    match paracosm::render::adapter() {
+        Ok(adapter) => {
+            assert_eq!(found["adapter"]["name"], adapter.name);
+            let speeds = found["speed"].as_array().expect("a list");
+            assert_eq!(speeds.len(), 3);
+            assert!(speeds.iter().all(|speed| speed["frames_per_second"].as_f64() > Some(0.0)));
+        }
+        Err(_) => {
+            assert!(found["adapter"].is_null());
+            assert!(found["problem"].as_str().expect("there is one").contains("mesa-vulkan-drivers"));
+        }
+    }
+}
+
+/// A machine whose drivers are hidden is one without an adapter.
+#[cfg(target_os = "linux")]
+#[test]
+fn without_an_adapter_only_what_needs_cameras_is_refused() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let blind = |arguments: &[&str]| {
+        std::process::Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"))
+            .args(arguments)
+            .env("VK_DRIVER_FILES", "/nonexistent")
+            .env("VK_ICD_FILENAMES", "/nonexistent")
+            .current_dir(dir.path())
+            .output()
+            .expect("the program starts")
+    };
+    succeeds(blind(&["--budget", "2"]));
+    refused(&blind(&["record", "--budget", "2", "--out", "images"]), &["mesa-vulkan-drivers"]);
+    refused(&blind(&["replay", "paracosm-out", "0", "--camera", "front.gif"]), &["mesa-vulkan-drivers"]);
+    assert!(!dir.path().join("images").exists());
+    let told = stdout(&succeeds(blind(&["doctor", "--format", "table"])));
+    assert!(told.contains("none") && told.contains("apt install mesa-vulkan-drivers"), "{told}");
+}

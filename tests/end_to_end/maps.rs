@@ -1,0 +1,142 @@
+//! Failure maps with the probability of failure, over any two parameters, and explanations in words.
+
+use crate::common::{fuzz, refused, stderr, stdout, succeeds};
+use paracosm::coverage::Point;
+use paracosm::generators::FailureModel;
+use paracosm::{Campaign, Study};
+use std::fs;
+use std::path::Path;
+
+/// A campaign of three numbers and a choice in `dir/out`.
+fn campaign(dir: &Path) -> String {
+    let arguments = ["--budget", "80", "--open", "friction", "--open", "lanes=2,4", "--format", "table"];
+    stdout(&succeeds(fuzz(dir, &[&arguments[..], &["--out", "out"]].concat())))
+}
+
+#[test]
+fn a_map_over_other_parameters_says_what_is_known_of_every_place() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path());
+    let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    assert!(read("failure-map.csv").starts_with("speed,distance,probability,deviation,decided\n"));
+    let map = ["map", "out", "--x", "distance", "--y", "friction"];
+    let said = stdout(&succeeds(fuzz(dir.path(), &map)));
+    assert!(said.contains("\"others\": [\n    \"speed\",\n    \"lanes\"\n  ]"), "{said}");
+    let (picture, numbers) = (read("failure-map.svg"), read("failure-map.csv"));
+    for text in ["distance (m)", "friction", "averaged over: speed, lanes", "probability of failure", "undecided"] {
+        assert!(picture.contains(text), "{text}");
+    }
+    assert!(picture.len() < 200_000, "{} bytes", picture.len());
+    let mut decided = 0;
+    for line in numbers.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let [x, y, p, deviation] = [0, 1, 2, 3].map(|i| fields[i].parse::<f64>().unwrap());
+        assert!((5.0..=60.0).contains(&x) && (0.2..=0.8).contains(&y), "{line}");
+        assert!((0.0..=1.0).contains(&p) && (0.0..=0.6).contains(&deviation), "{line}");
+        decided += usize::from(!fields[4].is_empty());
+    }
+    let places = numbers.lines().count() - 1;
+    let share = decided as f64 / places as f64;
+    let told: serde_json::Value = serde_json::from_str(&said).unwrap();
+    assert!((told["decided"].as_f64().unwrap() - share).abs() < 1e-12, "{said} {share}");
+    // Drawn again it is the same, and a file of one's own is left alone.
+    succeeds(fuzz(dir.path(), &[&map[..], &["--out", "mine.svg"]].concat()));
+    assert!(fs::read_to_string(dir.path().join("mine.svg")).unwrap() == picture);
+    refused(&fuzz(dir.path(), &[&map[..], &["--out", "mine.svg"]].concat()), &["mine.svg exists"]);
+}
+
+#[test]
+fn a_map_over_what_is_no_axis_is_refused_with_the_parameters_that_are() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path());
+    let map = |more: &[&str]| fuzz(dir.path(), &[&["map", "out"], more].concat());
+    refused(
+        &map(&["--x", "sped", "--y", "friction"]),
+        &["vary no `sped`", "did you mean `speed`", "distance, friction"],
+    );
+    refused(&map(&["--x", "lanes"]), &["`lanes` takes single values", "speed, distance, friction"]);
+    refused(&map(&["--x", "speed", "--y", "speed"]), &["both axes are `speed`"]);
+    refused(&map(&["--out", "map.gif"]), &["--out map.gif", ".svg or .png or .csv"]);
+    refused(&fuzz(dir.path(), &["map", "nowhere"]), &["nowhere"]);
+    let one = ["--budget", "9", "--set", "speed=2", "--out", "one"];
+    let said = stderr(&succeeds(fuzz(dir.path(), &one)));
+    assert!(said.contains("no failure map"), "{said}");
+    refused(&fuzz(dir.path(), &["map", "one"]), &["two continuous parameters"]);
+}
+
+#[test]
+fn where_all_tests_pass_the_map_has_marks_and_nothing_is_estimated() {
+    let dir = tempfile::tempdir().unwrap();
+    let open = ["--open", "distance=50..60", "--open", "speed=5..9", "--budget", "12", "--out", "out"];
+    succeeds(fuzz(dir.path(), &open));
+    assert!(dir.path().join("out/failure-map.svg").exists());
+    assert!(!dir.path().join("out/failure-map.csv").exists());
+    assert!(!dir.path().join("out/explanation.json").exists());
+    refused(
+        &fuzz(dir.path(), &["map", "out", "--out", "map.csv"]),
+        &["map.csv", "a test that fails and one that passes"],
+    );
+}
+
+#[test]
+fn a_campaign_says_in_words_when_tests_fail_and_how_far_that_can_be_trusted() {
+    let dir = tempfile::tempdir().unwrap();
+    let arguments = ["--driver", "cruise", "--budget", "120", "--out", "out"];
+    let summary = stdout(&succeeds(fuzz(dir.path(), &[&arguments[..], &["--format", "table"]].concat())));
+    let line = summary.lines().find(|line| line.contains("explanation")).unwrap();
+    let text = fs::read_to_string(dir.path().join("out/explanation.json")).unwrap();
+    let told: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert!(line.ends_with(told["words"].as_str().unwrap()), "{line} {text}");
+    // The rules are counted again from the table, by their words.
+    let table = fs::read_to_string(dir.path().join("out/trials.csv")).unwrap();
+    let tests: Vec<(f64, f64, bool)> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').collect::<Vec<_>>())
+        .map(|fields| (fields[1].parse().unwrap(), fields[2].parse().unwrap(), fields[3] == "fail"))
+        .collect();
+    let holds = |condition: &str, (speed, distance, _): &(f64, f64, bool)| {
+        let words: Vec<&str> = condition.split(' ').collect();
+        let value = if words[0] == "speed" { speed } else { distance };
+        let number = |i: usize| words[i].parse::<f64>().unwrap();
+        match words[1] {
+            ">" => *value > number(2),
+            "<" => *value < number(2),
+            _ => number(2) < *value && *value < number(4),
+        }
+    };
+    let rules = told["rules"].as_array().unwrap();
+    assert!(!rules.is_empty() && rules.len() < 5, "{text}");
+    for rule in rules {
+        let conditions: Vec<&str> = rule["conditions"].as_array().unwrap().iter().filter_map(|c| c.as_str()).collect();
+        let inside = tests.iter().filter(|test| conditions.iter().all(|condition| holds(condition, test)));
+        assert_eq!(rule["tests"], inside.clone().count(), "{text}");
+        assert_eq!(rule["failures"], inside.filter(|test| test.2).count(), "{text}");
+    }
+}
+
+/// The tests of a campaign in three parameters, with their robustness.
+fn three_parameters(strategy: &str, budget: usize) -> (Study, Vec<Point>, Vec<f64>) {
+    let study = Study::of("pedestrian-crossing").unwrap().open("friction", None).unwrap();
+    let study = study.strategy(strategy).unwrap().budget(budget).unwrap().seed(Some(1));
+    let (mut points, mut robustness) = (Vec::new(), Vec::new());
+    let campaign = Campaign::new(&study).unwrap();
+    campaign
+        .run(|trial| {
+            points.push(study.space.encode(&trial.test)?);
+            robustness.push(study.objective(trial).unwrap());
+            Ok(())
+        })
+        .unwrap();
+    (study, points, robustness)
+}
+
+#[test]
+fn after_200_tests_of_boundary_95_percent_of_the_map_are_told_right() {
+    let (study, tests, robustness) = three_parameters("boundary", 200);
+    let (_, map, truth) = three_parameters("random", 4000);
+    let model = FailureModel::fit(&study.space, &tests, &robustness).unwrap();
+    let told = model.probabilities(&map);
+    let right = told.iter().zip(&truth).filter(|(p, truth)| (**p > 0.5) == truth.is_sign_negative()).count();
+    assert!(right as f64 >= 0.95 * 4000.0, "{right} of 4000");
+}
