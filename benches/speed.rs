@@ -78,10 +78,10 @@ fn lidar_scans(bencher: Bencher) {
     let test = program.declare().unwrap().nominal();
     let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
     let mut run = Run::new(&program, &test, Setup::asking_every(driver.period())).unwrap();
-    driver.reset(&run.briefing());
+    driver.reset(&run.briefing()).unwrap();
     while run.time() < 30.0 {
         let Step::Need(observation) = run.advance() else { panic!("the car has come to its end") };
-        let control = driver.step(observation);
+        let control = driver.step(observation).unwrap();
         run.supply(control);
     }
     let mut lidar = Lidar::new(LidarSettings::default()).unwrap();

@@ -8,6 +8,7 @@ use crate::expected::Expected;
 use crate::steering::Steering;
 use crate::{Error, Study, Trial, Worker};
 use paracosm_coverage::Values;
+use paracosm_oracles::Verdict;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -126,22 +127,22 @@ impl<'a> Campaign<'a> {
         let hire = || Hired { campaign: self, worker: Some(self.worker().expect("one like it was made before")) };
         let work = |hired: &mut Hired, i: usize| hired.run(first + i, &tests[i]);
         let pool = pool(self.jobs.get().min(tests.len()).max(1))?;
-        let mut is_over = false;
+        let mut shown = 0;
         let result = in_order(&pool, 0..tests.len(), hire, work, |trial| {
-            if self.stop.load(Ordering::Relaxed) {
-                return Err(Error::Interrupted);
-            }
-            let shown = watch(&expected.check(trial)).and_then(|()| expected.go_on());
-            // Nobody has to wait for a system when the results are not wanted any more.
-            shown.inspect_err(|_| {
-                is_over = true;
-                self.stop.store(true, Ordering::Relaxed);
-            })
+            watch(&expected.check(trial))
+                .and_then(|()| expected.go_on())
+                .inspect(|()| shown += 1)
+                // Nobody has to wait for a system when the results are not wanted any more.
+                .inspect_err(|_| self.stop.store(true, Ordering::Relaxed))
         });
-        if is_over {
-            self.stop.store(false, Ordering::Relaxed);
+        match result {
+            Err(error) => {
+                self.stop.store(false, Ordering::Relaxed);
+                Err(error)
+            }
+            Ok(()) if shown < tests.len() => Err(Error::Interrupted),
+            Ok(()) => Ok(()),
         }
-        result
     }
 
     /// A worker that has nothing to do, or a new one.
@@ -162,8 +163,15 @@ struct Hired<'c, 'a> {
 }
 
 impl Hired<'_, '_> {
-    fn run(&mut self, index: usize, test: &Values) -> Trial {
-        self.worker.as_mut().expect("it is at work").run(index, test).0
+    /// A trial, unless the campaign was told to stop before it had ended.
+    fn run(&mut self, index: usize, test: &Values) -> Option<Trial> {
+        let stopped = || self.campaign.stop.load(Ordering::Relaxed);
+        if stopped() {
+            return None;
+        }
+        let (trial, _) = self.worker.as_mut().expect("it is at work").run(index, test);
+        let cut_off = trial.verdict == Verdict::Error && stopped();
+        (!cut_off).then_some(trial)
     }
 }
 

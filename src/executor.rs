@@ -2,7 +2,8 @@
 //!
 //! Workers take the next index as soon as they are free, so that what is finished is nearly a prefix; results
 //! wait for the ones before them and reach the sink in the order of their indices, whatever the number of
-//! workers. The first error of the sink stops the work.
+//! workers. The first error of the sink stops the work, and so does a worker that gives up: then the sink still sees
+//! what was finished before.
 
 use crate::Error;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -21,12 +22,12 @@ pub(crate) fn pool(workers: usize) -> Result<ThreadPool, Error> {
 }
 
 /// Calls `work` for every index on the threads of the pool, each with a worker of its own, and `sink` with the
-/// results in order.
+/// results in order, up to the first index at which a worker gave up.
 pub(crate) fn in_order<W, T: Send, E>(
     pool: &ThreadPool,
     indices: Range<usize>,
     new_worker: impl Fn() -> W + Sync,
-    work: impl Fn(&mut W, usize) -> T + Sync,
+    work: impl Fn(&mut W, usize) -> Option<T> + Sync,
     mut sink: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
     let next = AtomicUsize::new(indices.start);
@@ -40,7 +41,14 @@ pub(crate) fn in_order<W, T: Send, E>(
                 let mut worker = new_worker();
                 while !stop.load(Ordering::Relaxed) {
                     let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= indices.end || sender.send((index, work(&mut worker, index))).is_err() {
+                    if index >= indices.end {
+                        break;
+                    }
+                    let result = work(&mut worker, index);
+                    if result.is_none() {
+                        stop.store(true, Ordering::Relaxed);
+                    }
+                    if sender.send((index, result)).is_err() {
                         break;
                     }
                 }
@@ -52,6 +60,7 @@ pub(crate) fn in_order<W, T: Send, E>(
         for (index, result) in results {
             waiting.insert(index, result);
             while let Some(result) = waiting.remove(&due) {
+                let Some(result) = result else { return Ok(()) };
                 due += 1;
                 if let Err(error) = sink(result) {
                     stop.store(true, Ordering::Relaxed);
@@ -74,7 +83,7 @@ mod tests {
             let mut seen = Vec::new();
             let work = |_: &mut (), i: usize| {
                 std::thread::sleep(Duration::from_micros((i * 7919 % 50) as u64));
-                i
+                Some(i)
             };
             let result: Result<(), ()> = in_order(
                 &pool(jobs).unwrap(),
@@ -98,7 +107,7 @@ mod tests {
             &pool(2).unwrap(),
             0..1_000_000,
             || (),
-            |(), i| i,
+            |(), i| Some(i),
             |i| {
                 seen += 1;
                 if i == 10 { Err("full") } else { Ok(()) }
@@ -108,8 +117,23 @@ mod tests {
     }
 
     #[test]
+    fn what_was_finished_before_a_worker_gave_up_is_seen() {
+        for jobs in [1, 2, 8] {
+            let mut seen = Vec::new();
+            let work = |(): &mut (), i| (!(20..=22).contains(&i)).then_some(i);
+            let slow = |i| {
+                std::thread::sleep(Duration::from_millis(1));
+                seen.push(i);
+                Ok::<(), ()>(())
+            };
+            assert_eq!(in_order(&pool(jobs).unwrap(), 0..1000, || (), work, slow), Ok(()));
+            assert!(seen.iter().copied().eq(0..20), "{jobs} jobs: {seen:?}");
+        }
+    }
+
+    #[test]
     fn nothing_to_do_is_done_at_once() {
-        let result: Result<(), ()> = in_order(&pool(2).unwrap(), 7..7, || (), |(), _| (), |()| Err(()));
+        let result: Result<(), ()> = in_order(&pool(2).unwrap(), 7..7, || (), |(), _| Some(()), |()| Err(()));
         assert_eq!(result, Ok(()));
     }
 }

@@ -40,7 +40,7 @@ fn brakes_at(name: &str, curvature: f64, other: OnCircle) -> Option<f64> {
     // What comes of the noise of a sensor is no matter of bends.
     let exact = if name == "aeb" { vec![("noise".to_owned(), 0.0)] } else { vec![] };
     let mut driver = find(name).unwrap().build(&exact).unwrap();
-    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I });
+    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I }).unwrap();
     let period = driver.period();
     (0..(4.0 / period).round() as usize).map(|i| i as f64 * period).find(|time| {
         let travelled = SPEED * time;
@@ -66,7 +66,7 @@ fn brakes_at(name: &str, curvature: f64, other: OnCircle) -> Option<f64> {
             way: Way { ahead, ..Way::default() },
             others: vec![body],
         };
-        driver.step(&observation).throttle < 0.0
+        driver.step(&observation).unwrap().throttle < 0.0
     })
 }
 

@@ -1,6 +1,6 @@
 //! The car of a whole run brakes as the friction of its road allows, at any tick.
 
-use paracosm_engine::driver::Driver;
+use paracosm_engine::driver::{Driver, Fault};
 use paracosm_engine::{
     AutonomousVehicle, Briefing, Control, Observation, Outcome, Program, RoadSegment, Run, Scenario, Setup, eventually,
 };
@@ -13,10 +13,12 @@ impl Driver for FullBrakes {
         0.05
     }
 
-    fn reset(&mut self, _: &Briefing) {}
+    fn reset(&mut self, _: &Briefing) -> Result<(), Fault> {
+        Ok(())
+    }
 
-    fn step(&mut self, _: &Observation) -> Control {
-        Control { throttle: -1.0, steering: 0.0 }
+    fn step(&mut self, _: &Observation) -> Result<Control, Fault> {
+        Ok(Control { throttle: -1.0, steering: 0.0 })
     }
 }
 
@@ -61,9 +63,11 @@ fn a_control_out_of_range_ends_the_run_with_an_error_that_says_so() {
         fn period(&self) -> f64 {
             0.05
         }
-        fn reset(&mut self, _: &Briefing) {}
-        fn step(&mut self, observation: &Observation) -> Control {
-            Control { throttle: if observation.time < 1.0 { 0.0 } else { self.0 }, steering: 0.0 }
+        fn reset(&mut self, _: &Briefing) -> Result<(), Fault> {
+            Ok(())
+        }
+        fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+            Ok(Control { throttle: if observation.time < 1.0 { 0.0 } else { self.0 }, steering: 0.0 })
         }
     }
     for throttle in [1.5, f64::NAN] {

@@ -1,7 +1,7 @@
 //! The reference drivers drive a whole simulated car, and are told the truth.
 
 use nalgebra::Vector2;
-use paracosm_engine::driver::{Driver, find};
+use paracosm_engine::driver::{Driver, Fault, find};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{
     AutonomousVehicle, Briefing, Control, Mover, Observation, Outcome, Pedestrian, Program, RoadSegment, Scenario,
@@ -132,11 +132,13 @@ impl Driver for Witness {
         0.1
     }
 
-    fn reset(&mut self, _: &Briefing) {}
+    fn reset(&mut self, _: &Briefing) -> Result<(), Fault> {
+        Ok(())
+    }
 
-    fn step(&mut self, observation: &Observation) -> Control {
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         self.seen.push(observation.clone());
-        Control::default()
+        Ok(Control::default())
     }
 }
 

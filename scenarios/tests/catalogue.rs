@@ -86,14 +86,14 @@ fn in_turns(program: &Program, tests: &[Values], model: Model) -> Vec<Option<Str
     let mut runs: Vec<_> = tests.iter().map(|test| Run::new(program, test, setup).ok()).collect();
     let mut hashes = vec![None; tests.len()];
     for (run, driver) in runs.iter().zip(&mut drivers) {
-        run.iter().for_each(|run| driver.reset(&run.briefing()));
+        run.iter().for_each(|run| driver.reset(&run.briefing()).unwrap());
     }
     while runs.iter().any(Option::is_some) {
         for ((slot, driver), hash) in runs.iter_mut().zip(&mut drivers).zip(&mut hashes) {
             let Some(run) = slot else { continue };
             match run.advance() {
                 Step::Need(observation) => {
-                    let control = driver.step(observation);
+                    let control = driver.step(observation).unwrap();
                     run.supply(control);
                 }
                 Step::Done(outcome) => {

@@ -3,7 +3,7 @@
 use super::output::plural;
 use super::run::{self, Conducted};
 use super::{Failure, Found, Verbosity, print};
-use crate::record::{Cameras, Dataset, Kept, Projector};
+use crate::record::{Dataset, Kept, Projector, STANDARD_CAMERAS, read_cameras, standard_cameras};
 use crate::{Error, Trial};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -48,14 +48,14 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
         if self.print_cameras {
-            return print(Cameras::DEFAULT).map(|()| Found::Nothing);
+            return print(STANDARD_CAMERAS).map(|()| Found::Nothing);
         }
         if self.run.subject.is_system() {
             return Err(
                 Error::Usage("--system: what a system does cannot be seen, so it cannot be recorded".into()).into()
             );
         }
-        let cameras = self.cameras.as_deref().map_or_else(|| Ok(Cameras::default()), Cameras::read)?;
+        let cameras = self.cameras.as_deref().map_or_else(|| Ok(standard_cameras()), read_cameras)?;
         let kept: Kept = self.outputs.parse()?;
         // Before a long campaign, not after it, it is said that nothing can be drawn.
         let mut projector = Projector::new(&cameras, kept.outputs())?;

@@ -6,7 +6,7 @@ use super::{Failure, Found, Verbosity, on_interrupt, print, regressions};
 use crate::engine::Metric;
 use crate::engine::picture::Record;
 use crate::expected::Expected;
-use crate::record::{Cameras, Clip};
+use crate::record::{Clip, cameras_for_people, read_cameras};
 use crate::{Error, Expectation, Folder, Study, Subject, Trial, Worker, plot, write_trace};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -81,7 +81,7 @@ impl Options {
             .map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif]))
             .transpose()?;
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
-        let cameras = self.cameras.as_deref().map_or_else(|| Ok(Cameras::for_people()), Cameras::read)?;
+        let cameras = self.cameras.as_deref().map_or_else(|| Ok(cameras_for_people()), read_cameras)?;
         let seen = [("--draw", &self.draw), ("--camera", &self.camera)];
         let seen = seen.into_iter().find_map(|(option, file)| Some((option, file.as_ref()?)));
         if let (Some((option, file)), Subject::System(_)) = (seen, &study.subject) {

@@ -271,7 +271,7 @@ impl Plan {
             sets.push(set);
             Ok::<(), Error>(())
         };
-        in_order(&workers, 0..cases.len(), alone, measure, sink)?;
+        in_order(&workers, 0..cases.len(), alone, |alone, i| Some(measure(alone, i)), sink)?;
         let (cells, slopes) = workers.install(|| summary::summarise(&comparison, &sets));
         let cut_short = sets.iter().filter(|set| set.is_cut_short()).count();
         if cut_short > 0 {

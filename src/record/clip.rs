@@ -1,9 +1,10 @@
 //! What one camera sees of a test, for people: as a film in a GIF file, or as a folder of PNG files.
 
 use super::image::{Pixels, png};
-use super::{Cameras, Film, Projector};
+use super::{Film, Projector};
 use crate::folder::is_new;
 use crate::{Error, Study, Trial, plot};
+use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Outputs, Stages};
 use std::fs;
 use std::path::{Path, PathBuf};

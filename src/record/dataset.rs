@@ -4,10 +4,11 @@
 
 use super::coco::Annotations;
 use super::image::{Pixels, depth_words, write};
-use super::{Cameras, Film, Picture, Projector, Shot};
+use super::{Film, Picture, Projector, Shot, cameras};
 use crate::folder::write_whole;
 use crate::{Error, Study, Trial};
 use paracosm_coverage::{did_you_mean, nearest};
+use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Outputs, Stages};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -220,7 +221,7 @@ fn control_line(camera: &str, shot: &Shot, latency: f64) -> String {
 /// where it is mounted.
 fn calibration(cameras: &Cameras) -> Result<serde_json::Value, Error> {
     let described = cameras.all.iter().map(|(name, mounted)| {
-        let camera = mounted.camera().map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))?;
+        let camera = cameras::camera(mounted).map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))?;
         let [width, height] = mounted.resolution;
         let (focal, x, y) = (camera.focal_pixels(), f64::from(width) / 2.0, f64::from(height) / 2.0);
         let pose = camera.mount().to_homogeneous();

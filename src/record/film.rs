@@ -1,27 +1,13 @@
 //! A test as its cameras have it: the moments at which they open their shutters, not drawn yet.
 
-use super::{Cameras, Mounted};
 use crate::{Error, Study, Trial};
 use paracosm_coverage::Values;
-use paracosm_engine::driver::Driver;
-use paracosm_engine::object::{BodyState, Class};
-use paracosm_engine::sensor::{Chance, Delivery, Handle, Rig, Sample, Sensor, View};
-use paracosm_engine::{Briefing, Control, Observation, Run, Setup, Test, Weather};
+use paracosm_engine::driver::{Driver, Equipment, Fault};
+use paracosm_engine::object::Class;
+use paracosm_engine::sensor::{Cameras, Chance, Delivery, Handle, Image, Moment, Mounted, Rig, Sample, Shutter};
+use paracosm_engine::{Briefing, Control, Observation, Run, Setup, Test};
 use paracosm_render::{Stage, Stages};
 use std::sync::Arc;
-
-/// A moment as a camera sees it, and what the car did at it.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Moment {
-    /// All bodies, that of the car first.
-    pub bodies: Vec<BodyState>,
-    /// Light, fog and the sun.
-    pub weather: Weather,
-    /// Of the car in m/s.
-    pub speed: f64,
-    /// The length of the way that the car has come, in metres.
-    pub travelled: f64,
-}
 
 /// An image that is to be drawn.
 #[derive(Debug, Clone)]
@@ -45,27 +31,6 @@ pub struct Film {
     pub shots: Vec<Vec<Shot>>,
 }
 
-/// Opens the shutter of a camera every so many seconds.
-struct Shutter {
-    period: f64,
-}
-
-impl Sensor for Shutter {
-    type Reading = Moment;
-
-    fn period(&self) -> f64 {
-        self.period
-    }
-
-    fn sense(&mut self, view: &View<'_>, _: &mut Chance, moment: &mut Moment) {
-        moment.bodies.clear();
-        moment.bodies.extend_from_slice(view.bodies);
-        moment.weather = view.weather;
-        moment.speed = view.car.speed();
-        moment.travelled = view.car.travelled;
-    }
-}
-
 /// A driver whose answers are noted, each with the time at which it was asked.
 struct Overheard {
     driver: Box<dyn Driver>,
@@ -77,15 +42,23 @@ impl Driver for Overheard {
         self.driver.period()
     }
 
-    fn reset(&mut self, briefing: &Briefing) {
-        self.answers.clear();
-        self.driver.reset(briefing);
+    fn equipment(&mut self) -> Equipment {
+        self.driver.equipment()
     }
 
-    fn step(&mut self, observation: &Observation) -> Control {
-        let control = self.driver.step(observation);
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.answers.clear();
+        self.driver.reset(briefing)
+    }
+
+    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
+        self.driver.perceive(rig, images)
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        let control = self.driver.step(observation)?;
         self.answers.push((observation.time, control));
-        control
+        Ok(control)
     }
 }
 

@@ -14,8 +14,8 @@ mod projector;
 #[cfg(test)]
 mod tests;
 
-pub use cameras::{Cameras, Mounted};
+pub use cameras::{STANDARD_CAMERAS, cameras_for_people, read_cameras, standard_cameras};
 pub use clip::Clip;
 pub use dataset::{Dataset, Kept};
-pub use film::{Film, Moment, Shot};
+pub use film::{Film, Shot};
 pub use projector::{Picture, Projector};

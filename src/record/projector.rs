@@ -1,9 +1,9 @@
 //! Draws shots, as many at once as fit, and lets each go through its camera's lens.
 
-use super::{Cameras, Film, Shot};
+use super::{Film, Shot, cameras};
 use crate::Error;
 use nalgebra::{Isometry3, Point3, Vector3};
-use paracosm_engine::sensor::Chance;
+use paracosm_engine::sensor::{Cameras, Chance};
 use paracosm_render::{
     Adapter, Air, Box3, Camera, Frame, Outputs, RenderError, Renderer, Scene, View, ViewError, boxes_in_space,
 };
@@ -44,8 +44,8 @@ impl Projector {
     pub fn new(cameras: &Cameras, wanted: Outputs) -> Result<Self, Error> {
         let unusable = |error: RenderError| Error::Usage(error.to_string());
         let described = cameras.all.iter().map(|(name, mounted)| {
-            let camera = mounted.camera().map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))?;
-            Ok((name.clone(), camera, mounted.effects()))
+            let camera = cameras::camera(mounted).map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))?;
+            Ok((name.clone(), camera, cameras::effects(mounted)))
         });
         let cameras_ready = described.collect::<Result<_, Error>>()?;
         let renderer = Renderer::new().map_err(unusable)?;

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::{Campaign, Study, Trial};
+use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Frame, Stages};
 use std::collections::BTreeMap;
 use std::fs;
@@ -212,12 +213,12 @@ fn files_of_cameras_say_what_is_wrong_with_them() {
     let path = dir.path().join("cameras.toml");
     let said = |text: &str| {
         fs::write(&path, text).expect("a file");
-        Cameras::read(&path).map_or_else(|error| error.to_string(), |_| "nothing".to_owned())
+        read_cameras(&path).map_or_else(|error| error.to_string(), |_| "nothing".to_owned())
     };
-    assert_eq!(said(Cameras::DEFAULT), "nothing");
+    assert_eq!(said(STANDARD_CAMERAS), "nothing");
     let changed = |from: &str, to: &str| {
-        assert!(Cameras::DEFAULT.contains(from));
-        said(&Cameras::DEFAULT.replace(from, to))
+        assert!(STANDARD_CAMERAS.contains(from));
+        said(&STANDARD_CAMERAS.replace(from, to))
     };
     for (from, to, word) in [
         ("focal_mm = 24.0", "focal_mm = 0.0", "focal length"),

@@ -23,7 +23,7 @@
 use super::cruise::{Cruise, PERIOD};
 use super::frenet::Frenet;
 use super::perception::{Perception, Sensor, Track};
-use super::{Driver, Kind, Setting, Settings, setting, whole};
+use super::{Driver, Fault, Kind, Setting, Settings, setting, whole};
 use crate::observation::{Briefing, Control, Observation, Other};
 
 pub(super) const KIND: Kind = Kind {
@@ -124,17 +124,18 @@ impl Driver for Aeb {
         PERIOD
     }
 
-    fn reset(&mut self, briefing: &Briefing) {
-        self.cruise.reset(briefing);
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.cruise.reset(briefing)?;
         self.perception.reset();
         self.half_length = 0.5 * briefing.vehicle.length;
         self.half_width = 0.5 * briefing.vehicle.width;
         self.braking = false;
         self.brake = 0.0;
         self.blocked = 0.0;
+        Ok(())
     }
 
-    fn step(&mut self, observation: &Observation) -> Control {
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         self.perception.see(observation, self.half_length);
         let (horizon, speed) =
             if self.braking { (self.clear_ttc, observation.speed.max(CREEP)) } else { (self.ttc, observation.speed) };
@@ -153,8 +154,8 @@ impl Driver for Aeb {
         let wanted = if self.braking { self.deceleration } else { 0.0 };
         self.brake = wanted.clamp(self.brake - change, self.brake + change);
         if self.brake > 0.0 {
-            return self.cruise.control(-self.brake, observation);
+            return Ok(self.cruise.control(-self.brake, observation));
         }
-        self.cruise.control(self.cruise.acceleration(observation), observation)
+        self.cruise.step(observation)
     }
 }

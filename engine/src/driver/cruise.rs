@@ -1,7 +1,7 @@
 //! The driver `cruise`: keeps its speed and its way, and never brakes for anything in it. What it hits, any driver that
 //! did nothing would hit; and holding speed and way is a part of every other driver.
 
-use super::{Driver, Kind, Settings};
+use super::{Driver, Fault, Kind, Settings};
 use crate::observation::{Briefing, Control, Observation, Way};
 
 pub(super) const KIND: Kind = Kind {
@@ -75,7 +75,7 @@ impl Driver for Cruise {
         PERIOD
     }
 
-    fn reset(&mut self, briefing: &Briefing) {
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
         let vehicle = &briefing.vehicle;
         *self = Self {
             set_speed: briefing.cruise_speed,
@@ -84,9 +84,10 @@ impl Driver for Cruise {
             max_steering_angle: vehicle.max_steering_angle,
             rear_axle: 0.5 * vehicle.wheelbase,
         };
+        Ok(())
     }
 
-    fn step(&mut self, observation: &Observation) -> Control {
-        self.control(self.acceleration(observation), observation)
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        Ok(self.control(self.acceleration(observation), observation))
     }
 }

@@ -10,6 +10,7 @@ mod perception;
 pub mod reference;
 
 use crate::observation::{Briefing, Control, Observation};
+use crate::sensor::{Cameras, Image, Rig};
 use paracosm_coverage::{did_you_mean, nearest};
 use thiserror::Error;
 
@@ -18,12 +19,46 @@ pub trait Driver: Send {
     /// Seconds between two questions.
     fn period(&self) -> f64;
 
+    /// What it measures with, made anew for every run: nothing, where it is content with the observation.
+    fn equipment(&mut self) -> Equipment {
+        Equipment::default()
+    }
+
     /// Forgets everything: a new run begins.
-    fn reset(&mut self, briefing: &Briefing);
+    ///
+    /// # Errors
+    /// It cannot drive such a car.
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault>;
+
+    /// Takes in what its equipment has measured and what has arrived since it was last asked; comes before every
+    /// [`step`](Self::step).
+    ///
+    /// # Errors
+    /// It cannot go on.
+    fn perceive(&mut self, _rig: &Rig, _images: &[Image]) -> Result<(), Fault> {
+        Ok(())
+    }
 
     /// What to do until the next question.
-    fn step(&mut self, observation: &Observation) -> Control;
+    ///
+    /// # Errors
+    /// It cannot go on: it has died, or does not answer.
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault>;
 }
+
+/// What a driver measures with.
+#[derive(Debug, Default)]
+pub struct Equipment {
+    /// Sensors other than cameras.
+    pub rig: Rig,
+    /// Cameras, whose images come in the order of their names.
+    pub cameras: Cameras,
+}
+
+/// Why a driver cannot go on, which ends the test with an error that says so.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{0}")]
+pub struct Fault(pub String);
 
 /// A number that a driver can be set to.
 #[derive(Debug, Clone, Copy, PartialEq)]

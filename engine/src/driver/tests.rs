@@ -29,7 +29,7 @@ fn person(x: f64, y: f64) -> Other {
 fn drive(changes: &[(&str, f64)], others: impl Fn(f64) -> Option<(f64, f64)>, seconds: f64) -> Vec<(f64, f64)> {
     let changes: Vec<_> = changes.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
     let mut driver = find("aeb").unwrap().build(&changes).unwrap();
-    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I });
+    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I }).unwrap();
     let steps = (seconds / driver.period()).round() as usize;
     let at = |i: usize| i as f64 * 0.05;
     (0..steps)
@@ -44,7 +44,7 @@ fn drive(changes: &[(&str, f64)], others: impl Fn(f64) -> Option<(f64, f64)>, se
                 others,
                 ..Observation::default()
             };
-            (at(i), driver.step(&observation).throttle)
+            (at(i), driver.step(&observation).unwrap().throttle)
         })
         .collect()
 }
@@ -108,7 +108,7 @@ fn aeb_goes_on_when_the_way_is_clear_and_not_before() {
 fn a_driver_that_was_reset_does_the_same_again() {
     let mut driver = find("aeb").unwrap().build(&[]).unwrap();
     let mut runs = (0..2).map(|_| {
-        driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I });
+        driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I }).unwrap();
         (0..80)
             .map(|i| {
                 let time = f64::from(i) * 0.05;
@@ -122,6 +122,7 @@ fn a_driver_that_was_reset_does_the_same_again() {
                         others,
                         ..Observation::default()
                     })
+                    .unwrap()
                     .throttle
             })
             .collect::<Vec<_>>()

@@ -11,7 +11,7 @@ mod metrics;
 mod scene;
 mod sensing;
 
-use crate::driver::Driver;
+use crate::driver::{Driver, Fault};
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::Outcome;
@@ -193,18 +193,29 @@ impl Run {
 
     /// Goes to the end with this driver, and lets `see` have a look whenever the driver is asked, and at the end.
     pub fn watch(&mut self, driver: &mut dyn Driver, mut see: impl FnMut(&Self)) -> Outcome {
-        driver.reset(&self.briefing());
+        if let Err(fault) = driver.reset(&self.briefing()) {
+            return self.broken_by(&fault);
+        }
         loop {
-            let (control, outcome) = match self.advance() {
-                Step::Need(observation) => (driver.step(observation), None),
-                Step::Done(outcome) => (Control::default(), Some(outcome)),
+            let outcome = match self.advance() {
+                Step::Need(_) => None,
+                Step::Done(outcome) => Some(outcome),
             };
             see(self);
-            match outcome {
-                Some(outcome) => return *outcome,
-                None => self.supply(control),
+            if let Some(outcome) = outcome {
+                return *outcome;
+            }
+            match driver.perceive(&self.rig, &[]).and_then(|()| driver.step(&self.observation)) {
+                Ok(control) => self.supply(control),
+                Err(fault) => return self.broken_by(&fault),
             }
         }
+    }
+
+    /// Ends the run because its driver cannot go on.
+    pub fn broken_by(&mut self, fault: &Fault) -> Outcome {
+        self.over = true;
+        Outcome::broken(Verdict::Error, format!("the driver gave up at {:.3} s: {fault}", self.time()))
     }
 
     /// All bodies where they are now, the car under test first, the others in the order in which they were placed.

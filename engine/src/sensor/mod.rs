@@ -36,6 +36,7 @@
 //! ```
 
 mod air;
+mod camera;
 mod chance;
 mod drift;
 mod error;
@@ -49,6 +50,7 @@ mod sight;
 mod truth;
 
 pub use air::Air;
+pub use camera::{Cameras, Image, Moment, Mounted, Shutter};
 pub use chance::Chance;
 pub use drift::Inaccuracy;
 pub use error::SensorError;

@@ -10,10 +10,10 @@
 //! on is known, as in the kinematic world. There a cut-out uncovers what stands behind it when it has left its wandering zone,
 //! 0.375 m aside; here when it is half of its width aside, about 0.9 m.
 
-use super::super::Driver;
 use super::super::cruise::Cruise;
 use super::super::frenet::Frenet;
 use super::super::perception::hidden;
+use super::super::{Driver, Fault};
 use crate::kinematic::{BrakingModel, DT, Situation};
 use crate::observation::{Briefing, Control, Observation, Other};
 
@@ -96,16 +96,17 @@ impl<M: BrakingModel + 'static> Driver for Reference<M> {
         DT
     }
 
-    fn reset(&mut self, briefing: &Briefing) {
-        self.cruise.reset(briefing);
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.cruise.reset(briefing)?;
         self.cruise_speed = briefing.cruise_speed;
         self.watched.clear();
         self.length = briefing.vehicle.length;
         self.width = briefing.vehicle.width;
         self.speed = None;
+        Ok(())
     }
 
-    fn step(&mut self, observation: &Observation) -> Control {
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         let unknown = Watched { model: self.fresh.clone(), seen: false, braked_for: false, speed: None };
         let bodies = observation.others.iter().map(|other| other.id + 1).max().unwrap_or(0);
         self.watched.resize(bodies.max(self.watched.len()), unknown);
@@ -132,8 +133,8 @@ impl<M: BrakingModel + 'static> Driver for Reference<M> {
         }
         self.speed = Some(observation.speed);
         if brake > 0.0 {
-            return self.cruise.control(-brake, observation);
+            return Ok(self.cruise.control(-brake, observation));
         }
-        self.cruise.control(self.cruise.acceleration(observation).min(limit), observation)
+        Ok(self.cruise.control(self.cruise.acceleration(observation).min(limit), observation))
     }
 }

@@ -267,7 +267,7 @@ const NAMES: [&str; 5] = ["cc", "rss", "fsm", "reg157", "ideal"];
 /// Whether the driver brakes for this body at any time, while the car drives past it at a constant 15 m/s.
 fn brakes(driver: &str, mut other: Other) -> bool {
     let mut driver = find(driver).unwrap().build(&[]).unwrap();
-    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I });
+    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I }).unwrap();
     let mut braked = false;
     for i in 0..100 {
         let time = f64::from(i) * DT;
@@ -279,7 +279,7 @@ fn brakes(driver: &str, mut other: Other) -> bool {
             others: vec![other],
             ..Observation::default()
         };
-        braked |= driver.step(&observation).throttle < 0.0;
+        braked |= driver.step(&observation).unwrap().throttle < 0.0;
         other.position += (other.velocity - Vector2::new(15.0, 0.0)) * DT;
     }
     braked
@@ -310,7 +310,7 @@ fn a_car_that_stands_across_the_road_counts_with_its_length() {
 /// at 20 m/s between the two.
 fn brakes_behind(driver: &str, leader: bool) -> bool {
     let mut driver = find(driver).unwrap().build(&[]).unwrap();
-    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I });
+    driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I }).unwrap();
     (0..22).map(|i| f64::from(i) * DT).any(|time| {
         let standing = Other { class: Class::Car, ..car(58.0 - 15.0 * time, 0.0, Vector2::zeros()) };
         let leader =
@@ -319,7 +319,7 @@ fn brakes_behind(driver: &str, leader: bool) -> bool {
         let travelled = 15.0 * time;
         let odometry = odometry(travelled);
         let observation = Observation { time, speed: 15.0, travelled, odometry, others, ..Observation::default() };
-        driver.step(&observation).throttle < 0.0
+        driver.step(&observation).unwrap().throttle < 0.0
     })
 }
 
@@ -336,7 +336,7 @@ fn a_reference_driver_that_was_reset_does_the_same_again() {
     for name in NAMES {
         let mut driver = find(name).unwrap().build(&[]).unwrap();
         let mut runs = (0..2).map(|_| {
-            driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I });
+            driver.reset(&Briefing { cruise_speed: 15.0, vehicle: Vehicle::BMW_320I }).unwrap();
             (0..60)
                 .map(|i| {
                     let time = f64::from(i) * DT;
@@ -350,6 +350,7 @@ fn a_reference_driver_that_was_reset_does_the_same_again() {
                             others,
                             ..Observation::default()
                         })
+                        .unwrap()
                         .throttle
                 })
                 .collect::<Vec<_>>()

@@ -1,0 +1,124 @@
+//! Cameras as a driver has them: how they are described, when they open their shutters, and what comes of it.
+//!
+//! The engine draws nothing. A [`Shutter`] notes the [`Moment`] that a camera saw, and whoever runs the test develops it to
+//! an [`Image`] when it has arrived.
+
+use super::{Chance, Sensor, View};
+use crate::object::BodyState;
+use crate::scenario::Weather;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The cameras on the car under test.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cameras {
+    /// Where the noise of all of them comes from.
+    #[serde(default)]
+    pub seed: u64,
+    /// Each by its name.
+    #[serde(rename = "camera")]
+    pub all: BTreeMap<String, Mounted>,
+}
+
+/// A camera, where it is mounted, and how it takes images.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mounted {
+    /// Pixels across and down.
+    pub resolution: [u32; 2],
+    /// Millimetres.
+    pub focal_mm: f64,
+    /// The width of the sensor in millimetres.
+    pub sensor_mm: f64,
+    /// Metres from the middle of the car, on the ground: ahead, to the left, up.
+    pub position: [f64; 3],
+    /// Degrees: yaw to the left, then pitch downwards, then roll to the right.
+    #[serde(default)]
+    pub yaw_pitch_roll: [f64; 3],
+    /// Images per second.
+    pub rate: f64,
+    /// Seconds from when an image is taken to when it is there.
+    #[serde(default)]
+    pub latency: f64,
+    /// The probability that an image is lost.
+    #[serde(default)]
+    pub dropped: f64,
+    /// The pixels over which motion smears the image.
+    #[serde(default)]
+    pub motion: f64,
+    /// Which way that is, in degrees counter-clockwise from the right.
+    #[serde(default)]
+    pub motion_angle: f64,
+    /// The radius of the disc that a point becomes out of focus, in pixels.
+    #[serde(default)]
+    pub defocus: f64,
+    /// The standard deviation of the lens's blur, in pixels.
+    #[serde(default)]
+    pub blur: f64,
+    /// From 0, none, to 1: how much darker it gets towards the corners.
+    #[serde(default)]
+    pub vignetting: f64,
+    /// Stops.
+    #[serde(default)]
+    pub exposure: f64,
+    /// Electrons; 0 for no shot noise.
+    #[serde(default)]
+    pub full_well: f64,
+    /// Electrons.
+    #[serde(default)]
+    pub read_noise: f64,
+}
+
+/// A moment as a camera sees it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Moment {
+    /// All bodies, that of the car first.
+    pub bodies: Vec<BodyState>,
+    /// Light, fog and the sun.
+    pub weather: Weather,
+    /// Of the car in m/s.
+    pub speed: f64,
+    /// The length of the way that the car has come, in metres.
+    pub travelled: f64,
+}
+
+/// Opens the shutter of a camera every so many seconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shutter {
+    /// Seconds between two images.
+    pub period: f64,
+}
+
+impl Sensor for Shutter {
+    type Reading = Moment;
+
+    fn period(&self) -> f64 {
+        self.period
+    }
+
+    fn sense(&mut self, view: &View<'_>, _: &mut Chance, moment: &mut Moment) {
+        moment.bodies.clear();
+        moment.bodies.extend_from_slice(view.bodies);
+        moment.weather = view.weather;
+        moment.speed = view.car.speed();
+        moment.travelled = view.car.travelled;
+    }
+}
+
+/// What a camera gives: an image that has arrived.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// Which of the driver's cameras, in the order of their names.
+    pub camera: usize,
+    /// Which of the camera's images: the k-th is due at k periods.
+    pub number: u64,
+    /// When it was taken, in seconds since the run began.
+    pub time: f64,
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// sRGB, three bytes a pixel, row by row from the top left.
+    pub rgb: Vec<u8>,
+}
