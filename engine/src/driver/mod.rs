@@ -6,6 +6,7 @@
 mod aeb;
 mod cruise;
 mod frenet;
+mod lane_camera;
 mod perception;
 pub mod reference;
 
@@ -159,9 +160,10 @@ pub enum DriverError {
 }
 
 /// Every kind of driver there is.
-pub const ALL: [&Kind; 7] = [
+pub const ALL: [&Kind; 8] = [
     &aeb::KIND,
     &cruise::KIND,
+    &lane_camera::KIND,
     &reference::CC,
     &reference::RSS,
     &reference::FSM,
