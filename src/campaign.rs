@@ -45,7 +45,7 @@ impl<'a> Campaign<'a> {
         study.generator()?;
         let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
         let stop = Arc::default();
-        let mut worker = Worker::until(study, Arc::clone(&stop), None)?;
+        let mut worker = Worker::until(study, Arc::clone(&stop))?;
         worker.start()?;
         let (darkroom, idle) = (worker.darkroom().cloned(), Mutex::new(vec![worker]));
         Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, known: Vec::new(), stop, idle })
@@ -171,7 +171,7 @@ impl<'a> Campaign<'a> {
     /// A worker that has nothing to do, or a new one.
     fn worker(&self) -> Result<Worker<'a>, Error> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        idle.map_or_else(|| Worker::until(self.study, self.stop.clone(), self.darkroom.clone()), Ok)
+        idle.map_or_else(|| Worker::beside(self.study, self.stop.clone(), self.darkroom.clone()), Ok)
     }
 
     fn is_stopped(&self) -> bool {

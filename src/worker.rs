@@ -35,12 +35,21 @@ impl<'a> Worker<'a> {
     /// The study was read from a file, and its scenario, driver, command or a formula does not exist or is none; or its
     /// driver sees through cameras, and there is nothing to draw with.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
-        Self::until(study, Arc::default(), None)
+        Self::until(study, Arc::default())
     }
 
-    /// A worker that does not wait for a system any more once `stop` is set. What draws for the drivers of others draws for
-    /// its own as well.
-    pub(crate) fn until(
+    /// A worker that does not wait for a system any more once `stop` is set.
+    pub(crate) fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
+        let mut worker = Self::beside(study, stop, None)?;
+        if let Bench::Simulator(simulator) = &mut worker.bench {
+            simulator.start()?;
+        }
+        Ok(worker)
+    }
+
+    /// A worker like one that there is, with what draws for the drivers of that one. What a driver of its own lacks, its
+    /// tests will say.
+    pub(crate) fn beside(
         study: &'a Study,
         stop: Arc<AtomicBool>,
         darkroom: Option<Arc<Darkroom>>,

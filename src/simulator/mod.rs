@@ -35,29 +35,29 @@ pub(crate) struct Simulator<'a> {
 }
 
 impl<'a> Simulator<'a> {
-    /// A simulator of a scenario with its driver.
+    /// A simulator of a scenario, whose drivers see what others draw for them, if anything.
     ///
     /// # Errors
-    /// The scenario or the driver does not exist, or the driver sees through cameras and there is nothing to draw with.
+    /// The scenario does not exist.
     pub fn new(simulation: &'a Simulation, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
         let make = Box::new(|| simulation.driver.build());
-        Self::with(simulation.program()?, simulation.vehicle, make, darkroom)
+        Ok(Self::with(simulation.program()?, simulation.vehicle, make, darkroom))
     }
 
     /// A simulator of a program, in which drivers that are made so drive a car that this model moves.
-    fn with(
-        program: Program,
-        model: Model,
-        make: Box<Make<'a>>,
-        darkroom: Option<Arc<Darkroom>>,
-    ) -> Result<Self, Error> {
-        let mut driver = make()?;
+    fn with(program: Program, model: Model, make: Box<Make<'a>>, darkroom: Option<Arc<Darkroom>>) -> Self {
+        Self { program, model, make, idle: Vec::new(), darkroom }
+    }
+
+    /// Makes the first driver and, if it sees, what draws for it.
+    ///
+    /// # Errors
+    /// The driver cannot be made, or it sees through cameras and there is nothing to draw with.
+    pub fn start(&mut self) -> Result<(), Error> {
+        let mut driver = self.driver()?;
         let cameras = driver.equipment().cameras;
-        let mut simulator = Self { program, model, make, idle: vec![driver], darkroom };
-        if !cameras.all.is_empty() {
-            simulator.open(&cameras)?;
-        }
-        Ok(simulator)
+        self.idle.push(driver);
+        if cameras.all.is_empty() { Ok(()) } else { self.open(&cameras).map(drop) }
     }
 
     /// What draws for its drivers, if they see.
@@ -93,7 +93,9 @@ impl<'a> Simulator<'a> {
     ) {
         let mut rides: Vec<Ride> = Vec::new();
         loop {
-            while rides.len() < at_once.max(1) && let Some(index) = desk.next() {
+            while rides.len() < at_once.max(1)
+                && let Some(index) = desk.next()
+            {
                 let (values, driver) = (tests(index), self.driver());
                 let test = Test::new(&values, space);
                 rides.push(Ride::begin(index, &self.program, test, self.model, driver));

@@ -36,7 +36,7 @@ fn quiet_road(s: &mut Scenario) {
 fn study(changes: &[(&str, f64)]) -> Study {
     let changes: Vec<_> = changes.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
     let study = Study::new(QUIET).expect("a sound program").driver("lane-camera", &changes);
-    study.and_then(|study| study.budget(9)).expect("a sound study")
+    study.and_then(|study| study.budget(7)).expect("a sound study")
 }
 
 fn trials(campaign: Campaign<'_>) -> Vec<Trial> {
@@ -59,7 +59,7 @@ fn whatever_is_drawn_together_the_trials_are_the_same() {
     }
     let study = study(&[("blur", 0.8), ("latency", 0.12), ("dropped", 0.2)]);
     let once = trials(Campaign::new(&study).unwrap());
-    assert_eq!(once.len(), 9);
+    assert_eq!(once.len(), 7);
     assert!(once.iter().all(|trial| trial.trace_hash.is_some()), "{once:?}");
     for (jobs, at_once) in [(1, 1), (1, 32), (2, 7), (2, 2), (3, 32)] {
         let campaign = Campaign::new(&study).unwrap().jobs(number(jobs)).at_once(number(at_once));
@@ -164,7 +164,7 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
         Ok(Box::new(Witness { driver, new: Vec::new(), shown: shown.clone() }))
     };
     let cameras = make().unwrap().equipment().cameras;
-    let mut simulator = Simulator::with(QUIET, Model::default(), Box::new(make), None).unwrap();
+    let mut simulator = Simulator::with(QUIET, Model::default(), Box::new(make), None);
     let values = study.complete(&trial.test);
     let outcome = simulator.run(Test::new(&values, &study.space), None, |_| ());
     assert_eq!(outcome.trace.map(|trace| trace.hash()), trial.trace_hash);
@@ -183,7 +183,8 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
     for ((asked, image), (number, rgb)) in shown.iter().zip(&recorded) {
         let late = asked - image.time;
         assert!((0.12..0.17 + 1e-9).contains(&(late + 1e-9)), "{late} s");
-        assert_eq!((image.number, image.time), (*number, 0.1 * *number as f64));
+        assert_eq!(image.number, *number);
+        assert!((image.time - 0.1 * *number as f64).abs() < 1e-9, "{} s", image.time);
         assert!(image.rgb == *rgb, "image {number}");
     }
     // The last may come when the test is over.
@@ -234,13 +235,13 @@ fn a_driver_that_breaks_breaks_its_own_test_alone() {
         })
         .collect();
     let outcomes = |at_once: usize| {
-        let (darkroom, mut outcomes) = (Mutex::new(None), Vec::new());
+        let make = || -> Result<Box<dyn Driver>, Error> { Ok(Box::new(Fragile(find("lane-camera")?.build(&[])?))) };
+        let mut first = Simulator::with(QUIET, Model::default(), Box::new(make), None);
+        first.start().unwrap();
+        let darkroom = first.darkroom().cloned();
+        let mut outcomes = Vec::new();
         let work = |desk: &Desk<Outcome>| {
-            let make = || -> Result<Box<dyn Driver>, Error> { Ok(Box::new(Fragile(find("lane-camera")?.build(&[])?))) };
-            let mut room = darkroom.lock().unwrap();
-            let mut simulator = Simulator::with(QUIET, Model::default(), Box::new(make), room.take()).unwrap();
-            *room = simulator.darkroom().cloned();
-            drop(room);
+            let mut simulator = Simulator::with(QUIET, Model::default(), Box::new(make), darkroom.clone());
             let test = |i: usize| tests[i].clone();
             simulator.run_in_lockstep(desk, at_once, (&test, &study.space), || false, |_, outcome| outcome);
         };
