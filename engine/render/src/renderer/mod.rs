@@ -25,7 +25,6 @@ use meshes::{Finish, Meshes};
 use pipelines::Pipelines;
 use prepare::{Draw, Prepared, prepare};
 use raw::RawView;
-use shadow::ShadowMap;
 use targets::{Format, Targets, cleared, view_stride};
 
 /// Draws what cameras see.
@@ -166,10 +165,9 @@ impl Renderer {
         let wanted = targets.format.wanted;
         let offset = layer * view_stride(&self.gpu) as u32;
         let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
-        let sun = &self.pipelines.suns[ShadowMap::size(targets.format.pixels())];
         if wanted.shadows && wanted.light() {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                depth_stencil_attachment: Some(cleared(&sun.depth, 1.0, wgpu::StoreOp::Store)),
+                depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),
                 ..Default::default()
             });
             pass.set_pipeline(&self.pipelines.shadow);
@@ -179,7 +177,7 @@ impl Renderer {
         {
             let mut pass = targets.begin(encoder, layer, true);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
-            pass.set_bind_group(1, &sun.group, &[]);
+            pass.set_bind_group(1, &self.pipelines.sun, &[]);
             for (finish, surface) in Finish::ALL.into_iter().zip(&drawing.surfaces) {
                 pass.set_pipeline(surface);
                 self.draw(&mut pass, targets, &prepared.draws, first, Some(finish));

@@ -17,19 +17,13 @@ pub(super) struct Pipelines {
     modules: Modules,
     pub views: wgpu::BindGroupLayout,
     pub masks: wgpu::BindGroupLayout,
-    /// The sun's views of a scene, by their size.
-    pub suns: [Sun; 2],
+    /// The sun's view of the scene, as the surfaces read it and as it is drawn.
+    pub sun: wgpu::BindGroup,
+    pub sun_depth: wgpu::TextureView,
     shaded: wgpu::PipelineLayout,
     pub shadow: wgpu::RenderPipeline,
     pub alone: wgpu::RenderPipeline,
     drawing: BTreeMap<(Outputs, Weather), Drawing>,
-}
-
-/// The sun's view of a scene, as the surfaces read it and as it is drawn.
-#[derive(Debug)]
-pub(super) struct Sun {
-    pub group: wgpu::BindGroup,
-    pub depth: wgpu::TextureView,
 }
 
 /// The programs that draw what is asked for.
@@ -69,8 +63,7 @@ impl Pipelines {
             min_binding_size: None,
         };
         let masks = layout(gpu, &[(ShaderStages::FRAGMENT, words)]);
-        let sun_layout = sun_layout(gpu);
-        let suns = TEXELS.map(|texels| sun(gpu, &sun_layout, texels));
+        let (sun_depth, sun_layout, sun) = sun(gpu);
         let shaded = pipeline_layout(gpu, &[&views, &sun_layout]);
         let shadow = depth_only(gpu, &module(include_str!("shaders/shadow.wgsl")), &pipeline_layout(gpu, &[&views]));
         let masked = pipeline_layout(gpu, &[&views, &masks]);
@@ -79,7 +72,7 @@ impl Pipelines {
             surface: module(include_str!("shaders/surface.wgsl")),
             sky: module(include_str!("shaders/sky.wgsl")),
         };
-        Self { modules, views, masks, suns, shaded, shadow, alone, drawing: BTreeMap::new() }
+        Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
     }
 
     /// The programs for these images in this weather.
@@ -215,20 +208,10 @@ fn pipeline_layout(gpu: &Gpu, groups: &[&wgpu::BindGroupLayout]) -> wgpu::Pipeli
     })
 }
 
-fn sun_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let depth = BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Depth,
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let comparison = BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    layout(gpu, &[(ShaderStages::FRAGMENT, depth), (ShaderStages::FRAGMENT, comparison)])
-}
-
-fn sun(gpu: &Gpu, layout: &wgpu::BindGroupLayout, texels: u32) -> Sun {
+fn sun(gpu: &Gpu) -> (wgpu::TextureView, wgpu::BindGroupLayout, wgpu::BindGroup) {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("sun"),
-        size: wgpu::Extent3d { width: texels, height: texels, depth_or_array_layers: 1 },
+        size: wgpu::Extent3d { width: TEXELS, height: TEXELS, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -236,20 +219,27 @@ fn sun(gpu: &Gpu, layout: &wgpu::BindGroupLayout, texels: u32) -> Sun {
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     });
-    let depth = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
     let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
         mag_filter: wgpu::FilterMode::Linear,
         min_filter: wgpu::FilterMode::Linear,
         compare: Some(CompareFunction::LessEqual),
         ..Default::default()
     });
+    let depth = BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let comparison = BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
+    let layout = layout(gpu, &[(ShaderStages::FRAGMENT, depth), (ShaderStages::FRAGMENT, comparison)]);
     let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: None,
-        layout,
+        layout: &layout,
         entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&depth) },
+            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
             wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
         ],
     });
-    Sun { group, depth }
+    (view, layout, group)
 }

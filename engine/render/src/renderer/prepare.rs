@@ -81,8 +81,7 @@ pub(super) fn prepare(gpu: &Gpu, meshes: &mut Meshes, view: &View<'_>, wanted: O
     placed.sort_by(|a, b| a.middle.coords.norm_squared().total_cmp(&b.middle.coords.norm_squared()));
 
     let sun = to_sun(&view.scene.air);
-    let pixels = u64::from(view.camera.width()) * u64::from(view.camera.height());
-    let map = ShadowMap::new(&eye, &sun, ShadowMap::size(pixels));
+    let map = ShadowMap::new(&eye, &sun);
     let frustum = Frustum::new(view.camera);
     let mut prepared = Prepared {
         raw: raw_view(view, &eye, &sun, &map, &placed),

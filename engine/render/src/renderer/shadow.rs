@@ -4,11 +4,8 @@ use super::raw::rows;
 use crate::Air;
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
-/// Texels of a map each way: of one for small images, and of one for those whose pixels would show such texels. To clear and
-/// draw a map costs as much as a small image.
-pub(super) const TEXELS: [u32; 2] = [512, 1024];
-/// Images of up to this many pixels are small.
-const SMALL: u64 = 40_000;
+/// Texels of the map each way.
+pub(super) const TEXELS: u32 = 1024;
 /// Half of what the map covers each way, in metres.
 const REACH: f64 = 36.0;
 /// How far ahead of the camera its middle is, in metres.
@@ -31,18 +28,13 @@ pub(super) fn to_sun(air: &Air) -> Vector3<f64> {
 }
 
 impl ShadowMap {
-    /// Which of the maps an image of so many pixels has.
-    pub fn size(pixels: u64) -> usize {
-        usize::from(pixels > SMALL)
-    }
-
-    /// The map of this size for a camera here, under this sun.
-    pub fn new(camera: &Isometry3<f64>, sun: &Vector3<f64>, size: usize) -> Self {
+    /// The map for a camera here, under this sun.
+    pub fn new(camera: &Isometry3<f64>, sun: &Vector3<f64>) -> Self {
         let ahead = camera * Vector3::x();
         let level = Vector3::new(ahead.x, ahead.y, 0.0).try_normalize(1e-9).unwrap_or_default();
         let turn = Rotation3::rotation_between(sun, &Vector3::z()).unwrap_or_else(Rotation3::identity);
         // The middle moves by whole texels, so that the edges of shadows stand still while the camera moves.
-        let texel = 2.0 * REACH / f64::from(TEXELS[size]);
+        let texel = 2.0 * REACH / f64::from(TEXELS);
         let middle = turn * (camera.translation.vector + level * AHEAD);
         let middle = Vector3::new((middle.x / texel).round() * texel, (middle.y / texel).round() * texel, middle.z);
         let to_light = Isometry3::from_parts((-middle).into(), turn.into());
