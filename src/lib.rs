@@ -20,6 +20,7 @@
 //! ```
 
 mod black_box;
+pub mod blame;
 mod campaign;
 pub mod certificate;
 pub mod compare;
@@ -68,7 +69,7 @@ pub use folder::Folder;
 pub use live::LiveCoverage;
 pub use modes::{Extent, Mode, Modes, Touch};
 pub use plan::{Guarantee, Need, Plan};
-pub use plot::{Axis, FailureMap, Picture};
+pub use plot::{Axis, FailureMap, Mark, Picture};
 pub use promise::Promise;
 pub use regression::{Expectation, Regression, Replayed};
 pub use shrink::{Change, Sameness, Shrunk};

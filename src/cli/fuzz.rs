@@ -1,6 +1,6 @@
 //! The arguments of `paracosm-fuzz`.
 
-use super::{Failure, Found, Verbosity, describe, doctor, likelihood, list, map, record, replay, run, shrink};
+use super::{Failure, Found, Verbosity, blame, describe, doctor, likelihood, list, map, record, replay, run, shrink};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -13,6 +13,7 @@ Examples:
   paracosm-fuzz map paracosm-out --x speed --y friction    the failure map over other parameters
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
   paracosm-fuzz shrink paracosm-out 17               the simplest test near test 17 that still fails
+  paracosm-fuzz blame paracosm-out                   which failures other drivers could have avoided
   paracosm-fuzz record pedestrian-crossing --budget 20 --out images      what cameras see of tests, labelled
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
@@ -80,6 +81,9 @@ enum Verb {
     #[command(after_help = "Examples:\n  paracosm-fuzz shrink paracosm-out 17\n  \
                             paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json")]
     Shrink(shrink::Options),
+    /// Run each failing test again with the reference drivers: who could have avoided it
+    #[command(after_help = blame::EXAMPLES)]
+    Blame(blame::Options),
     /// Run a campaign and record what cameras see of its tests: images, masks, depths, boxes and controls
     #[command(after_help = record::EXAMPLES)]
     Record(Box<record::Options>),
@@ -99,6 +103,7 @@ impl Command {
             Some(Verb::Map(options)) => options.execute(self.verbosity),
             Some(Verb::Replay(options)) => options.execute(self.verbosity),
             Some(Verb::Shrink(options)) => options.execute(self.verbosity),
+            Some(Verb::Blame(options)) => options.execute(self.verbosity),
             Some(Verb::Record(options)) => options.execute(self.verbosity),
             Some(Verb::Doctor(options)) => options.execute(),
         }
