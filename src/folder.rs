@@ -16,7 +16,7 @@ const TRIALS: &str = "trials.jsonl";
 /// The tests that the study counts as done.
 const EXTENDED: &str = "extended.csv";
 /// What is derived from the trials at the end of a campaign, or later.
-const DERIVED: [&str; 12] = [
+const DERIVED: [&str; 13] = [
     "trials.csv",
     "coverage.json",
     "failure-map.svg",
@@ -29,6 +29,7 @@ const DERIVED: [&str; 12] = [
     "blame.csv",
     "blame-map.svg",
     "blame-map.png",
+    "junit.xml",
 ];
 
 /// The folder of a campaign, open for appending.

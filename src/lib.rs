@@ -33,6 +33,7 @@ mod extension;
 mod failure_estimate;
 mod folder;
 mod json;
+pub mod junit;
 pub mod likelihood;
 mod live;
 mod modes;
@@ -50,6 +51,7 @@ mod summary;
 mod suspects;
 mod tests_file;
 mod trace_file;
+mod traceability;
 mod trial;
 mod worker;
 
@@ -73,10 +75,11 @@ pub use plot::{Axis, FailureMap, Mark, Picture};
 pub use promise::Promise;
 pub use regression::{Expectation, Regression, Replayed};
 pub use shrink::{Change, Sameness, Shrunk};
-pub use study::{DriverChoice, RequirementText, Simulation, Study, Subject};
+pub use study::{Attribute, DriverChoice, Odd, RequirementText, Simulation, Study, Subject};
 pub use summary::{Judged, Summary, Worst};
 pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
 pub use trace_file::write_trace;
+pub use traceability::{Gap, Traceability, Traced, Tried};
 pub use trial::Trial;
 pub use worker::Worker;
 

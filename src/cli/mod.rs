@@ -14,6 +14,7 @@ mod interrupt;
 mod likelihood;
 mod list;
 mod map;
+mod odd;
 mod output;
 mod progress;
 mod record;
@@ -27,6 +28,7 @@ mod space_file;
 mod subject;
 mod suspects;
 mod system;
+mod trace;
 
 use crate::executor::WORKER;
 use clap::Args;

@@ -23,6 +23,7 @@ mod pedestrian_study;
 mod pictures;
 mod plan;
 mod reference_drivers;
+mod requirements;
 mod signals;
 mod spec;
 mod strength;
