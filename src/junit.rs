@@ -34,14 +34,8 @@ pub fn document(suites: &[Suite]) -> String {
 impl Suite<'_> {
     fn write(&self, text: &mut String) {
         let trials = self.trials.iter().map(|(trial, _)| *trial);
-        let time = trials.clone().filter_map(|trial| self.seconds(trial)).sum();
-        let _ = writeln!(
-            text,
-            "  <testsuite name=\"{}\"{} time=\"{}\">",
-            escaped(&self.name),
-            counts(trials),
-            seconds(time)
-        );
+        let time = trials.clone().filter_map(|trial| self.seconds(trial)).reduce(|sum, seconds| sum + seconds);
+        let _ = writeln!(text, "  <testsuite name=\"{}\"{}{}>", escaped(&self.name), counts(trials), attribute(time));
         properties(text, "    ", &self.properties());
         for (trial, replay) in &self.trials {
             self.write_case(text, trial, replay);
@@ -73,7 +67,7 @@ impl Suite<'_> {
             Subject::Scenario(simulation) => simulation.scenario.as_str(),
             Subject::System(_) => "system",
         };
-        let time = self.seconds(trial).map(|time| format!(" time=\"{}\"", seconds(time))).unwrap_or_default();
+        let time = attribute(self.seconds(trial));
         let (class, index) = (escaped(class), trial.index);
         let _ = writeln!(text, "    <testcase classname=\"{class}\" name=\"test {index}\"{time}>");
         let mut all: Vec<(String, String)> =
@@ -128,9 +122,9 @@ impl Suite<'_> {
     }
 }
 
-/// Milliseconds are enough, and hide how a tick adds up.
-fn seconds(time: f64) -> String {
-    format!("{time:.3}")
+/// A time as an attribute, if it is known: milliseconds are enough, and hide how ticks add up.
+fn attribute(seconds: Option<f64>) -> String {
+    seconds.map(|seconds| format!(" time=\"{seconds:.3}\"")).unwrap_or_default()
 }
 
 /// The attributes that count trials.

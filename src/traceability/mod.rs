@@ -167,7 +167,11 @@ impl Traceability {
         let parameters = Tried::of(study, &judging)?;
         let of_requirements = requirements.iter().filter_map(|traced| gap(&traced.id, traced.gap()?));
         let of_parameters = parameters.iter().flat_map(Tried::untried);
-        let of_fixed = study.subject.fixed().iter().filter_map(|(name, value)| gap(name, format!("always {}", tried::words(value))));
+        let of_fixed = study
+            .subject
+            .fixed()
+            .iter()
+            .filter_map(|(name, value)| gap(name, format!("always {}", tried::words(value))));
         let excluded = study.odd.iter().flat_map(|odd| odd.iter());
         let excluded = excluded.filter_map(|(name, attribute)| {
             gap(name, format!("excluded from the design domain: {}", attribute.excluded.as_ref()?))
