@@ -16,7 +16,7 @@ fn trial(a: Option<f64>, b: Option<f64>) -> Trial {
 }
 
 fn broken(verdict: Verdict) -> Trial {
-    Trial::new(3, Values::default(), Outcome::broken(verdict, "it broke".into()), None)
+    Trial::new(3, Values::default(), Outcome::broken(verdict, "it broke"), None)
 }
 
 /// Whose fault a trial is by these references.

@@ -50,7 +50,7 @@ fn without_a_premise_what_is_open_elsewhere_takes_nothing_from_a_requirement_tha
 #[test]
 fn tenths_and_levels_without_a_test_are_named_and_broken_tests_try_nothing() {
     let all = [0.0, 3.0, 5.0, 9.9, 10.0, 13.0, 19.0].map(|x| trial(0, x, Verdict::Pass, [Some(1.0), None], None));
-    let broken = Trial::new(9, all[0].test.clone(), Outcome::broken(Verdict::Error, "it broke".into()), None);
+    let broken = Trial::new(9, all[0].test.clone(), Outcome::broken(Verdict::Error, "it broke"), None);
     let traceability = Traceability::of(&study(), &[&all[..], &[broken]].concat()).unwrap();
     assert_eq!((traceability.tests, traceability.broken), (8, 1));
     assert_eq!(traceability.parameters[0].gaps, [[6.0, 8.0], [14.0, 18.0]]);
