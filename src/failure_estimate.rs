@@ -121,7 +121,7 @@ impl FailureEstimate {
 
     /// The estimate as CSV: the coordinates, the probability, its standard deviation, and `fail`, `pass` or
     /// nothing for where more or less than half fails for sure.
-    pub(crate) fn csv(&self) -> Vec<u8> {
+    pub fn csv(&self) -> Vec<u8> {
         let mut csv = csv::Writer::from_writer(Vec::new());
         let mut write = |row: [String; 5]| csv.write_record(row).expect("rows of one length fit into memory");
         let [x, y] = &self.names;

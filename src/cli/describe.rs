@@ -52,7 +52,7 @@ fn draw(program: &Program, declaration: &Declaration, kind: Kind) -> Result<Vec<
     let drawing = picture::world(&run, program.name);
     match kind {
         Kind::Svg => Ok(drawing.svg().into_bytes()),
-        Kind::Png | Kind::Gif | Kind::Csv => plot::png(&drawing),
+        Kind::Png | Kind::Gif | Kind::Csv => plot::drawing_png(&drawing),
     }
 }
 

@@ -32,28 +32,45 @@ pub(super) fn json(value: &impl serde::Serialize) -> String {
 /// Names on the left, values on the right.
 #[derive(Default)]
 pub(super) struct Table {
-    text: String,
+    lines: Vec<Line>,
 }
 
-/// Where values begin.
+enum Line {
+    Text(String),
+    Row(String, String),
+}
+
+/// Where values begin, unless a name is longer.
 const LABEL: usize = 22;
 
 impl Table {
     pub fn heading(&mut self, text: &str) {
-        let _ = writeln!(self.text, "{text}");
+        self.lines.push(Line::Text(text.to_owned()));
     }
 
     pub fn row(&mut self, label: &str, value: &str) {
-        let _ = writeln!(self.text, "  {label:<LABEL$}{value}");
+        self.lines.push(Line::Row(label.to_owned(), value.to_owned()));
     }
 
     /// A row that has columns of its own.
     pub fn line(&mut self, text: &str) {
-        let _ = writeln!(self.text, "  {text}");
+        self.lines.push(Line::Text(format!("  {text}")));
     }
 
     pub fn finish(self) -> String {
-        self.text
+        let labels = self.lines.iter().map(|line| match line {
+            Line::Text(_) => 0,
+            Line::Row(label, _) => label.chars().count() + 1,
+        });
+        let width = labels.fold(LABEL, usize::max);
+        let mut text = String::new();
+        for line in &self.lines {
+            let _ = match line {
+                Line::Text(line) => writeln!(text, "{line}"),
+                Line::Row(label, value) => writeln!(text, "  {label:<width$}{value}"),
+            };
+        }
+        text
     }
 
     /// The rows of a coverage report.
@@ -245,6 +262,18 @@ mod tests {
         for (number, text) in cases {
             assert_eq!(digits(number), text);
         }
+    }
+
+    #[test]
+    fn values_stand_below_each_other_however_long_the_longest_name_is() {
+        let mut table = Table::default();
+        table.heading("test 3");
+        table.row("speed", "1 m/s");
+        assert_eq!(table.finish(), "test 3\n  speed                 1 m/s\n");
+        let mut table = Table::default();
+        table.row("speed", "1 m/s");
+        table.row("critical_time.no-collision", "5.3");
+        assert_eq!(table.finish(), "  speed                      1 m/s\n  critical_time.no-collision 5.3\n");
     }
 
     #[test]

@@ -170,8 +170,8 @@ fn draw(record: &Record, kind: Kind, caption: &str) -> Result<Vec<u8>, Failure> 
     let story = || record.story(caption).ok_or(nothing);
     match kind {
         Kind::Svg => Ok(story()?.svg().into_bytes()),
-        Kind::Png => plot::png(&story()?),
-        Kind::Gif => plot::gif(&record.film(FILM, caption).ok_or(nothing)?),
+        Kind::Png => plot::drawing_png(&story()?),
+        Kind::Gif => plot::film_gif(&record.film(FILM, caption).ok_or(nothing)?),
         Kind::Csv => unreachable!("it is none of the kinds"),
     }
 }

@@ -73,7 +73,13 @@ impl Report<'_> {
         self.guilt.show(&mut table);
         self.show_modes(&mut table);
         if let Some(explanation) = self.explanation {
-            table.row("explanation", &explanation.words);
+            let rules = explanation.rules_in_words();
+            let lines = rules.iter().map(|rule| ("", rule.as_str()));
+            let trust = explanation.trust_in_words();
+            let lines = lines.chain([(if rules.is_empty() { "" } else { "  how good" }, trust.as_str())]);
+            for (i, (name, line)) in lines.enumerate() {
+                table.row(if i == 0 { "explanation" } else { name }, line);
+            }
         }
         table.row("written to", &self.out.display().to_string());
         if let Some(worst) = summary.worst() {

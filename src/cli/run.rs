@@ -35,7 +35,8 @@ pub(super) struct Conducted {
 pub(super) struct Options {
     #[command(flatten)]
     pub subject: Subject,
-    /// How tests are chosen; `paracosm-fuzz list` shows all strategies [default: halton; greedy with --extend]
+    /// How tests are chosen; `paracosm-fuzz list` shows all strategies [default: halton; greedy with
+    /// --extend; auto with --stop-at-first]
     #[arg(long, value_name = "S")]
     strategy: Option<String>,
     /// How many tests to run
@@ -212,7 +213,11 @@ impl Options {
     }
 
     fn strategy(&self) -> &str {
-        let default = if self.extend.is_some() { Strategy::Greedy } else { Strategy::Halton };
+        let default = match (self.extend.is_some(), self.stop_at_first && !self.sampling.says_how_to_cover()) {
+            (true, _) => Strategy::Greedy,
+            (false, true) => Strategy::Auto,
+            (false, false) => Strategy::Halton,
+        };
         self.strategy.as_deref().unwrap_or(default.name())
     }
 

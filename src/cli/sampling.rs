@@ -39,6 +39,12 @@ impl Sampling {
         family.unwrap_or_default().with_delta(self.delta)
     }
 
+    /// Whether anything is said that only strategies can do that cover the space.
+    pub fn says_how_to_cover(&self) -> bool {
+        let named = self.discrete.is_some() || self.measure.is_some();
+        named || self.skip.or(self.k.map(|k| k as u64)).is_some() || self.delta.or(self.epsilon).is_some()
+    }
+
     /// The measure that the strategy is to make small, if that is said or follows: who names a family wants its rows.
     pub fn measure(&self, strategy: &str) -> Option<&str> {
         let rows = self.discrete.as_ref().filter(|_| strategy == Strategy::Greedy.name());

@@ -23,8 +23,8 @@ const LEAST_TESTS: usize = 3;
 const FOLDS: usize = 10;
 const SIZE_FOLDS: usize = 5;
 
-/// The balanced accuracy of whoever knows nothing.
-const CHANCE: f64 = 0.5;
+/// By how many standard errors an explanation has to be better than chance.
+const SURE: f64 = 2.0;
 
 /// Which tests of a campaign fail, in words.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -35,8 +35,8 @@ pub struct Explanation {
     pub tests: usize,
     /// How many of them failed.
     pub failures: usize,
-    /// The rules: a test fails if one of them holds. None where they would tell tests that they were not made from no
-    /// better than chance does.
+    /// The rules: a test fails if one of them holds. None where they would find failing tests that they were not made from
+    /// no better than chance does: not by two standard errors.
     pub rules: Vec<Rule>,
     /// How often the explanation is right of tests that it was not made from.
     pub cross_validated: Accuracy,
@@ -93,7 +93,7 @@ impl Explanation {
         let left_out = left_out(&table, &rows, FOLDS, |rows| vec![chosen(&table, rows)]);
         let fitted: Vec<bool> = rows.iter().map(|&row| tree.fails(&table, row)).collect();
         let cross_validated = Accuracy::of(&left_out[0], &table.failed);
-        if cross_validated.balanced <= CHANCE {
+        if !cross_validated.is_better_than_chance(failures, tests - failures) {
             rules.clear();
         }
         let mut explanation = Self {
@@ -110,7 +110,27 @@ impl Explanation {
     }
 }
 
+impl Explanation {
+    /// When tests fail, a line for each rule.
+    pub fn rules_in_words(&self) -> Vec<String> {
+        words::rules(self)
+    }
+
+    /// How far the rules can be trusted, or that there are none.
+    pub fn trust_in_words(&self) -> String {
+        words::trust(self)
+    }
+}
+
 impl Accuracy {
+    /// Whether it says fail more often of failing tests than of passing ones, and by more than chance would make it.
+    fn is_better_than_chance(&self, failing: usize, passing: usize) -> bool {
+        let found = self.recall;
+        let alarms = 1.0 + found - 2.0 * self.balanced;
+        let variance = found * (1.0 - found) / failing as f64 + alarms * (1.0 - alarms) / passing as f64;
+        found - alarms > SURE * libm::sqrt(variance)
+    }
+
     fn of(told: &[bool], failed: &[bool]) -> Self {
         let count = |says: bool, is: bool| told.iter().zip(failed).filter(|pair| pair == &(&says, &is)).count() as f64;
         let (hits, alarms, misses, rest) =
@@ -224,6 +244,20 @@ mod tests {
         let fitted: Vec<bool> = rows.iter().map(|&row| tree.fails(&table, row)).collect();
         assert!(Accuracy::of(&fitted, &table.failed).accuracy > 0.6);
         assert!((0.3..0.6).contains(&left_out.accuracy), "{left_out:?}");
+    }
+
+    #[test]
+    fn what_finds_hardly_any_failing_test_is_no_better_than_chance() {
+        let accuracy = |recall: f64, alarms: f64| Accuracy {
+            accuracy: 0.9,
+            balanced: 0.5 * (recall + 1.0 - alarms),
+            precision: None,
+            recall,
+        };
+        assert!(accuracy(0.4, 0.06).is_better_than_chance(65, 435));
+        assert!(!accuracy(0.03, 0.006).is_better_than_chance(68, 432));
+        assert!(!accuracy(0.3, 0.3).is_better_than_chance(65, 435));
+        assert!(accuracy(1.0, 0.0).is_better_than_chance(3, 3));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The rules of a tree in words.
 
-use super::Explanation;
 use super::tree::Test;
+use super::{Accuracy, Explanation, FOLDS, MOST_LEAVES, Rule};
 use paracosm_coverage::{Coordinate, Space, Value};
 
 /// What the columns of a tree are called.
@@ -78,30 +78,48 @@ fn column_of(test: &Test) -> usize {
     }
 }
 
-/// An explanation as a sentence.
-pub(super) fn sentence(explanation: &Explanation) -> String {
-    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+/// How much of the tests is told right by saying the same of all.
+fn saying_the_same(explanation: &Explanation) -> String {
     let verdict = if 2 * explanation.failures > explanation.tests { "fail" } else { "pass" };
-    let always = format!("always saying {verdict}");
+    format!("always saying {verdict} is right of {}", percent(explanation.always))
+}
+
+/// When tests fail: a line for each rule.
+pub(super) fn rules(explanation: &Explanation) -> Vec<String> {
+    let line = |(i, rule): (usize, &Rule)| {
+        let conditions = if rule.conditions.is_empty() { "always".to_owned() } else { rule.conditions.join(" and ") };
+        let opening = if i == 0 { "fails when" } else { "or when" };
+        format!("{opening} {conditions} ({} of {} tests)", rule.failures, rule.tests)
+    };
+    explanation.rules.iter().enumerate().map(line).collect()
+}
+
+/// How far the rules can be trusted, or that there are none.
+pub(super) fn trust(explanation: &Explanation) -> String {
+    let same = saying_the_same(explanation);
     if explanation.rules.is_empty() {
         return format!(
-            "no tree of at most {} leaves tells failing from passing tests better than chance; {always} is right of {}",
-            super::MOST_LEAVES,
-            percent(explanation.always)
+            "none: no tree of at most {} leaves finds failing tests better than chance; {same}",
+            MOST_LEAVES
         );
     }
-    let rules = explanation.rules.iter().map(|rule| {
-        let conditions = if rule.conditions.is_empty() { "always".to_owned() } else { rule.conditions.join(" and ") };
-        format!("{conditions} ({} of {} tests)", rule.failures, rule.tests)
-    });
+    let Accuracy { accuracy, recall, .. } = explanation.cross_validated;
     format!(
-        "fails when {}; by {}-fold cross-validation {} of all tests are told right, and {} of the failing ones; {always} is right of {}",
-        rules.collect::<Vec<_>>().join(", or when "),
-        super::FOLDS,
-        percent(explanation.cross_validated.accuracy),
-        percent(explanation.cross_validated.recall),
-        percent(explanation.always)
+        "{} of the failing tests and {} of all are told right, by {FOLDS}-fold cross-validation; {same}",
+        percent(recall),
+        percent(accuracy),
     )
+}
+
+/// An explanation as a sentence.
+pub(super) fn sentence(explanation: &Explanation) -> String {
+    let mut lines = rules(explanation);
+    lines.push(trust(explanation));
+    lines.join("; ")
 }
 
 #[cfg(test)]

@@ -25,7 +25,7 @@ type Failure = Box<dyn StdError + Send + Sync>;
 ///
 /// # Errors
 /// The encoder fails: the film is more than 65,535 pixels wide, say.
-pub(crate) fn gif(film: &Film) -> Result<Vec<u8>, Failure> {
+pub fn film_gif(film: &Film) -> Result<Vec<u8>, Failure> {
     let scenes: Vec<_> = film.scenes.iter().map(|scene| rasterised(scene, 1.0)).collect();
     let pixels = |index: usize| {
         let frame = &film.frames[index];
@@ -164,7 +164,7 @@ mod tests {
             drawing: square(2.0 * i.min(8) as f64, [200, 0, 0], 10.0),
         };
         let film = Film { scenes, frames: (0..20).map(still).collect() };
-        let file = gif(&film).unwrap();
+        let file = film_gif(&film).unwrap();
         let mut options = gif::DecodeOptions::new();
         options.set_color_output(gif::ColorOutput::RGBA);
         let mut decoder = options.read_info(&file[..]).unwrap();

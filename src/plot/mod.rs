@@ -13,13 +13,13 @@ mod mark;
 mod raster;
 mod shade;
 
-pub(crate) use animation::gif;
+pub use animation::film_gif;
 #[cfg(feature = "camera")]
 pub(crate) use animation::gif_of_images;
 pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
 pub use map::{Axis, FailureMap};
 pub use mark::Mark;
-pub(crate) use raster::png;
+pub use raster::drawing_png;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;

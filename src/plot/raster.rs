@@ -47,7 +47,7 @@ pub(super) fn draw(pixels: &mut Pixmap, drawing: &Drawing, scale: f32) {
 ///
 /// # Errors
 /// The encoder fails.
-pub(crate) fn png(drawing: &Drawing) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
+pub fn drawing_png(drawing: &Drawing) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
     let pixels = rasterised(drawing, super::PNG_SCALE as f32);
     super::encode_png(pixels.width(), pixels.height(), &opaque(&pixels))
 }

@@ -46,7 +46,8 @@ fn the_first_failing_test_is_the_last_one_whatever_the_number_of_jobs() {
     let first: usize = failing(dir.path(), "out").parse().unwrap();
     let expected: String = whole.split_inclusive('\n').take(first + 1).collect();
     for jobs in ["1", "2", "8"] {
-        let options = ["--budget", "40", "--out", jobs, "--jobs", jobs, "--stop-at-first"];
+        let named = ["--strategy", "halton", "--stop-at-first"];
+        let options = [&["--budget", "40", "--out", jobs, "--jobs", jobs], &named[..]].concat();
         let summary = json(&stdout(&succeeds(fuzz(dir.path(), &[&options[..], &["--format", "json"]].concat()))));
         let log = dir.path().join(jobs).join("trials.jsonl");
         assert_eq!(fs::read_to_string(&log).unwrap(), expected, "{jobs} jobs");
@@ -63,8 +64,22 @@ fn the_first_failing_test_is_the_last_one_whatever_the_number_of_jobs() {
     refused(&more, &["different campaign", "`stop_at_first` is true"]);
     fs::write(dir.path().join("1/trials.jsonl"), whole.split_inclusive('\n').take(first + 2).collect::<String>())
         .unwrap();
-    let edited = fuzz(dir.path(), &["--budget", "40", "--out", "1", "--resume", "--stop-at-first"]);
+    let edited =
+        fuzz(dir.path(), &["--strategy", "halton", "--budget", "40", "--out", "1", "--resume", "--stop-at-first"]);
     refused(&edited, &[&format!("trial {}", first + 1), "edited"]);
+}
+
+#[test]
+fn who_stops_at_the_first_failure_searches_for_it_unless_something_else_is_said() {
+    let dir = tempfile::tempdir().unwrap();
+    let strategy = |out: &str, options: &[&str]| {
+        let all = [&["--budget", "4", "--out", out, "--stop-at-first"], options].concat();
+        succeeds(fuzz(dir.path(), &all));
+        read(dir.path(), &format!("{out}/campaign.json"))["strategy"].clone()
+    };
+    assert_eq!(strategy("a", &[]), "auto");
+    assert_eq!(strategy("b", &["--strategy", "sobol"]), "sobol");
+    assert_eq!(strategy("c", &["--open", "lanes", "--discrete", "cross"]), "halton");
 }
 
 #[test]

@@ -1,19 +1,12 @@
 //! Discrete parameters and constraints as users meet them: covering arrays, PICT models, (k, epsilon)-covering sets.
 
 use crate::common::{cover, fuzz, golden, refused, stderr, stdout, succeeds};
+use crate::mixed_space::{SPACE, discrete_space, generated, measured, rows};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-
-const SPACE: &str = "\
-constraints = [\"lanes == 2 implies sky != 'fog'\", \"not (car == 'truck' and lanes == 6)\"]\n\
-[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
-[[parameter]]\nname = \"lanes\"\nchoice = [2, 4, 6]\n\
-[[parameter]]\nname = \"sky\"\nchoice = [\"clear\", \"rain\", \"fog\"]\n\
-[[parameter]]\nname = \"car\"\nchoice = [\"small\", \"truck\"]\n\
-[[parameter]]\nname = \"wet\"\nchoice = [\"no\", \"yes\"]\n";
 
 const MODEL: &str = "\
 Type:   Single, Span, Stripe\n\
@@ -22,25 +15,6 @@ System: FAT, NTFS\n\
 Zip:    On, Off\n\
 \n\
 IF [System] = \"FAT\" THEN [Size] <= 100;\n";
-
-/// The space without its continuous parameter.
-fn discrete_space() -> String {
-    SPACE.replace("[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n", "")
-}
-
-/// The rows of what `generate` prints, as words, without the header.
-fn rows(csv: &str) -> Vec<Vec<String>> {
-    csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
-}
-
-fn generated(dir: &Path, arguments: &[&str]) -> (String, String) {
-    let output = succeeds(cover(dir, &[&["generate"], arguments].concat()));
-    (stdout(&output), stderr(&output))
-}
-
-fn measured(dir: &Path, arguments: &[&str]) -> Value {
-    serde_json::from_str(&stdout(&succeeds(cover(dir, &[&["estimate"], arguments].concat())))).unwrap()
-}
 
 #[test]
 fn an_array_keeps_the_constraints_covers_all_pairs_and_says_how_small_it_can_be() {

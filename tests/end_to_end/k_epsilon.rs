@@ -1,36 +1,9 @@
 //! (k, epsilon)-covering sets as users ask for them and are told of them.
 
 use crate::common::{cover, refused, stderr, stdout, succeeds};
+use crate::mixed_space::{SPACE, discrete_space, generated, measured, rows};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
-
-const SPACE: &str = "\
-constraints = [\"lanes == 2 implies sky != 'fog'\", \"not (car == 'truck' and lanes == 6)\"]\n\
-[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n\
-[[parameter]]\nname = \"lanes\"\nchoice = [2, 4, 6]\n\
-[[parameter]]\nname = \"sky\"\nchoice = [\"clear\", \"rain\", \"fog\"]\n\
-[[parameter]]\nname = \"car\"\nchoice = [\"small\", \"truck\"]\n\
-[[parameter]]\nname = \"wet\"\nchoice = [\"no\", \"yes\"]\n";
-
-/// The space without its continuous parameter.
-fn discrete_space() -> String {
-    SPACE.replace("[[parameter]]\nname = \"speed\"\ninterval = [0.5, 10.0]\n", "")
-}
-
-/// The rows of what `generate` prints, as words, without the header.
-fn rows(csv: &str) -> Vec<Vec<String>> {
-    csv.lines().skip(1).map(|line| line.split(',').map(str::to_owned).collect()).collect()
-}
-
-fn generated(dir: &Path, arguments: &[&str]) -> (String, String) {
-    let output = succeeds(cover(dir, &[&["generate"], arguments].concat()));
-    (stdout(&output), stderr(&output))
-}
-
-fn measured(dir: &Path, arguments: &[&str]) -> Value {
-    serde_json::from_str(&stdout(&succeeds(cover(dir, &[&["estimate"], arguments].concat())))).unwrap()
-}
 
 #[test]
 fn every_row_gets_points_until_none_has_a_larger_hole_than_asked_for() {

@@ -19,6 +19,7 @@ mod interrupt;
 mod k_epsilon;
 mod likelihood;
 mod maps;
+mod mixed_space;
 mod pedestrian_study;
 mod pictures;
 mod plan;
