@@ -1,9 +1,8 @@
 //! Whose fault a failure is: every failing test once more, with drivers at the wheel whose behaviour is known.
 //!
 //! A driver *prevents* a failure if in its run of the same test every requirement that was violated holds, and none that
-//! the driver under test had kept is violated instead. Who stands still for ever thus prevents no collision on the way to a
-//! place that the driver under test had reached before; what was undecided, since a contact had ended the run, is held
-//! against nobody.
+//! the driver under test had kept is violated instead: to stand still for ever prevents no collision behind the place that
+//! the car was to reach. What was undecided, as a contact had ended the run, is held against nobody.
 //!
 //! A failure that no reference prevents is *unpreventable by these drivers*, and no more is said. They brake and do
 //! nothing else: none of them steers around anybody, or drives slower where somebody might come. For what can be done by

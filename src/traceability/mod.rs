@@ -63,9 +63,16 @@ pub struct Traced {
     pub undecided: usize,
     /// How many tests that kept it never came to the situation that they are about.
     pub not_reached: usize,
-    worst: Option<(Number, usize)>,
+    worst: Option<Least>,
     /// The indices of the tests that violate it.
     pub violated_in: Vec<usize>,
+}
+
+/// The least robustness with the index of the first test that has it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+struct Least {
+    index: usize,
+    robustness: Number,
 }
 
 /// Something that is untested, and in what sense.
@@ -80,7 +87,7 @@ pub struct Gap {
 impl Traced {
     /// The least robustness, in its unit, with the index of the first test that has it.
     pub fn worst(&self) -> Option<(f64, usize)> {
-        self.worst.map(|(worth, index)| (worth.0.unwrap_or(f64::NAN), index))
+        self.worst.and_then(|Least { index, robustness }| Some((robustness.0?, index)))
     }
 
     fn new(study: &Study, id: &str) -> Self {
@@ -116,7 +123,7 @@ impl Traced {
             self.not_reached += 1;
         }
         if self.worst().is_none_or(|(worst, _)| worth < worst) {
-            self.worst = Some((Number(Some(worth)), trial.index));
+            self.worst = Some(Least { index: trial.index, robustness: Number(Some(worth)) });
         }
     }
 

@@ -130,7 +130,11 @@ fn trace_shows_requirement_by_test_and_what_is_untested() {
         assert_eq!(traced["violated_in"], json!(violated), "{id}");
         assert_eq!(traced["passed"], worths().count() - violated.len(), "{id}");
         let worst = worths().min_by(|a, b| a.1.total_cmp(&b.1));
-        assert_eq!(traced["worst"], worst.map_or(Value::Null, |(i, worth)| json!([worth, i])), "{id}");
+        assert_eq!(
+            traced["worst"],
+            worst.map_or(Value::Null, |(i, worth)| json!({"index": i, "robustness": worth})),
+            "{id}"
+        );
     }
     let rows = fs::read_to_string(dir.path().join("matrix.csv")).unwrap();
     assert!(rows.starts_with("requirement,text,source,severity,formula,unit,tests,passed,failed,"), "{rows}");
@@ -138,6 +142,18 @@ fn trace_shows_requirement_by_test_and_what_is_untested() {
     refused(&fuzz(dir.path(), &["trace", "out", "--csv", "matrix.csv"]), &["matrix.csv exists"]);
     refused(&fuzz(dir.path(), &["trace", "out", "--csv", "matrix.txt"]), &["matrix.txt", ".csv"]);
     refused(&fuzz(dir.path(), &["trace", "nowhere"]), &["nowhere"]);
+}
+
+#[test]
+fn the_example_of_a_file_is_one() {
+    let dir = tempfile::tempdir().unwrap();
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/requirements.toml");
+    let asked = ["--requirements", example.to_str().unwrap(), "--open", "fog", "--budget", "4", "--out", "out", "-q"];
+    succeeds(fuzz(dir.path(), &asked));
+    let told = stdout(&succeeds(fuzz(dir.path(), &["trace", "out", "--format", "table"])));
+    for text in ["calm-start    4       0", "it has no formula", "fixed: dry asphalt", "varied by speed 0.5..10 m/s"] {
+        assert!(told.contains(text), "{text}: {told}");
+    }
 }
 
 #[test]
