@@ -179,7 +179,7 @@ impl Traceability {
             .fixed()
             .iter()
             .filter_map(|(name, value)| gap(name, format!("always {}", tried::words(value))));
-        let excluded = study.odd.iter().flat_map(|odd| odd.iter());
+        let excluded = study.odd.iter().flat_map(Odd::iter);
         let excluded = excluded.filter_map(|(name, attribute)| {
             gap(name, format!("excluded from the design domain: {}", attribute.excluded.as_ref()?))
         });
