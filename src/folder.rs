@@ -15,8 +15,8 @@ const STUDY: &str = "campaign.json";
 const TRIALS: &str = "trials.jsonl";
 /// The tests that the study counts as done.
 const EXTENDED: &str = "extended.csv";
-/// What is derived from the trials at the end of a campaign.
-const DERIVED: [&str; 8] = [
+/// What is derived from the trials at the end of a campaign, or later.
+const DERIVED: [&str; 13] = [
     "trials.csv",
     "coverage.json",
     "failure-map.svg",
@@ -25,6 +25,11 @@ const DERIVED: [&str; 8] = [
     "modes.json",
     "explanation.json",
     "located.json",
+    "blame.json",
+    "blame.csv",
+    "blame-map.svg",
+    "blame-map.png",
+    "junit.xml",
 ];
 
 /// The folder of a campaign, open for appending.

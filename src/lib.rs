@@ -20,6 +20,7 @@
 //! ```
 
 mod black_box;
+pub mod blame;
 mod campaign;
 pub mod certificate;
 pub mod compare;
@@ -37,6 +38,7 @@ mod extension;
 mod failure_estimate;
 mod folder;
 mod json;
+pub mod junit;
 pub mod likelihood;
 mod live;
 mod modes;
@@ -55,6 +57,7 @@ mod summary;
 mod suspects;
 mod tests_file;
 mod trace_file;
+mod traceability;
 mod trial;
 mod worker;
 
@@ -74,14 +77,15 @@ pub use folder::Folder;
 pub use live::LiveCoverage;
 pub use modes::{Extent, Mode, Modes, Touch};
 pub use plan::{Guarantee, Need, Plan};
-pub use plot::{Axis, FailureMap, Picture, drawing_png, film_gif};
+pub use plot::{Axis, FailureMap, Mark, Picture, drawing_png, film_gif};
 pub use promise::Promise;
 pub use regression::{Expectation, Regression, Replayed};
 pub use shrink::{Change, Sameness, Shrunk};
-pub use study::{DriverChoice, RequirementText, Simulation, Study, Subject};
+pub use study::{Attribute, DriverChoice, Odd, RequirementText, Simulation, Study, Subject};
 pub use summary::{Judged, Summary, Worst};
 pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
 pub use trace_file::write_trace;
+pub use traceability::{Gap, Traceability, Traced, Tried};
 pub use trial::Trial;
 pub use worker::Worker;
 

@@ -5,7 +5,7 @@
 //! watches that it stays mended.
 
 use crate::folder::{is_new, write_whole};
-use crate::{Campaign, Error, Folder, Study, Trial};
+use crate::{Campaign, Error, Folder, RequirementText, Study, Trial};
 use paracosm_coverage::Values;
 use paracosm_oracles::Verdict;
 use serde::{Deserialize, Serialize};
@@ -59,7 +59,7 @@ impl Regression {
         let violates = trial.violated().map(str::to_owned).collect();
         // How the campaign went about its tests is of no concern to this one.
         let mut study = study.clone().stop_at_first(false);
-        (study.extends, study.budget) = (None, 1);
+        (study.extends, study.odd, study.budget) = (None, None, 1);
         let (test, trace_hash) = (trial.test.clone(), trial.trace_hash.clone());
         Self { about, expect: Expectation::Fail, violates, test, trace_hash, study }
     }
@@ -76,7 +76,8 @@ impl Regression {
         study.check_format().map_err(|message| Error::content(path, None, message))?;
         study.space.encode(test).map_err(|error| Error::content(path, None, format!("`test`: {error}")))?;
         // What a system that answers with robustness is asked is only known when it answers.
-        let stated = |id: &&String| study.requirements.is_empty() || study.requirement(id).is_some();
+        let judges_itself = !study.requirements.iter().any(RequirementText::has_formula);
+        let stated = |id: &&String| judges_itself || study.requirement(id).is_some();
         match violates.iter().find(|id| !stated(id)) {
             Some(id) => Err(Error::content(path, None, format!("`violates`: no requirement is called `{id}`"))),
             None => Ok(regression),

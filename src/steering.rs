@@ -29,7 +29,8 @@ impl<'a> Steering<'a> {
     /// As [`Study::generator`].
     pub fn new(study: &'a Study) -> Result<Self, Error> {
         let mut steering = Self { study, search: Search::One(study.generator()?), before: Vec::new() };
-        steering.know(study.requirements.iter().map(|requirement| requirement.id.as_str()))?;
+        let judged = study.requirements.iter().filter(|requirement| requirement.has_formula());
+        steering.know(judged.map(|requirement| requirement.id.as_str()))?;
         Ok(steering)
     }
 

@@ -1,6 +1,8 @@
 //! The arguments of `paracosm-fuzz`.
 
-use super::{Failure, Found, Verbosity, describe, doctor, likelihood, list, map, record, replay, run, shrink};
+use super::{
+    Failure, Found, Verbosity, blame, describe, doctor, likelihood, list, map, record, replay, run, shrink, trace,
+};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -13,6 +15,8 @@ Examples:
   paracosm-fuzz map paracosm-out --x speed --y friction    the failure map over other parameters
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
   paracosm-fuzz shrink paracosm-out 17               the simplest test near test 17 that still fails
+  paracosm-fuzz blame paracosm-out                   which failures other drivers could have avoided
+  paracosm-fuzz trace paracosm-out                   requirement by test, and what is untested
   paracosm-fuzz record pedestrian-crossing --budget 20 --out images      what cameras see of tests, labelled
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
@@ -26,6 +30,7 @@ Examples:
   paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json
   paracosm-fuzz replay regressions/*.json                      the failures are still the same
   paracosm-fuzz replay regressions/*.json --fail-on-violation  in CI: what was mended stays so
+  paracosm-fuzz replay regressions/*.json --junit report.xml   and a report that CI systems read
 
 A regression file says how its test is to end: `\"expect\": \"fail\"` as it is written, `\"pass\"`
 once you have mended what failed and edited the file. Every file is run, and a line says what
@@ -80,6 +85,12 @@ enum Verb {
     #[command(after_help = "Examples:\n  paracosm-fuzz shrink paracosm-out 17\n  \
                             paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json")]
     Shrink(shrink::Options),
+    /// Run each failing test again with the reference drivers: who could have avoided it
+    #[command(after_help = blame::EXAMPLES)]
+    Blame(blame::Options),
+    /// Show requirement by test: what passed, what failed, and what is untested
+    #[command(after_help = trace::EXAMPLES)]
+    Trace(trace::Options),
     /// Run a campaign and record what cameras see of its tests: images, masks, depths, boxes and controls
     #[command(after_help = record::EXAMPLES)]
     Record(Box<record::Options>),
@@ -99,6 +110,8 @@ impl Command {
             Some(Verb::Map(options)) => options.execute(self.verbosity),
             Some(Verb::Replay(options)) => options.execute(self.verbosity),
             Some(Verb::Shrink(options)) => options.execute(self.verbosity),
+            Some(Verb::Blame(options)) => options.execute(self.verbosity),
+            Some(Verb::Trace(options)) => options.execute(),
             Some(Verb::Record(options)) => options.execute(self.verbosity),
             Some(Verb::Doctor(options)) => options.execute(),
         }

@@ -3,6 +3,7 @@
 use super::draw::{Kind, Target};
 use super::output::{Format, Table, json, percent};
 use super::{Failure, Found, Verbosity, print};
+use crate::failure_estimate;
 use crate::folder::write_whole;
 use crate::{Error, FailureMap, Folder, Picture, Study, Trial};
 use clap::Args;
@@ -17,12 +18,8 @@ const NAME: &str = "failure-map";
 pub(super) struct Options {
     /// The folder of the campaign
     dir: PathBuf,
-    /// The parameter along the horizontal axis [default: the first continuous one that is open]
-    #[arg(long, value_name = "NAME")]
-    x: Option<String>,
-    /// The parameter along the vertical axis [default: the next one]
-    #[arg(long, value_name = "NAME")]
-    y: Option<String>,
+    #[command(flatten)]
+    axes: Axes,
     /// Write to this file, which does not exist yet, .svg, .png or .csv [default: failure-map.svg, .png and .csv in DIR,
     /// which are replaced]
     #[arg(long, value_name = "FILE")]
@@ -32,12 +29,24 @@ pub(super) struct Options {
     format: Option<Format>,
 }
 
+/// What the axes of a map are to be.
+#[derive(Debug, Args)]
+pub(super) struct Axes {
+    /// The parameter along the horizontal axis [default: the first continuous one that is open]
+    #[arg(long, value_name = "NAME")]
+    x: Option<String>,
+    /// The parameter along the vertical axis [default: the next one]
+    #[arg(long, value_name = "NAME")]
+    y: Option<String>,
+}
+
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
         let kinds = [Kind::Svg, Kind::Png, Kind::Csv];
         let target = self.out.as_ref().map(|file| Target::new("--out", file, &kinds)).transpose()?;
         let (study, trials) = Folder::read(&self.dir)?;
-        let [x, y] = self.axes(&study)?;
+        let nowhere = "a map needs two continuous parameters, and the campaign varies fewer";
+        let [x, y] = self.axes.find(&study)?.ok_or_else(|| Error::Usage(nowhere.into()))?;
         let map = FailureMap::over(&study, &trials, [&x, &y])?;
         match &target {
             Some(target) => verbosity.note(target.write(|kind| contents(&map, kind))?),
@@ -62,26 +71,23 @@ impl Options {
         })?;
         Ok(Found::Nothing)
     }
-
-    /// The names that were given, the first continuous coordinates in place of those that were not.
-    fn axes(&self, study: &Study) -> Result<[String; 2], Error> {
-        let given = [&self.x, &self.y];
-        let mut free = study.space.continuous().map(|coordinate| coordinate.name());
-        let mut axes = given.map(|name| name.clone().unwrap_or_default());
-        for (axis, given) in axes.iter_mut().zip(given) {
-            if given.is_none() {
-                let next = free.find(|name| given_is_not(&self.x, name) && given_is_not(&self.y, name));
-                *axis = next.ok_or_else(|| {
-                    Error::Usage("a map needs two continuous parameters, and the campaign varies fewer".into())
-                })?;
-            }
-        }
-        Ok(axes)
-    }
 }
 
-fn given_is_not(given: &Option<String>, name: &str) -> bool {
-    given.as_deref() != Some(name)
+impl Axes {
+    /// The names that were given, the first continuous coordinates in place of those that were not; `None` where there are
+    /// too few of these.
+    ///
+    /// # Errors
+    /// A name is none of a continuous coordinate, or both are one.
+    pub fn find(&self, study: &Study) -> Result<Option<[String; 2]>, Error> {
+        let given = [&self.x, &self.y];
+        let coordinates = study.space.continuous().map(|coordinate| coordinate.name());
+        let mut free = coordinates.filter(|name| given.iter().all(|given| given.as_deref() != Some(name)));
+        let [x, y] = given.map(|given| given.clone().or_else(|| free.next()));
+        let (Some(x), Some(y)) = (x, y) else { return Ok(None) };
+        failure_estimate::axes(study, [&x, &y])?;
+        Ok(Some([x, y]))
+    }
 }
 
 /// The map of a campaign that has ended, over its first two continuous coordinates; `None` where it has less.
@@ -91,11 +97,16 @@ pub(super) fn of_campaign(study: &Study, trials: &[Trial]) -> Result<Option<Fail
     FailureMap::over(study, trials, [x, y]).map(Some)
 }
 
-/// Writes a map into the folder of its campaign: the pictures, and the estimate's numbers if there is one.
+/// Writes the failure map into the folder of its campaign: the pictures, and the estimate's numbers if there is one.
 pub(super) fn write(dir: &Path, map: &FailureMap) -> Result<(), Error> {
+    write_as(dir, NAME, map)
+}
+
+/// Writes a map into the folder of its campaign under this name.
+pub(super) fn write_as(dir: &Path, name: &str, map: &FailureMap) -> Result<(), Error> {
     let kinds = [("svg", Kind::Svg), ("png", Kind::Png), ("csv", Kind::Csv)];
     for (ending, kind) in kinds.into_iter().filter(|(_, kind)| *kind != Kind::Csv || map.estimate.is_some()) {
-        let path = dir.join(format!("{NAME}.{ending}"));
+        let path = dir.join(format!("{name}.{ending}"));
         let drawn =
             contents(map, kind).map_err(|error| Error::Picture { path: path.clone(), message: error.to_string() })?;
         write_whole(&path, &drawn)?;

@@ -4,6 +4,7 @@
 //! violation was found and that was asked about, 2 when the command, its input or the run was wrong.
 
 mod arguments;
+mod blame;
 mod cover;
 mod describe;
 mod doctor;
@@ -13,6 +14,7 @@ mod interrupt;
 mod likelihood;
 mod list;
 mod map;
+mod odd;
 mod output;
 mod progress;
 mod record;
@@ -26,6 +28,7 @@ mod space_file;
 mod subject;
 mod suspects;
 mod system;
+mod trace;
 
 use crate::executor::WORKER;
 use clap::Args;

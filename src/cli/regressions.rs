@@ -1,16 +1,24 @@
 //! `paracosm-fuzz replay FILE...`: regression tests once more.
 
-use super::output::{Format, digits, json};
+use super::output::{Format, digits, json, shell_word};
 use super::{Failure, Found, print};
+use crate::folder::{is_new, write_whole};
+use crate::junit::{self, Suite};
 use crate::oracles::Verdict;
 use crate::{Error, Expectation, Regression, Replayed, Trial};
 use serde_json::json;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Runs regression files, all of them whatever becomes of one, and says what became of each. `expect` overrides what they
-/// say. The first that broke, or did not repeat what the same software has recorded, is the failure in the end.
-pub(super) fn replay(files: &[PathBuf], expect: Option<Expectation>, format: Option<Format>) -> Result<Found, Failure> {
+/// say, and `junit` is written if it is a file that does not exist yet. The first that broke, or did not repeat what the same software has recorded, is the failure in the end.
+pub(super) fn replay(
+    files: &[PathBuf],
+    expect: Option<Expectation>,
+    junit: Option<&Path>,
+    format: Option<Format>,
+) -> Result<Found, Failure> {
+    junit.map_or(Ok(()), |path| is_new(path, "a report"))?;
     let mut regressions = Vec::new();
     for file in files {
         let mut regression = Regression::read(file)?;
@@ -19,6 +27,7 @@ pub(super) fn replay(files: &[PathBuf], expect: Option<Expectation>, format: Opt
     }
     let (mut lines, mut objects) = (String::new(), Vec::new());
     let (mut found, mut wrong) = (Found::Nothing, None);
+    let mut ran = Vec::new();
     for (file, regression) in &regressions {
         let replayed = regression.run().map_err(|error| Error::content(file, None, error.to_string()))?;
         let words = words(regression, &replayed);
@@ -30,12 +39,25 @@ pub(super) fn replay(files: &[PathBuf], expect: Option<Expectation>, format: Opt
         if broke(&replayed.trial) || replayed.same_trace == Some(false) {
             wrong.get_or_insert(format!("{}: {words}", file.display()));
         }
+        ran.push(replayed.trial);
+    }
+    if let Some(path) = junit {
+        let suites: Vec<Suite> =
+            regressions.iter().zip(&ran).map(|((file, regression), trial)| suite(file, regression, trial)).collect();
+        write_whole(path, junit::document(&suites).as_bytes())?;
     }
     print(&match Format::or_fitting(format) {
         Format::Table => lines,
         Format::Json => json(&objects),
     })?;
     wrong.map_or(Ok(found), |message| Err(message.into()))
+}
+
+/// The suite of one test.
+fn suite<'a>(file: &Path, regression: &'a Regression, trial: &'a Trial) -> Suite<'a> {
+    let name = file.to_string_lossy().into_owned();
+    let command = format!("paracosm-fuzz replay {}", shell_word(&name));
+    Suite { name, study: regression.study(), trials: vec![(trial, command)] }
 }
 
 /// What became of a test.

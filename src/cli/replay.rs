@@ -34,6 +34,9 @@ pub(super) struct Options {
     /// How the tests in regression files are to end, whatever the files say
     #[arg(long, value_name = "VERDICT")]
     expect: Option<Ending>,
+    /// Write what became of the tests in regression files to this file, which does not exist yet, as CI systems read it
+    #[arg(long, value_name = "FILE.xml")]
+    junit: Option<PathBuf>,
     /// Exit with status 1 if a test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
@@ -63,15 +66,20 @@ impl Options {
                 let message = "--trace, --draw and --camera are for a test of a campaign: replay DIR INDEX";
                 return Err(Error::Usage(message.into()).into());
             }
-            files => regressions::replay(files, self.expect.map(Expectation::from), self.format)?,
+            files => {
+                let expect = self.expect.map(Expectation::from);
+                regressions::replay(files, expect, self.junit.as_deref(), self.format)?
+            }
         };
         Ok(if self.fail_on_violation { found } else { Found::Nothing })
     }
 
     /// Runs a logged test again.
     fn replay(&self, dir: &Path, index: usize, verbosity: Verbosity) -> Result<Found, Failure> {
-        if self.expect.is_some() {
-            return Err(Error::Usage("--expect is for regression files; the log says how a test ended".into()).into());
+        if self.expect.is_some() || self.junit.is_some() {
+            let option = if self.expect.is_some() { "--expect" } else { "--junit" };
+            let message = format!("{option} is for regression files; the log says how a test ended");
+            return Err(Error::Usage(message).into());
         }
         let (study, trials) = Folder::read(dir)?;
         let logged = logged(dir, &trials, index)?;

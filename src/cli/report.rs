@@ -1,9 +1,11 @@
 //! What a campaign says at its end, for people and as JSON.
 
+use super::odd;
 use super::output::{Table, digits, percent, plural, shell_word, value_words};
 use super::suspects::Guilt;
 use crate::coverage::Value;
 use crate::json::Number;
+use crate::junit;
 use crate::oracles::Verdict;
 use crate::{Coverage, Explanation, Judged, Modes, Promise, Study, Summary, Trial};
 use serde_json::json;
@@ -47,6 +49,9 @@ impl Report<'_> {
         }
         for (i, judged) in summary.requirements().iter().enumerate() {
             table.row(if i == 0 { "requirements" } else { "" }, &self.in_words(judged));
+        }
+        for (i, (name, words)) in odd::lines(study).iter().enumerate() {
+            table.row(if i == 0 { "design domain" } else { "" }, &format!("{name}: {words}"));
         }
         if self.stopped() {
             table.row("stopped", &format!("at the first failing test; the budget is {}", study.budget));
@@ -105,12 +110,24 @@ impl Report<'_> {
                 let worst = judged
                     .worst
                     .map(|(robustness, index)| json!({"index": index, "robustness": Number(Some(robustness))}));
-                json!({"id": judged.id, "violated": judged.violated, "undecided": judged.undecided, "worst": worst})
+                let mut said =
+                    json!({"id": judged.id, "violated": judged.violated, "undecided": judged.undecided, "worst": worst});
+                if let Some(stated) = self.study.requirement(&judged.id) {
+                    said["text"] = stated.text.as_str().into();
+                    let more = [("source", &stated.source), ("severity", &stated.severity)];
+                    for (key, value) in more.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?))) {
+                        said[key] = value.as_str().into();
+                    }
+                }
+                said
             })
             .collect();
         let mut summary = json!({"tests": self.summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
             "requirements": requirements,
             "coverage": self.coverage, "out": self.out, "worst": worst});
+        if let Some(odd) = &self.study.odd {
+            summary["odd"] = json!(odd);
+        }
         if let Some(known) = &self.study.extends {
             summary["extends"] = json!(known);
         }
@@ -138,6 +155,10 @@ impl Report<'_> {
         }
         if let Some((robustness, index)) = worst {
             text.push_str(&format!("; at worst {} (test {index})", self.robustness(id, *robustness)));
+        }
+        if let Some(stated) = self.study.requirement(id) {
+            let said = stated.severity.iter().chain(&stated.source);
+            said.for_each(|word| text.push_str(&format!("; {word}")));
         }
         text
     }
@@ -172,6 +193,12 @@ impl Report<'_> {
     fn different_rows(&self) -> usize {
         let points = self.trials.iter().filter_map(|trial| self.study.space.encode(&trial.test).ok());
         points.map(|point| point.discrete).collect::<BTreeSet<_>>().len()
+    }
+
+    /// The tests as CI systems read them.
+    pub(super) fn junit(&self) -> String {
+        let trials = self.trials.iter().map(|trial| (trial, self.replay(trial.index))).collect();
+        junit::document(&[junit::Suite { name: self.study.subject.title(), study: self.study, trials }])
     }
 
     /// The command that runs a test again.

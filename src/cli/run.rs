@@ -71,6 +71,9 @@ pub(super) struct Options {
     /// Exit with status 1 if a test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
+    /// Write the tests to junit.xml in the folder as well, as CI systems read them
+    #[arg(long)]
+    junit: bool,
     /// How to print the summary [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
@@ -159,6 +162,9 @@ impl Options {
             explanation: explanation.as_ref(),
             out: &self.out,
         };
+        if self.junit {
+            folder.write("junit.xml", report.junit().as_bytes())?;
+        }
         print(&match Format::or_fitting(self.format) {
             Format::Table => report.table(),
             Format::Json => json(&report.json()),

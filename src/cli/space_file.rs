@@ -19,6 +19,12 @@ pub(super) struct SpaceFile {
     pub demand: Demand,
 }
 
+/// Whether a file is a model of PICT by its name.
+pub(super) fn is_model(path: &Path) -> bool {
+    let extension = path.extension().and_then(OsStr::to_str);
+    extension.is_some_and(|extension| PICT.contains(&extension.to_lowercase().as_str()))
+}
+
 impl SpaceFile {
     pub fn read(path: &Path, verbosity: Verbosity) -> Result<Self, Error> {
         let text = String::from_utf8(fs::read(path).map_err(Error::file("read", path))?);
@@ -27,11 +33,7 @@ impl SpaceFile {
             let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
             Error::content(path, line, "found bytes that are no UTF-8, expected a text in UTF-8")
         })?;
-        if path
-            .extension()
-            .and_then(OsStr::to_str)
-            .is_some_and(|extension| PICT.contains(&extension.to_lowercase().as_str()))
-        {
+        if is_model(path) {
             let model = Model::from_pict(&text).map_err(|error| {
                 Error::content(path, error.line, format!("column {}: {}", error.column, error.message))
             })?;

@@ -2,9 +2,10 @@
 
 use super::Verbosity;
 use super::system::System;
-use crate::coverage::{Domain, Shape, Value};
-use crate::{Error, Study};
+use crate::coverage::{Domain, Shape, Value, did_you_mean, nearest};
+use crate::{Error, RequirementText, Study};
 use clap::Args;
+use std::path::PathBuf;
 
 /// What is tested.
 #[derive(Debug, Args)]
@@ -25,6 +26,9 @@ pub(super) struct Subject {
     driver: String,
     #[command(flatten)]
     system: System,
+    /// Ask what this file says, too: requirements with their sources and severities, and what of the design domain is tested
+    #[arg(long, value_name = "FILE.toml")]
+    requirements: Option<PathBuf>,
     /// Ask a formula of every trace, too; several times for several. Its requirements are called spec-1, spec-2, ..;
     /// `paracosm-fuzz describe SCENARIO` shows the signals that it may speak of
     #[arg(long, value_name = "FORMULA")]
@@ -86,10 +90,28 @@ impl Subject {
             }
             study = study.set(name, value.clone())?;
         }
+        if let Some(path) = &self.requirements {
+            study = study.require(path)?;
+            note_unjudged(&study, verbosity);
+        }
         for formula in &self.spec {
             study = study.spec(formula)?;
         }
         Ok(study)
+    }
+}
+
+/// Says which requirements nothing judges, which may be a slip of the pen.
+fn note_unjudged(study: &Study, verbosity: Verbosity) {
+    if study.subject.scenario().is_err() {
+        return;
+    }
+    let (judged, unjudged): (Vec<_>, Vec<_>) = study.requirements.iter().partition(|r| r.has_formula());
+    for RequirementText { id, .. } in unjudged {
+        let meant = did_you_mean(&nearest(id, judged.iter().map(|requirement| requirement.id.as_str())));
+        verbosity.note(format_args!(
+            "requirement `{id}` has no formula, and the scenario has none of that name{meant}: nothing judges it"
+        ));
     }
 }
 

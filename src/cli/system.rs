@@ -1,7 +1,7 @@
 //! The options by which a system that others wrote takes the place of a scenario.
 
 use super::Verbosity;
-use super::space_file::SpaceFile;
+use super::space_file::{SpaceFile, is_model};
 use crate::coverage::demand::Demand;
 use crate::{BlackBox, Error, Study};
 use clap::Args;
@@ -38,6 +38,7 @@ impl System {
                            `paracosm-cover generate` makes such tests";
             return Err(Error::content(path, None, message));
         }
-        Ok(Some(Study::of_system(system, space)))
+        let study = Study::of_system(system, space);
+        Ok(Some(if is_model(path) { study } else { study.odd_of(path)? }))
     }
 }

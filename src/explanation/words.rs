@@ -102,10 +102,7 @@ pub(super) fn rules(explanation: &Explanation) -> Vec<String> {
 pub(super) fn trust(explanation: &Explanation) -> String {
     let same = saying_the_same(explanation);
     if explanation.rules.is_empty() {
-        return format!(
-            "none: no tree of at most {} leaves finds failing tests better than chance; {same}",
-            MOST_LEAVES
-        );
+        return format!("none: no tree of at most {MOST_LEAVES} leaves finds failing tests better than chance; {same}");
     }
     let Accuracy { accuracy, recall, .. } = explanation.cross_validated;
     format!(

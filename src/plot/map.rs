@@ -1,15 +1,14 @@
 //! The failure map: every test a mark at the values of two of its parameters, as in the paper's Figure 9.
 
+use super::mark::{Drawn, Mark, ORDER};
 use super::{FAMILY, GRID, INK, shade};
+use crate::blame::Blame;
 use crate::failure_estimate::{self, Axes, FailureEstimate};
 use crate::{Error, Study, Trial};
 use paracosm_coverage::{Coordinate, Domain};
-use paracosm_oracles::Verdict;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-use plotters::element::{Drawable, PointCollection};
 use plotters::prelude::*;
-use plotters_backend::DrawingErrorKind;
 use std::ops::Range;
 
 /// An axis: what it shows and from where to where.
@@ -45,7 +44,7 @@ pub struct FailureMap {
     /// The vertical axis.
     pub y: Axis,
     /// The tests.
-    pub marks: Vec<(f64, f64, Verdict)>,
+    pub marks: Vec<(f64, f64, Mark)>,
     /// How probable a failure is, if that is to be seen behind the tests.
     pub estimate: Option<FailureEstimate>,
 }
@@ -53,21 +52,12 @@ pub struct FailureMap {
 /// How wide the bar of shades is with its numbers, in heights of the text.
 const BAR: f64 = 5.4;
 
-/// In the order in which they are drawn and listed: what matters most is drawn last, over all else.
-const ORDER: [Verdict; 5] = [Verdict::Pass, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error, Verdict::Fail];
-
-// Paul Tol's vibrant scheme: told apart with any colour vision, and in grey by their shapes.
-const BLUE: RGBColor = RGBColor(0x00, 0x77, 0xbb);
-const RED: RGBColor = RGBColor(0xcc, 0x33, 0x11);
-const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
-const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
-
 pub(super) type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 impl FailureMap {
     /// The map of a campaign over its first two continuous coordinates; `None` where it has less than two.
     pub fn of(study: &Study, trials: &[Trial]) -> Option<Self> {
-        Self::at(study, trials, [0, 1])
+        Self::at(study, trials, [0, 1], |trial| Mark::Verdict(trial.verdict))
     }
 
     /// The map of a campaign over the continuous coordinates with these names, with the probability of failure.
@@ -76,16 +66,37 @@ impl FailureMap {
     /// A name is none of a continuous coordinate, or both are one; a trial is none of the study's space.
     pub fn over(study: &Study, trials: &[Trial], names: [&str; 2]) -> std::result::Result<Self, Error> {
         let axes = failure_estimate::axes(study, names)?;
-        let map = Self::at(study, trials, axes).expect("there are coordinates of these names");
+        let mark = |trial: &Trial| Mark::Verdict(trial.verdict);
+        let map = Self::at(study, trials, axes, mark).expect("there are coordinates of these names");
         Ok(Self { estimate: FailureEstimate::of(study, trials, axes)?, ..map })
     }
 
-    fn at(study: &Study, trials: &[Trial], axes: Axes) -> Option<Self> {
+    /// The map of a campaign that shows whose fault its failures are, over the continuous coordinates with these names.
+    ///
+    /// # Errors
+    /// A name is none of a continuous coordinate, or both are one.
+    pub fn of_blame(
+        study: &Study,
+        trials: &[Trial],
+        blame: &Blame,
+        names: [&str; 2],
+    ) -> std::result::Result<Self, Error> {
+        let axes = failure_estimate::axes(study, names)?;
+        let mark = |trial: &Trial| match blame.of(trial.index) {
+            Some(blamed) => Mark::Fault(blamed.fault),
+            None => Mark::Verdict(trial.verdict),
+        };
+        let mut map = Self::at(study, trials, axes, mark).expect("there are coordinates of these names");
+        map.note = format!("{}, failures judged by {}", map.note, blame.references.join(", "));
+        Ok(map)
+    }
+
+    fn at(study: &Study, trials: &[Trial], axes: Axes, mark: impl Fn(&Trial) -> Mark) -> Option<Self> {
         let continuous: Vec<Coordinate> = study.space.continuous().collect();
         let [x, y] = axes.map(|axis| continuous.get(axis).copied());
         let (x, y) = (x?, y?);
         let at = |trial: &Trial, c: &Coordinate| c.value(trial.test.get(&c.parameter.name)?)?.number();
-        let mark = |trial: &Trial| Some((at(trial, &x)?, at(trial, &y)?, trial.verdict));
+        let mark = |trial: &Trial| Some((at(trial, &x)?, at(trial, &y)?, mark(trial)));
         Some(Self {
             title: study.subject.title(),
             note: format!("{} tests, strategy {}", trials.len(), study.strategy_label()),
@@ -150,12 +161,12 @@ impl FailureMap {
             let height = body.dim_in_pixel().1;
             shade::draw_bar(bar, (0, (height - px(3.3 * text)) as i32), "probability of failure", text * scale)?;
         }
-        for verdict in ORDER {
-            let marks = self.marks.iter().filter(|mark| mark.2 == verdict);
+        for mark in ORDER {
+            let marks = self.marks.iter().filter(|other| other.2 == mark);
             // A thousand marks have room; more of them become smaller, so that they do not run together.
             let crowd = (self.marks.len() as f64 / 1000.0).max(1.0);
             let side = (side / crowd.sqrt()).max(1.2) * scale;
-            chart.draw_series(marks.map(|(x, y, _)| EmptyElement::at((*x, *y)) + Mark { verdict, side }))?;
+            chart.draw_series(marks.map(|(x, y, _)| EmptyElement::at((*x, *y)) + Drawn { mark, side }))?;
         }
         Ok(())
     }
@@ -174,14 +185,14 @@ impl FailureMap {
         area.draw(&Text::new(self.note(), (left, (1.95 * text) as i32), style(0.85 * text)))?;
         let line = (3.8 * text) as i32;
         let mut at = left + side as i32;
-        for verdict in ORDER.into_iter().rev() {
-            let count = self.marks.iter().filter(|mark| mark.2 == verdict).count();
-            let always = matches!(verdict, Verdict::Pass | Verdict::Fail);
-            if count == 0 && !always {
+        let of_faults = self.marks.iter().any(|mark| matches!(mark.2, Mark::Fault(_)));
+        for mark in ORDER.into_iter().rev() {
+            let count = self.marks.iter().filter(|other| other.2 == mark).count();
+            if count == 0 && !mark.is_listed(of_faults) {
                 continue;
             }
-            area.draw(&(EmptyElement::at((at, line)) + Mark { verdict, side: 1.3 * side }))?;
-            let label = format!("{verdict} {count}");
+            area.draw(&(EmptyElement::at((at, line)) + Drawn { mark, side: 1.3 * side }))?;
+            let label = format!("{mark} {count}");
             let style = style(0.9 * text);
             let (width, height) = area.estimate_text_size(&label, &style)?;
             at += (0.8 * text) as i32;
@@ -190,47 +201,6 @@ impl FailureMap {
             at += width as i32 + (1.8 * text) as i32;
         }
         if self.estimate.is_some() { shade::draw_key(area, (at, line), text, scale) } else { Ok(()) }
-    }
-}
-
-/// The mark of a verdict, `side` pixels from its middle to its end.
-struct Mark {
-    verdict: Verdict,
-    side: f64,
-}
-
-impl<'a> PointCollection<'a, (i32, i32)> for &'a Mark {
-    type Point = (i32, i32);
-    type IntoIter = std::iter::Once<(i32, i32)>;
-
-    fn point_iter(self) -> Self::IntoIter {
-        std::iter::once((0, 0))
-    }
-}
-
-impl<B: DrawingBackend> Drawable<B> for Mark {
-    fn draw<I: Iterator<Item = (i32, i32)>>(
-        &self,
-        mut points: I,
-        backend: &mut B,
-        _: (u32, u32),
-    ) -> std::result::Result<(), DrawingErrorKind<B::ErrorType>> {
-        let Some((x, y)) = points.next() else { return Ok(()) };
-        let (side, stroke) = (self.side.round() as i32, (0.55 * self.side).round().max(1.0) as u32);
-        match self.verdict {
-            Verdict::Fail => {
-                let red = RED.stroke_width(stroke);
-                backend.draw_line((x - side, y - side), (x + side, y + side), &red)?;
-                backend.draw_line((x - side, y + side), (x + side, y - side), &red)
-            }
-            Verdict::Pass => backend.draw_circle((x, y), (0.75 * self.side).round() as u32, &BLUE, true),
-            Verdict::Inconclusive => backend.draw_circle((x, y), side as u32, &GREY.stroke_width(stroke), false),
-            Verdict::Invalid => backend.draw_rect((x - side, y - side), (x + side, y + side), &GREY, false),
-            Verdict::Error => {
-                let corners = [(x - side, y + side), (x + side, y + side), (x, y - side)];
-                backend.fill_polygon(corners, &ORANGE)
-            }
-        }
     }
 }
 

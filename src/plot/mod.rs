@@ -9,6 +9,7 @@ mod contour;
 mod log_axis;
 mod log_log;
 mod map;
+mod mark;
 mod raster;
 mod shade;
 
@@ -17,6 +18,7 @@ pub use animation::film_gif;
 pub(crate) use animation::gif_of_images;
 pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
 pub use map::{Axis, FailureMap};
+pub use mark::Mark;
 pub use raster::drawing_png;
 
 use plotters::coord::Shift;

@@ -1,10 +1,13 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
 mod failures;
+mod odd;
 mod parameters;
 mod requirement;
+mod requirements_file;
 mod subject;
 
+pub use odd::{Attribute, Odd};
 pub use requirement::RequirementText;
 pub(crate) use requirement::Specs;
 pub use subject::{Simulation, Subject};
@@ -37,6 +40,9 @@ pub struct Study {
     pub space: Space,
     /// What is asked of every run. A system that answers with robustness has requirements that are not known here.
     pub requirements: Vec<RequirementText>,
+    /// What of the operational design domain the tests are about, if anybody has said so.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub odd: Option<Odd>,
     strategy: String,
     discrete: String,
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -98,6 +104,7 @@ impl Study {
             subject,
             space,
             requirements,
+            odd: None,
             strategy: Strategy::Halton.name().to_owned(),
             discrete: "ipog".to_owned(),
             delta: None,

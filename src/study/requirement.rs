@@ -3,7 +3,7 @@
 use super::{Study, Subject};
 use crate::Error;
 use paracosm_engine::Outcome;
-use paracosm_oracles::{Formula, Requirement, Trace, Truth, Verdict};
+use paracosm_oracles::{Formula, Requirement, Truth, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// A requirement as it is written down.
@@ -13,12 +13,18 @@ pub struct RequirementText {
     pub id: String,
     /// One sentence.
     pub text: String,
-    /// What is asked.
+    /// What is asked; empty where it is not known here: the system under test judges itself by it, or nobody does.
     pub formula: String,
     /// The unit of its robustness.
     pub unit: String,
     /// How much robustness is a lot, in that unit.
     pub scale: f64,
+    /// Where it comes from: a regulation, a specification, a hazard.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub source: Option<String>,
+    /// How severe a violation is, in a word of whoever states it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub severity: Option<String>,
     /// Whether it is none of the scenario's own, but was given with the study.
     #[serde(skip_serializing_if = "std::ops::Not::not", default)]
     pub given: bool,
@@ -27,7 +33,15 @@ pub struct RequirementText {
 impl From<Requirement> for RequirementText {
     fn from(requirement: Requirement) -> Self {
         let Requirement { id, text, formula, unit, scale } = requirement;
-        Self { id, text, formula: formula.to_string(), unit, scale, given: false }
+        let formula = formula.to_string();
+        Self { id, text, formula, unit, scale, source: None, severity: None, given: false }
+    }
+}
+
+impl RequirementText {
+    /// Whether it is known what is asked.
+    pub fn has_formula(&self) -> bool {
+        !self.formula.is_empty()
     }
 }
 
@@ -38,22 +52,18 @@ impl Study {
     /// # Errors
     /// The text is no formula, speaks of a signal that the scenario does not have, or has a time bound between two ticks.
     pub fn spec(mut self, text: &str) -> Result<Self, Error> {
-        let wrong = |message: String| Error::Usage(format!("--spec {text}: {message}"));
-        let formula: Formula = text.parse().map_err(|error| wrong(format!("{error}")))?;
-        if let (Subject::Scenario(simulation), Some(signals)) = (&self.subject, self.signals()?) {
-            let describe = format!("`paracosm-fuzz describe {}` shows its signals", simulation.scenario);
-            Formula::parse(text, &signals).map_err(|error| wrong(format!("{error}; {describe}")))?;
-            let nothing = Trace::new(simulation.dt(), signals);
-            formula.evaluate(&nothing).map_err(|error| wrong(error.to_string()))?;
-        }
-        let number = 1 + self.requirements.iter().filter(|requirement| requirement.given).count();
+        let formula = self.checked(text).map_err(|message| Error::Usage(format!("--spec {text}: {message}")))?;
         let formula = formula.to_string();
+        let mut ids = (1..).map(|number| format!("spec-{number}"));
+        let id = ids.find(|id| self.requirement(id).is_none()).expect("there is always another number");
         self.requirements.push(RequirementText {
-            id: format!("spec-{number}"),
+            id,
             text: formula.clone(),
             formula,
             unit: String::new(),
             scale: 1.0,
+            source: None,
+            severity: None,
             given: true,
         });
         Ok(self)
@@ -83,7 +93,7 @@ impl Specs {
     /// # Errors
     /// One of them was read from a file and is no formula.
     pub fn of(study: &Study) -> Result<Self, Error> {
-        let given = study.requirements.iter().filter(|requirement| requirement.given);
+        let given = study.requirements.iter().filter(|requirement| requirement.given && requirement.has_formula());
         let parse = |requirement: &RequirementText| {
             let formula = requirement.formula.parse().map_err(|error| {
                 Error::Usage(format!("requirement `{}`, `{}`: {error}", requirement.id, requirement.formula))

@@ -3,6 +3,7 @@
 mod adaptive;
 mod after_failure;
 mod bad_input;
+mod blame;
 mod cameras;
 mod campaign;
 mod certificate;
@@ -23,6 +24,7 @@ mod pedestrian_study;
 mod pictures;
 mod plan;
 mod reference_drivers;
+mod requirements;
 mod signals;
 mod spec;
 mod strength;

@@ -23,6 +23,7 @@ pub use value::{Value, Values};
 use crate::constraint::Constraint;
 use crate::names::nearest;
 use crate::rules::{Clause, Conflict, Rules, RulesError};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 /// A test as coordinates, in the order of the space's parameters.
@@ -50,6 +51,9 @@ struct Declaration {
     constraints: Vec<String>,
     #[serde(rename = "parameter")]
     parameters: Vec<Parameter>,
+    /// What a file says of the operational design domain, which is for whoever runs tests of the space.
+    #[serde(default, rename = "odd", skip_serializing)]
+    _odd: IgnoredAny,
 }
 
 impl Space {
@@ -262,7 +266,7 @@ impl TryFrom<Declaration> for Space {
 impl From<Space> for Declaration {
     fn from(space: Space) -> Self {
         let constraints = space.constraints.iter().map(|constraint| constraint.text().to_owned()).collect();
-        Self { constraints, parameters: space.parameters }
+        Self { constraints, parameters: space.parameters, _odd: IgnoredAny }
     }
 }
 

@@ -1,0 +1,90 @@
+//! Runs failing tests with the reference drivers, all pairs of a test and a driver on all cores.
+
+use super::{Blame, Blamed};
+use crate::executor::{in_order, pool};
+use crate::{Error, Study, Subject, Trial, Worker};
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
+
+/// Who failures of a study are judged by.
+pub struct Inquiry {
+    /// The references' names, each with the study in which it drives.
+    references: Vec<(String, Study)>,
+    jobs: NonZeroUsize,
+    stop: Arc<AtomicBool>,
+}
+
+impl Inquiry {
+    /// An inquiry on all cores, with these drivers in their standard settings.
+    ///
+    /// # Errors
+    /// The study is of a system, which has no driver to take the place of; or its scenario, or a driver, does not exist;
+    /// or there is no driver, or one twice.
+    pub fn new(study: &Study, references: &[&str]) -> Result<Self, Error> {
+        if let Subject::System(system) = &study.subject {
+            let message = format!("the campaign is of the system `{}`, whose place no driver can take", system.command);
+            return Err(Error::Usage(format!("{message}: only failures in scenarios have somebody to blame")));
+        }
+        if references.is_empty() {
+            return Err(Error::Usage("no driver is named, expected at least one to judge by".into()));
+        }
+        if let Some(twice) = references.iter().enumerate().find(|(i, name)| references[..*i].contains(name)) {
+            return Err(Error::Usage(format!("driver `{}` is named twice", twice.1)));
+        }
+        let with = |name: &&str| Ok(((*name).to_owned(), study.clone().driver(name, &[])?));
+        let references = references.iter().map(with).collect::<Result<Vec<_>, Error>>()?;
+        for (_, study) in &references {
+            Worker::new(study)?;
+        }
+        let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        Ok(Self { references, jobs, stop: Arc::default() })
+    }
+
+    /// Runs this many tests at a time. Results do not depend on it.
+    pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
+        self.jobs = jobs;
+        self
+    }
+
+    /// What ends it with [`Error::Interrupted`] once it is set.
+    pub fn stop(&self) -> Arc<AtomicBool> {
+        self.stop.clone()
+    }
+
+    /// Runs every failing one of these trials with each of the references; `watch` sees them in order.
+    ///
+    /// # Errors
+    /// It was told to stop.
+    pub fn run(&self, trials: &[Trial], mut watch: impl FnMut(&Blamed)) -> Result<Blame, Error> {
+        let failing: Vec<&Trial> = trials.iter().filter(|trial| trial.is_failure()).collect();
+        let names = || self.references.iter().map(|(name, _)| name.clone());
+        let hire = || -> Vec<Worker> {
+            let studies = self.references.iter().map(|(_, study)| study);
+            studies.map(|study| Worker::new(study).expect("one like it was made before")).collect()
+        };
+        let drivers = self.references.len();
+        let work = |workers: &mut Vec<Worker>, i: usize| {
+            let failing = failing[i / drivers];
+            let stopped = self.stop.load(Ordering::Relaxed);
+            (!stopped).then(|| workers[i % drivers].run(failing.index, &failing.test).0)
+        };
+        let mut failures = Vec::new();
+        let mut ran = Vec::new();
+        let pairs = failing.len() * drivers;
+        in_order(&pool(self.jobs.get().min(pairs).max(1))?, 0..pairs, hire, work, |trial| {
+            ran.push(trial);
+            if ran.len() == drivers {
+                let blamed = Blamed::new(failing[failures.len()], names().zip(ran.drain(..)));
+                watch(&blamed);
+                failures.push(blamed);
+            }
+            Ok::<(), Error>(())
+        })?;
+        if failures.len() < failing.len() {
+            return Err(Error::Interrupted);
+        }
+        Ok(Blame { references: names().collect(), tests: trials.len(), failures })
+    }
+}

@@ -1,0 +1,58 @@
+//! Faults of trials made up for the purpose.
+
+use super::{Blamed, Fault};
+use crate::Trial;
+use paracosm_coverage::Values;
+use paracosm_engine::Outcome;
+use paracosm_oracles::Verdict;
+
+/// A trial with these robustnesses of `a` and `b`; it fails if one is negative.
+fn trial(a: Option<f64>, b: Option<f64>) -> Trial {
+    let robustness = vec![("a".to_owned(), a), ("b".to_owned(), b)];
+    let fails = [a, b].into_iter().flatten().any(|worth| worth < 0.0);
+    let verdict = if fails { Verdict::Fail } else { Verdict::Pass };
+    let outcome = Outcome { verdict, robustness, metrics: vec![], trace: None, error: None };
+    Trial::new(3, Values::default(), outcome, None)
+}
+
+fn broken(verdict: Verdict) -> Trial {
+    Trial::new(3, Values::default(), Outcome::broken(verdict, "it broke"), None)
+}
+
+/// Whose fault a trial is by these references.
+fn fault(failing: &Trial, references: Vec<(&str, Trial)>) -> Fault {
+    Blamed::new(failing, references.into_iter().map(|(name, trial)| (name.to_owned(), trial))).fault
+}
+
+#[test]
+fn a_failure_is_prevented_by_who_keeps_what_was_violated() {
+    let failing = trial(Some(-2.0), None);
+    let better = trial(Some(0.5), Some(1.0));
+    let less_bad = trial(Some(-0.5), Some(1.0));
+    assert_eq!(fault(&failing, vec![("ideal", better.clone()), ("cc", less_bad.clone())]), Fault::Preventable);
+    assert_eq!(fault(&failing, vec![("ideal", less_bad.clone()), ("cruise", less_bad)]), Fault::Unpreventable);
+    assert_eq!(fault(&failing, vec![("ideal", better.clone()), ("cruise", better)]), Fault::Induced);
+}
+
+#[test]
+fn who_violates_instead_what_was_kept_prevents_nothing_but_the_undecided_is_held_against_nobody() {
+    let violates_b = trial(Some(3.0), Some(-1.0));
+    assert_eq!(fault(&trial(Some(-2.0), Some(1.0)), vec![("ideal", violates_b.clone())]), Fault::Unpreventable);
+    assert_eq!(fault(&trial(Some(-2.0), None), vec![("ideal", violates_b.clone())]), Fault::Preventable);
+    // Both were violated, and one still is.
+    assert_eq!(fault(&trial(Some(-2.0), Some(-1.0)), vec![("ideal", violates_b)]), Fault::Unpreventable);
+}
+
+#[test]
+fn an_end_before_anything_was_decided_prevents_nothing() {
+    let failing = trial(Some(1.0), Some(-2.0));
+    // It hit something on the way to `b`.
+    assert_eq!(fault(&failing, vec![("ideal", trial(Some(-1.0), None))]), Fault::Unpreventable);
+    assert_eq!(fault(&failing, vec![("ideal", trial(Some(1.0), None))]), Fault::Unpreventable);
+    for verdict in [Verdict::Error, Verdict::Invalid] {
+        assert_eq!(
+            fault(&failing, vec![("ideal", broken(verdict)), ("cruise", broken(verdict))]),
+            Fault::Unpreventable
+        );
+    }
+}

@@ -1,0 +1,172 @@
+//! `paracosm-fuzz blame`: which failures other drivers could have avoided.
+
+use super::map::{self, Axes};
+use super::output::{Format, Table, digits, json, percent, plural};
+use super::progress::bar;
+use super::report::in_words;
+use super::{Failure, Found, Verbosity, on_interrupt, print};
+use crate::blame::{Blame, Blamed, Fault, Inquiry, REFERENCES};
+use crate::coverage::Record;
+use crate::folder::write_whole;
+use crate::{FailureMap, Folder, Study, Trial};
+use clap::Args;
+use serde::Serialize;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz blame paracosm-out
+  paracosm-fuzz blame paracosm-out --driver ideal,reg157
+
+Every failing test is run again with each of the drivers, in their standard settings. A driver prevents a failure if what
+was violated holds then, and nothing that held is violated instead. The failure is
+  unpreventable   if none of these drivers prevents it: they brake, and do not steer around anybody or drive slower
+                  beforehand, so that others may prevent it all the same
+  preventable     if one of them does
+  induced         if `cruise` does, which never brakes for others: without braking it would not have happened
+
+Into DIR go blame.json and blame.csv, and blame-map.svg and .png where two continuous parameters are open.";
+
+/// What `blame` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The folder of the campaign
+    dir: PathBuf,
+    /// The drivers to judge by; `paracosm-fuzz list` shows them all
+    #[arg(long, value_name = "A,B,..", value_delimiter = ',', default_values_t = REFERENCES.map(str::to_owned))]
+    driver: Vec<String>,
+    #[command(flatten)]
+    axes: Axes,
+    /// How many failing tests the table shows
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    limit: usize,
+    /// How many tests run at a time; results do not depend on it [default: one per core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// How to print what was found [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+/// What is printed and written as JSON.
+#[derive(Serialize)]
+struct Report<'a> {
+    /// How many failures are whose fault.
+    faults: Record<usize>,
+    /// How many failures each of the drivers prevents.
+    prevents: Record<usize>,
+    #[serde(flatten)]
+    blame: &'a Blame,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        let (study, trials) = Folder::read(&self.dir)?;
+        let references: Vec<&str> = self.driver.iter().map(String::as_str).collect();
+        let mut inquiry = Inquiry::new(&study, &references)?;
+        if let Some(jobs) = self.jobs {
+            inquiry = inquiry.jobs(jobs);
+        }
+        let axes = self.axes.find(&study)?;
+        if !study.is_of_this_software() {
+            verbosity
+                .note("the campaign was run by another version of this software; its failures are taken as logged");
+        }
+        on_interrupt(inquiry.stop());
+        let bar = bar(verbosity, trials.iter().filter(|trial| trial.is_failure()).count());
+        let blame = inquiry.run(&trials, |_| bar.inc(1));
+        bar.finish_and_clear();
+        let blame = blame?;
+        let report = Report {
+            faults: Fault::ALL.map(|fault| (fault.to_string(), blame.count(fault))).into_iter().collect(),
+            prevents: blame.references.iter().map(|name| (name.clone(), blame.prevented_by(name))).collect(),
+            blame: &blame,
+        };
+        self.write(&study, &trials, &report, axes, verbosity)?;
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => self.table(&study, &trials, &blame),
+            Format::Json => json(&report),
+        })?;
+        Ok(Found::Nothing)
+    }
+
+    fn write(
+        &self,
+        study: &Study,
+        trials: &[Trial],
+        report: &Report,
+        axes: Option<[String; 2]>,
+        verbosity: Verbosity,
+    ) -> Result<(), Failure> {
+        let blame = report.blame;
+        write_whole(&self.dir.join("blame.json"), json(report).as_bytes())?;
+        write_whole(&self.dir.join("blame.csv"), &blame.csv(study))?;
+        match axes {
+            _ if blame.failures.is_empty() => {}
+            None => verbosity.note("no map: it needs two continuous open parameters"),
+            Some([x, y]) => {
+                let drawn = FailureMap::of_blame(study, trials, blame, [&x, &y])?;
+                map::write_as(&self.dir, "blame-map", &drawn)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn table(&self, study: &Study, trials: &[Trial], blame: &Blame) -> String {
+        let mut table = Table::default();
+        let Blame { references, tests, failures } = blame;
+        let title = study.subject.title();
+        if failures.is_empty() {
+            table.heading(&format!("{title}: none of {} fails, so that nobody is to blame", plural(*tests, "test")));
+            return table.finish();
+        }
+        table.heading(&format!("{title}: {} of {} fail", failures.len(), plural(*tests, "test")));
+        let share = |count: usize| percent(count as f64 / failures.len() as f64);
+        for fault in Fault::ALL {
+            let count = blame.count(fault);
+            let meaning = meaning(fault, references);
+            table.row(&fault.to_string(), &format!("{count:<6}{:>7}  {meaning}", share(count)));
+        }
+        for (i, name) in references.iter().enumerate() {
+            let count = blame.prevented_by(name);
+            let label = if i == 0 { "prevented by" } else { "" };
+            table.row(label, &format!("{count:<6}{:>7}  {name}", share(count)));
+        }
+        for failure in failures.iter().take(self.limit) {
+            table.row(&format!("test {}", failure.index), &line(study, &trials[failure.index], failure));
+        }
+        if failures.len() > self.limit {
+            let more = plural(failures.len() - self.limit, "more failing test");
+            table.row("", &format!("and {more} in {}", self.dir.join("blame.csv").display()));
+        }
+        table.finish()
+    }
+}
+
+fn meaning(fault: Fault, references: &[String]) -> String {
+    match fault {
+        Fault::Unpreventable => format!("none of {} prevents it", references.join(", ")),
+        Fault::Preventable => "one of them does, by braking".to_owned(),
+        Fault::Induced if references.iter().any(|name| name == "cruise") => {
+            "cruise does, which never brakes for others".to_owned()
+        }
+        Fault::Induced => "unknown: cruise was not asked".to_owned(),
+    }
+}
+
+/// A failing test in a line: whose fault it is, what it violates, where it is.
+fn line(study: &Study, trial: &Trial, failure: &Blamed) -> String {
+    let by = if failure.prevented_by.is_empty() {
+        String::new()
+    } else {
+        format!(", prevented by {}", failure.prevented_by.join(", "))
+    };
+    let worth = |id: &String| {
+        let unit = study.requirement(id).map_or("", |requirement| requirement.unit.as_str());
+        let worth = digits(trial.robustness(id).unwrap_or(f64::NAN));
+        format!("{id} {worth} {unit}").trim_end().to_owned()
+    };
+    let violated: Vec<String> = failure.violates.iter().map(worth).collect();
+    format!("{}{by}; {}; {}", failure.fault, violated.join(", "), in_words(study, trial))
+}

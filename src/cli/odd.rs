@@ -1,0 +1,32 @@
+//! What of the operational design domain tests are about, in words.
+
+use super::output::domain_words;
+use crate::Study;
+use crate::coverage::Parameter;
+
+/// A line for each attribute, and one for open parameters that no attribute names; nothing where nobody has said anything.
+pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
+    let Some(odd) = &study.odd else { return Vec::new() };
+    let mut lines: Vec<(String, String)> = Vec::new();
+    for (name, attribute) in odd.iter() {
+        let parameters = attribute.varied.iter().filter_map(|name| study.space.parameter(name).ok());
+        let ranges: Vec<String> = parameters.map(range).collect();
+        let varied = (!ranges.is_empty()).then(|| format!("varied by {}", ranges.join(", ")));
+        let fixed = attribute.fixed.as_ref().map(|fixed| format!("fixed: {fixed}"));
+        let excluded = attribute.excluded.as_ref().map(|excluded| format!("excluded: {excluded}"));
+        let said: Vec<String> = [varied, fixed, excluded].into_iter().flatten().collect();
+        lines.push((name.to_owned(), said.join("; ")));
+    }
+    let named = |parameter: &&Parameter| odd.iter().any(|(_, attribute)| attribute.varied.contains(&parameter.name));
+    let others: Vec<String> = study.space.parameters().iter().filter(|p| !named(p)).map(range).collect();
+    if !others.is_empty() {
+        lines.push(("of no attribute".to_owned(), format!("varied by {}", others.join(", "))));
+    }
+    lines
+}
+
+/// A parameter with its domain.
+fn range(parameter: &Parameter) -> String {
+    let unit = parameter.unit.as_deref().unwrap_or_default();
+    format!("{} {} {unit}", parameter.name, domain_words(&parameter.domain)).trim_end().to_owned()
+}

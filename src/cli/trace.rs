@@ -1,0 +1,93 @@
+//! `paracosm-fuzz trace`: requirement by test, and what is untested.
+
+use super::draw::{Kind, Target};
+use super::output::{Format, Table, digits, json, plural};
+use super::{Failure, Found, odd, print};
+use crate::{Folder, Gap, Study, Traceability, Traced};
+use clap::Args;
+use std::path::PathBuf;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz trace paracosm-out
+  paracosm-fuzz trace paracosm-out --csv matrix.csv
+
+A requirement passed in a test if it holds and the test came to the situation that it is about; otherwise it was not
+reached. It is undecided where the test ended too early. Untested is what no test of the campaign has tried: requirements
+that no test decided, levels and tenths of ranges without a test, parameters that are the same in all tests, and what
+is excluded from the design domain.";
+
+/// What `trace` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The folder of the campaign
+    dir: PathBuf,
+    /// Write the matrix to this file, which does not exist yet
+    #[arg(long, value_name = "FILE.csv")]
+    csv: Option<PathBuf>,
+    /// How to print it [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self) -> Result<Found, Failure> {
+        let target = self.csv.as_ref().map(|file| Target::new("--csv", file, &[Kind::Csv])).transpose()?;
+        let (study, trials) = Folder::read(&self.dir)?;
+        let traceability = Traceability::of(&study, &trials)?;
+        if let Some(target) = &target {
+            target.write(|_| Ok(traceability.csv()))?;
+        }
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => table(&study, &traceability),
+            Format::Json => json(&traceability),
+        })?;
+        Ok(Found::Nothing)
+    }
+}
+
+const HEADER: [&str; 8] =
+    ["requirement", "passed", "failed", "undecided", "not reached", "worst", "severity", "source"];
+
+fn table(study: &Study, traceability: &Traceability) -> String {
+    let mut table = Table::default();
+    let Traceability { tests, broken, requirements, untested, .. } = traceability;
+    let title = study.subject.title();
+    let broke = if *broken > 0 { format!(", of which {broken} broke or could not be built") } else { String::new() };
+    table.heading(&format!("{title}: {}{broke}", plural(*tests, "test")));
+    let rows: Vec<[String; 8]> = [HEADER.map(str::to_owned)].into_iter().chain(requirements.iter().map(row)).collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: [usize; 8] = std::array::from_fn(width);
+    for row in &rows {
+        let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
+        table.line(cells.join("  ").trim_end());
+    }
+    table.heading("what they ask");
+    for Traced { id, text, .. } in requirements {
+        table.row(id, if text.is_empty() { "only the system knows" } else { text });
+    }
+    table.heading(if untested.is_empty() { "untested: nothing that is known here" } else { "untested" });
+    for Gap { what, why } in untested {
+        table.row(what, why);
+    }
+    let domain = odd::lines(study);
+    if !domain.is_empty() {
+        table.heading("operational design domain, as it is stated");
+    }
+    for (name, words) in domain {
+        table.row(&name, &words);
+    }
+    table.finish()
+}
+
+fn row(traced: &Traced) -> [String; 8] {
+    let Traced { id, unit, severity, source, passed, failed, undecided, not_reached, .. } = traced;
+    let worst = traced.worst().map(|(worth, index)| {
+        let space = if unit.is_empty() { "" } else { " " };
+        format!("{}{space}{unit} (test {index})", digits(worth))
+    });
+    let counts = [passed, failed, undecided, not_reached].map(ToString::to_string);
+    let [passed, failed, undecided, not_reached] = counts;
+    let word = |word: &Option<String>| word.clone().unwrap_or_else(|| "-".to_owned());
+    [id.clone(), passed, failed, undecided, not_reached, word(&worst), word(severity), word(source)]
+}

@@ -1,0 +1,177 @@
+//! Trials as JUnit writes its tests down, which CI systems read.
+//!
+//! There is no standard, but one shape that all of them know: `testsuites`, in it a `testsuite` for each study and in that
+//! a `testcase` for each trial, with `failure`, `error` or `skipped` where it did not pass. Properties say what JUnit has no
+//! words for: requirements, parameters, the command that runs a test again. `time` is what was simulated, in seconds, as
+//! the time that it took would differ from run to run.
+
+use crate::{Study, Subject, Trial};
+use paracosm_oracles::Verdict;
+use std::fmt::Write;
+
+/// Trials of a study.
+pub struct Suite<'a> {
+    /// What it is called.
+    pub name: String,
+    /// Their study.
+    pub study: &'a Study,
+    /// The trials, each with the command that runs it again.
+    pub trials: Vec<(&'a Trial, String)>,
+}
+
+/// The contents of a file with these suites.
+pub fn document(suites: &[Suite]) -> String {
+    let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
+    let trials = || suites.iter().flat_map(|suite| &suite.trials).map(|(trial, _)| *trial);
+    let _ = writeln!(text, "<testsuites name=\"paracosm\"{}>", counts(trials()));
+    for suite in suites {
+        suite.write(&mut text);
+    }
+    text.push_str("</testsuites>\n");
+    text
+}
+
+impl Suite<'_> {
+    fn write(&self, text: &mut String) {
+        let trials = self.trials.iter().map(|(trial, _)| *trial);
+        let time = trials.clone().filter_map(|trial| self.seconds(trial)).reduce(|sum, seconds| sum + seconds);
+        let _ = writeln!(text, "  <testsuite name=\"{}\"{}{}>", escaped(&self.name), counts(trials), attribute(time));
+        properties(text, "    ", &self.properties());
+        for (trial, replay) in &self.trials {
+            self.write_case(text, trial, replay);
+        }
+        text.push_str("  </testsuite>\n");
+    }
+
+    /// What is said of all tests.
+    fn properties(&self) -> Vec<(String, String)> {
+        let study = self.study;
+        let mut all = vec![("strategy".to_owned(), study.strategy_label())];
+        let fixed = study.subject.fixed().iter();
+        all.extend(fixed.map(|(name, value)| (format!("parameter.{name}"), value.to_string())));
+        for requirement in &study.requirements {
+            let said = [
+                ("", Some(&requirement.text)),
+                (".formula", Some(&requirement.formula)),
+                (".source", requirement.source.as_ref()),
+                (".severity", requirement.severity.as_ref()),
+            ];
+            let said = said.into_iter().filter_map(|(what, text)| Some((what, text.filter(|text| !text.is_empty())?)));
+            all.extend(said.map(|(what, text)| (format!("requirement.{}{what}", requirement.id), text.clone())));
+        }
+        all
+    }
+
+    fn write_case(&self, text: &mut String, trial: &Trial, replay: &str) {
+        let class = match &self.study.subject {
+            Subject::Scenario(simulation) => simulation.scenario.as_str(),
+            Subject::System(_) => "system",
+        };
+        let time = attribute(self.seconds(trial));
+        let (class, index) = (escaped(class), trial.index);
+        let _ = writeln!(text, "    <testcase classname=\"{class}\" name=\"test {index}\"{time}>");
+        let mut all: Vec<(String, String)> =
+            trial.test.iter().map(|(name, value)| (format!("parameter.{name}"), value.to_string())).collect();
+        let became = |id: &str| match trial.robustness(id) {
+            None => "undecided",
+            Some(_) if trial.violates(id) => "violated",
+            Some(_) => "holds",
+        };
+        all.extend(trial.requirements().map(|id| (format!("requirement.{id}"), became(id).to_owned())));
+        all.push(("replay".to_owned(), replay.to_owned()));
+        properties(text, "      ", &all);
+        let error = trial.error.as_deref().unwrap_or_default();
+        let _ = match trial.verdict {
+            Verdict::Pass => Ok(()),
+            Verdict::Fail => {
+                let kind = escaped(&trial.violated().collect::<Vec<_>>().join(" "));
+                let (message, replay) = (escaped(&self.violations(trial)), escaped(replay));
+                writeln!(text, "      <failure type=\"{kind}\" message=\"{message}\">{replay}</failure>")
+            }
+            Verdict::Error => {
+                let (message, replay) = (escaped(error), escaped(replay));
+                writeln!(text, "      <error type=\"error\" message=\"{message}\">{replay}</error>")
+            }
+            Verdict::Inconclusive => {
+                let message =
+                    "inconclusive: the situation that the test is about never came about, or it ended too early";
+                writeln!(text, "      <skipped message=\"{message}\"/>")
+            }
+            Verdict::Invalid => {
+                writeln!(text, "      <skipped message=\"{}\"/>", escaped(&format!("invalid: {error}")))
+            }
+        };
+        text.push_str("    </testcase>\n");
+    }
+
+    /// What a trial violates, and by how much.
+    fn violations(&self, trial: &Trial) -> String {
+        let violation = |id: &str| {
+            let unit = self.study.requirement(id).map_or("", |requirement| requirement.unit.as_str());
+            format!("{id} {} {unit}", trial.robustness(id).unwrap_or(f64::NAN)).trim_end().to_owned()
+        };
+        trial.violated().map(violation).collect::<Vec<_>>().join(", ")
+    }
+
+    /// How long a trial of a scenario was, in simulated seconds; of a system only the system knows.
+    fn seconds(&self, trial: &Trial) -> Option<f64> {
+        match &self.study.subject {
+            Subject::Scenario(simulation) => Some(trial.ticks as f64 * simulation.dt()),
+            Subject::System(_) => None,
+        }
+    }
+}
+
+/// A time as an attribute, if it is known: milliseconds are enough, and hide how ticks add up.
+fn attribute(seconds: Option<f64>) -> String {
+    seconds.map(|seconds| format!(" time=\"{seconds:.3}\"")).unwrap_or_default()
+}
+
+/// The attributes that count trials.
+fn counts<'a>(trials: impl Iterator<Item = &'a Trial> + Clone) -> String {
+    let count = |verdicts: &[Verdict]| trials.clone().filter(|trial| verdicts.contains(&trial.verdict)).count();
+    let skipped = count(&[Verdict::Inconclusive, Verdict::Invalid]);
+    let (failures, errors) = (count(&[Verdict::Fail]), count(&[Verdict::Error]));
+    let tests = trials.clone().count();
+    format!(" tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\" skipped=\"{skipped}\"")
+}
+
+fn properties(text: &mut String, indent: &str, all: &[(String, String)]) {
+    let _ = writeln!(text, "{indent}<properties>");
+    for (name, value) in all {
+        let (name, value) = (escaped(name), escaped(value));
+        let _ = writeln!(text, "{indent}  <property name=\"{name}\" value=\"{value}\"/>");
+    }
+    let _ = writeln!(text, "{indent}</properties>");
+}
+
+/// A text as XML 1.0 holds it, in an attribute or between tags; signs that it cannot hold become U+FFFD.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for sign in text.chars() {
+        match sign {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            // In an attribute they would be read as spaces.
+            '\t' | '\n' | '\r' => {
+                let _ = write!(escaped, "&#{};", u32::from(sign));
+            }
+            '\0'..='\x1f' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            sign => escaped.push(sign),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::escaped;
+
+    #[test]
+    fn what_xml_cannot_hold_as_it_is_is_escaped() {
+        assert_eq!(escaped("a < b && \"c\" > 'd'"), "a &lt; b &amp;&amp; &quot;c&quot; &gt; 'd'");
+        assert_eq!(escaped("one\ntwo\tthree\r\u{7}\u{0}é"), "one&#10;two&#9;three&#13;\u{fffd}\u{fffd}é");
+    }
+}
