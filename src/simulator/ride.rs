@@ -35,10 +35,10 @@ impl Ride {
         match driver {
             Ok(driver) => {
                 let driver = ride.driver.insert(driver).as_mut();
-                let seated = || Run::seated(program, test, model, driver).map_err(|outcome| *outcome);
+                let seated = || Run::seated(program, test, model, driver);
                 match catch_unwind(AssertUnwindSafe(seated)) {
                     Ok(Ok(run)) => ride.run = Some(run),
-                    Ok(Err(outcome)) => ride.outcome = Some(outcome),
+                    Ok(Err(outcome)) => ride.outcome = Some(*outcome),
                     Err(panic) => ride.outcome = Some(panicked(panic.as_ref())),
                 }
             }
@@ -58,12 +58,12 @@ impl Ride {
     /// the end.
     pub fn go_on(&mut self, see: impl FnMut(&Run)) {
         if self.outcome.is_none() {
-            let went = catch_unwind(AssertUnwindSafe(|| self.to_images(see)));
+            let went = catch_unwind(AssertUnwindSafe(|| self.until_images(see)));
             self.outcome = went.unwrap_or_else(|panic| Some(panicked(panic.as_ref())));
         }
     }
 
-    fn to_images(&mut self, mut see: impl FnMut(&Run)) -> Option<Outcome> {
+    fn until_images(&mut self, mut see: impl FnMut(&Run)) -> Option<Outcome> {
         let (run, driver) = (self.run.as_mut()?, self.driver.as_mut()?);
         loop {
             if self.asked {

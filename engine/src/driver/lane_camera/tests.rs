@@ -11,7 +11,7 @@ fn image(edge: impl Fn(f64) -> Option<f64>) -> Image {
         for column in 0..width {
             // The ray through the middle of the pixel, turned down with the camera, to the ground.
             let (right, down) = (f64::from(column) + 0.5 - 100.0, f64::from(row) + 0.5 - 33.0);
-            let (sin, cos) = PITCH.to_radians().sin_cos();
+            let (sin, cos) = libm::sincos(PITCH.to_radians());
             let pixels = 200.0 * FOCAL / SENSOR;
             let (forward, fall) = (pixels * cos - down * sin, pixels * sin + down * cos);
             let metres = HEIGHT / fall;
