@@ -8,38 +8,51 @@ mod ride;
 
 use crate::Error;
 use crate::darkroom::Darkroom;
+use crate::drivers::Drivers;
 use crate::executor::Desk;
 use crate::study::Simulation;
 use paracosm_coverage::{Space, Values};
-use paracosm_engine::driver::Driver;
 use paracosm_engine::sensor::{Cameras, Shutters};
 use paracosm_engine::{Outcome, Program, Run, Test};
 use ride::Ride;
 use std::slice;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// A scenario, its drivers, and what draws for them.
 pub(crate) struct Simulator<'a> {
     simulation: &'a Simulation,
     program: Program,
-    /// Drivers that have nothing to do.
-    idle: Vec<Box<dyn Driver>>,
+    drivers: Drivers<'a>,
     darkroom: Option<Arc<Darkroom>>,
 }
 
 impl<'a> Simulator<'a> {
-    /// A simulator with a driver.
+    /// A simulator, whose drivers are not waited for any more once `stop` is set.
     ///
     /// # Errors
-    /// The scenario or the driver does not exist, or the driver sees through cameras and there is nothing to draw with.
-    pub fn new(simulation: &'a Simulation, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
-        let mut simulator =
-            Self { simulation, program: simulation.program()?, idle: vec![simulation.driver.build()?], darkroom };
-        let cameras = simulator.idle[0].equipment().cameras;
+    /// The scenario or the driver does not exist.
+    pub fn new(
+        simulation: &'a Simulation,
+        stop: Arc<AtomicBool>,
+        darkroom: Option<Arc<Darkroom>>,
+    ) -> Result<Self, Error> {
+        let drivers = Drivers::new(&simulation.driver, stop)?;
+        Ok(Self { simulation, program: simulation.program()?, drivers, darkroom })
+    }
+
+    /// Has a driver at hand, and what draws for it.
+    ///
+    /// # Errors
+    /// There is no driver to be had, or it sees through cameras and there is nothing to draw with.
+    pub fn start(&mut self) -> Result<(), Error> {
+        let mut driver = self.drivers.hire()?;
+        let cameras = driver.equipment().cameras;
+        self.drivers.dismiss(Some(driver));
         if !cameras.all.is_empty() {
-            simulator.open(&cameras)?;
+            self.open(&cameras)?;
         }
-        Ok(simulator)
+        Ok(())
     }
 
     /// What draws for its drivers, if they see.
@@ -47,9 +60,22 @@ impl<'a> Simulator<'a> {
         self.darkroom.as_ref()
     }
 
+    /// Runs a test.
+    pub fn run(&mut self, test: Test<'_>) -> Outcome {
+        let has_past = self.drivers.any_idle();
+        let outcome = self.ride(test, None, |_| ());
+        if has_past && self.drivers.doubts(&outcome) { self.watch(test, None, |_| ()) } else { outcome }
+    }
+
     /// Runs a test, which is filmed with these cameras, with a look at the run whenever the driver is asked, and at the end.
-    pub fn run(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Outcome {
-        let driver = self.driver();
+    pub fn watch(&mut self, test: Test<'_>, film: Option<Shutters>, see: impl FnMut(&Run)) -> Outcome {
+        // A test that has to be run again would be seen twice.
+        self.drivers.renew();
+        self.ride(test, film, see)
+    }
+
+    fn ride(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Outcome {
+        let driver = self.drivers.hire();
         let mut ride = Ride::begin(0, &self.program, test, self.simulation.vehicle, driver);
         if let Some(film) = film {
             ride.film(film);
@@ -75,8 +101,10 @@ impl<'a> Simulator<'a> {
     ) {
         let mut rides: Vec<Ride> = Vec::new();
         loop {
-            while rides.len() < at_once.max(1) && let Some(index) = desk.next() {
-                let (values, driver) = (tests(index), self.driver());
+            while rides.len() < at_once.max(1)
+                && let Some(index) = desk.next()
+            {
+                let (values, driver) = (tests(index), self.drivers.hire());
                 let test = Test::new(&values, space);
                 rides.push(Ride::begin(index, &self.program, test, self.simulation.vehicle, driver));
             }
@@ -86,22 +114,23 @@ impl<'a> Simulator<'a> {
                 return;
             }
             for over in rides.extract_if(.., |ride| ride.is_over()) {
-                let (index, outcome) = self.dismiss(over);
+                let (index, mut outcome) = self.dismiss(over);
+                if self.drivers.doubts(&outcome) {
+                    outcome = self.watch(Test::new(&tests(index), space), None, |_| ());
+                }
+                if stopped() {
+                    return;
+                }
                 desk.hand_in(index, Some(judged(index, outcome)));
             }
             self.draw(&mut rides);
         }
     }
 
-    /// A driver that has nothing to do, or a new one.
-    fn driver(&mut self) -> Result<Box<dyn Driver>, Error> {
-        self.idle.pop().map_or_else(|| self.simulation.driver.build(), Ok)
-    }
-
     /// What became of a test, with its place; its driver has nothing to do any more.
     fn dismiss(&mut self, ride: Ride) -> (usize, Outcome) {
         let (ended, driver) = ride.end();
-        self.idle.extend(driver);
+        self.drivers.dismiss(driver);
         ended
     }
 

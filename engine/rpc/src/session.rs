@@ -40,17 +40,11 @@ pub struct Terms {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum OpenError {
     /// Nobody listens.
-    #[error("nobody listens at {address}; start the driver first")]
-    Unreachable {
-        /// Where.
-        address: String,
-    },
+    #[error("nobody listens there; start the driver first")]
+    Unreachable,
     /// The host has no address.
-    #[error("{address}: the host is not known")]
-    UnknownHost {
-        /// Where.
-        address: String,
-    },
+    #[error("the host is not known")]
+    UnknownHost,
     /// What listens there is something else.
     #[error("what listens there is no driver for PARACOSM: it does not offer paracosm.driver.v1.Driver over gRPC")]
     Foreign,
@@ -95,21 +89,22 @@ impl Session {
         let runtime = runtime.map_err(|error| Fault(format!("cannot wait for the driver: {error}")))?;
         let watch = Watch { timeout: terms.timeout, stop };
         if !address.is_known() {
-            return Err(OpenError::UnknownHost { address: address.to_string() });
+            return Err(OpenError::UnknownHost);
         }
         let endpoint = Endpoint::from_shared(format!("http://{}", address.authority()));
-        let endpoint = endpoint.map_err(|_| OpenError::UnknownHost { address: address.to_string() })?;
+        let endpoint = endpoint.map_err(|_| OpenError::UnknownHost)?;
         let channel = watch.wait(&runtime, endpoint.connect())?;
-        let channel = channel.map_err(|_| OpenError::Unreachable { address: address.to_string() })?;
+        let channel = channel.map_err(|_| OpenError::Unreachable)?;
         let (requests, stream) = unbounded_channel();
         let hello = request::Kind::Hello(wire::hello(terms));
         requests.send(wire::Request { kind: Some(hello) }).expect("the stream is at hand");
         let mut client = DriverClient::new(channel).max_decoding_message_size(LONGEST_ANSWER);
         let answers = watch.wait(&runtime, client.drive(UnboundedReceiverStream::new(stream)))?;
         let mut answers = answers.map_err(|status| refusal(&status))?.into_inner();
-        let welcome = match watch.wait(&runtime, answers.message())?.map_err(|status| refusal(&status))? {
-            Some(wire::Answer { kind: Some(answer::Kind::Welcome(welcome)) }) => welcome,
-            Some(wire::Answer { kind: Some(answer::Kind::Fault(fault)) }) => return Err(Fault(fault.message).into()),
+        let answer = watch.wait(&runtime, answers.message())?.map_err(|status| refusal(&status))?;
+        let welcome = match answer.and_then(|answer| answer.kind) {
+            Some(answer::Kind::Welcome(welcome)) => welcome,
+            Some(answer::Kind::Fault(fault)) => return Err(Fault(fault.message).into()),
             other => return Err(unexpected("a welcome", other.as_ref()).into()),
         };
         if welcome.protocol != PROTOCOL {
@@ -134,7 +129,7 @@ impl Session {
         let _ = self.requests.send(wire::Request { kind: Some(kind) });
         let answer = self.watch.wait(&self.runtime, self.answers.message());
         let answer = answer.and_then(|answer| answer.map_err(|status| Fault(end(&status))));
-        self.lost = answer.is_err();
+        self.lost = !matches!(answer, Ok(Some(_)));
         match answer?.and_then(|answer| answer.kind) {
             Some(answer::Kind::Fault(fault)) => Err(Fault(fault.message)),
             other => Ok(other),
@@ -155,7 +150,7 @@ impl Driver for Session {
         self.next = wire::Step::default();
         match self.ask(request::Kind::Reset(briefing.into()))? {
             Some(answer::Kind::Ready(_)) => Ok(()),
-            other => Err(unexpected("that the driver is ready", wrapped(other).as_ref())),
+            other => Err(unexpected("that the driver is ready", other.as_ref())),
         }
     }
 
@@ -169,7 +164,7 @@ impl Driver for Session {
         wire::write(observation, self.kit.others, &mut step);
         match self.ask(request::Kind::Step(step))? {
             Some(answer::Kind::Control(wire::Control { throttle, steering })) => Ok(Control { throttle, steering }),
-            other => Err(unexpected("a control", wrapped(other).as_ref())),
+            other => Err(unexpected("a control", other.as_ref())),
         }
     }
 }
@@ -195,13 +190,9 @@ impl Watch {
     }
 }
 
-fn wrapped(kind: Option<answer::Kind>) -> Option<wire::Answer> {
-    kind.map(|kind| wire::Answer { kind: Some(kind) })
-}
-
 /// What is wrong with an answer to another question.
-fn unexpected(expected: &str, found: Option<&wire::Answer>) -> Fault {
-    let found = match found.and_then(|answer| answer.kind.as_ref()) {
+fn unexpected(expected: &str, found: Option<&answer::Kind>) -> Fault {
+    let found = match found {
         None => "the driver ended the session".to_owned(),
         Some(answer::Kind::Welcome(_)) => "found a welcome".to_owned(),
         Some(answer::Kind::Ready(_)) => "found that it is ready".to_owned(),

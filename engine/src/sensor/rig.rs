@@ -61,11 +61,6 @@ impl Rig {
         Self { seed, sensors: Vec::new() }
     }
 
-    /// Whether it has no sensor.
-    pub fn is_empty(&self) -> bool {
-        self.sensors.is_empty()
-    }
-
     /// Attaches a sensor. Its noise depends on its name, and on no other sensor.
     ///
     /// # Errors
