@@ -11,6 +11,7 @@ mod common;
 mod comparison;
 mod covering;
 mod extend;
+mod external_drivers;
 mod generate;
 mod guilty;
 #[cfg(unix)]
@@ -21,6 +22,7 @@ mod maps;
 mod pedestrian_study;
 mod pictures;
 mod plan;
+mod python;
 mod reference_drivers;
 mod signals;
 mod spec;

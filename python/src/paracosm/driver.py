@@ -3,6 +3,7 @@
 import copy
 import difflib
 import os
+import stat
 import sys
 import threading
 import traceback
@@ -75,8 +76,8 @@ def serve(make, address=None):
     server.add_generic_rpc_handlers((grpc.method_handlers_generic_handler(protocol.SERVICE, {protocol.METHOD: handler}),))
     server.add_insecure_port(address)
     server.start()
-    if started_by == address:
-        # Whoever has started this process ends it by this, also when it dies.
+    if started_by == address and stat.S_ISFIFO(os.fstat(0).st_mode):
+        # Whoever has started this process holds the other end of the pipe, and ends it by this, also when it dies.
         threading.Thread(target=_end_with_input, daemon=True).start()
     else:
         print(f"listening at grpc://{address}", file=sys.stderr)
