@@ -1,4 +1,5 @@
-//! What all answers of a system have in common, and what is to become of a campaign in which none is to be had.
+//! What all answers of a system have in common, and what is to become of a campaign in which none is to be had of it, or of
+//! a driver in a process of its own.
 //!
 //! Which requirements a system judges itself by is known by its first answer. Trials are checked against it in the order
 //! of their indices, so that it does not matter who was answered first.
@@ -13,8 +14,8 @@ const GIVEN_UP: usize = 50;
 /// What trials have said so far.
 #[derive(Debug, Clone)]
 pub struct Expected {
-    /// Whether they are of a system that others wrote; of a scenario nothing is expected.
-    is_system: bool,
+    /// Whether a process of others answers; of all others nothing is expected.
+    is_external: bool,
     /// The requirements of the first trial that was answered.
     first: Option<(usize, Vec<String>)>,
     /// How many there were before it, and what was wrong with the first.
@@ -25,8 +26,11 @@ pub struct Expected {
 impl Expected {
     /// What is to be expected after these trials of a study.
     pub fn of(study: &Study, trials: &[Trial]) -> Self {
-        let is_system = matches!(study.subject, Subject::System(_));
-        let mut expected = Self { is_system, first: None, failed: 0, why: None };
+        let is_external = match &study.subject {
+            Subject::Scenario(simulation) => simulation.driver.is_external(),
+            Subject::System(_) => true,
+        };
+        let mut expected = Self { is_external, first: None, failed: 0, why: None };
         trials.iter().for_each(|trial| expected.learn(trial));
         expected
     }
@@ -51,7 +55,7 @@ impl Expected {
     /// Checks that it makes sense to go on.
     ///
     /// # Errors
-    /// The system did none of so many tests.
+    /// The system or the driver did none of so many tests.
     pub fn go_on(&self) -> Result<(), Error> {
         match (&self.first, &self.why) {
             (None, Some(why)) if self.failed >= GIVEN_UP => {
@@ -62,7 +66,7 @@ impl Expected {
     }
 
     fn learn(&mut self, trial: &Trial) {
-        if self.first.is_some() || !self.is_system {
+        if self.first.is_some() || !self.is_external {
             return;
         }
         if trial.covers() {

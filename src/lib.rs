@@ -29,6 +29,7 @@ mod darkroom;
 #[cfg(not(feature = "camera"))]
 #[path = "darkroom/none.rs"]
 mod darkroom;
+mod drivers;
 mod error;
 mod estimate;
 mod executor;
@@ -44,6 +45,7 @@ mod live;
 mod modes;
 mod plan;
 mod plot;
+mod process;
 mod promise;
 #[cfg(feature = "camera")]
 pub mod record;
@@ -95,6 +97,7 @@ pub use paracosm_generators as generators;
 pub use paracosm_oracles as oracles;
 #[cfg(feature = "camera")]
 pub use paracosm_render as render;
+pub use paracosm_rpc as rpc;
 pub use paracosm_scenarios as scenarios;
 
 /// The examples of the README, as tests.

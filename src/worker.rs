@@ -33,12 +33,12 @@ impl<'a> Worker<'a> {
     ///
     /// # Errors
     /// The study was read from a file, and its scenario, driver, command or a formula does not exist or is none; or its
-    /// driver sees through cameras, and there is nothing to draw with.
+    /// driver cannot be started, or sees through cameras and there is nothing to draw with.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
         Self::until(study, Arc::default())
     }
 
-    /// A worker that does not wait for a system any more once `stop` is set.
+    /// A worker that does not wait for a system or a driver any more once `stop` is set.
     pub(crate) fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let mut worker = Self::beside(study, stop, None)?;
         if let Bench::Simulator(simulator) = &mut worker.bench {
@@ -55,7 +55,7 @@ impl<'a> Worker<'a> {
         darkroom: Option<Arc<Darkroom>>,
     ) -> Result<Self, Error> {
         let bench = match &study.subject {
-            Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, darkroom)?)),
+            Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
             Subject::System(system) => Bench::System(Connection::new(system, stop)?),
         };
         Ok(Self { study, specs: Specs::of(study)?, bench })
@@ -66,20 +66,27 @@ impl<'a> Worker<'a> {
         self.study
     }
 
-    /// Starts what has to be started before the first test; without it, that is done when it is needed.
+    /// Starts the system, if it tests one; without it, that is done when it is needed.
     ///
     /// # Errors
     /// The system cannot be started.
     pub fn start(&mut self) -> Result<(), Error> {
         match &mut self.bench {
-            Bench::Simulator { .. } => Ok(()),
+            Bench::Simulator(_) => Ok(()),
             Bench::System(connection) => connection.start(),
         }
     }
 
     /// Runs a test: what a campaign does with each, and a replay with one.
     pub fn run(&mut self, index: usize, test: &Values) -> (Trial, Option<Trace>) {
-        self.watch(index, test, |_| ())
+        let outcome = match &mut self.bench {
+            Bench::Simulator(simulator) => {
+                let values = self.study.complete(test);
+                simulator.run(Test::new(&values, &self.study.space))
+            }
+            Bench::System(connection) => asked(connection, &self.specs, index, test),
+        };
+        judged(&self.specs, index, test, outcome)
     }
 
     /// [`run`](Self::run), with a look at the run of a scenario whenever the driver is asked, and at the end.
@@ -98,12 +105,9 @@ impl<'a> Worker<'a> {
         let outcome = match &mut self.bench {
             Bench::Simulator(simulator) => {
                 let values = self.study.complete(test);
-                simulator.run(Test::new(&values, &self.study.space), cameras, see)
+                simulator.watch(Test::new(&values, &self.study.space), cameras, see)
             }
-            Bench::System(connection) => match connection.ask(index, test) {
-                Ok(answer) => answered(answer, !self.specs.is_empty()),
-                Err(message) => Outcome::broken(Verdict::Error, message),
-            },
+            Bench::System(connection) => asked(connection, &self.specs, index, test),
         };
         judged(&self.specs, index, test, outcome)
     }
@@ -136,6 +140,14 @@ fn judged(specs: &Specs, index: usize, test: &Values, mut outcome: Outcome) -> (
     specs.judge(&mut outcome);
     let trace = outcome.trace.take();
     (Trial::new(index, test.clone(), outcome, trace.as_ref()), trace)
+}
+
+/// What becomes of a test of a system before formulas are asked of its trace.
+fn asked(connection: &mut Connection, specs: &Specs, index: usize, test: &Values) -> Outcome {
+    match connection.ask(index, test) {
+        Ok(answer) => answered(answer, !specs.is_empty()),
+        Err(message) => Outcome::broken(Verdict::Error, message),
+    }
 }
 
 /// What an answer comes to before formulas are asked of its trace.

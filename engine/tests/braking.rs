@@ -89,3 +89,38 @@ fn a_test_with_other_parameters_than_the_program_asks_for_is_named() {
     };
     assert!(error.to_string().contains("friction"), "{error}");
 }
+
+/// Brakes whose driver is slow.
+struct Late(f64);
+
+impl Driver for Late {
+    fn period(&self) -> f64 {
+        FullBrakes.period()
+    }
+
+    fn latency(&self) -> f64 {
+        self.0
+    }
+
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        FullBrakes.reset(briefing)
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        FullBrakes.step(observation)
+    }
+}
+
+#[test]
+fn a_late_driver_brakes_later_by_whole_ticks_and_rolls_until_then() {
+    let at_once = outcome(0.8, 0.01, &mut FullBrakes).trace.unwrap();
+    // Neither the period nor a multiple of it.
+    for latency in [0.0, 0.01, 0.07, 0.33] {
+        let late = outcome(0.8, 0.01, &mut Late(latency)).trace.unwrap();
+        let ticks = (latency / 0.01).round() as usize;
+        let speeds = |trace: &paracosm_oracles::Trace| trace.signal("car.speed").unwrap().collect::<Vec<_>>();
+        let (late, at_once) = (speeds(&late), speeds(&at_once));
+        assert!(late[..=ticks].iter().all(|speed| *speed == at_once[0]), "{latency} s");
+        assert_eq!(late[ticks..], at_once[..at_once.len() - ticks], "{latency} s");
+    }
+}

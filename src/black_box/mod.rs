@@ -3,7 +3,7 @@
 //! `{"index":3,"test":{"throttle":[0.1,0.9],"brake":0}}` is asked, and answered with a trace
 //! (`{"index":3,"trace":{"time":[0,0.1],"speed":[0,0.2]}}`), with the robustness of requirements
 //! (`{"index":3,"robustness":{"stays-below":0.4}}`, negative where one is violated), or with an error
-//! (`{"index":3,"error":"diverged"}`). `answer.rs` says what is accepted, `process.rs` looks after a process.
+//! (`{"index":3,"error":"diverged"}`). `answer.rs` says what is accepted, `conversation.rs` talks to a process.
 //!
 //! A process that does not answer, answers something else or ends is killed with all that it started. A test is only
 //! held against it if the process was new: what went wrong in one that had answered before may be the fault of its
@@ -11,13 +11,13 @@
 //! answers depend on the test alone gives the same trials for any number of workers.
 
 mod answer;
-mod process;
+mod conversation;
 
 pub(crate) use answer::Answer;
 
-use crate::Error;
+use crate::{Error, process};
+use conversation::Process;
 use paracosm_coverage::Values;
-use process::Process;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -39,28 +39,32 @@ const TIMEOUT: f64 = 60.0;
 /// The longest time-out in seconds: a year.
 const LONGEST_TIMEOUT: f64 = 366.0 * 86400.0;
 
+/// A time-out in seconds, the usual where nothing is said.
+///
+/// # Errors
+/// It is no positive number of seconds.
+pub(crate) fn checked_timeout(timeout: Option<f64>) -> Result<f64, Error> {
+    let timeout = timeout.unwrap_or(TIMEOUT);
+    if timeout > 0.0 && timeout <= LONGEST_TIMEOUT {
+        return Ok(timeout);
+    }
+    let message = format!("the time-out is {timeout}, expected a number of seconds above 0, at most a year");
+    Err(Error::Usage(message))
+}
+
 impl BlackBox {
     /// The system that is started with this command; it may take so many seconds for an answer, 60 where nothing is said.
     ///
     /// # Errors
     /// The command is empty or has a quote without an end; or the time is no positive number of seconds.
     pub fn new(command: &str, timeout: Option<f64>) -> Result<Self, Error> {
-        let timeout = timeout.unwrap_or(TIMEOUT);
-        if !(timeout > 0.0 && timeout <= LONGEST_TIMEOUT) {
-            let message = format!("the time-out is {timeout}, expected a number of seconds above 0, at most a year");
-            return Err(Error::Usage(message));
-        }
+        let timeout = checked_timeout(timeout)?;
         let system = Self { command: command.to_owned(), timeout };
         system.words().map(|_| system)
     }
 
     fn words(&self) -> Result<Vec<String>, Error> {
-        let wrong = |what: &str| Error::Usage(format!("--system '{}': {what}", self.command));
-        let words = shell_words::split(&self.command).map_err(|_| wrong("a quote is not closed"))?;
-        if words.first().is_none_or(String::is_empty) {
-            return Err(wrong("found no program, expected the command that starts the system"));
-        }
-        Ok(words)
+        process::words(&self.command).map_err(|what| Error::Usage(format!("--system '{}': {what}", self.command)))
     }
 }
 

@@ -11,6 +11,7 @@ Examples:
   paracosm-fuzz pedestrian-crossing --driver aeb --open friction=0.3..0.8 --out slippery
   paracosm-fuzz --open friction:piecewise-linear:3   the friction varies while a test runs
   paracosm-fuzz --spec 'always[0,10] (car.speed > 1)'           ask more of every run
+  paracosm-fuzz follow-leader --driver-command 'python3 my_driver.py'       a driver of your own, in its own process
   paracosm-fuzz --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)'    a system of your own
   paracosm-fuzz map paracosm-out --x speed --y friction    the failure map over other parameters
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV

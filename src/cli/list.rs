@@ -17,6 +17,13 @@ pub(super) struct Options {
     format: Option<Format>,
 }
 
+/// What there is to say of drivers in a process of their own.
+const EXTERNAL: &str = "  \
+  grpc://HOST:PORT      a driver of your own, which listens there; --driver-command COMMAND starts one
+    latency              0 s           from when it is asked to when its answer takes effect
+    seed                 0             where its chance and the noise of its sensors come from
+";
+
 impl Options {
     pub fn execute(&self) -> Result<Found, Failure> {
         let text = match Format::or_fitting(self.format) {
@@ -63,6 +70,7 @@ fn table() -> Result<String, Failure> {
             writeln!(text, "    {:<21}{value:<14}{}", setting.name, setting.about)?;
         }
     }
+    text.push_str(EXTERNAL);
     text.push_str("\nParameters: --open NAME[=LO..HI], --set NAME=VALUE. Settings: --set driver.NAME=VALUE.\n");
     Ok(text)
 }

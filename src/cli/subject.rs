@@ -21,9 +21,13 @@ pub(super) struct Subject {
     /// Fix a parameter, a signal at one value or at A,B,C; or change a setting of the driver with driver.NAME=VALUE
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The system under test
-    #[arg(long, value_name = "NAME", default_value = "aeb")]
-    driver: String,
+    /// The system under test; `grpc://HOST:PORT` is one that listens there [default: aeb]
+    #[arg(long, value_name = "NAME|grpc://HOST:PORT")]
+    driver: Option<String>,
+    /// Test a driver of your own: a command that starts one, once for each worker, which listens over gRPC at the address
+    /// in PARACOSM_ADDRESS
+    #[arg(long, value_name = "COMMAND", conflicts_with = "driver")]
+    driver_command: Option<String>,
     #[command(flatten)]
     system: System,
     /// Ask what this file says, too: requirements with their sources and severities, and what of the design domain is tested
@@ -64,7 +68,7 @@ impl Subject {
         }
         let mut study = match self.system.study(verbosity)? {
             Some(study) => study,
-            None => Study::of(&self.scenario)?.driver(&self.driver, &driver_settings)?,
+            None => self.driven(Study::of(&self.scenario)?, &driver_settings)?,
         };
         if let Some(model) = vehicle {
             study = study.vehicle(model)?;
@@ -98,6 +102,20 @@ impl Subject {
             study = study.spec(formula)?;
         }
         Ok(study)
+    }
+}
+
+impl Subject {
+    /// A study with the driver that is asked for, set so.
+    fn driven(&self, study: Study, settings: &[(String, f64)]) -> Result<Study, Error> {
+        let study = match &self.driver_command {
+            Some(command) => study.driver_command(command, settings)?,
+            None => study.driver(self.driver.as_deref().unwrap_or("aeb"), settings)?,
+        };
+        match self.system.timeout() {
+            Some(seconds) => study.driver_timeout(seconds),
+            None => Ok(study),
+        }
     }
 }
 

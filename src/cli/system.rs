@@ -12,13 +12,13 @@ use std::path::PathBuf;
 pub(super) struct System {
     /// Test a system of your own instead of a scenario: a command that reads a test as a line of JSON from standard input
     /// and answers with a line of JSON. It is started once for each worker
-    #[arg(long, value_name = "COMMAND", requires = "space", conflicts_with_all = ["scenario", "driver", "open", "set"])]
+    #[arg(long, value_name = "COMMAND", requires = "space", conflicts_with_all = ["scenario", "driver", "driver_command", "open", "set"])]
     system: Option<String>,
     /// The parameters of the system's tests, or a model file of PICT
     #[arg(long, value_name = "SPACE.toml", requires = "system")]
     space: Option<PathBuf>,
-    /// How long the system may take for an answer [default: 60]
-    #[arg(long, value_name = "SECONDS", requires = "system")]
+    /// How long the system, or a driver in a process of its own, may take for an answer [default: 60]
+    #[arg(long, value_name = "SECONDS")]
     timeout: Option<f64>,
 }
 
@@ -26,6 +26,11 @@ impl System {
     /// Whether there is one.
     pub fn is_given(&self) -> bool {
         self.system.is_some()
+    }
+
+    /// How long an answer may take in seconds, if it was said.
+    pub fn timeout(&self) -> Option<f64> {
+        self.timeout
     }
 
     /// The study of the system, if there is one.

@@ -10,53 +10,54 @@ mod tests;
 
 use crate::Error;
 use crate::darkroom::Darkroom;
+use crate::drivers::Drivers;
 use crate::executor::Desk;
 use crate::study::Simulation;
 use paracosm_coverage::{Space, Values};
-use paracosm_engine::driver::Driver;
 use paracosm_engine::sensor::{Cameras, Shutters};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{Outcome, Program, Run, Test};
 use ride::Ride;
 use std::slice;
 use std::sync::Arc;
-
-/// Makes a driver.
-type Make<'a> = dyn Fn() -> Result<Box<dyn Driver>, Error> + Send + Sync + 'a;
+use std::sync::atomic::AtomicBool;
 
 /// A scenario, its drivers, and what draws for them.
 pub(crate) struct Simulator<'a> {
     program: Program,
     model: Model,
-    make: Box<Make<'a>>,
-    /// Drivers that have nothing to do.
-    idle: Vec<Box<dyn Driver>>,
+    drivers: Drivers<'a>,
     darkroom: Option<Arc<Darkroom>>,
 }
 
 impl<'a> Simulator<'a> {
-    /// A simulator of a scenario, whose drivers see what others draw for them, if anything.
+    /// A simulator of a scenario, whose drivers see what others draw for them, if anything, and are not waited for any more
+    /// once `stop` is set.
     ///
     /// # Errors
-    /// The scenario does not exist.
-    pub fn new(simulation: &'a Simulation, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
-        let make = Box::new(|| simulation.driver.build());
-        Ok(Self::with(simulation.program()?, simulation.vehicle, make, darkroom))
+    /// The scenario or the driver does not exist.
+    pub fn new(
+        simulation: &'a Simulation,
+        stop: Arc<AtomicBool>,
+        darkroom: Option<Arc<Darkroom>>,
+    ) -> Result<Self, Error> {
+        let drivers = Drivers::new(&simulation.driver, stop)?;
+        Ok(Self::with(simulation.program()?, simulation.vehicle, drivers, darkroom))
     }
 
-    /// A simulator of a program, in which drivers that are made so drive a car that this model moves.
-    fn with(program: Program, model: Model, make: Box<Make<'a>>, darkroom: Option<Arc<Darkroom>>) -> Self {
-        Self { program, model, make, idle: Vec::new(), darkroom }
+    /// A simulator of a program, in which these drivers drive a car that this model moves.
+    fn with(program: Program, model: Model, drivers: Drivers<'a>, darkroom: Option<Arc<Darkroom>>) -> Self {
+        Self { program, model, drivers, darkroom }
     }
 
-    /// Makes the first driver and, if it sees, what draws for it.
+    /// Has a driver at hand, and what draws for it.
     ///
     /// # Errors
-    /// The driver cannot be made, or it sees through cameras and there is nothing to draw with.
+    /// There is no driver to be had, or it sees through cameras and there is nothing to draw with.
     pub fn start(&mut self) -> Result<(), Error> {
-        let mut driver = self.driver()?;
+        let mut driver = self.drivers.hire()?;
         let cameras = driver.equipment().cameras;
-        self.idle.push(driver);
+        self.drivers.dismiss(Some(driver));
         if cameras.all.is_empty() { Ok(()) } else { self.open(&cameras).map(drop) }
     }
 
@@ -65,9 +66,22 @@ impl<'a> Simulator<'a> {
         self.darkroom.as_ref()
     }
 
+    /// Runs a test.
+    pub fn run(&mut self, test: Test<'_>) -> Outcome {
+        let has_past = self.drivers.any_idle();
+        let outcome = self.ride(test, None, |_| ());
+        if has_past && self.drivers.doubts(&outcome) { self.watch(test, None, |_| ()) } else { outcome }
+    }
+
     /// Runs a test, which is filmed with these cameras, with a look at the run whenever the driver is asked, and at the end.
-    pub fn run(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Outcome {
-        let driver = self.driver();
+    pub fn watch(&mut self, test: Test<'_>, film: Option<Shutters>, see: impl FnMut(&Run)) -> Outcome {
+        // A test that has to be run again would be seen twice.
+        self.drivers.renew();
+        self.ride(test, film, see)
+    }
+
+    fn ride(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Outcome {
+        let driver = self.drivers.hire();
         let mut ride = Ride::begin(0, &self.program, test, self.model, driver);
         if let Some(film) = film {
             ride.film(film);
@@ -96,7 +110,7 @@ impl<'a> Simulator<'a> {
             while rides.len() < at_once.max(1)
                 && let Some(index) = desk.next()
             {
-                let (values, driver) = (tests(index), self.driver());
+                let (values, driver) = (tests(index), self.drivers.hire());
                 let test = Test::new(&values, space);
                 rides.push(Ride::begin(index, &self.program, test, self.model, driver));
             }
@@ -106,22 +120,23 @@ impl<'a> Simulator<'a> {
                 return;
             }
             for over in rides.extract_if(.., |ride| ride.is_over()) {
-                let (index, outcome) = self.dismiss(over);
+                let (index, mut outcome) = self.dismiss(over);
+                if self.drivers.doubts(&outcome) {
+                    outcome = self.watch(Test::new(&tests(index), space), None, |_| ());
+                }
+                if stopped() {
+                    return;
+                }
                 desk.hand_in(index, Some(judged(index, outcome)));
             }
             self.draw(&mut rides);
         }
     }
 
-    /// A driver that has nothing to do, or a new one.
-    fn driver(&mut self) -> Result<Box<dyn Driver>, Error> {
-        self.idle.pop().map_or_else(|| (self.make)(), Ok)
-    }
-
     /// What became of a test, with its place; its driver has nothing to do any more.
     fn dismiss(&mut self, ride: Ride) -> (usize, Outcome) {
         let (ended, driver) = ride.end();
-        self.idle.extend(driver);
+        self.drivers.dismiss(driver);
         ended
     }
 

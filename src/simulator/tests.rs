@@ -5,7 +5,7 @@ use crate::executor::{from_desk, pool};
 use crate::record::tests::can_draw;
 use crate::record::{Film, Projector};
 use crate::{Campaign, Study, Trial, Worker};
-use paracosm_engine::driver::{Equipment, Fault, find};
+use paracosm_engine::driver::{Driver, Equipment, Fault, find};
 use paracosm_engine::sensor::{Image, Rig};
 use paracosm_engine::{
     AutonomousVehicle, Briefing, Control, Environment, Monitor, Observation, RoadSegment, Scenario, simulate,
@@ -164,9 +164,9 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
         Ok(Box::new(Witness { driver, new: Vec::new(), shown: shown.clone() }))
     };
     let cameras = make().unwrap().equipment().cameras;
-    let mut simulator = Simulator::with(QUIET, Model::default(), Box::new(make), None);
+    let mut simulator = Simulator::with(QUIET, Model::default(), Drivers::made_by(make), None);
     let values = study.complete(&trial.test);
-    let outcome = simulator.run(Test::new(&values, &study.space), None, |_| ());
+    let outcome = simulator.run(Test::new(&values, &study.space));
     assert_eq!(outcome.trace.map(|trace| trace.hash()), trial.trace_hash);
 
     let mut worker = Worker::new(&study).unwrap();
@@ -236,12 +236,12 @@ fn a_driver_that_breaks_breaks_its_own_test_alone() {
         .collect();
     let outcomes = |at_once: usize| {
         let make = || -> Result<Box<dyn Driver>, Error> { Ok(Box::new(Fragile(find("lane-camera")?.build(&[])?))) };
-        let mut first = Simulator::with(QUIET, Model::default(), Box::new(make), None);
+        let mut first = Simulator::with(QUIET, Model::default(), Drivers::made_by(make), None);
         first.start().unwrap();
         let darkroom = first.darkroom().cloned();
         let mut outcomes = Vec::new();
         let work = |desk: &Desk<Outcome>| {
-            let mut simulator = Simulator::with(QUIET, Model::default(), Box::new(make), darkroom.clone());
+            let mut simulator = Simulator::with(QUIET, Model::default(), Drivers::made_by(make), darkroom.clone());
             let test = |i: usize| tests[i].clone();
             simulator.run_in_lockstep(desk, at_once, (&test, &study.space), || false, |_, outcome| outcome);
         };

@@ -133,15 +133,6 @@ impl Simulation {
 }
 
 impl Study {
-    /// Tests this driver, its settings changed so.
-    ///
-    /// # Errors
-    /// There is no such driver or setting, a value is out of range, or the study is of no scenario.
-    pub fn driver(mut self, name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
-        self.subject.scenario_mut()?.driver = DriverChoice::new(name, changes)?;
-        Ok(self)
-    }
-
     /// Lets this model move the car: `single-track` or `jointed`.
     ///
     /// # Errors

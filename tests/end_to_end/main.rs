@@ -12,6 +12,7 @@ mod common;
 mod comparison;
 mod covering;
 mod extend;
+mod external_drivers;
 mod generate;
 mod guilty;
 #[cfg(unix)]
@@ -23,6 +24,7 @@ mod mixed_space;
 mod pedestrian_study;
 mod pictures;
 mod plan;
+mod python;
 mod reference_drivers;
 mod requirements;
 mod signals;

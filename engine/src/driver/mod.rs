@@ -26,6 +26,12 @@ pub trait Driver: Send {
         Equipment::default()
     }
 
+    /// Seconds from when it is asked to when its answer takes effect, rounded to whole ticks; until then the answer before
+    /// that stays in effect, and before the first one the car rolls.
+    fn latency(&self) -> f64 {
+        0.0
+    }
+
     /// Forgets everything: a new run begins.
     ///
     /// # Errors

@@ -35,7 +35,7 @@ impl Run {
         }
     }
 
-    /// Gives the car what the driver measures with, and tells the driver that a new run begins. A rig that the run was given
+    /// Gives the car what the driver measures with, lets its answers be as late as it says, and tells the driver that a new run begins. A rig that the run was given
     /// stays where the driver brings none.
     ///
     /// # Errors
@@ -46,6 +46,7 @@ impl Run {
             self.equip(equipment.rig);
         }
         self.open_eyes(Shutters::of(equipment.cameras).map_err(|error| Fault(error.to_string()))?);
+        self.latency = super::ticks(driver.latency().max(0.0), self.dt);
         driver.reset(&self.briefing())
     }
 

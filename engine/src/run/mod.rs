@@ -25,6 +25,7 @@ use crate::vehicle::Model;
 use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
 use scene::Scene;
 use sensing::Sensing;
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 /// The tick in seconds where nothing else is asked for.
@@ -75,6 +76,10 @@ pub struct Run {
     /// Ticks between two questions to the driver.
     period: usize,
     supplied: bool,
+    /// Ticks from an answer of the driver to when it takes effect, and those on their way, each with its tick.
+    latency: usize,
+    answers: VecDeque<(usize, Control)>,
+    told: Control,
     graph: Graph,
     scene: Scene,
     premise: Option<Slot>,
@@ -133,6 +138,9 @@ impl Run {
             over: false,
             period: ((period / dt).round() as usize).max(1),
             supplied: false,
+            latency: 0,
+            answers: VecDeque::with_capacity(4),
+            told: Control::default(),
             graph,
             premise,
             triggered: false,
@@ -183,6 +191,9 @@ impl Run {
                 }
             }
             self.supplied = false;
+            while let Some((_, control)) = self.answers.pop_front_if(|(due, _)| *due <= self.tick) {
+                self.scene.ego.control = control;
+            }
             if let Err(message) = self.scene.step(&self.graph, self.dt) {
                 let message = format!("{message} at {:.3} s", self.time());
                 return self.end(Outcome::broken(Verdict::Error, message));
@@ -193,14 +204,15 @@ impl Run {
 
     /// Answers what [`Run::advance`] needed.
     pub fn supply(&mut self, control: Control) {
-        self.scene.ego.control = control;
+        self.told = control;
+        self.answers.push_back((self.tick + self.latency, control));
         self.supplied = true;
         self.sensing.clear();
     }
 
-    /// What the car was told last.
+    /// What the car was told last, whether or not it has taken effect yet.
     pub fn control(&self) -> Control {
-        self.scene.ego.control
+        self.told
     }
 
     /// All bodies where they are now, the car under test first, the others in the order in which they were placed.

@@ -1,0 +1,78 @@
+//! Where a driver listens.
+
+use std::fmt;
+use std::net::{SocketAddr, ToSocketAddrs};
+use std::str::FromStr;
+use thiserror::Error;
+
+/// What addresses of drivers begin with.
+const SCHEME: &str = "grpc://";
+
+/// Where a driver listens: `grpc://HOST:PORT`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Address {
+    host: String,
+    port: u16,
+}
+
+/// A text that is no address of a driver.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{text}`: {why}, expected grpc://HOST:PORT, as grpc://127.0.0.1:50051")]
+pub struct AddressError {
+    text: String,
+    why: &'static str,
+}
+
+impl Address {
+    /// Whether a text is meant to be an address rather than the name of a driver.
+    pub fn is_meant(text: &str) -> bool {
+        text.contains("://")
+    }
+
+    /// `HOST:PORT`.
+    pub fn authority(&self) -> String {
+        format!("{}:{}", self.host, self.port)
+    }
+
+    /// Whether its host has a place in the network.
+    pub(crate) fn is_known(&self) -> bool {
+        self.authority().to_socket_addrs().is_ok_and(|mut all| all.next().is_some())
+    }
+}
+
+impl FromStr for Address {
+    type Err = AddressError;
+
+    fn from_str(text: &str) -> Result<Self, AddressError> {
+        let wrong = |why| AddressError { text: text.to_owned(), why };
+        let rest = text.strip_prefix(SCHEME).ok_or_else(|| wrong("found another scheme"))?;
+        let (host, port) = rest.rsplit_once(':').ok_or_else(|| wrong("found no port"))?;
+        let port = port.parse().map_err(|_| wrong("the port is no number from 1 to 65535"))?;
+        let inner = host.strip_prefix('[').and_then(|host| host.strip_suffix(']'));
+        let sound = match inner {
+            Some(inner) => inner.parse::<std::net::Ipv6Addr>().is_ok(),
+            None => !host.is_empty() && host.chars().all(|c| c.is_ascii_alphanumeric() || "-._".contains(c)),
+        };
+        match (sound, port) {
+            (false, _) => Err(wrong("the host is no name and no address")),
+            (true, 0) => Err(wrong("the port is no number from 1 to 65535")),
+            (true, port) => Ok(Self { host: host.to_owned(), port }),
+        }
+    }
+}
+
+impl From<SocketAddr> for Address {
+    fn from(address: SocketAddr) -> Self {
+        let host = match address {
+            SocketAddr::V4(v4) => v4.ip().to_string(),
+            SocketAddr::V6(v6) => format!("[{}]", v6.ip()),
+        };
+        Self { host, port: address.port() }
+    }
+}
+
+impl fmt::Display for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{SCHEME}{}:{}", self.host, self.port)
+    }
+}

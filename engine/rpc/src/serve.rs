@@ -1,0 +1,173 @@
+//! A server for drivers that are written in Rust.
+
+use crate::PROTOCOL;
+use crate::wire::{self, answer, request};
+use paracosm_engine::driver::{Driver, Fault};
+use paracosm_engine::sensor::{Cameras, Image, Rig};
+use paracosm_engine::{Briefing, Control, Observation};
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::io;
+use std::net::TcpListener;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use tokio::sync::mpsc::{UnboundedSender, unbounded_channel};
+use tokio_stream::wrappers::{TcpListenerStream, UnboundedReceiverStream};
+use tonic::transport::Server;
+use tonic::{Response, Status, Streaming};
+use wire::driver_server::{Driver as Service, DriverServer};
+
+/// How much may be on its way before it is read, in bytes: an image or two.
+const WINDOW: u32 = 1 << 24;
+
+/// What is wished of a driver.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Wishes {
+    /// Where all its chance is to come from.
+    pub seed: u64,
+    /// What it is to be set to.
+    pub settings: BTreeMap<String, f64>,
+}
+
+/// Makes a driver for each session.
+type Make = dyn Fn(&Wishes) -> Result<Box<dyn Driver>, Fault> + Send + Sync;
+
+/// Serves drivers to whoever connects, one for each session, until the process ends.
+///
+/// They are told where the others truly are, and may have cameras. A driver with a rig is refused when its session begins:
+/// the readings of a rig stay in the process that simulates.
+///
+/// ```no_run
+/// use paracosm_engine::driver::{Fault, find};
+///
+/// let listener = std::net::TcpListener::bind("127.0.0.1:50051")?;
+/// paracosm_rpc::serve(listener, "my brakes", |_| {
+///     find("aeb").and_then(|kind| kind.build(&[])).map_err(|error| Fault(error.to_string()))
+/// })?;
+/// # Ok::<(), std::io::Error>(())
+/// ```
+///
+/// # Errors
+/// The listener cannot be listened to.
+pub fn serve(
+    listener: TcpListener,
+    name: &str,
+    make: impl Fn(&Wishes) -> Result<Box<dyn Driver>, Fault> + Send + Sync + 'static,
+) -> io::Result<()> {
+    listener.set_nonblocking(true)?;
+    let garage = Garage { name: name.into(), make: Arc::new(make) };
+    tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(async {
+        let incoming = TcpListenerStream::new(tokio::net::TcpListener::from_std(listener)?);
+        let service = DriverServer::new(garage).max_decoding_message_size(usize::MAX);
+        let server = Server::builder().tcp_nodelay(true);
+        let mut server = server.initial_stream_window_size(WINDOW).initial_connection_window_size(WINDOW);
+        server.add_service(service).serve_with_incoming(incoming).await.map_err(io::Error::other)
+    })
+}
+
+/// Has a driver for everyone.
+struct Garage {
+    name: Arc<str>,
+    make: Arc<Make>,
+}
+
+#[tonic::async_trait]
+impl Service for Garage {
+    type DriveStream = UnboundedReceiverStream<Result<wire::Answer, Status>>;
+
+    async fn drive(
+        &self,
+        requests: tonic::Request<Streaming<wire::Request>>,
+    ) -> Result<Response<Self::DriveStream>, Status> {
+        let (answers, stream) = unbounded_channel();
+        let (name, make) = (self.name.clone(), self.make.clone());
+        tokio::spawn(attend(requests.into_inner(), answers, name, make));
+        Ok(Response::new(UnboundedReceiverStream::new(stream)))
+    }
+}
+
+/// Answers the requests of a session to its end.
+async fn attend(
+    mut requests: Streaming<wire::Request>,
+    answers: UnboundedSender<Result<wire::Answer, Status>>,
+    name: Arc<str>,
+    make: Arc<Make>,
+) {
+    let mut seat = None;
+    while let Ok(Some(request)) = requests.message().await {
+        let answer = tokio::task::block_in_place(|| {
+            catch_unwind(AssertUnwindSafe(|| answer(&mut seat, request.kind, &name, &*make)))
+                .unwrap_or_else(|panic| Err(Fault(format!("the driver panicked: {}", words(&*panic)))))
+        });
+        let gave_up = answer.is_err();
+        let kind = answer.unwrap_or_else(|Fault(message)| answer::Kind::Fault(wire::Fault { message }));
+        if answers.send(Ok(wire::Answer { kind: Some(kind) })).is_err() || gave_up {
+            return;
+        }
+    }
+}
+
+/// The message of a panic.
+fn words(panic: &(dyn Any + Send)) -> &str {
+    let owned = panic.downcast_ref::<String>().map(String::as_str);
+    owned.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message")
+}
+
+/// A driver at work.
+struct Seat {
+    driver: Box<dyn Driver>,
+    cameras: Cameras,
+    observation: Observation,
+}
+
+fn answer(
+    seat: &mut Option<Seat>,
+    request: Option<request::Kind>,
+    name: &str,
+    make: &Make,
+) -> Result<answer::Kind, Fault> {
+    match (request, seat) {
+        (Some(request::Kind::Hello(hello)), seat @ None) => {
+            let mut driver = make(&Wishes { seed: hello.seed, settings: hello.settings.into_iter().collect() })?;
+            let equipment = driver.equipment();
+            if !equipment.rig.is_empty() {
+                return Err(Fault("a driver with a rig cannot be served, only one with cameras".into()));
+            }
+            let cameras = equipment.cameras;
+            let welcome = wire::Welcome {
+                protocol: PROTOCOL,
+                name: name.to_owned(),
+                period: driver.period(),
+                others: true,
+                cameras: cameras.all.iter().map(wire::Camera::from).collect(),
+                ..wire::Welcome::default()
+            };
+            *seat = Some(Seat { driver, cameras, observation: Observation::default() });
+            Ok(answer::Kind::Welcome(welcome))
+        }
+        (Some(request::Kind::Reset(reset)), Some(seat)) => {
+            seat.driver.reset(&Briefing::from(&reset))?;
+            Ok(answer::Kind::Ready(wire::Ready {}))
+        }
+        (Some(request::Kind::Step(step)), Some(seat)) => {
+            let Control { throttle, steering } = seat.step(step)?;
+            Ok(answer::Kind::Control(wire::Control { throttle, steering }))
+        }
+        _ => Err(Fault("found an unexpected request, expected one hello, then resets and steps".into())),
+    }
+}
+
+impl Seat {
+    fn step(&mut self, step: wire::Step) -> Result<Control, Fault> {
+        wire::read(&step, &mut self.observation);
+        let names: Vec<&String> = self.cameras.all.keys().collect();
+        let image = |image: wire::Image| {
+            let camera = names.iter().position(|name| **name == image.camera)?;
+            let wire::Image { number, time, width, height, rgb, .. } = image;
+            Some(Image { camera, number, time, width, height, rgb: rgb.into() })
+        };
+        let images: Vec<Image> = step.images.into_iter().filter_map(image).collect();
+        self.driver.perceive(&Rig::default(), &images)?;
+        self.driver.step(&self.observation)
+    }
+}

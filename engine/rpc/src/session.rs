@@ -1,0 +1,222 @@
+//! A driver that answers from another process.
+
+use crate::wire::{self, Kit, answer, request};
+use crate::{Address, PROTOCOL};
+use paracosm_engine::driver::{Driver, Equipment, Fault};
+use paracosm_engine::sensor::{Image, Rig};
+use paracosm_engine::{Briefing, Control, Observation};
+use std::error::Error as _;
+use std::future::Future;
+use std::pin::pin;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+use thiserror::Error;
+use tokio::runtime::{Builder, Runtime};
+use tokio::sync::mpsc::{UnboundedSender, unbounded_channel};
+use tokio_stream::wrappers::UnboundedReceiverStream;
+use tonic::transport::Endpoint;
+use tonic::{Code, Status, Streaming};
+use wire::driver_client::DriverClient;
+
+/// How often whoever waits looks whether it is still wanted.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+/// The longest answer in bytes: what a driver says is short, but for its message when it gives up.
+const LONGEST_ANSWER: usize = 1 << 24;
+
+/// On what terms a driver is asked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Terms {
+    /// Where its chance comes from, and the noise of its sensors.
+    pub seed: u64,
+    /// What it is set to.
+    pub settings: Vec<(String, f64)>,
+    /// How long an answer may take.
+    pub timeout: Duration,
+}
+
+/// Why there is no driver to ask.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum OpenError {
+    /// Nobody listens.
+    #[error("nobody listens there; start the driver first")]
+    Unreachable,
+    /// The host has no address.
+    #[error("the host is not known")]
+    UnknownHost,
+    /// What listens there is something else.
+    #[error("what listens there is no driver for PARACOSM: it does not offer paracosm.driver.v1.Driver over gRPC")]
+    Foreign,
+    /// It speaks another protocol.
+    #[error("the driver speaks protocol {found}, expected {PROTOCOL}; update the one that is older")]
+    Protocol {
+        /// What it speaks.
+        found: u32,
+    },
+    /// It refuses, says nothing, or has a period or sensors that cannot be.
+    #[error(transparent)]
+    Unusable(#[from] Fault),
+}
+
+/// A driver that a server answers for, as long as its connection lasts.
+///
+/// Dropping it ends the session.
+pub struct Session {
+    // Before the runtime, on which they end.
+    requests: UnboundedSender<wire::Request>,
+    answers: Streaming<wire::Answer>,
+    runtime: Runtime,
+    watch: Watch,
+    kit: Kit,
+    lost: bool,
+    next: wire::Step,
+}
+
+/// How long answers are waited for.
+struct Watch {
+    timeout: Duration,
+    stop: Arc<AtomicBool>,
+}
+
+impl Session {
+    /// Begins a session with the server at this address. Nothing is waited for any more once `stop` is set.
+    ///
+    /// # Errors
+    /// Nobody listens there, something else does, or the driver cannot be had on these terms.
+    pub fn open(address: &Address, terms: &Terms, stop: Arc<AtomicBool>) -> Result<Self, OpenError> {
+        let runtime = Builder::new_current_thread().enable_all().build();
+        let runtime = runtime.map_err(|error| Fault(format!("cannot wait for the driver: {error}")))?;
+        let watch = Watch { timeout: terms.timeout, stop };
+        if !address.is_known() {
+            return Err(OpenError::UnknownHost);
+        }
+        let endpoint = Endpoint::from_shared(format!("http://{}", address.authority()));
+        let endpoint = endpoint.map_err(|_| OpenError::UnknownHost)?;
+        let channel = watch.wait(&runtime, endpoint.connect())?;
+        let channel = channel.map_err(|_| OpenError::Unreachable)?;
+        let (requests, stream) = unbounded_channel();
+        let hello = request::Kind::Hello(wire::hello(terms));
+        requests.send(wire::Request { kind: Some(hello) }).expect("the stream is at hand");
+        let mut client = DriverClient::new(channel).max_decoding_message_size(LONGEST_ANSWER);
+        let answers = watch.wait(&runtime, client.drive(UnboundedReceiverStream::new(stream)))?;
+        let mut answers = answers.map_err(|status| refusal(&status))?.into_inner();
+        let answer = watch.wait(&runtime, answers.message())?.map_err(|status| refusal(&status))?;
+        let welcome = match answer.and_then(|answer| answer.kind) {
+            Some(answer::Kind::Welcome(welcome)) => welcome,
+            Some(answer::Kind::Fault(fault)) => return Err(Fault(fault.message).into()),
+            other => return Err(unexpected("a welcome", other.as_ref()).into()),
+        };
+        if welcome.protocol != PROTOCOL {
+            return Err(OpenError::Protocol { found: welcome.protocol });
+        }
+        let kit = Kit::new(welcome, terms.seed)?;
+        Ok(Self { requests, answers, runtime, watch, kit, lost: false, next: wire::Step::default() })
+    }
+
+    /// What the driver calls itself.
+    pub fn name(&self) -> &str {
+        &self.kit.name
+    }
+
+    /// Whether its server is gone or does not answer, rather than having said what is wrong.
+    pub fn is_lost(&self) -> bool {
+        self.lost
+    }
+
+    fn ask(&mut self, kind: request::Kind) -> Result<Option<answer::Kind>, Fault> {
+        // That nobody listens any more is seen below.
+        let _ = self.requests.send(wire::Request { kind: Some(kind) });
+        let answer = self.watch.wait(&self.runtime, self.answers.message());
+        let answer = answer.and_then(|answer| answer.map_err(|status| Fault(end(&status))));
+        self.lost = !matches!(answer, Ok(Some(_)));
+        match answer?.and_then(|answer| answer.kind) {
+            Some(answer::Kind::Fault(fault)) => Err(Fault(fault.message)),
+            other => Ok(other),
+        }
+    }
+}
+
+impl Driver for Session {
+    fn period(&self) -> f64 {
+        self.kit.period
+    }
+
+    fn equipment(&mut self) -> Equipment {
+        self.kit.equipment()
+    }
+
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.next = wire::Step::default();
+        match self.ask(request::Kind::Reset(briefing.into()))? {
+            Some(answer::Kind::Ready(_)) => Ok(()),
+            other => Err(unexpected("that the driver is ready", other.as_ref())),
+        }
+    }
+
+    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
+        self.kit.write(rig, images, &mut self.next);
+        Ok(())
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        let mut step = std::mem::take(&mut self.next);
+        wire::write(observation, self.kit.others, &mut step);
+        match self.ask(request::Kind::Step(step))? {
+            Some(answer::Kind::Control(wire::Control { throttle, steering })) => Ok(Control { throttle, steering }),
+            other => Err(unexpected("a control", other.as_ref())),
+        }
+    }
+}
+
+impl Watch {
+    fn wait<F: Future>(&self, runtime: &Runtime, future: F) -> Result<F::Output, Fault> {
+        let begun = Instant::now();
+        runtime.block_on(async {
+            let mut future = pin!(future);
+            loop {
+                let left = self.timeout.saturating_sub(begun.elapsed());
+                if let Ok(output) = tokio::time::timeout(left.min(PATIENCE), &mut future).await {
+                    return Ok(output);
+                }
+                if self.stop.load(Ordering::Relaxed) {
+                    return Err(Fault("interrupted".into()));
+                }
+                if begun.elapsed() >= self.timeout {
+                    return Err(Fault(format!("no answer within {} s", self.timeout.as_secs_f64())));
+                }
+            }
+        })
+    }
+}
+
+/// What is wrong with an answer to another question.
+fn unexpected(expected: &str, found: Option<&answer::Kind>) -> Fault {
+    let found = match found {
+        None => "the driver ended the session".to_owned(),
+        Some(answer::Kind::Welcome(_)) => "found a welcome".to_owned(),
+        Some(answer::Kind::Ready(_)) => "found that it is ready".to_owned(),
+        Some(answer::Kind::Control(_)) => "found a control".to_owned(),
+        Some(answer::Kind::Fault(fault)) => fault.message.clone(),
+    };
+    Fault(format!("{found}, expected {expected}"))
+}
+
+/// How a session ended. What the network says of it depends on chance, and is left out.
+fn end(status: &Status) -> String {
+    let by_network = status.source().is_some() || matches!(status.code(), Code::Unavailable | Code::Cancelled);
+    match status.message() {
+        _ if by_network => "the driver closed the connection without an answer".to_owned(),
+        "" => format!("the driver ended the session: {}", status.code()),
+        message => format!("the driver ended the session: {message}"),
+    }
+}
+
+/// Why there is no session.
+fn refusal(status: &Status) -> OpenError {
+    match status.code() {
+        Code::Unimplemented => OpenError::Foreign,
+        _ if status.source().is_some() => OpenError::Foreign,
+        _ => OpenError::Unusable(Fault(end(status))),
+    }
+}

@@ -1,0 +1,52 @@
+//! Both ends, held against each other and against servers that misbehave.
+
+mod driving;
+mod faults;
+mod scripted;
+
+use crate::{Address, OpenError, Session, Terms};
+use std::sync::Arc;
+use std::time::Duration;
+
+fn terms() -> Terms {
+    Terms { seed: 0, settings: Vec::new(), timeout: Duration::from_secs(20) }
+}
+
+fn open(address: &Address) -> Result<Session, OpenError> {
+    Session::open(address, &terms(), Arc::default())
+}
+
+#[test]
+fn addresses_are_read_as_they_are_written() {
+    for text in ["grpc://127.0.0.1:50051", "grpc://[::1]:1", "grpc://driver.example-1.org:65535"] {
+        assert_eq!(text.parse::<Address>().unwrap().to_string(), text);
+    }
+}
+
+#[test]
+fn what_is_no_address_is_refused_with_the_reason() {
+    for (text, why) in [
+        ("http://localhost:1", "another scheme"),
+        ("grpc://localhost", "no port"),
+        ("grpc://localhost:0", "the port is no number"),
+        ("grpc://localhost:65536", "the port is no number"),
+        ("grpc://localhost:50051/", "the port is no number"),
+        ("grpc://:50051", "the host is no name"),
+        ("grpc://a b:50051", "the host is no name"),
+        ("grpc://[::x]:50051", "the host is no name"),
+    ] {
+        let message = text.parse::<Address>().unwrap_err().to_string();
+        assert!(message.contains(why) && message.contains("grpc://127.0.0.1:50051"), "{message}");
+    }
+}
+
+#[test]
+fn the_python_package_has_the_protocol_as_it_is_described() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../python/src/paracosm/driver.binpb");
+    let made: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/driver.binpb"));
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(path, made).unwrap();
+    }
+    let kept = std::fs::read(path).unwrap_or_default();
+    assert!(kept == made, "{path} is of another driver.proto; UPDATE_GOLDEN=1 writes it anew");
+}

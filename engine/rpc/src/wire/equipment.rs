@@ -1,0 +1,250 @@
+//! What a driver measures with, as it describes it and as a run carries it.
+
+use super::{Fix, Image as WireImage, Inertia, Scan, Step, Welcome};
+use nalgebra::Vector3;
+use paracosm_engine::driver::{Equipment, Fault};
+use paracosm_engine::sensor::{
+    Cameras, Delivery, Gnss, GnssSettings, Handle, Image, Imu, ImuSettings, Inaccuracy, Lidar, LidarSettings, Mount,
+    Mounted, Rig, Sample, Sensor, SensorError,
+};
+
+/// What a driver has said of itself.
+pub struct Kit {
+    pub name: String,
+    pub period: f64,
+    pub others: bool,
+    seed: u64,
+    cameras: Cameras,
+    lidars: Vec<Fitting<Lidar>>,
+    gnss: Vec<Fitting<Gnss>>,
+    imus: Vec<Fitting<Imu>>,
+}
+
+/// A sensor, ready to be attached, and by what it is known once it is.
+struct Fitting<S> {
+    name: String,
+    sensor: S,
+    delivery: Delivery,
+    handle: Option<Handle<S>>,
+}
+
+impl Kit {
+    /// What a driver says, if it can be so.
+    pub fn new(welcome: Welcome, seed: u64) -> Result<Self, Fault> {
+        let Welcome { name, period, others, .. } = welcome;
+        if !(period > 0.0 && period.is_finite()) {
+            return Err(Fault(format!("the driver's period is {period} s, expected a number above 0")));
+        }
+        let mut cameras = Cameras { seed, ..Cameras::default() };
+        for camera in &welcome.cameras {
+            if cameras.all.insert(camera.name.clone(), camera.into()).is_some() {
+                return Err(Fault(format!("two of the driver's cameras are called `{}`", camera.name)));
+            }
+        }
+        let sensor = |error: SensorError| Fault(format!("the driver asks for a sensor that cannot be: {error}"));
+        let lidars = welcome.lidars.iter().map(|lidar| {
+            let made = Lidar::new(lidar.into())?;
+            Ok(Fitting::new(&lidar.name, made, lidar.delivery.as_ref()))
+        });
+        let gnss = welcome.gnss.iter().map(|gnss| {
+            let made = Gnss::new(gnss.into())?;
+            Ok(Fitting::new(&gnss.name, made, gnss.delivery.as_ref()))
+        });
+        let imus = welcome.imus.iter().map(|imu| {
+            let made = Imu::new(imu.into())?;
+            Ok(Fitting::new(&imu.name, made, imu.delivery.as_ref()))
+        });
+        let mut kit = Self {
+            name,
+            period,
+            others,
+            seed,
+            cameras,
+            lidars: lidars.collect::<Result<_, _>>().map_err(sensor)?,
+            gnss: gnss.collect::<Result<_, _>>().map_err(sensor)?,
+            imus: imus.collect::<Result<_, _>>().map_err(sensor)?,
+        };
+        kit.rig().map_err(sensor)?;
+        Ok(kit)
+    }
+
+    /// It, made anew.
+    pub fn equipment(&mut self) -> Equipment {
+        Equipment { rig: self.rig().expect("it was made before"), cameras: self.cameras.clone() }
+    }
+
+    fn rig(&mut self) -> Result<Rig, SensorError> {
+        let mut rig = Rig::new(self.seed);
+        self.lidars.iter_mut().try_for_each(|fitting| fitting.attach(&mut rig))?;
+        self.gnss.iter_mut().try_for_each(|fitting| fitting.attach(&mut rig))?;
+        self.imus.iter_mut().try_for_each(|fitting| fitting.attach(&mut rig))?;
+        Ok(rig)
+    }
+
+    /// Adds what has arrived to the next step.
+    pub fn write(&self, rig: &Rig, images: &[Image], step: &mut Step) {
+        let names: Vec<&String> = self.cameras.all.keys().collect();
+        step.images.extend(images.iter().map(|image| WireImage {
+            camera: names[image.camera].clone(),
+            number: image.number,
+            time: image.time,
+            width: image.width,
+            height: image.height,
+            rgb: image.rgb.clone().into(),
+        }));
+        for (sensor, Sample { number, time, reading }) in arrived(&self.lidars, rig) {
+            step.scans.push(Scan { sensor, number: *number, time: *time, points: reading.to_kitti().into() });
+        }
+        for (sensor, Sample { number, time, reading }) in arrived(&self.gnss, rig) {
+            let fix = Fix { sensor, number: *number, time: *time, valid: reading.is_some(), ..Fix::default() };
+            step.fixes.push(reading.map_or(fix.clone(), |reading| Fix {
+                x: reading.position.x,
+                y: reading.position.y,
+                velocity_x: reading.velocity.x,
+                velocity_y: reading.velocity.y,
+                ..fix
+            }));
+        }
+        for (sensor, Sample { number, time, reading }) in arrived(&self.imus, rig) {
+            step.inertia.push(Inertia {
+                sensor,
+                number: *number,
+                time: *time,
+                acceleration_x: reading.acceleration.x,
+                acceleration_y: reading.acceleration.y,
+                yaw_rate: reading.yaw_rate,
+            });
+        }
+    }
+}
+
+/// What has arrived from sensors of one kind, each with the name of its sensor.
+fn arrived<'a, S: Sensor>(
+    fittings: &'a [Fitting<S>],
+    rig: &'a Rig,
+) -> impl Iterator<Item = (String, &'a Sample<S::Reading>)> {
+    fittings.iter().flat_map(move |fitting| {
+        let samples = fitting.handle.as_ref().map_or(&[][..], |handle| rig.arrived(handle));
+        samples.iter().map(|sample| (fitting.name.clone(), sample))
+    })
+}
+
+impl<S: Sensor + Clone> Fitting<S> {
+    fn new(name: &str, sensor: S, delivery: Option<&super::Delivery>) -> Self {
+        let delivery = delivery
+            .map_or_else(Delivery::default, |delivery| Delivery { latency: delivery.latency, loss: delivery.loss });
+        Self { name: name.to_owned(), sensor, delivery, handle: None }
+    }
+
+    fn attach(&mut self, rig: &mut Rig) -> Result<(), SensorError> {
+        self.handle = Some(rig.attach(&self.name, self.sensor.clone(), self.delivery)?);
+        Ok(())
+    }
+}
+
+impl From<&super::Camera> for Mounted {
+    fn from(camera: &super::Camera) -> Self {
+        Self {
+            resolution: [camera.width, camera.height],
+            focal_mm: camera.focal_mm,
+            sensor_mm: camera.sensor_mm,
+            position: [camera.x, camera.y, camera.z],
+            yaw_pitch_roll: [camera.yaw_degrees, camera.pitch_degrees, camera.roll_degrees],
+            rate: camera.rate,
+            latency: camera.latency,
+            dropped: camera.dropped,
+            motion: camera.motion,
+            motion_angle: camera.motion_angle_degrees,
+            defocus: camera.defocus,
+            blur: camera.blur,
+            vignetting: camera.vignetting,
+            exposure: camera.exposure,
+            full_well: camera.full_well,
+            read_noise: camera.read_noise,
+        }
+    }
+}
+
+impl From<(&String, &Mounted)> for super::Camera {
+    fn from((name, mounted): (&String, &Mounted)) -> Self {
+        let [x, y, z] = mounted.position;
+        let [yaw_degrees, pitch_degrees, roll_degrees] = mounted.yaw_pitch_roll;
+        Self {
+            name: name.clone(),
+            width: mounted.resolution[0],
+            height: mounted.resolution[1],
+            focal_mm: mounted.focal_mm,
+            sensor_mm: mounted.sensor_mm,
+            x,
+            y,
+            z,
+            yaw_degrees,
+            pitch_degrees,
+            roll_degrees,
+            rate: mounted.rate,
+            latency: mounted.latency,
+            dropped: mounted.dropped,
+            motion: mounted.motion,
+            motion_angle_degrees: mounted.motion_angle,
+            defocus: mounted.defocus,
+            blur: mounted.blur,
+            vignetting: mounted.vignetting,
+            exposure: mounted.exposure,
+            full_well: mounted.full_well,
+            read_noise: mounted.read_noise,
+        }
+    }
+}
+
+fn mount(described: Option<&super::Mount>, usual: Mount) -> Mount {
+    described.map_or(usual, |at| Mount { position: Vector3::new(at.x, at.y, at.z), heading: at.heading })
+}
+
+fn inaccuracy(described: Option<&super::Inaccuracy>, usual: Inaccuracy) -> Inaccuracy {
+    described.map_or(usual, |off| Inaccuracy { noise: off.noise, bias: off.bias, walk: off.walk })
+}
+
+impl From<&super::Lidar> for LidarSettings {
+    fn from(lidar: &super::Lidar) -> Self {
+        let usual = Self::default();
+        let count = |described: Option<u32>, usual| described.map_or(usual, |count| count as usize);
+        Self {
+            mount: mount(lidar.mount.as_ref(), usual.mount),
+            period: lidar.period.unwrap_or(usual.period),
+            channels: count(lidar.channels, usual.channels),
+            lowest: lidar.lowest.unwrap_or(usual.lowest),
+            highest: lidar.highest.unwrap_or(usual.highest),
+            columns: count(lidar.columns, usual.columns),
+            range: lidar.range.unwrap_or(usual.range),
+            noise: lidar.noise.unwrap_or(usual.noise),
+            attenuation: lidar.attenuation.unwrap_or(usual.attenuation),
+            sure: lidar.sure.unwrap_or(usual.sure),
+            loss: lidar.loss.unwrap_or(usual.loss),
+        }
+    }
+}
+
+impl From<&super::Gnss> for GnssSettings {
+    fn from(gnss: &super::Gnss) -> Self {
+        let usual = Self::default();
+        Self {
+            mount: mount(gnss.mount.as_ref(), usual.mount),
+            period: gnss.period.unwrap_or(usual.period),
+            position: inaccuracy(gnss.position.as_ref(), usual.position),
+            velocity_noise: gnss.velocity_noise.unwrap_or(usual.velocity_noise),
+            outages: gnss.outages.unwrap_or(usual.outages),
+            outage_duration: gnss.outage_duration.unwrap_or(usual.outage_duration),
+        }
+    }
+}
+
+impl From<&super::Imu> for ImuSettings {
+    fn from(imu: &super::Imu) -> Self {
+        let usual = Self::default();
+        Self {
+            period: imu.period.unwrap_or(usual.period),
+            acceleration: inaccuracy(imu.acceleration.as_ref(), usual.acceleration),
+            yaw_rate: inaccuracy(imu.yaw_rate.as_ref(), usual.yaw_rate),
+        }
+    }
+}

@@ -1,0 +1,156 @@
+"""A driver, and a server that lets PARACOSM ask it."""
+
+import copy
+import difflib
+import os
+import stat
+import sys
+import threading
+import traceback
+from concurrent.futures import ThreadPoolExecutor
+
+import grpc
+
+from . import observation, protocol, sensors
+from .observation import Control
+
+# Each test that runs at the same time as others has a session, and a thread that waits most of the time.
+SESSIONS = 1024
+
+
+class Driver:
+    """A system under test: subclass it, and implement `step`.
+
+    What a driver does may depend on what it was told since the last `reset`, on `seed` and on `settings`, and on nothing else:
+    then a test gives the same trace wherever and whenever it is run.
+
+    Every session is served by a deep copy of the driver that was served, so that tests that run at the same time do not disturb
+    each other. What is large and never changes, such as a network, can be an attribute of the class, or be shared by `serve`.
+    """
+
+    period: float = 0.1
+    """Seconds from one step to the next."""
+    cameras: dict[str, sensors.Camera] = {}
+    """Cameras by their names."""
+    lidars: dict[str, sensors.Lidar] = {}
+    gnss: dict[str, sensors.Gnss] = {}
+    imus: dict[str, sensors.Imu] = {}
+    others: bool = False
+    """Whether it is told where the others truly are."""
+    settings: dict[str, float] = {}
+    """What can be set by `--set driver.NAME=VALUE`, with its default. In a session it has the values that were set."""
+    seed: int = 0
+    """Where all chance is to come from: what `--set driver.seed=N` says."""
+
+    def reset(self, briefing):
+        """A new test begins: forget everything. `briefing` is a `Briefing`."""
+
+    def step(self, observation):
+        """What to do until the next step: a `Control`. `observation` is an `Observation`."""
+        raise NotImplementedError(f"{type(self).__name__}.step")
+
+    def serve(self, address=None):
+        """Lets PARACOSM ask this driver, until the process ends; see `serve`."""
+        serve(lambda: copy.deepcopy(self), address)
+
+
+def serve(make, address=None):
+    """Serves a driver that `make()` makes for each session, until the process ends.
+
+    It listens at `address`, HOST:PORT; without one, where `paracosm-fuzz --driver-command` asks for by PARACOSM_ADDRESS, and
+    else at 127.0.0.1:50051.
+    """
+    started_by = os.environ.get("PARACOSM_ADDRESS")
+    address = address or started_by or "127.0.0.1:50051"
+    options = [
+        ("grpc.max_receive_message_length", -1),
+        # Two servers at one address would share what comes.
+        ("grpc.so_reuseport", 0),
+    ]
+    server = grpc.server(ThreadPoolExecutor(SESSIONS), options=options, maximum_concurrent_rpcs=SESSIONS)
+    handler = grpc.stream_stream_rpc_method_handler(
+        lambda requests, _: _session(make, requests),
+        request_deserializer=protocol.Request.FromString,
+        response_serializer=protocol.Answer.SerializeToString,
+    )
+    server.add_generic_rpc_handlers((grpc.method_handlers_generic_handler(protocol.SERVICE, {protocol.METHOD: handler}),))
+    server.add_insecure_port(address)
+    server.start()
+    if started_by == address and stat.S_ISFIFO(os.fstat(0).st_mode):
+        # Whoever has started this process holds the other end of the pipe, and ends it by this, also when it dies.
+        threading.Thread(target=_end_with_input, daemon=True).start()
+    else:
+        print(f"listening at grpc://{address}", file=sys.stderr)
+    try:
+        server.wait_for_termination()
+    except KeyboardInterrupt:
+        pass
+
+
+def _end_with_input():
+    while sys.stdin.buffer.read(4096):
+        pass
+    os._exit(0)
+
+
+def _session(make, requests):
+    """Answers the requests of a session; what a driver raises ends it."""
+    driver, images = None, {}
+    for request in requests:
+        answer = protocol.Answer()
+        try:
+            match request.WhichOneof("kind"):
+                case "hello":
+                    driver = _welcome(make(), request.hello, answer.welcome)
+                case "reset":
+                    images.clear()
+                    driver.reset(observation.briefing(request.reset))
+                    answer.ready.SetInParent()
+                case "step":
+                    control = driver.step(observation.observation(request.step, images))
+                    if not isinstance(control, Control):
+                        raise TypeError(f"step returned {control!r}, expected a Control")
+                    answer.control.throttle = float(control.throttle)
+                    answer.control.steering = float(control.steering)
+                case other:
+                    raise ValueError(f"found an unknown request: {other}; update the package")
+        except Exception as error:
+            traceback.print_exc()
+            yield protocol.Answer(fault={"message": _words(error)})
+            return
+        yield answer
+
+
+def _welcome(driver, hello, welcome):
+    """Sets a driver as it is asked to, and says what it measures with."""
+    for name in hello.settings:
+        if name not in driver.settings:
+            near = difflib.get_close_matches(name, driver.settings, 1)
+            hint = f" (did you mean `{near[0]}`?)" if near else ""
+            raise ValueError(f"{type(driver).__name__} has no setting `{name}`{hint}")
+    driver.settings = {**driver.settings, **hello.settings}
+    driver.seed = hello.seed
+    welcome.protocol = protocol.VERSION
+    welcome.name = type(driver).__name__
+    welcome.period = driver.period
+    welcome.others = driver.others
+    for described, messages in [
+        (driver.cameras, welcome.cameras),
+        (driver.lidars, welcome.lidars),
+        (driver.gnss, welcome.gnss),
+        (driver.imus, welcome.imus),
+    ]:
+        for name, sensor in described.items():
+            message = messages.add(name=name)
+            sensors.write(sensor, message)
+    return driver
+
+
+def _words(error):
+    """An exception in a line, with the place in the user's code where it was raised."""
+    what = "".join(traceback.format_exception_only(error)).strip()
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename != __file__]
+    if not frames:
+        return what
+    at = frames[-1]
+    return f"{what} ({os.path.basename(at.filename)}, line {at.lineno}, in {at.name})"

@@ -1,0 +1,137 @@
+//! Drivers for one worker: those that come with the engine are made, those in a process of their own are asked for.
+//!
+//! A driver is kept from one test to the next as long as all goes well. A driver in a process of its own begins a session
+//! for it, of which a server can have many. A test that ends in an error with a driver that has a past, or beside other
+//! tests, is not held against it: it is run again with a driver that is new, and alone. So a driver whose answers depend on
+//! the test alone gives the same trials for any number of workers. A server that somebody else has started cannot be
+//! started again, and what its end does to others is outside of that.
+
+mod process;
+
+use crate::Error;
+use crate::study::{DriverChoice, Origin};
+use paracosm_engine::driver::{Driver, Equipment, Fault};
+use paracosm_engine::sensor::{Image, Rig};
+use paracosm_engine::{Briefing, Control, Observation, Outcome};
+use paracosm_oracles::Verdict;
+use paracosm_rpc::Session;
+use process::Garage;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The drivers of a worker.
+pub(crate) struct Drivers<'a> {
+    source: Source<'a>,
+    /// Whether they run in a process of their own.
+    external: bool,
+    /// Those that have nothing to do.
+    idle: Vec<Box<dyn Driver>>,
+    stop: Arc<AtomicBool>,
+}
+
+/// Where drivers come from.
+enum Source<'a> {
+    /// Each is made, or asked for at an address.
+    Made(Box<Make<'a>>),
+    Process(Box<Garage>),
+}
+
+/// Makes a driver.
+type Make<'a> = dyn Fn() -> Result<Box<dyn Driver>, Error> + Send + 'a;
+
+impl<'a> Drivers<'a> {
+    /// Drivers as they were chosen, none of which is made or asked for yet. None is waited for any more once `stop` is set.
+    ///
+    /// # Errors
+    /// The choice was read from a file, and there is no such driver or setting.
+    pub fn new(choice: &'a DriverChoice, stop: Arc<AtomicBool>) -> Result<Self, Error> {
+        let (latency, ended) = (choice.latency(), stop.clone());
+        let source = match choice.origin()? {
+            Origin::Engine => {
+                let mut drivers = Self::made_by(|| choice.build());
+                let first = drivers.hire()?;
+                drivers.dismiss(Some(first));
+                return Ok(drivers);
+            }
+            Origin::Server(address, terms) => Source::Made(Box::new(move || {
+                let session = Session::open(&address, &terms, ended.clone());
+                let session = session.map_err(|error| Error::Usage(format!("driver {address}: {error}")))?;
+                Ok(Box::new(Late { driver: session, latency }))
+            })),
+            Origin::Process(words, terms) => Source::Process(Box::new(Garage::new(words, terms, latency, ended))),
+        };
+        Ok(Self { source, external: true, idle: Vec::new(), stop })
+    }
+
+    /// Drivers in this process.
+    pub fn made_by(make: impl Fn() -> Result<Box<dyn Driver>, Error> + Send + 'a) -> Self {
+        Self { source: Source::Made(Box::new(make)), external: false, idle: Vec::new(), stop: Arc::default() }
+    }
+
+    /// Whether there is one that has nothing to do.
+    pub fn any_idle(&self) -> bool {
+        !self.idle.is_empty()
+    }
+
+    /// A driver that has nothing to do, or a new one.
+    ///
+    /// # Errors
+    /// There is none to be had: nobody listens at its address, say.
+    pub fn hire(&mut self) -> Result<Box<dyn Driver>, Error> {
+        match (self.idle.pop(), &mut self.source) {
+            (Some(driver), _) => Ok(driver),
+            (None, Source::Made(make)) => make(),
+            (None, Source::Process(garage)) => garage.driver(),
+        }
+    }
+
+    /// Takes back a driver that has nothing to do any more.
+    pub fn dismiss(&mut self, driver: Option<Box<dyn Driver>>) {
+        self.idle.extend(driver);
+    }
+
+    /// Keeps no driver that has a past, if that could make a difference.
+    pub fn renew(&mut self) {
+        if self.external {
+            self.idle.clear();
+        }
+    }
+
+    /// Whether a test ended in a way that may be the fault of something else than the test.
+    pub fn doubts(&self, outcome: &Outcome) -> bool {
+        let stopped = self.stop.load(Ordering::Relaxed);
+        outcome.verdict == Verdict::Error && self.external && !stopped
+    }
+}
+
+/// A driver whose answers take effect later.
+struct Late<D> {
+    driver: D,
+    latency: f64,
+}
+
+impl<D: Driver> Driver for Late<D> {
+    fn period(&self) -> f64 {
+        self.driver.period()
+    }
+
+    fn equipment(&mut self) -> Equipment {
+        self.driver.equipment()
+    }
+
+    fn latency(&self) -> f64 {
+        self.latency
+    }
+
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.driver.reset(briefing)
+    }
+
+    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
+        self.driver.perceive(rig, images)
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        self.driver.step(observation)
+    }
+}

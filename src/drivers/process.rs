@@ -1,0 +1,153 @@
+//! Drivers in a process that is started for them, and again when it has ended.
+
+use super::Late;
+use crate::Error;
+use crate::process::Process;
+use paracosm_engine::driver::{Driver, Equipment, Fault};
+use paracosm_engine::sensor::{Image, Rig};
+use paracosm_engine::{Briefing, Control, Observation};
+use paracosm_rpc::{Address, OpenError, Session, Terms};
+use std::net::{SocketAddr, TcpListener};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Where a process is told to listen.
+const ADDRESS: &str = "PARACOSM_ADDRESS";
+
+/// How often it is looked whether a process listens by now.
+const PATIENCE: Duration = Duration::from_millis(10);
+
+/// A command, and the process that it has started.
+pub(super) struct Garage {
+    words: Vec<String>,
+    terms: Terms,
+    latency: f64,
+    stop: Arc<AtomicBool>,
+    running: Option<Running>,
+}
+
+/// A process and where it listens. All its drivers know of it.
+#[derive(Clone)]
+struct Running {
+    process: Arc<Mutex<Process>>,
+    address: SocketAddr,
+}
+
+impl Garage {
+    pub fn new(words: Vec<String>, terms: Terms, latency: f64, stop: Arc<AtomicBool>) -> Self {
+        Self { words, terms, latency, stop, running: None }
+    }
+
+    /// A driver of the process, which is started if there is none.
+    ///
+    /// # Errors
+    /// It cannot be started, ends, does not listen, or is no driver.
+    pub fn driver(&mut self) -> Result<Box<dyn Driver>, Error> {
+        let wrong = |message: String| Error::Usage(format!("driver `{}`: {message}", shell_words::join(&self.words)));
+        let running = match self.running.take().filter(Running::is_alive) {
+            Some(running) => running,
+            None => Running::start(&self.words).map_err(wrong)?,
+        };
+        // What cannot be talked to is ended.
+        let session = running.session(&self.terms, &self.stop).map_err(wrong)?;
+        self.running = Some(running.clone());
+        Ok(Box::new(Late { driver: Passenger { session, running }, latency: self.latency }))
+    }
+}
+
+impl Running {
+    fn start(words: &[String]) -> Result<Self, String> {
+        let address = free_address().map_err(|error| format!("found no port for it to listen at: {error}"))?;
+        let started = Process::start(words, &[(ADDRESS, address.to_string())]);
+        let mut process = started.map_err(|error| format!("cannot start `{}`: {error}", words[0]))?;
+        if let Some(stdout) = process.stdout() {
+            process.keep_last_of(stdout);
+        }
+        Ok(Self { process: Arc::new(Mutex::new(process)), address })
+    }
+
+    fn with<T>(&self, act: impl FnOnce(&mut Process) -> T) -> T {
+        act(&mut self.process.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn is_alive(&self) -> bool {
+        self.with(|process| process.status().is_none())
+    }
+
+    /// A session, as soon as the process listens.
+    fn session(&self, terms: &Terms, stop: &Arc<AtomicBool>) -> Result<Session, String> {
+        let begun = Instant::now();
+        loop {
+            match Session::open(&Address::from(self.address), terms, stop.clone()) {
+                Ok(session) => return Ok(session),
+                Err(OpenError::Unreachable) if !self.is_alive() => {
+                    return Err(self.obituary("before it listened at PARACOSM_ADDRESS", ""));
+                }
+                Err(OpenError::Unreachable) if stop.load(Ordering::Relaxed) => return Err("interrupted".into()),
+                Err(OpenError::Unreachable) if begun.elapsed() < terms.timeout => thread::sleep(PATIENCE),
+                Err(OpenError::Unreachable) => {
+                    let within = terms.timeout.as_secs_f64();
+                    return Err(self.obituary("", &format!("it does not listen at {ADDRESS} within {within} s")));
+                }
+                Err(error) => return Err(error.to_string()),
+            }
+        }
+    }
+
+    /// What happened to the process: it ended at some time, or, if it has not, something else. It is ended then.
+    fn obituary(&self, when: &str, otherwise: &str) -> String {
+        self.with(|process| {
+            let how = match process.ended() {
+                Some(status) => format!("it ended {when} ({status})"),
+                None => otherwise.to_owned(),
+            };
+            process.obituary(how)
+        })
+    }
+}
+
+/// A port of this machine that nobody listens at. That somebody else takes it before the process does is unlikely: ports are
+/// given out in an order by chance.
+fn free_address() -> std::io::Result<SocketAddr> {
+    TcpListener::bind("127.0.0.1:0")?.local_addr()
+}
+
+/// A driver in a process that was started for it.
+struct Passenger {
+    session: Session,
+    running: Running,
+}
+
+impl Passenger {
+    /// Says what became of the process, if its end is why there is no answer. One that does not answer is ended.
+    fn ask<T>(&mut self, question: impl FnOnce(&mut Session) -> Result<T, Fault>) -> Result<T, Fault> {
+        question(&mut self.session).map_err(|fault| match self.session.is_lost() {
+            true => Fault(self.running.obituary("without an answer", &fault.0)),
+            false => fault,
+        })
+    }
+}
+
+impl Driver for Passenger {
+    fn period(&self) -> f64 {
+        self.session.period()
+    }
+
+    fn equipment(&mut self) -> Equipment {
+        self.session.equipment()
+    }
+
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.ask(|session| session.reset(briefing))
+    }
+
+    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
+        self.session.perceive(rig, images)
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        self.ask(|session| session.step(observation))
+    }
+}

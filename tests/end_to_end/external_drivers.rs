@@ -1,0 +1,297 @@
+//! Drivers in a process of their own: the program of these tests, started again, serves them.
+
+use crate::common::{fuzz, refused, stdout, succeeds};
+use paracosm::engine::driver::{Driver, Fault, find};
+use paracosm::engine::{Briefing, Control, Observation};
+use paracosm::rpc::{Wishes, serve};
+use serde_json::{Value, json};
+use std::fs;
+use std::net::TcpListener;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+/// The driver `aeb`, which goes wrong in a way of its own when it sees somebody run.
+struct Served {
+    aeb: Box<dyn Driver>,
+    wishes: Wishes,
+}
+
+impl Served {
+    fn wish(&self, name: &str) -> f64 {
+        self.wishes.settings.get(name).copied().unwrap_or(f64::INFINITY)
+    }
+}
+
+impl Driver for Served {
+    fn period(&self) -> f64 {
+        self.aeb.period()
+    }
+
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        // It counts over all its tests, as no driver should.
+        let tests = self.wish("lives") - 1.0;
+        if tests < 0.0 {
+            eprintln!("worn out");
+            std::process::exit(9);
+        }
+        if tests.is_finite() {
+            self.wishes.settings.insert("lives".into(), tests);
+        }
+        self.aeb.reset(briefing)
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        let runs = |limit: f64| observation.others.iter().any(|other| other.velocity.norm() > limit);
+        // Relative to the ground, so that it is how fast somebody walks.
+        if runs(self.wish("exits")) {
+            eprintln!("out of fuel");
+            std::process::exit(3);
+        } else if runs(self.wish("hangs")) {
+            sleep(Duration::from_secs(1000));
+        } else if runs(self.wish("fails")) {
+            return Err(Fault("too fast for me".into()));
+        } else if runs(self.wish("panics")) {
+            panic!("no such gear");
+        } else if runs(self.wish("slips")) {
+            return Ok(Control { throttle: f64::NAN, steering: 0.0 });
+        } else if runs(self.wish("overdoes")) {
+            return Ok(Control { throttle: 0.0, steering: -1.5 });
+        }
+        self.aeb.step(observation)
+    }
+}
+
+/// Not a test, but what the tests start as a driver.
+#[test]
+fn served_to_others() {
+    let Ok(address) = std::env::var("PARACOSM_ADDRESS") else { return };
+    std::thread::spawn(|| {
+        let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
+        std::process::exit(0);
+    });
+    let make = |wishes: &Wishes| -> Result<Box<dyn Driver>, Fault> {
+        if wishes.settings.contains_key("gain") {
+            return Err(Fault("no setting `gain`".into()));
+        }
+        Ok(Box::new(Served { aeb: find("aeb").unwrap().build(&[]).unwrap(), wishes: wishes.clone() }))
+    };
+    serve(TcpListener::bind(address).unwrap(), "served", make).unwrap();
+}
+
+/// The command that starts a driver.
+fn command() -> String {
+    let program = std::env::current_exe().unwrap();
+    format!("'{}' external_drivers::served_to_others --exact --nocapture", program.display())
+}
+
+/// A driver that was started, and where it listens.
+struct Server(std::process::Child, String);
+
+impl Server {
+    fn start() -> Self {
+        let address = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
+        let mut program = Command::new(std::env::current_exe().unwrap());
+        program.args(["external_drivers::served_to_others", "--exact", "--nocapture"]);
+        program.env("PARACOSM_ADDRESS", &address).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null());
+        let server = Self(program.spawn().unwrap(), format!("grpc://{address}"));
+        while std::net::TcpStream::connect(&address).is_err() {
+            sleep(Duration::from_millis(5));
+        }
+        server
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+fn log(dir: &Path, out: &str) -> String {
+    fs::read_to_string(dir.join(out).join("trials.jsonl")).unwrap()
+}
+
+fn trials(dir: &Path, out: &str) -> Vec<Value> {
+    log(dir, out).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// A campaign of a driver that is started.
+fn run(dir: &Path, out: &str, options: &[&str]) -> Output {
+    fuzz(dir, &[&["--driver-command", &command(), "--out", out, "--format", "table"][..], options].concat())
+}
+
+#[test]
+fn a_campaign_over_grpc_has_the_log_of_the_same_driver_in_process_for_any_number_of_workers() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    succeeds(fuzz(dir, &["--driver", "aeb", "--budget", "40", "--out", "near"]));
+    let server = Server::start();
+    for jobs in ["1", "2"] {
+        let started = format!("started-{jobs}");
+        succeeds(run(dir, &started, &["--budget", "40", "--jobs", jobs]));
+        assert_eq!(log(dir, &started), log(dir, "near"));
+        let connected = format!("connected-{jobs}");
+        succeeds(fuzz(dir, &["--driver", &server.1, "--budget", "40", "--jobs", jobs, "--out", &connected]));
+        assert_eq!(log(dir, &connected), log(dir, "near"));
+    }
+    let study = |out: &str| -> Value {
+        serde_json::from_str(&fs::read_to_string(dir.join(out).join("campaign.json")).unwrap()).unwrap()
+    };
+    let driver = json!({"name": server.1, "settings": {}, "external": {"by": "address", "timeout": 60.0}});
+    assert_eq!(study("connected-1")["driver"], driver);
+    let driver = json!({"name": command(), "settings": {}, "external": {"by": "command", "timeout": 60.0}});
+    assert_eq!(study("started-1")["driver"], driver);
+}
+
+/// What a driver does when somebody runs at more than 8.8 m/s, and what is said of it.
+const BAD: [(&str, &str); 6] = [
+    ("exits", "it ended without an answer (exit status: 3); its last words: "),
+    ("hangs", "no answer within 2 s"),
+    ("fails", "too fast for me"),
+    ("panics", "the driver panicked: no such gear"),
+    ("slips", "the driver's throttle is NaN, expected -1 to 1"),
+    ("overdoes", "the driver's steering is -1.5, expected -1 to 1"),
+];
+
+#[test]
+fn a_driver_that_goes_wrong_ends_that_test_with_an_error_that_says_how_and_no_other() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    succeeds(fuzz(dir, &["--driver", "aeb", "--budget", "12", "--out", "near"]));
+    let near = trials(dir, "near");
+    for (way, says) in BAD {
+        let set = format!("driver.{way}=8.8");
+        // Others have to answer in time, however busy this machine is.
+        let timeout = if way == "hangs" { "2" } else { "60" };
+        let options = |jobs| ["--budget", "12", "--set", &set, "--timeout", timeout, "--jobs", jobs];
+        let (one, many) = (format!("{way}-1"), format!("{way}-3"));
+        succeeds(run(dir, &one, &options("1")));
+        let mut errors = 0;
+        for (trial, near) in trials(dir, &one).iter().zip(&near) {
+            if trial["verdict"] == "error" {
+                errors += 1;
+                assert!(trial["test"]["speed"].as_f64().unwrap() > 8.8, "{trial}");
+                assert!(trial["error"].as_str().unwrap().contains(says), "{trial}");
+            } else {
+                assert_eq!(trial, near);
+            }
+        }
+        assert!(errors > 0, "{way}");
+        succeeds(run(dir, &many, &options("3")));
+        assert_eq!(log(dir, &one), log(dir, &many), "{way}");
+    }
+    let broken = trials(dir, "exits-1").iter().position(|trial| trial["verdict"] == "error").unwrap();
+    assert!(trials(dir, "exits-1")[broken]["error"].as_str().unwrap().contains("out of fuel"));
+    let replay = fuzz(dir, &["replay", "exits-1", &broken.to_string(), "--format", "table"]);
+    assert!(stdout(&succeeds(replay)).contains("out of fuel"));
+}
+
+#[test]
+fn a_test_is_not_held_against_a_driver_that_earlier_tests_have_worn_out() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    succeeds(fuzz(dir, &["--driver", "aeb", "--budget", "20", "--out", "near"]));
+    succeeds(run(dir, "worn", &["--budget", "20", "--set", "driver.lives=3", "--jobs", "2"]));
+    assert_eq!(log(dir, "worn"), log(dir, "near"));
+}
+
+#[test]
+fn a_campaign_of_a_driver_is_continued_replayed_and_shrunk() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    succeeds(run(dir, "whole", &["--budget", "40", "--set", "driver.latency=0.2"]));
+    // As if it had been killed in the middle of a line.
+    let whole = log(dir, "whole");
+    let lines: Vec<&str> = whole.lines().collect();
+    fs::create_dir(dir.join("half")).unwrap();
+    fs::copy(dir.join("whole/campaign.json"), dir.join("half/campaign.json")).unwrap();
+    fs::write(dir.join("half/trials.jsonl"), format!("{}\n{{\"index\"", lines[..17].join("\n"))).unwrap();
+    succeeds(run(dir, "half", &["--budget", "40", "--set", "driver.latency=0.2", "--resume"]));
+    assert_eq!(log(dir, "half"), whole);
+    let other = run(dir, "half", &["--budget", "40", "--set", "driver.latency=0.3", "--resume"]);
+    refused(&other, &["half"]);
+    let failing = trials(dir, "whole").iter().position(|trial| trial["verdict"] == "fail").expect("one is too late");
+    succeeds(fuzz(dir, &["replay", "whole", &failing.to_string()]));
+    succeeds(fuzz(dir, &["shrink", "whole", &failing.to_string()]));
+}
+
+#[test]
+fn latency_lets_controls_take_effect_later() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    let worst = |latency: &str| {
+        let set = format!("driver.latency={latency}");
+        succeeds(run(dir, latency, &["--budget", "60", "--set", &set]));
+        trials(dir, latency).iter().filter(|trial| trial["verdict"] == "fail").count()
+    };
+    assert!(worst("0") < worst("0.5"), "half a second is 8 m");
+}
+
+#[test]
+fn what_is_no_driver_is_refused_before_the_first_test() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    let unused = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    let unused = format!("grpc://{unused}");
+    let (served, exits) = (command(), "sh -c 'echo no licence >&2; exit 4'");
+    let cases: &[(&[&str], &[&str])] = &[
+        (&["--driver", &unused], &[&unused, "nobody listens there; start the driver first"]),
+        (&["--driver", "grpc://localhost"], &["grpc://localhost", "no port", "grpc://127.0.0.1:50051"]),
+        (&["--driver", "http://localhost:1"], &["another scheme", "expected grpc://HOST:PORT"]),
+        (&["--driver", "grpc://no-such-host.invalid:1"], &["the host is not known"]),
+        (&["--driver-command", ""], &["--driver-command", "found no program"]),
+        (&["--driver-command", "sh 'x"], &["--driver-command", "a quote is not closed"]),
+        (&["--driver-command", "no-such-program x"], &["cannot start `no-such-program`"]),
+        (
+            &["--driver-command", exits],
+            &["it ended before it listened at PARACOSM_ADDRESS (exit status: 4)", "no licence"],
+        ),
+        (
+            &["--driver-command", "sleep 1000", "--timeout", "0.3"],
+            &["does not listen at PARACOSM_ADDRESS within 0.3 s"],
+        ),
+        (&["--driver-command", &served, "--set", "driver.gain=1"], &["no setting `gain`"]),
+        (
+            &["--driver-command", &served, "--set", "driver.latency=-1"],
+            &["driver.latency is -1, expected a number from 0"],
+        ),
+        (&["--driver-command", &served, "--set", "driver.seed=0.5"], &["driver.seed is 0.5, expected a whole number"]),
+        (&["--driver-command", &served, "--timeout", "0"], &["time-out is 0"]),
+        (&["--driver-command", &served, "--driver", "aeb"], &["--driver"]),
+        (&["--driver", "aeb", "--timeout", "3"], &["--timeout is for", "--driver-command"]),
+    ];
+    for (arguments, says) in cases {
+        refused(&fuzz(dir, &[arguments, &["--out", "out"][..]].concat()), says);
+        assert!(!dir.join("out").exists(), "{arguments:?} wrote something");
+    }
+}
+
+#[test]
+fn a_driver_that_never_drives_is_given_up() {
+    let dir = tempfile::tempdir().unwrap();
+    let given_up = run(dir.path(), "out", &["--set", "driver.fails=0.1", "--open", "speed=1..10"]);
+    refused(&given_up, &["first 50 tests ended in an error", "too fast for me"]);
+}
+
+#[test]
+fn an_interrupt_does_not_wait_for_a_driver_that_hangs() {
+    let dir = tempfile::tempdir().unwrap();
+    let options = ["--driver-command", &command(), "--set", "driver.hangs=8.8", "--timeout", "1000", "--jobs", "1"];
+    let mut campaign = Command::new(env!("CARGO_BIN_EXE_paracosm-fuzz"));
+    let campaign = campaign.args(options).current_dir(dir.path()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let campaign = campaign.spawn().unwrap();
+    let logged =
+        || fs::read_to_string(dir.path().join("paracosm-out/trials.jsonl")).unwrap_or_default().lines().count();
+    // Until it is as far as it comes.
+    let mut last = 0;
+    while last == 0 || logged() > last {
+        last = logged();
+        sleep(Duration::from_millis(500));
+    }
+    assert!(Command::new("kill").args(["-INT", &campaign.id().to_string()]).status().unwrap().success());
+    let says = format!("the first {last} trials are safe");
+    refused(&campaign.wait_with_output().unwrap(), &["interrupted", &says, "--resume"]);
+}
