@@ -7,14 +7,19 @@ use paracosm_engine::driver::{Driver, Equipment, Fault};
 use paracosm_engine::sensor::{Image, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
 use paracosm_rpc::{Address, OpenError, Session, Terms};
-use std::net::{SocketAddr, TcpListener};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
 /// Where a process is told to listen.
 const ADDRESS: &str = "PARACOSM_ADDRESS";
+
+/// The ports that processes are told to listen at.
+const PORTS: Range<u16> = 20_000..32_000;
 
 /// How often it is looked whether a process listens by now.
 const PATIENCE: Duration = Duration::from_millis(10);
@@ -108,10 +113,22 @@ impl Running {
     }
 }
 
-/// A port of this machine that nobody listens at. That somebody else takes it before the process does is unlikely: ports are
-/// given out in an order by chance.
-fn free_address() -> std::io::Result<SocketAddr> {
-    TcpListener::bind("127.0.0.1:0")?.local_addr()
+/// A port of this machine that nobody listens at.
+///
+/// It is none of those that systems give to whoever connects, from 32768 on: connecting to one of these where nobody listens
+/// yet may well meet oneself. Processes begin at different places, so that they seldom come upon the same port.
+fn free_address() -> io::Result<SocketAddr> {
+    static TAKEN: AtomicU32 = AtomicU32::new(0);
+    let mut found = Err(io::ErrorKind::AddrInUse.into());
+    for _ in 0..PORTS.len() {
+        let place = std::process::id().wrapping_mul(61).wrapping_add(TAKEN.fetch_add(1, Ordering::Relaxed));
+        let port = PORTS.start + (place % PORTS.len() as u32) as u16;
+        found = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).and_then(|listener| listener.local_addr());
+        if found.is_ok() {
+            break;
+        }
+    }
+    found
 }
 
 /// A driver in a process that was started for it.
