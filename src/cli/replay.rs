@@ -125,10 +125,10 @@ impl Options {
             verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
         }
         if trial != *logged {
-            return Err(difference(&study, logged, &trial).into());
+            return Err(difference(&worker, logged, &trial).into());
         }
         if let Some(clip) = &clip {
-            verbosity.note(clip.write(&study, logged, &cameras)?);
+            verbosity.note(clip.write(&mut worker, logged, &cameras)?);
         }
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(&study, &trial),
@@ -177,15 +177,18 @@ fn draw(record: &Record, kind: Kind, caption: &str) -> Result<Vec<u8>, Failure> 
 }
 
 /// What of the replay is not as it was logged.
-fn difference(study: &Study, logged: &Trial, trial: &Trial) -> String {
+fn difference(worker: &Worker, logged: &Trial, trial: &Trial) -> String {
     let fields = |trial: &Trial| serde_json::to_value(trial).expect("a trial is always JSON");
     let (logged, found) = (fields(logged), fields(trial));
     let keys = found.as_object().into_iter().flatten().map(|(key, _)| key);
     let keys = keys.filter(|key| logged.get(key) != found.get(key));
     let differ: Vec<String> = keys.map(|key| format!("{key} {}, logged {}", found[key], logged[key])).collect();
     let mut message = format!("test {} differs from the log: {}", trial.index, differ.join("; "));
-    if !study.is_of_this_software() {
+    if !worker.study().is_of_this_software() {
         message.push_str("; the campaign was run by another version of this software");
+    }
+    if worker.darkroom().is_some() {
+        message.push_str("; its driver sees, and images are the same only by the same graphics adapter");
     }
     message
 }
