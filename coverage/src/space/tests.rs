@@ -340,3 +340,13 @@ fn quantiles_become_tests_in_the_order_of_the_coordinates() {
     let point = space.at_quantiles(&[0.75, 0.0, 0.75, 0.5]);
     assert_eq!(point, Point { continuous: vec![0.0, 0.5], discrete: vec![1, 1] });
 }
+
+#[test]
+fn what_a_file_says_of_the_design_domain_is_no_matter_of_the_space() {
+    let parameter = "[[parameter]]\nname = \"x\"\ninterval = [0, 1]\n";
+    let space = Space::from_toml(parameter).unwrap();
+    let odd = format!("{parameter}[odd.load]\nvaried = [\"x\"]\n");
+    assert_eq!(Space::from_toml(&odd).unwrap(), space);
+    assert!(!space.to_toml().contains("odd") && !serde_json::to_string(&space).unwrap().contains("odd"));
+    assert!(Space::from_toml(&format!("{parameter}[ood]\n")).is_err());
+}

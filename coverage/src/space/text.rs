@@ -12,7 +12,7 @@ use toml::Spanned;
 const RESERVED: [&str; 1] = ["scale"];
 
 impl Space {
-    /// Reads a SPACE.toml.
+    /// Reads a SPACE.toml. A table `[odd]`, which says what of an operational design domain is tested, is passed over.
     ///
     /// ```
     /// let space = paracosm_coverage::Space::from_toml(r#"
