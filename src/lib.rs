@@ -51,6 +51,7 @@ mod tests_file;
 mod trace_file;
 mod trial;
 mod worker;
+mod write_up;
 
 #[cfg(feature = "cli")]
 pub mod cli;
