@@ -19,6 +19,7 @@
 //! # Ok::<(), paracosm::Error>(())
 //! ```
 
+pub mod bench;
 mod black_box;
 mod campaign;
 pub mod certificate;

@@ -1,6 +1,6 @@
 //! The arguments of `paracosm-fuzz`.
 
-use super::{Failure, Found, Verbosity, describe, doctor, likelihood, list, map, record, replay, run, shrink};
+use super::{Failure, Found, Verbosity, bench, describe, doctor, likelihood, list, map, record, replay, run, shrink};
 use clap::{Parser, Subcommand};
 
 const EXAMPLES: &str = "\
@@ -57,6 +57,9 @@ enum Verb {
     /// Estimate how likely a test fails, when parameters are distributed as you say
     #[command(after_help = likelihood::EXAMPLES)]
     Likelihood(likelihood::Options),
+    /// Hold strategies against each other: how soon each finds a failure, and how much of where tests fail it knows
+    #[command(after_help = bench::EXAMPLES)]
+    Bench(Box<bench::Options>),
     /// Show scenarios, strategies and drivers with their parameters
     #[command(after_help = "Example:\n  paracosm-fuzz list")]
     List(list::Options),
@@ -94,6 +97,7 @@ impl Command {
             None => self.run.execute(self.verbosity),
             Some(Verb::Run(options)) => options.execute(self.verbosity),
             Some(Verb::Likelihood(options)) => options.execute(self.verbosity),
+            Some(Verb::Bench(options)) => options.execute(self.verbosity),
             Some(Verb::List(options)) => options.execute(),
             Some(Verb::Describe(options)) => options.execute(self.verbosity),
             Some(Verb::Map(options)) => options.execute(self.verbosity),

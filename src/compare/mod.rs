@@ -19,7 +19,7 @@ pub use summary::{Cell, Slope};
 
 pub use crate::statistics::Versus;
 
-use crate::executor::{in_order, pool};
+use crate::executor::{alone, in_order, pool};
 use crate::write_up::{ENOUGH_SEEDS, check_seeds, each_once, few_seeds};
 use crate::{Error, Measure};
 use paracosm_generators::Strategy;
@@ -238,15 +238,12 @@ impl Plan {
     ) -> Result<Compared, Error> {
         let Self { comparison, cases, mut notes } = self;
         let workers = pool(jobs.get().min(cases.len()))?;
-        // A pool that holds one thread keeps a set's measures on one core.
-        let alone = || pool(1);
-        let measure = |alone: &mut Result<_, Error>, i: usize| {
+        // One thread keeps a set's measures on one core.
+        let measure = |single: &mut Result<_, Error>, i: usize| {
             let case: &Case = &cases[i];
             let measures = comparison.measures(case.dims, case.budget);
-            let alone: &rayon::ThreadPool = alone.as_ref().map_err(|error| Error::Usage(error.to_string()))?;
-            let measured = || alone.install(|| case.measure(&measures, comparison.k, comparison.limit));
-            // A worker that waited for another pool itself would take up the work of its neighbour meanwhile.
-            std::thread::scope(|scope| scope.spawn(measured).join()).expect("measuring does not panic")
+            let single: &rayon::ThreadPool = single.as_ref().map_err(|error| Error::Usage(error.to_string()))?;
+            alone(single, || case.measure(&measures, comparison.k, comparison.limit))
         };
         let mut sets = Vec::with_capacity(cases.len());
         let sink = |set: Result<MeasuredSet, Error>| {
@@ -255,7 +252,7 @@ impl Plan {
             sets.push(set);
             Ok::<(), Error>(())
         };
-        in_order(&workers, 0..cases.len(), alone, |alone, i| Some(measure(alone, i)), sink)?;
+        in_order(&workers, 0..cases.len(), || pool(1), |single, i| Some(measure(single, i)), sink)?;
         let (cells, slopes) = workers.install(|| summary::summarise(&comparison, &sets));
         let cut_short = sets.iter().filter(|set| set.is_cut_short()).count();
         if cut_short > 0 {
