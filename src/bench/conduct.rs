@@ -31,7 +31,7 @@ pub(super) fn row(
         Kind::Study(study) => {
             let study = study_of(study, case.strategy, case.seed, bench)?;
             let mut campaign = Studied::new(&study)?;
-            let Some(done) = explore(&mut campaign, bench.budget, bench.batch, stop)? else { return Ok(None) };
+            let Some(done) = explore(&mut campaign, bench, stop, |_| false)? else { return Ok(None) };
             let (points, trials): (Vec<Point>, Vec<Trial>) = done.into_iter().unzip();
             let modes = Modes::of(&study, &trials).modes.len();
             let outcome = |trial: &Trial| trial.covers().then(|| trial.is_failure());
@@ -40,10 +40,12 @@ pub(super) fn row(
         Kind::Function(function) => {
             let generator = generator_of(*function, case.strategy, case.seed, bench)?;
             let mut placed = Computed { generator, placed: function.placed(case.seed) };
-            let Some(done) = explore(&mut placed, bench.budget, bench.batch, stop)? else { return Ok(None) };
-            let fails =
-                |(point, robustness): (Point, Option<f64>)| (point, robustness.map(|robustness| robustness < 0.0));
-            (done.into_iter().map(fails).collect::<Vec<_>>(), None)
+            let fails = |robustness: &Option<f64>| robustness.map(|robustness| robustness < 0.0);
+            // There is no map against which more could be held.
+            let Some(done) = explore(&mut placed, bench, stop, |robustness| fails(robustness) == Some(true))? else {
+                return Ok(None);
+            };
+            (done.into_iter().map(|(point, robustness)| (point, fails(&robustness))).collect::<Vec<_>>(), None)
         }
     };
     let first = tests.iter().position(|(_, fails)| *fails == Some(true));
@@ -58,7 +60,7 @@ pub(super) fn row(
         modes,
         recall: found.and_then(|found| found.recall),
         precision: found.and_then(|found| found.precision),
-        dispersion: dispersion_of(target.space().dims(), &tests)?,
+        dispersion: if map.is_some() { dispersion_of(target.space().dims(), &tests)? } else { None },
     }))
 }
 
@@ -81,12 +83,13 @@ trait Tested {
     fn tell(&mut self, tests: &[Point], outcomes: &[Self::Outcome]) -> Result<(), Error>;
 }
 
-/// Different tests with their outcomes, as many as the budget if the strategy has so many; `None` if it was stopped.
+/// Different tests with their outcomes up to one that `ends` the run, as many as the budget if the strategy has so many;
+/// `None` if it was stopped.
 fn explore<T: Tested>(
     tested: &mut T,
-    budget: usize,
-    batch: usize,
+    &Bench { budget, batch, .. }: &Bench,
     stop: &AtomicBool,
+    ends: impl Fn(&T::Outcome) -> bool,
 ) -> Result<Option<Vec<(Point, T::Outcome)>>, Error> {
     let mut done: Vec<(Point, T::Outcome)> = Vec::with_capacity(budget);
     let mut known = BTreeMap::new();
@@ -105,7 +108,11 @@ fn explore<T: Tested>(
                     return Ok(None);
                 }
                 let outcome = tested.run(index, test)?;
+                let is_last = ends(&outcome);
                 done.push((test.clone(), outcome));
+                if is_last {
+                    return Ok(Some(done));
+                }
             }
             outcomes.push(done[index].1.clone());
         }
@@ -179,6 +186,9 @@ impl Tested for Computed {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Target;
+    use paracosm_generators::Strategy;
+    use paracosm_generators::functions::Function;
 
     /// Proposes the rows 0 0 1, 1 1 2, 2 2 3 and so on up to a last row.
     struct Repeating {
@@ -209,9 +219,13 @@ mod tests {
         }
     }
 
+    fn of(budget: usize) -> Bench {
+        Bench { budget, ..Bench::of(&[Strategy::Random], vec![Target::function(Function::ALL[0])]).unwrap() }
+    }
+
     fn explored(last: usize, budget: usize) -> (Vec<usize>, Repeating) {
         let mut tested = Repeating { asked: 0, last, ran: vec![], told: vec![] };
-        let done = explore(&mut tested, budget, 16, &AtomicBool::new(false)).unwrap().unwrap();
+        let done = explore(&mut tested, &of(budget), &AtomicBool::new(false), |_| false).unwrap().unwrap();
         (done.into_iter().map(|(_, outcome)| outcome).collect(), tested)
     }
 
@@ -233,6 +247,13 @@ mod tests {
     #[test]
     fn a_run_that_was_stopped_has_no_row() {
         let mut tested = Repeating { asked: 0, last: 9, ran: vec![], told: vec![] };
-        assert!(explore(&mut tested, 5, 16, &AtomicBool::new(true)).unwrap().is_none());
+        assert!(explore(&mut tested, &of(5), &AtomicBool::new(true), |_| false).unwrap().is_none());
+    }
+
+    #[test]
+    fn a_run_may_end_before_its_budget() {
+        let mut tested = Repeating { asked: 0, last: 9, ran: vec![], told: vec![] };
+        let done = explore(&mut tested, &of(8), &AtomicBool::new(false), |outcome| *outcome == 30).unwrap().unwrap();
+        assert_eq!(done.len(), 4);
     }
 }

@@ -2,7 +2,7 @@
 //! is known after it.
 //!
 //! Every strategy runs every target with every seed; runs of the same seed are pairs. A run goes on to its budget, whatever
-//! it finds, and is one row:
+//! it finds (only that of a function ends with a failure), and is one row:
 //!
 //! - *tests to the first failure*, censored at the budget where there was none (`statistics::Survival` says what that asks
 //!   for). A strategy that has nothing more to propose before is counted as if it had gone on in vain. A test that is

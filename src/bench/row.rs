@@ -15,7 +15,7 @@ pub struct Row {
     pub strategy: Strategy,
     /// The seed.
     pub seed: u64,
-    /// How many different tests were run: the budget, or as many as the strategy had.
+    /// How many different tests were run: the budget, as many as the strategy had, or of a function up to the first failure.
     pub tests: usize,
     /// After how many tests the first one failed, itself among them; `None` if none did.
     pub first_failure: Option<usize>,
@@ -27,7 +27,7 @@ pub struct Row {
     pub recall: Option<f64>,
     /// Which share of what is told to fail does fail; `None`, too, where nothing is told to fail.
     pub precision: Option<f64>,
-    /// The volume of the largest empty box, where that is known exactly.
+    /// The volume of the largest empty box, where there is a map and it is known exactly.
     pub dispersion: Option<f64>,
 }
 
