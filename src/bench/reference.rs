@@ -223,7 +223,7 @@ fn place(axes: &[Axis], point: &Point) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::BlackBox;
-    use paracosm_generators::{Generator, Request, Strategy};
+    use paracosm_generators::{Request, Strategy};
     use proptest::prelude::*;
 
     /// A map over two numbers and a word, in which tests fail below a diagonal with the second word.

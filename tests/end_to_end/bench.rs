@@ -130,7 +130,9 @@ fn a_run_is_the_campaign_of_its_seed() {
         assert_eq!(number(run, "first_failure"), first.map(|first| first as f64));
         assert_eq!(number(run, "failures"), printed["verdicts"]["fail"].as_f64());
         let dispersion = printed["coverage"]["continuous"]["dispersion"]["upper"].as_f64();
-        assert_eq!(number(run, "dispersion"), dispersion);
+        // The points of a campaign were values in between.
+        let off = number(run, "dispersion").unwrap() - dispersion.unwrap();
+        assert!(off.abs() < 1e-12, "{off}");
     }
 }
 

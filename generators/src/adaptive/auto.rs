@@ -6,7 +6,7 @@
 //! parameters, and where corners fail: its samples stop at the ends of the axes.
 //!
 //! Of every six tests `cmaes` chooses three, `bayes` two and `nelder-mead` one. With half for `bayes` and a quarter for the others
-//! `auto` took 1.7 times the tests of the best single strategy where one corner of 32 fails, and hardly fewer elsewhere: a
+//! `auto` took 1.7 times the tests of the best single strategy where one corner of 32 fails, and at most a tenth fewer elsewhere: a
 //! model learns from everybody's tests, a population only from its own, so what `bayes` loses by a smaller share is little.
 //! With these shares it takes at most 1.45 times as many on any of the functions (experiments/strategies.md). Swarms as a
 //! fourth search were tried: best alone in corners, they are too slow with a share of the tests.
