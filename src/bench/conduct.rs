@@ -75,6 +75,9 @@ fn dispersion_of(dims: usize, tests: &[(Point, Option<bool>)]) -> Result<Option<
     Ok(Some(dispersion(&points, Deadline::never()).volume.upper))
 }
 
+/// Tests with their outcomes.
+type Done<T> = Vec<(Point, T)>;
+
 /// What is tested, with whoever chooses the tests.
 trait Tested {
     type Outcome: Clone;
@@ -90,8 +93,8 @@ fn explore<T: Tested>(
     &Bench { budget, batch, .. }: &Bench,
     stop: &AtomicBool,
     ends: impl Fn(&T::Outcome) -> bool,
-) -> Result<Option<Vec<(Point, T::Outcome)>>, Error> {
-    let mut done: Vec<(Point, T::Outcome)> = Vec::with_capacity(budget);
+) -> Result<Option<Done<T::Outcome>>, Error> {
+    let mut done: Done<T::Outcome> = Vec::with_capacity(budget);
     let mut known = BTreeMap::new();
     let mut idle = 0;
     while done.len() < budget && idle < MOST_IDLE {

@@ -5,6 +5,9 @@ use crate::statistics::Versus;
 use crate::write_up::{p_value, three_digits};
 use std::fmt::Write;
 
+/// What a column shows of a strategy.
+type Value = fn(&Cell) -> Option<f64>;
+
 impl Benched {
     /// For every scenario how soon each strategy finds a failure and what it knows after all its tests; then how the
     /// strategies stand over all scenarios.
@@ -34,7 +37,7 @@ impl Benched {
 
     fn after_all(&self, text: &mut String, scenario: &str) {
         let cells = || self.of_target(scenario);
-        let columns: [(&str, fn(&Cell) -> Option<f64>); 4] = [
+        let columns: [(&str, Value); 4] = [
             ("modes", |cell| cell.modes),
             ("recall", |cell| cell.recall),
             ("precision", |cell| cell.precision),
