@@ -50,6 +50,12 @@ impl<T> Desk<'_, T> {
     }
 }
 
+/// Does work on the single thread of a pool, whatever threads it would take elsewhere.
+pub(crate) fn alone<T: Send>(single: &ThreadPool, work: impl FnOnce() -> T + Send) -> T {
+    // A worker that waited for another pool itself would take up the work of its neighbour meanwhile.
+    std::thread::scope(|scope| scope.spawn(|| single.install(work)).join()).expect("the work does not panic")
+}
+
 /// Calls `work` for every index on the threads of the pool, each with a worker of its own, and `sink` with the
 /// results in order, up to the first index at which a worker gave up.
 pub(crate) fn in_order<W, T: Send, E>(

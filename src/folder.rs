@@ -190,13 +190,14 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
     let there: serde_json::Value =
         serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
     let here = serde_json::to_value(study).expect("a study is always JSON");
-    let keys = there.as_object().into_iter().chain(here.as_object()).flatten().map(|(key, _)| key);
     // The same tests may be read from another file.
-    let same = |key: &str| match key {
-        "extends" => here[key]["hash"] == there[key]["hash"],
-        key => here.get(key) == there.get(key),
-    };
-    match keys.into_iter().find(|key| !same(key)) {
+    let [there, here] = [there, here].map(|mut study| {
+        if let Some(extends) = study.get_mut("extends") {
+            *extends = extends["hash"].take();
+        }
+        study
+    });
+    match differing_key(&there, &here) {
         None => Ok(()),
         Some(key) => {
             let show = |study: &serde_json::Value| study.get(key).map_or("nothing".into(), ToString::to_string);
@@ -208,6 +209,12 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
             )))
         }
     }
+}
+
+/// The first entry in which two objects differ.
+pub(crate) fn differing_key<'v>(there: &'v serde_json::Value, here: &'v serde_json::Value) -> Option<&'v str> {
+    let keys = there.as_object().into_iter().chain(here.as_object()).flatten().map(|(key, _)| key.as_str());
+    keys.into_iter().find(|key| there.get(key) != here.get(key))
 }
 
 fn parse_trials(file: &Path, text: &str) -> Result<Vec<Trial>, Error> {

@@ -19,6 +19,7 @@
 //! # Ok::<(), paracosm::Error>(())
 //! ```
 
+pub mod bench;
 mod black_box;
 pub mod blame;
 mod campaign;
@@ -62,6 +63,7 @@ mod trace_file;
 mod traceability;
 mod trial;
 mod worker;
+mod write_up;
 
 #[cfg(feature = "cli")]
 pub mod cli;

@@ -28,6 +28,7 @@ pub mod covering;
 mod deal;
 mod error;
 mod family;
+pub mod functions;
 mod greedy;
 mod mixed;
 mod seeded;

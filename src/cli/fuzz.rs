@@ -1,7 +1,8 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Found, Verbosity, blame, describe, doctor, likelihood, list, map, record, replay, run, shrink, trace,
+    Failure, Found, Verbosity, bench, blame, describe, doctor, likelihood, list, map, record, replay, run, shrink,
+    trace,
 };
 use clap::{Parser, Subcommand};
 
@@ -63,6 +64,9 @@ enum Verb {
     /// Estimate how likely a test fails, when parameters are distributed as you say
     #[command(after_help = likelihood::EXAMPLES)]
     Likelihood(likelihood::Options),
+    /// Hold strategies against each other: how soon each finds a failure, and how much of where tests fail it knows
+    #[command(after_help = bench::EXAMPLES)]
+    Bench(Box<bench::Options>),
     /// Show scenarios, strategies and drivers with their parameters
     #[command(after_help = "Example:\n  paracosm-fuzz list")]
     List(list::Options),
@@ -106,6 +110,7 @@ impl Command {
             None => self.run.execute(self.verbosity),
             Some(Verb::Run(options)) => options.execute(self.verbosity),
             Some(Verb::Likelihood(options)) => options.execute(self.verbosity),
+            Some(Verb::Bench(options)) => options.execute(self.verbosity),
             Some(Verb::List(options)) => options.execute(),
             Some(Verb::Describe(options)) => options.execute(self.verbosity),
             Some(Verb::Map(options)) => options.execute(self.verbosity),

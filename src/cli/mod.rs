@@ -4,6 +4,7 @@
 //! violation was found and that was asked about, 2 when the command, its input or the run was wrong.
 
 mod arguments;
+mod bench;
 mod blame;
 mod cover;
 mod describe;

@@ -8,7 +8,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// What is tested.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct Subject {
     /// The world to test in; `paracosm-fuzz list` shows them all
     #[arg(default_value = "pedestrian-crossing")]
@@ -43,6 +43,18 @@ impl Subject {
     /// Whether it is a system that others wrote.
     pub fn is_system(&self) -> bool {
         self.system.is_given()
+    }
+
+    /// The same of another scenario, with further parameters opened.
+    pub fn on(&self, scenario: &str, opened: impl Iterator<Item = String>) -> Self {
+        let mut subject = Self { scenario: scenario.to_owned(), ..self.clone() };
+        subject.open.extend(opened);
+        subject
+    }
+
+    /// What it is called.
+    pub fn name(&self) -> &str {
+        self.system.name().unwrap_or(&self.scenario)
     }
 
     /// The study of it, with all else as it is where nothing is said.

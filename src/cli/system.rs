@@ -8,7 +8,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// A system in its own process, and the space of its tests.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 pub(super) struct System {
     /// Test a system of your own instead of a scenario: a command that reads a test as a line of JSON from standard input
     /// and answers with a line of JSON. It is started once for each worker
@@ -31,6 +31,11 @@ impl System {
     /// How long an answer may take in seconds, if it was said.
     pub fn timeout(&self) -> Option<f64> {
         self.timeout
+    }
+
+    /// The command, if there is one.
+    pub fn name(&self) -> Option<&str> {
+        self.system.as_deref()
     }
 
     /// The study of the system, if there is one.

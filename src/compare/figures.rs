@@ -3,7 +3,8 @@
 
 use super::{Cell, Compared};
 use crate::Measure;
-use crate::plot::{Curve, Entry, LogLog, Look, Picture, Plane, Shape};
+use crate::plot::{Curve, Entry, Frame, LogLog, Look, Picture, Plane};
+use crate::write_up::look;
 use paracosm_generators::Strategy;
 
 /// All figures with their names.
@@ -50,14 +51,14 @@ fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
     };
     let right = if compares { "; right: median ratios with 95 % intervals" } else { "" };
     let seeds = compared.comparison.seeds;
-    Some(LogLog {
+    let frame = Frame {
         title: format!("{}{}, d = {dims}", label[..1].to_uppercase(), &label[1..]),
         note: format!("left: medians of {seeds} seeds with quartiles{right}; marks of one n stand beside each other"),
-        planes: if compares { vec![values, ratios] } else { vec![values] },
         legend: ["strategy".into(), if budgets.len() > 1 { "slope".into() } else { String::new() }],
         entries: strategies.into_iter().map(entry).collect(),
         cross: crosses.then(|| "plain set, without seed".into()),
-    })
+    };
+    Some(LogLog { frame, planes: if compares { vec![values, ratios] } else { vec![values] } })
 }
 
 fn has_logarithms(cell: &Cell) -> bool {
@@ -76,31 +77,4 @@ fn values((look, cells): &(Look, Vec<&Cell>)) -> Curve {
 fn ratios((look, cells): &(Look, Vec<&Cell>)) -> Curve {
     let versus = |cell: &&Cell| cell.versus.as_ref().map(|versus| (cell.budget as f64, versus.ratio, versus.interval));
     Curve { look: *look, marks: cells.iter().filter_map(versus).collect(), crosses: Vec::new() }
-}
-
-/// The same strategy looks the same in every figure; those of one family have colours of one kind.
-fn look(strategy: Strategy) -> Look {
-    let (colour, shape, filled) = match strategy {
-        Strategy::Random => (0x99_9999, Shape::Circle, true),
-        Strategy::Lhs => (0x99_9999, Shape::Square, false),
-        Strategy::LhsCentred => (0x99_9999, Shape::Diamond, false),
-        Strategy::Halton => (0x00_72b2, Shape::Circle, true),
-        Strategy::HaltonShifted => (0x00_72b2, Shape::Circle, false),
-        Strategy::HaltonScrambled => (0x56_b4e9, Shape::Tip, true),
-        Strategy::Sobol => (0xd5_5e00, Shape::Diamond, true),
-        Strategy::SobolOwen => (0xe6_9f00, Shape::Diamond, false),
-        Strategy::Kronecker => (0x00_9e73, Shape::Square, true),
-        Strategy::Hammersley => (0xcc_79a7, Shape::Triangle, true),
-        Strategy::Fibonacci => (0x8c_510a, Shape::Tip, false),
-        Strategy::Greedy => (0x00_0000, Shape::Triangle, true),
-        Strategy::Anneal => (0xf0_8080, Shape::Tip, false),
-        Strategy::Pso => (0xf0_8080, Shape::Square, false),
-        Strategy::NelderMead => (0xf0_8080, Shape::Triangle, false),
-        Strategy::Cmaes => (0xa0_1c1c, Shape::Diamond, true),
-        Strategy::Bayes => (0x7b_3294, Shape::Circle, true),
-        Strategy::Boundary => (0x7b_3294, Shape::Circle, false),
-        Strategy::Auto => (0x7b_3294, Shape::Diamond, true),
-    };
-    let byte = |shift: u32| (colour >> shift) as u8;
-    Look { colour: (byte(16), byte(8), byte(0)), shape, filled }
 }

@@ -2,8 +2,9 @@
 
 use super::{Compared, figures, latex};
 use crate::folder::write_whole;
+use crate::statistics::Versus;
+use crate::write_up::{maybe, new_folder, write_csv, write_pictures};
 use crate::{Error, Measure};
-use std::fs;
 use std::path::Path;
 
 impl Compared {
@@ -12,15 +13,7 @@ impl Compared {
     /// # Errors
     /// It cannot be made, or has something in it.
     pub fn folder(path: &Path) -> Result<(), Error> {
-        if path.exists() && !path.is_dir() {
-            return Err(Error::Usage(format!("{} is a file, expected a folder to write to", path.display())));
-        }
-        fs::create_dir_all(path).map_err(Error::file("create", path))?;
-        let mut there = fs::read_dir(path).map_err(Error::file("read", path))?;
-        match there.next() {
-            None => Ok(()),
-            Some(_) => Err(Error::Usage(format!("{} is not empty: write elsewhere", path.display()))),
-        }
+        new_folder(path)
     }
 
     /// Writes `sets.csv`, `summary.csv`, `slopes.csv`, `table.tex`, and for each measure in each dimension a figure as
@@ -29,23 +22,11 @@ impl Compared {
     /// # Errors
     /// A file cannot be written.
     pub fn write(&self, folder: &Path) -> Result<(), Error> {
-        write_whole(&folder.join("sets.csv"), &csv(&self.set_rows()))?;
-        write_whole(&folder.join("summary.csv"), &csv(&self.summary_rows()))?;
-        write_whole(&folder.join("slopes.csv"), &csv(&self.slope_rows()))?;
+        write_csv(&folder.join("sets.csv"), &self.set_rows())?;
+        write_csv(&folder.join("summary.csv"), &self.summary_rows())?;
+        write_csv(&folder.join("slopes.csv"), &self.slope_rows())?;
         write_whole(&folder.join("table.tex"), latex::tables(self).as_bytes())?;
-        for (name, picture) in figures::all(self) {
-            let (svg, png) = (folder.join(format!("{name}.svg")), folder.join(format!("{name}.png")));
-            let failed = |path: &Path| {
-                let path = path.to_owned();
-                move |error: Box<dyn std::error::Error + Send + Sync>| Error::Picture {
-                    path,
-                    message: error.to_string(),
-                }
-            };
-            write_whole(&svg, picture.svg().map_err(failed(&svg))?.as_bytes())?;
-            write_whole(&png, &picture.png().map_err(failed(&png))?)?;
-        }
-        Ok(())
+        write_pictures(folder, &figures::all(self))
     }
 
     /// A row for every set. Plain sets have no seed; a measure that was not taken leaves its columns empty.
@@ -91,7 +72,7 @@ impl Compared {
         for cell in &self.cells {
             let [lower, upper] = cell.quartiles;
             let versus = cell.versus.as_ref();
-            let of = |number: fn(&super::Versus) -> f64| maybe(versus.map(number));
+            let of = |number: fn(&Versus) -> f64| maybe(versus.map(number));
             rows.push(vec![
                 cell.measure.name().into(),
                 cell.dims.to_string(),
@@ -134,15 +115,4 @@ impl Compared {
         }
         rows
     }
-}
-
-/// A value, or an empty field.
-fn maybe(value: Option<impl ToString>) -> String {
-    value.map_or_else(String::new, |value| value.to_string())
-}
-
-fn csv(rows: &[Vec<String>]) -> Vec<u8> {
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    rows.iter().for_each(|row| csv.write_record(row).expect("rows of one length fit into memory"));
-    csv.into_inner().expect("memory does not fail to flush")
 }

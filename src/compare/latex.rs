@@ -1,11 +1,10 @@
 //! The comparison as LaTeX tables in the manner of the package booktabs, one for each measure.
 
-use super::{Cell, Compared, Versus, three_digits};
+use super::{Cell, Compared};
 use crate::Measure;
+use crate::write_up::latex::{LEVEL, escaped, in_math, ratio};
+use crate::write_up::three_digits;
 use std::fmt::Write;
-
-/// Up to which corrected p-value a difference is marked.
-const LEVEL: f64 = 0.05;
 
 /// The tables of all measures, ready to be `\input`.
 pub(super) fn tables(compared: &Compared) -> String {
@@ -74,43 +73,7 @@ fn median(cell: &Cell, least: f64) -> String {
     format!("${bound}{number}{}$", if differs { "^{\\dagger}" } else { "" })
 }
 
-fn ratio(versus: &Versus) -> String {
-    let [low, high] = versus.interval;
-    let p = if versus.p_holm < 1e-4 { "$<10^{-4}$".into() } else { format!("${:.4}$", versus.p_holm) };
-    format!("${:.2}$ $[{low:.2}, {high:.2}]$ & ${:.2}$ & {p}", versus.ratio, versus.better)
-}
-
-/// A number in a formula: `1.23e-5` with its power of ten.
-fn in_math(number: &str) -> String {
-    number.split_once('e').map_or_else(|| number.to_owned(), |(m, e)| format!("{m} \\cdot 10^{{{e}}}"))
-}
-
 fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
-/// Text in which nothing means anything to LaTeX.
-fn escaped(text: &str) -> String {
-    let escape = |c: char| match c {
-        '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),
-        '~' => "\\textasciitilde{}".into(),
-        '^' => "\\textasciicircum{}".into(),
-        '\\' => "\\textbackslash{}".into(),
-        c => c.to_string(),
-    };
-    text.chars().map(escape).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_latex_would_read_as_a_command_is_escaped() {
-        assert_eq!(escaped("l2_star 50 % & {x}"), "l2\\_star 50 \\% \\& \\{x\\}");
-        assert_eq!(escaped("a\\b^c~d"), "a\\textbackslash{}b\\textasciicircum{}c\\textasciitilde{}d");
-        assert_eq!(in_math("1.23e-5"), "1.23 \\cdot 10^{-5}");
-        assert_eq!(in_math("0.0405"), "0.0405");
-    }
 }

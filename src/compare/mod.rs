@@ -15,17 +15,18 @@ mod summary;
 mod table;
 
 pub use set::MeasuredSet;
-pub use summary::{Cell, Slope, Versus};
+pub use summary::{Cell, Slope};
 
-use crate::executor::{in_order, pool};
+pub use crate::statistics::Versus;
+
+use crate::executor::{alone, in_order, pool};
+use crate::write_up::{ENOUGH_SEEDS, check_seeds, each_once, few_seeds};
 use crate::{Error, Measure};
 use paracosm_generators::Strategy;
 use set::Case;
 use std::num::NonZeroUsize;
 use std::time::Duration;
 
-/// With how many pairs the tests and intervals have enough power; fewer are remarked upon.
-const ENOUGH_SEEDS: usize = 30;
 /// More sets than this are a mistake rather than a plan.
 const MOST_SETS: usize = 10_000_000;
 /// Up to which budget to the power of the dimension the extreme discrepancy is measured unasked: about a second.
@@ -102,16 +103,11 @@ impl Comparison {
         if self.dims[0] == 0 || self.budgets[0] == 0 {
             return usage("found 0 among the dimensions or the budgets, expected numbers from 1 on".into());
         }
-        if self.seeds < 2 {
-            return usage(format!("the number of seeds is {}, expected at least 2, or better 30", self.seeds));
-        }
+        check_seeds(self.seeds, self.first_seed)?;
         let sets = [self.strategies.len(), self.dims.len(), self.budgets.len(), self.seeds];
         let sets = sets.into_iter().try_fold(1usize, usize::checked_mul);
         if sets.is_none_or(|sets| sets > MOST_SETS) {
             return usage(format!("these are more than {MOST_SETS} sets; take fewer seeds, budgets or dimensions"));
-        }
-        if self.first_seed.checked_add(self.seeds as u64 - 1).is_none() {
-            return usage(format!("{} seeds from {} on go beyond {}", self.seeds, self.first_seed, u64::MAX));
         }
         if self.k == 0 {
             return usage("k is 0, expected a number from 1 on".into());
@@ -196,21 +192,9 @@ impl Comparison {
         if [Strategy::Halton, Strategy::HaltonShifted].iter().all(|strategy| self.strategies.contains(strategy)) {
             notes.push("with a seed, halton and halton-shifted are the same sets".into());
         }
-        if self.seeds < ENOUGH_SEEDS {
-            notes.push(format!("{} seeds are few; from {ENOUGH_SEEDS} on the tests have enough power", self.seeds));
-        }
+        notes.extend(few_seeds(self.seeds));
         notes
     }
-}
-
-/// Checks a list that a user gave.
-fn each_once(of: &str, names: impl Iterator<Item = String>) -> Result<(), Error> {
-    let names: Vec<String> = names.collect();
-    if names.is_empty() {
-        return Err(Error::Usage(format!("the list of {of} is empty")));
-    }
-    let twice = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name));
-    twice.map_or(Ok(()), |(_, name)| Err(Error::Usage(format!("{name} is twice among the {of}"))))
 }
 
 /// The dimensions that a strategy can cover, in words.
@@ -254,15 +238,12 @@ impl Plan {
     ) -> Result<Compared, Error> {
         let Self { comparison, cases, mut notes } = self;
         let workers = pool(jobs.get().min(cases.len()))?;
-        // A pool that holds one thread keeps a set's measures on one core.
-        let alone = || pool(1);
-        let measure = |alone: &mut Result<_, Error>, i: usize| {
+        // One thread keeps a set's measures on one core.
+        let measure = |single: &mut Result<_, Error>, i: usize| {
             let case: &Case = &cases[i];
             let measures = comparison.measures(case.dims, case.budget);
-            let alone: &rayon::ThreadPool = alone.as_ref().map_err(|error| Error::Usage(error.to_string()))?;
-            let measured = || alone.install(|| case.measure(&measures, comparison.k, comparison.limit));
-            // A worker that waited for another pool itself would take up the work of its neighbour meanwhile.
-            std::thread::scope(|scope| scope.spawn(measured).join()).expect("measuring does not panic")
+            let single: &rayon::ThreadPool = single.as_ref().map_err(|error| Error::Usage(error.to_string()))?;
+            alone(single, || case.measure(&measures, comparison.k, comparison.limit))
         };
         let mut sets = Vec::with_capacity(cases.len());
         let sink = |set: Result<MeasuredSet, Error>| {
@@ -271,7 +252,7 @@ impl Plan {
             sets.push(set);
             Ok::<(), Error>(())
         };
-        in_order(&workers, 0..cases.len(), alone, |alone, i| Some(measure(alone, i)), sink)?;
+        in_order(&workers, 0..cases.len(), || pool(1), |single, i| Some(measure(single, i)), sink)?;
         let (cells, slopes) = workers.install(|| summary::summarise(&comparison, &sets));
         let cut_short = sets.iter().filter(|set| set.is_cut_short()).count();
         if cut_short > 0 {
@@ -346,14 +327,4 @@ impl Compared {
             Measure::KWiseDispersion => format!("{}-wise dispersion", self.comparison.k),
         }
     }
-}
-
-/// A number with three significant digits.
-fn three_digits(number: f64) -> String {
-    let scientific = format!("{number:.2e}");
-    let exponent: i32 = scientific.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
-    if !(-4..6).contains(&exponent) {
-        return scientific;
-    }
-    format!("{number:.*}", (2 - exponent).max(0) as usize)
 }

@@ -3,9 +3,7 @@
 
 use super::{Comparison, MeasuredSet};
 use crate::Measure;
-use crate::statistics::{
-    bootstrap_interval, holm, median_and_quartiles, power_law_slope, quantile, signed_rank_p, vargha_delaney,
-};
+use crate::statistics::{Versus, bootstrap_interval, correct, median_and_quartiles, median_of, power_law_slope};
 use paracosm_coverage::Bracket;
 use paracosm_generators::Strategy;
 use rayon::prelude::*;
@@ -37,21 +35,6 @@ pub struct Cell {
     /// How it compares; none for the baseline itself, where a value of either is a bracket, and where neither differs
     /// between seeds, as with measures that do not see a shift.
     pub versus: Option<Versus>,
-}
-
-/// A strategy against the baseline, over pairs of sets with the same seed. Lower values are better.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Versus {
-    /// The median of the ratios of the pairs: its value over the baseline's.
-    pub ratio: f64,
-    /// The 95 % bootstrap interval of that median.
-    pub interval: [f64; 2],
-    /// How likely a set of the strategy is better than one of the baseline (Vargha and Delaney's A12).
-    pub better: f64,
-    /// The p-value of Wilcoxon's signed-rank test of the differences of the pairs, two-sided.
-    pub p: f64,
-    /// The same after Holm's correction for all comparisons by this measure.
-    pub p_holm: f64,
 }
 
 /// The exponent with which a strategy's values of a measure fall with the budget: that of the power law fitted by least
@@ -101,20 +84,11 @@ pub(super) fn summarise(comparison: &Comparison, sets: &[MeasuredSet]) -> (Vec<C
             .collect();
         // By budget before strategy; the order within is that of the strategies.
         of_measure.sort_by_key(|cell| (cell.dims, cell.budget));
-        correct(&mut of_measure);
+        correct(of_measure.iter_mut().filter_map(|cell| cell.versus.as_mut()));
         cells.extend(of_measure);
         slopes.par_extend(lines.par_iter().filter_map(Line::slope));
     }
     (cells, slopes)
-}
-
-/// Corrects the p-values of one measure for each other.
-fn correct(cells: &mut [Cell]) {
-    let mut compared: Vec<&mut Versus> = cells.iter_mut().filter_map(|cell| cell.versus.as_mut()).collect();
-    let p: Vec<f64> = compared.iter().map(|versus| versus.p).collect();
-    for (versus, p_holm) in compared.iter_mut().zip(holm(&p)) {
-        versus.p_holm = p_holm;
-    }
 }
 
 /// A strategy's values of a measure in one dimension, over the budgets.
@@ -173,7 +147,7 @@ impl Line {
             plain: place.plain,
             median,
             quartiles,
-            versus: base.map(|base| Versus::of(&place.values, &base.values)),
+            versus: base.map(|base| Versus::of_medians(&place.values, &base.values)),
         }
     }
 
@@ -195,27 +169,4 @@ impl Line {
         let plain = at(&|place| place.plain);
         Some(Slope { measure: self.measure, dims: self.dims, strategy: self.strategy, budgets, slope, interval, plain })
     }
-}
-
-impl Versus {
-    /// Values against those of the baseline, pair by pair. The correction is still to come.
-    fn of(values: &[f64], base: &[f64]) -> Self {
-        let pairs = || values.iter().zip(base);
-        let ratios: Vec<f64> = pairs().map(|(value, base)| value / base).collect();
-        let p = signed_rank_p(&pairs().map(|(value, base)| value - base).collect::<Vec<_>>());
-        Self {
-            ratio: median_and_quartiles(&ratios).0,
-            interval: bootstrap_interval(ratios.len(), |drawn| median_of(drawn, &ratios)),
-            better: vargha_delaney(base, values),
-            p,
-            p_holm: p,
-        }
-    }
-}
-
-/// The median of the values at these indices.
-fn median_of(indices: &[usize], values: &[f64]) -> f64 {
-    let mut drawn: Vec<f64> = indices.iter().map(|&i| values[i]).collect();
-    drawn.sort_unstable_by(f64::total_cmp);
-    quantile(&drawn, 0.5)
 }

@@ -1,7 +1,8 @@
 //! The comparison as tables for people.
 
-use super::{Cell, Compared, three_digits};
+use super::{Cell, Compared};
 use crate::Measure;
+use crate::write_up::{p_value, three_digits};
 use std::fmt::Write;
 
 impl Compared {
@@ -52,8 +53,4 @@ impl Compared {
         }
         text.push('\n');
     }
-}
-
-fn p_value(p: f64) -> String {
-    if p < 0.001 { format!("{p:.1e}") } else { format!("{p:.3}") }
 }

@@ -6,20 +6,26 @@
 
 mod animation;
 mod contour;
+mod frame;
 mod log_axis;
 mod log_log;
 mod map;
 mod mark;
 mod raster;
 mod shade;
+mod shares;
+mod symbol;
 
 pub use animation::film_gif;
 #[cfg(feature = "camera")]
 pub(crate) use animation::gif_of_images;
-pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
+pub(crate) use frame::{Entry, Frame};
+pub(crate) use log_log::{Curve, LogLog, Plane};
 pub use map::{Axis, FailureMap};
 pub use mark::Mark;
 pub use raster::drawing_png;
+pub(crate) use shares::{Series, Shares};
+pub(crate) use symbol::{Look, Shape};
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -51,6 +57,7 @@ pub struct Picture {
 enum Panel {
     Map(FailureMap),
     LogLog(LogLog),
+    Shares(Shares),
 }
 
 type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
@@ -63,8 +70,13 @@ impl Picture {
 
     /// A picture of values over sizes.
     pub(crate) fn of_log_log(chart: LogLog) -> Self {
-        let size = (log_log::LEGEND + log_log::PLANE * chart.planes.len() as u32, 520);
+        let size = (frame::LEGEND + log_log::PLANE * chart.planes.len() as u32, 520);
         Self { panels: vec![Panel::LogLog(chart)], columns: 1, size }
+    }
+
+    /// A picture of shares over sizes.
+    pub(crate) fn of_shares(chart: Shares) -> Self {
+        Self { panels: vec![Panel::Shares(chart)], columns: 1, size: (frame::LEGEND + shares::PLANE, 520) }
     }
 
     /// A picture of several maps, `columns` in a row.
@@ -123,6 +135,7 @@ impl Picture {
                 match panel {
                     Panel::Map(map) => map.draw(&part, f64::from(scale))?,
                     Panel::LogLog(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Shares(chart) => chart.draw(&part, f64::from(scale))?,
                 }
             }
             area.present()

@@ -7,11 +7,17 @@
 mod bootstrap;
 mod interval;
 pub(crate) mod random;
+mod rank;
 mod signed_rank;
+mod survival;
+mod versus;
 
 pub use bootstrap::{RESAMPLES, bootstrap_interval};
-pub use interval::{clopper_pearson, log_normal_mean_interval, mean_interval, student_quantile};
+pub use interval::{clopper_pearson, log_normal_mean_interval, mean_interval, student_quantile, wilson};
+pub use rank::spearman;
 pub use signed_rank::{MOST_EXACT, signed_rank_p};
+pub use survival::{Lifetime, Survival};
+pub use versus::{Versus, correct, median_of};
 
 /// The quantile of sorted values, between two of them in proportion (type 7 of Hyndman and Fan, Sample quantiles in
 /// statistical packages, The American Statistician 50, 1996).

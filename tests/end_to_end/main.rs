@@ -3,6 +3,7 @@
 mod adaptive;
 mod after_failure;
 mod bad_input;
+mod bench;
 mod blame;
 mod cameras;
 mod campaign;

@@ -1,0 +1,175 @@
+//! Functions with a known set of failures, on which strategies are tried where a simulation would only cost time.
+//!
+//! Each stands for one thing that makes failures hard to find. Where the failure lies is up to a seed, so that no strategy
+//! is good at one place by luck; values below 0 are failures.
+
+use crate::{Request, Strategy};
+use paracosm_coverage::{Domain, Parameter, Point, Space, Value};
+
+/// The radius of a ball whose volume is a thousandth of the unit cube of five dimensions.
+const BALL: f64 = 0.1801;
+
+/// A function with a known set of failures.
+#[derive(Debug, Clone, Copy)]
+pub struct Function {
+    /// The name by which it is asked for.
+    pub name: &'static str,
+    /// What it stands for, in a few words.
+    pub about: &'static str,
+    dims: usize,
+    /// Words of so many levels.
+    words: &'static [usize],
+    robustness: fn(&Point, &Point) -> Option<f64>,
+}
+
+/// A function whose failure lies somewhere.
+#[derive(Debug, Clone)]
+pub struct Placed {
+    function: Function,
+    hidden: Point,
+}
+
+const fn function(
+    name: &'static str,
+    about: &'static str,
+    dims: usize,
+    words: &'static [usize],
+    robustness: fn(&Point, &Point) -> Option<f64>,
+) -> Function {
+    Function { name, about, dims, words, robustness }
+}
+
+impl Function {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        function("corner5", "within 0.05 of one of 32 corners", 5, &[], corner),
+        function("ball5", "a ball of volume 0.001", 5, &[], |x, hidden| Some(distance(x, hidden) - BALL)),
+        function("decoy5", "a ball of volume 0.001 beside a wider minimum without a failure", 5, &[], decoy),
+        function("errors5", "a ball of volume 0.001, with nearly half of the space in error", 5, &[], errors),
+        function("valley2", "the end of Rosenbrock's valley", 2, &[], valley),
+        function("ring2", "a circle 0.0016 wide", 2, &[], |x, hidden| Some((distance(x, hidden) - 0.2).abs() - 0.0008)),
+        function("rough3", "a ball among waves", 3, &[], rough),
+        function("few20", "20 parameters of which three matter", 20, &[], few),
+        function(
+            "words2",
+            "one of 64 combinations of words, each of which helps, and a disc",
+            2,
+            &[4, 4, 4],
+            |x, hidden| Some(0.2 * wrong(x, hidden) as f64 + distance(x, hidden) - 0.15),
+        ),
+        function(
+            "needle2",
+            "one of 16 combinations of words, which only helps as a whole, and a disc",
+            2,
+            &[4, 4],
+            |x, hidden| Some(if wrong(x, hidden) > 0 { 0.5 } else { 0.0 } + distance(x, hidden) - 0.15),
+        ),
+    ];
+
+    /// The space of its tests.
+    pub fn space(&self) -> Space {
+        let word = |(i, &levels): (usize, &usize)| {
+            let levels = (0..levels).map(|level| Value::Word(format!("w{level}"))).collect();
+            Parameter::new(format!("word{i}"), Domain::Choice(levels))
+        };
+        let words = self.words.iter().enumerate().map(word);
+        let parameters = Space::unit_cube(self.dims).parameters().iter().cloned().chain(words).collect();
+        Space::new(parameters).expect("the parameters have names of their own")
+    }
+
+    /// The function with its failure where this seed puts it: away from the border, so that its volume is what it is.
+    pub fn placed(&self, seed: u64) -> Placed {
+        let space = self.space();
+        // Far from the seeds of the strategies, or a random test would be it.
+        let request = Request { seed: Some(seed.wrapping_add(1_000_000)), ..Request::new(&space, 300) };
+        let test = Strategy::Random.build(&request).map(|mut random| random.ask(1).remove(0));
+        let mut hidden = test.expect("every space has a random test");
+        hidden.continuous.iter_mut().for_each(|u| *u = 0.19 + 0.62 * *u);
+        // The first row of a family hardly depends on its seed.
+        hidden.discrete.iter_mut().zip(self.words).for_each(|(level, &levels)| {
+            *level = (*level + (seed % levels as u64) as usize * 7 + (seed / levels as u64) as usize % levels) % levels;
+        });
+        Placed { function: *self, hidden }
+    }
+}
+
+impl Placed {
+    /// The robustness of a test: below 0 where it fails, `None` where it ends in an error.
+    pub fn robustness(&self, test: &Point) -> Option<f64> {
+        (self.function.robustness)(test, &self.hidden)
+    }
+}
+
+fn distance(x: &Point, hidden: &Point) -> f64 {
+    let part = |(a, b): (&f64, &f64)| (a - b) * (a - b);
+    x.continuous.iter().zip(&hidden.continuous).map(part).sum::<f64>().sqrt()
+}
+
+fn wrong(x: &Point, hidden: &Point) -> usize {
+    x.discrete.iter().zip(&hidden.discrete).filter(|(a, b)| a != b).count()
+}
+
+fn corner(x: &Point, hidden: &Point) -> Option<f64> {
+    let away = |(x, c): (&f64, &f64)| (x - c.round()).abs();
+    Some(x.continuous.iter().zip(&hidden.continuous).map(away).fold(0.0, f64::max) - 0.05)
+}
+
+/// The slope leads to the decoy from most places.
+fn decoy(x: &Point, hidden: &Point) -> Option<f64> {
+    let decoy = Point { continuous: hidden.continuous.iter().map(|c| 1.0 - c).collect(), ..Point::default() };
+    Some((2.0 * (distance(x, hidden) - BALL)).min(0.05 + distance(x, &decoy)))
+}
+
+fn errors(x: &Point, hidden: &Point) -> Option<f64> {
+    let away = if hidden.continuous[0] < 0.5 { x.continuous[0] > 0.55 } else { x.continuous[0] < 0.45 };
+    (!away).then(|| distance(x, hidden) - BALL)
+}
+
+/// The failure is about a thousandth of the plane; it is where it is, whatever the seed.
+fn valley(x: &Point, _: &Point) -> Option<f64> {
+    let (a, b) = (4.0 * x.continuous[0] - 2.0, 4.0 * x.continuous[1] - 1.0);
+    let (bend, ahead) = (b - a * a, 1.0 - a);
+    Some(100.0 * bend * bend + ahead * ahead - 0.04)
+}
+
+fn rough(x: &Point, hidden: &Point) -> Option<f64> {
+    let wave = |(x, c): (&f64, &f64)| 0.05 * (1.0 - libm::cos(30.0 * (x - c)));
+    let waves: f64 = x.continuous.iter().zip(&hidden.continuous).map(wave).sum();
+    Some(distance(x, hidden) + waves - 0.08)
+}
+
+fn few(x: &Point, hidden: &Point) -> Option<f64> {
+    let part = |i: usize| (x.continuous[i] - hidden.continuous[i]) * (x.continuous[i] - hidden.continuous[i]);
+    Some((part(2) + part(9) + part(16)).sqrt() - 0.062)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_failure_is_where_it_is_said_to_be_and_nowhere_at_the_decoy() {
+        for function in
+            Function::ALL.into_iter().filter(|function| !["corner5", "valley2", "ring2"].contains(&function.name))
+        {
+            for seed in 0..5 {
+                let placed = function.placed(seed);
+                assert!(placed.robustness(&placed.hidden).is_some_and(|r| r < 0.0), "{} {seed}", function.name);
+            }
+        }
+        let decoy = Function::ALL[2].placed(1);
+        let there = Point { continuous: decoy.hidden.continuous.iter().map(|c| 1.0 - c).collect(), ..Point::default() };
+        assert!(decoy.robustness(&there).is_some_and(|r| r > 0.0));
+    }
+
+    #[test]
+    fn the_ball_has_a_thousandth_of_the_volume() {
+        let ball = Function::ALL[1];
+        let space = ball.space();
+        let mut random = Strategy::Random.build(&Request::new(&space, 100_000)).unwrap();
+        let placed = ball.placed(3);
+        let inside = random.ask(100_000).iter().filter(|test| placed.robustness(test).unwrap() < 0.0).count();
+        // 100 expected, with a deviation of 10.
+        assert!((65..=135).contains(&inside), "{inside}");
+    }
+}

@@ -1,0 +1,189 @@
+//! Strategies held against each other by what they are for: how soon each finds a failure, and how much of where tests fail
+//! is known after it.
+//!
+//! Every strategy runs every target with every seed; runs of the same seed are pairs. A run goes on to its budget, whatever
+//! it finds (only that of a function ends with a failure), and is one row:
+//!
+//! - *tests to the first failure*, censored at the budget where there was none (`statistics::Survival` says what that asks
+//!   for). A strategy that has nothing more to propose before is counted as if it had gone on in vain. A test that is
+//!   proposed again is known, and costs nothing;
+//! - *failure modes*, as [`Modes`](crate::Modes) tells them apart;
+//! - *recall* and *precision* of the run as a map of where tests fail, against a [`ReferenceMap`];
+//! - *dispersion* of its tests, exact, so that it can be asked whether a low one finds failures.
+//!
+//! Runs are made one to a core, each on a single thread, so that results depend neither on their number nor on what else a
+//! core does. Rows are written in order as runs end, so that a study that was cut short goes on where it was.
+
+mod conduct;
+mod figures;
+mod files;
+mod latex;
+mod reference;
+mod row;
+mod summary;
+mod table;
+mod target;
+
+pub use files::Rows;
+pub use reference::ReferenceMap;
+pub use row::Row;
+pub use summary::{Cell, Correlation, Standing};
+pub use target::Target;
+
+use crate::Error;
+use crate::executor::{alone, in_order, pool};
+use crate::write_up::{ENOUGH_SEEDS, check_seeds, each_once, few_seeds};
+use paracosm_generators::Strategy;
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+
+/// The strategies of a bench where nothing is said: chance, the paper's choice, and what goes by robustness.
+pub const USUAL: [Strategy; 6] =
+    [Strategy::Random, Strategy::Halton, Strategy::NelderMead, Strategy::Cmaes, Strategy::Bayes, Strategy::Auto];
+
+/// What is run, and how.
+#[derive(Debug, Clone)]
+pub struct Bench {
+    /// The strategies, in the order in which they are shown.
+    pub strategies: Vec<Strategy>,
+    /// What they are tried on.
+    pub targets: Vec<Target>,
+    /// How many tests a run has.
+    pub budget: usize,
+    /// How many seeds each strategy is given, at least 2.
+    pub seeds: usize,
+    /// The first seed; the others follow it.
+    pub first_seed: u64,
+    /// How many tests a strategy is asked for at a time.
+    pub batch: usize,
+    /// The strategy that the others are held against.
+    pub baseline: Strategy,
+}
+
+/// A run that is to be made.
+#[derive(Debug, Clone, Copy)]
+struct Case {
+    target: usize,
+    strategy: Strategy,
+    seed: u64,
+}
+
+impl Bench {
+    /// These strategies on these targets: 200 tests in batches of 16, 30 seeds, against `random` if it is among them and
+    /// the first if not.
+    ///
+    /// # Errors
+    /// A list is empty, or names something twice.
+    pub fn of(strategies: &[Strategy], targets: Vec<Target>) -> Result<Self, Error> {
+        each_once("strategies", strategies.iter().map(|strategy| strategy.name().to_owned()))?;
+        each_once("scenarios", targets.iter().map(|target| target.name().to_owned()))?;
+        let among = strategies.iter().find(|strategy| **strategy == Strategy::Random);
+        let (first_seed, baseline) = (1, *among.unwrap_or(&strategies[0]));
+        let strategies = strategies.to_vec();
+        Ok(Self { strategies, targets, budget: 200, seeds: ENOUGH_SEEDS, first_seed, batch: 16, baseline })
+    }
+
+    /// Checks that it can be done.
+    ///
+    /// # Errors
+    /// A number is out of range, the baseline is not among the strategies, or a strategy cannot make tests of a target.
+    pub fn check(&self) -> Result<(), Error> {
+        let usage = |message: String| Err(Error::Usage(message));
+        if self.budget == 0 || self.batch == 0 {
+            return usage("found 0 as the budget or the batch, expected numbers from 1 on".into());
+        }
+        check_seeds(self.seeds, self.first_seed)?;
+        if !self.strategies.contains(&self.baseline) {
+            return usage(format!("the baseline {} is not among the strategies", self.baseline));
+        }
+        for target in &self.targets {
+            for &strategy in &self.strategies {
+                let wrong = |error: Error| Error::Usage(format!("{strategy} on {}: {error}", target.name()));
+                target.check(strategy, self).map_err(wrong)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// How many runs there are.
+    pub fn runs(&self) -> usize {
+        self.targets.len() * self.strategies.len() * self.seeds
+    }
+
+    /// The runs in the order of their rows.
+    fn cases(&self) -> Vec<Case> {
+        let mut cases = Vec::with_capacity(self.runs());
+        for target in 0..self.targets.len() {
+            for &strategy in &self.strategies {
+                cases.extend((0..self.seeds as u64).map(|i| Case { target, strategy, seed: self.first_seed + i }));
+            }
+        }
+        cases
+    }
+
+    /// Makes the runs that are not known yet, `jobs` at a time; `watch` sees the row of each in order, and its first error
+    /// ends the work, as does `stop` once it is set. The known rows are those of the first runs; `maps` are by the names of
+    /// the targets.
+    ///
+    /// # Errors
+    /// That of `watch`, or a run cannot be made.
+    pub fn run(
+        &self,
+        jobs: NonZeroUsize,
+        maps: &BTreeMap<String, ReferenceMap>,
+        known: Vec<Row>,
+        stop: &AtomicBool,
+        mut watch: impl FnMut(&Row) -> Result<(), Error>,
+    ) -> Result<Benched, Error> {
+        let cases = self.cases();
+        let mut rows = known;
+        let left = rows.len()..cases.len();
+        let workers = pool(jobs.get().min(left.len()).max(1))?;
+        let row = |single: &mut Result<_, Error>, i: usize| {
+            let single: &rayon::ThreadPool = match single {
+                Ok(single) => single,
+                Err(error) => return Some(Err(Error::Usage(error.to_string()))),
+            };
+            let map = maps.get(self.targets[cases[i].target].name());
+            alone(single, || conduct::row(self, &cases[i], map, stop)).transpose()
+        };
+        let sink = |row: Result<Row, Error>| {
+            let row = row?;
+            watch(&row)?;
+            rows.push(row);
+            Ok::<(), Error>(())
+        };
+        in_order(&workers, left, || pool(1), row, sink)?;
+        if rows.len() < cases.len() {
+            return Err(Error::Interrupted);
+        }
+        let (cells, correlations, standings) = summary::summarise(self, &rows);
+        let notes = few_seeds(self.seeds).into_iter().collect();
+        Ok(Benched { bench: self.clone(), rows, cells, correlations, standings, notes })
+    }
+}
+
+/// A bench that was run.
+#[derive(Debug, Clone)]
+pub struct Benched {
+    /// What was run.
+    pub bench: Bench,
+    /// Every run: by target, strategy and seed.
+    pub rows: Vec<Row>,
+    /// What is said of each strategy: by target and strategy.
+    pub cells: Vec<Cell>,
+    /// How dispersion and recall go together: by target.
+    pub correlations: Vec<Correlation>,
+    /// How each strategy stands over all targets.
+    pub standings: Vec<Standing>,
+    /// What else a reader should know, a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl Benched {
+    /// The cells of a target, in the order of the strategies.
+    fn of_target<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Cell> {
+        self.cells.iter().filter(move |cell| cell.scenario == name)
+    }
+}

@@ -1,0 +1,194 @@
+//! What is said of many runs: how soon and how often a strategy finds a failure, how it stands against the others, and
+//! whether those with a low dispersion know more of where tests fail.
+
+use super::{Bench, Benched, Row};
+use crate::statistics::{
+    Lifetime, Survival, Versus, bootstrap_interval, correct, median_and_quartiles, spearman, wilson,
+};
+use paracosm_generators::Strategy;
+use serde::{Serialize, Serializer};
+
+/// What is said of a strategy on a target.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cell {
+    /// The name of the target.
+    pub scenario: String,
+    /// The strategy.
+    #[serde(serialize_with = "strategy_name")]
+    pub strategy: Strategy,
+    /// How many runs there were.
+    pub runs: usize,
+    /// How many of them found a failure.
+    pub found: usize,
+    /// Their share.
+    pub rate: f64,
+    /// Wilson's 95 % interval of the share.
+    pub rate_interval: [f64; 2],
+    /// The mean number of tests to the first failure over those; it says too little where others found none.
+    pub mean_found: Option<f64>,
+    /// After how many tests one half have found one; `None` where fewer did.
+    pub median: Option<f64>,
+    /// The restricted mean: how many tests a run takes that ends with the first failure, or with the budget.
+    pub restricted_mean: f64,
+    /// Its 95 % bootstrap interval over the seeds.
+    pub restricted_interval: [f64; 2],
+    /// The restricted mean over the least one of any strategy but `auto`, which is made of others.
+    pub over_best: Option<f64>,
+    /// Restricted means against the baseline's, over pairs of the same seed; none for the baseline itself.
+    pub versus: Option<Versus>,
+    /// The mean number of failure modes.
+    pub modes: Option<f64>,
+    /// The mean recall.
+    pub recall: Option<f64>,
+    /// The mean precision of the runs that tell anything to fail.
+    pub precision: Option<f64>,
+    /// The median dispersion.
+    pub dispersion: Option<f64>,
+}
+
+/// How dispersion and recall go together on a target.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Correlation {
+    /// The name of the target.
+    pub scenario: String,
+    /// Among which runs: those of `all` strategies, or those that do not go by robustness, `open loop`.
+    pub among: &'static str,
+    /// How many these are.
+    pub runs: usize,
+    /// Spearman's rank correlation: below 0, runs that leave smaller holes know more of where tests fail.
+    pub spearman: f64,
+    /// Its 95 % bootstrap interval over the seeds.
+    pub interval: [f64; 2],
+}
+
+/// A strategy over all targets: its restricted means over the least of any strategy but `auto`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Standing {
+    /// The strategy.
+    #[serde(serialize_with = "strategy_name")]
+    pub strategy: Strategy,
+    /// The largest of the ratios.
+    pub worst: f64,
+    /// On which target.
+    pub worst_scenario: String,
+    /// Their geometric mean.
+    pub geometric_mean: f64,
+}
+
+fn strategy_name<S: Serializer>(strategy: &Strategy, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(strategy.name())
+}
+
+/// All that is said of the rows of a bench.
+pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<Cell>, Vec<Correlation>, Vec<Standing>) {
+    let (mut cells, mut correlations) = (Vec::new(), Vec::new());
+    let per_target = bench.strategies.len() * bench.seeds;
+    for of_target in rows.chunks(per_target) {
+        cells.extend(cells_of(bench, of_target));
+        let open_loop = |row: &&Row| !row.strategy.is_adaptive();
+        correlations.extend(correlation(bench, "all", &of_target.iter().collect::<Vec<_>>()));
+        // Where all are, it would be said twice.
+        if !of_target.iter().all(|row| open_loop(&row)) {
+            let some: Vec<&Row> = of_target.iter().filter(open_loop).collect();
+            correlations.extend(correlation(bench, "open loop", &some));
+        }
+    }
+    correct(cells.iter_mut().filter_map(|cell| cell.versus.as_mut()));
+    let standings = bench.strategies.iter().filter_map(|&strategy| standing(strategy, &cells)).collect();
+    (cells, correlations, standings)
+}
+
+/// How many tests a run waits for its first failure, at most its budget.
+fn waited(bench: &Bench, row: &Row) -> f64 {
+    row.first_failure.unwrap_or(bench.budget) as f64
+}
+
+/// The curve of the runs of a strategy.
+fn survival<'a>(bench: &Bench, rows: impl Iterator<Item = &'a Row>) -> Survival {
+    let lifetime = |row: &Row| Lifetime { time: waited(bench, row), happened: row.first_failure.is_some() };
+    Survival::of(&rows.map(lifetime).collect::<Vec<_>>())
+}
+
+impl Benched {
+    /// The share of the runs of a strategy on a target without a failure, over their tests.
+    pub(super) fn survival(&self, scenario: &str, strategy: Strategy) -> Survival {
+        survival(&self.bench, self.rows_of(scenario, strategy))
+    }
+}
+
+fn cells_of(bench: &Bench, rows: &[Row]) -> Vec<Cell> {
+    let lines: Vec<&[Row]> = rows.chunks(bench.seeds).collect();
+    let waited = |line: &[Row]| -> Vec<f64> { line.iter().map(|row| waited(bench, row)).collect() };
+    let base = lines.iter().find(|line| line[0].strategy == bench.baseline).map(|line| waited(line));
+    let mut cells: Vec<Cell> = lines
+        .iter()
+        .map(|line| {
+            let times = waited(line);
+            let base = base.as_ref().filter(|_| line[0].strategy != bench.baseline);
+            Cell { versus: base.map(|base| Versus::of_means(&times, base)), ..cell(bench, line, &times) }
+        })
+        .collect();
+    let single = cells.iter().filter(|cell| cell.strategy != Strategy::Auto);
+    let least = single.map(|cell| cell.restricted_mean).reduce(f64::min);
+    cells.iter_mut().for_each(|cell| cell.over_best = least.map(|least| cell.restricted_mean / least));
+    cells
+}
+
+fn cell(bench: &Bench, line: &[Row], times: &[f64]) -> Cell {
+    let survival = survival(bench, line.iter());
+    let found: Vec<f64> = line.iter().filter_map(|row| row.first_failure).map(|tests| tests as f64).collect();
+    let of = |value: fn(&Row) -> Option<f64>| line.iter().filter_map(value).collect::<Vec<f64>>();
+    Cell {
+        scenario: line[0].scenario.clone(),
+        strategy: line[0].strategy,
+        runs: line.len(),
+        found: found.len(),
+        rate: found.len() as f64 / line.len() as f64,
+        rate_interval: wilson(found.len(), line.len(), 0.95),
+        mean_found: mean(&found),
+        median: survival.median(),
+        restricted_mean: survival.restricted_mean(bench.budget as f64),
+        restricted_interval: bootstrap_interval(times.len(), |drawn| {
+            drawn.iter().map(|&index| times[index]).sum::<f64>() / drawn.len() as f64
+        }),
+        over_best: None,
+        versus: None,
+        modes: mean(&of(|row| row.modes.map(|modes| modes as f64))),
+        recall: mean(&of(|row| row.recall)),
+        precision: mean(&of(|row| row.precision)),
+        dispersion: Some(of(|row| row.dispersion))
+            .filter(|all| !all.is_empty())
+            .map(|all| median_and_quartiles(&all).0),
+    }
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// None where either is not known of every run, or does not vary.
+fn correlation(bench: &Bench, among: &'static str, rows: &[&Row]) -> Option<Correlation> {
+    let both: Option<Vec<(f64, f64)>> = rows.iter().map(|row| Some((row.dispersion?, row.recall?))).collect();
+    let (dispersion, recall): (Vec<f64>, Vec<f64>) = both?.into_iter().unzip();
+    let rho = spearman(&dispersion, &recall)?;
+    // The runs of a strategy are one after the other, one for each seed: runs of a seed are drawn together.
+    let interval = bootstrap_interval(bench.seeds, |drawn| {
+        let lines = (0..rows.len()).step_by(bench.seeds);
+        let (x, y): (Vec<f64>, Vec<f64>) = lines
+            .flat_map(|line| drawn.iter().map(move |seed| line + seed))
+            .map(|i| (dispersion[i], recall[i]))
+            .unzip();
+        spearman(&x, &y).unwrap_or(0.0)
+    });
+    Some(Correlation { scenario: rows[0].scenario.clone(), among, runs: rows.len(), spearman: rho, interval })
+}
+
+fn standing(strategy: Strategy, cells: &[Cell]) -> Option<Standing> {
+    let ratios =
+        || cells.iter().filter(|cell| cell.strategy == strategy).filter_map(|cell| Some((cell.over_best?, cell)));
+    // Of equal ones the first.
+    let worst = ratios().reduce(|worst, next| if next.0 > worst.0 { next } else { worst })?;
+    let logs: Vec<f64> = ratios().map(|(ratio, _)| libm::log(ratio)).collect();
+    let geometric_mean = libm::exp(mean(&logs)?);
+    Some(Standing { strategy, worst: worst.0, worst_scenario: worst.1.scenario.clone(), geometric_mean })
+}

@@ -1,0 +1,214 @@
+//! `paracosm-fuzz bench`: the study of strategies that find failures, with everything that watches it.
+
+use super::output::{Format, json, plural, shell_word};
+use super::subject::Subject;
+use super::{Failure, Found, Verbosity, on_interrupt, print};
+use crate::bench::{Bench, ReferenceMap, Row, Rows, Target, USUAL};
+use crate::coverage::{did_you_mean, nearest};
+use crate::generators::Strategy;
+use crate::generators::functions::Function;
+use crate::{Error, scenarios};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::thread::available_parallelism;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz bench                                          six strategies on pedestrian-crossing
+  paracosm-fuzz bench --scenarios cut-in,pedestrian-crossing+friction+fog --strategies random,halton,greedy,auto
+  paracosm-fuzz bench --scenarios ball5,decoy5,valley2 --reference-tests 0       functions whose failures are known
+  paracosm-fuzz bench --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)' --strategies random,auto
+
+Every strategy runs every scenario with every seed, to the end of the budget; runs of a seed are pairs. A scenario may be
+written with parameters to open, NAME+PARAMETER+PARAMETER; beside those of `paracosm-fuzz list` there are the functions
+corner5 ball5 decoy5 errors5 valley2 ring2 rough3 few20 words2 needle2, each seed of which puts the failure elsewhere.
+
+What a run knows of where tests fail is held against a map of many random tests: each of them is told to fail if the
+nearest of the run's tests fails. Recall is the share of the failing ones that are told so, precision the share of those
+told to fail that do. Maps are read from --reference where they are there, and made and kept there where not.
+
+DIR gets runs.csv (a row for each run, as they end), summary.csv (success rates with Wilson's interval; restricted means of
+the tests to the first failure with bootstrap intervals; against the baseline their ratio, Vargha and Delaney's A12,
+Wilcoxon's p over pairs and Holm's correction), survival.csv (Kaplan and Meier's curves), correlations.csv (dispersion and
+recall), standings.csv, table.tex, and for each scenario figures as SVG and PNG.";
+
+/// What `bench` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    #[command(flatten)]
+    subject: Subject,
+    /// Several scenarios, NAME or NAME+PARAMETER+.. to open parameters, or functions
+    #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with_all = ["scenario", "system"])]
+    scenarios: Vec<String>,
+    /// The strategies; `paracosm-fuzz list` shows them all [default: random,halton,nelder-mead,cmaes,bayes,auto]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    strategies: Vec<String>,
+    /// How many tests a run has
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    budget: usize,
+    /// How many seeds each strategy is given
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    seeds: usize,
+    /// The first seed; the others follow it
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// How many tests a strategy is asked for at a time, which changes what an adaptive one proposes
+    #[arg(long, value_name = "N", default_value_t = 16)]
+    batch: usize,
+    /// The strategy that the others are held against [default: random if it is there, else the first]
+    #[arg(long, value_name = "S")]
+    baseline: Option<String>,
+    /// Where the maps are that say where tests fail, NAME.json for each scenario [default: the folder `maps` in DIR]
+    #[arg(long, value_name = "FOLDER")]
+    reference: Option<PathBuf>,
+    /// How many tests a map has that is made; 0 for no maps
+    #[arg(long, value_name = "N", default_value_t = 20_000)]
+    reference_tests: usize,
+    /// How many runs are made at a time; results do not depend on it [default: one per core]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+    /// Where to write: a folder that is empty or not there
+    #[arg(long, value_name = "DIR", default_value = "paracosm-bench")]
+    out: PathBuf,
+    /// Continue the bench in the folder
+    #[arg(long)]
+    resume: bool,
+    /// How to print the summary [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        let bench = self.bench(verbosity)?;
+        bench.check()?;
+        let kept = json!({"folder": self.reference, "tests": self.reference_tests});
+        let (mut rows, known) = if self.resume {
+            Rows::resume(&self.out, &bench, &kept)?
+        } else {
+            (Rows::create(&self.out, &bench, &kept)?, Vec::new())
+        };
+        let stop = Arc::new(AtomicBool::new(false));
+        on_interrupt(stop.clone());
+        let maps = self.maps(&bench, &stop, verbosity)?;
+        let bar = bar(verbosity, bench.runs(), "runs").with_position(known.len() as u64);
+        bar.reset_eta();
+        let mut safe = known.len();
+        let benched = bench.run(self.jobs(), &maps, known, &stop, |row: &Row| {
+            rows.append(row)?;
+            safe += 1;
+            bar.set_message(format!("{} on {}", row.strategy, row.scenario));
+            bar.inc(1);
+            Ok(())
+        });
+        bar.finish_and_clear();
+        let benched = benched.map_err(|error| {
+            let (runs, out) = (plural(safe, "run"), self.out.display());
+            Failure::from(format!("{error}\n  {runs} are safe in {out}; --resume goes on from there"))
+        })?;
+        benched.write(&self.out)?;
+        for note in &benched.notes {
+            verbosity.note(note);
+        }
+        verbosity.note(format_args!("written to {}", self.out.display()));
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => benched.table(),
+            Format::Json => json(&json!({"runs": benched.rows.len(), "baseline": bench.baseline.name(),
+                "budget": bench.budget, "summary": benched.cells, "correlations": benched.correlations,
+                "standings": benched.standings, "notes": benched.notes, "out": self.out})),
+        })?;
+        Ok(Found::Nothing)
+    }
+
+    fn bench(&self, verbosity: Verbosity) -> Result<Bench, Error> {
+        let strategy = |name: &String| Ok(name.parse::<Strategy>()?);
+        let strategies: Vec<Strategy> = match self.strategies.as_slice() {
+            [] => USUAL.to_vec(),
+            names => names.iter().map(strategy).collect::<Result<_, Error>>()?,
+        };
+        let targets = match self.scenarios.as_slice() {
+            [] => vec![Target::study(self.subject.name(), self.subject.study(verbosity)?)],
+            names => names.iter().map(|name| self.target(name, verbosity)).collect::<Result<_, _>>()?,
+        };
+        let usual = Bench::of(&strategies, targets)?;
+        let baseline = self.baseline.as_ref().map(strategy).transpose()?.unwrap_or(usual.baseline);
+        let (budget, seeds, first_seed, batch) = (self.budget, self.seeds, self.seed, self.batch);
+        Ok(Bench { budget, seeds, first_seed, batch, baseline, ..usual })
+    }
+
+    /// A scenario with parameters to open, or a function.
+    fn target(&self, text: &str, verbosity: Verbosity) -> Result<Target, Error> {
+        if let Some(function) = Function::ALL.into_iter().find(|function| function.name == text) {
+            return Ok(Target::function(function));
+        }
+        let mut parts = text.split('+').map(str::to_owned);
+        let scenario = parts.next().unwrap_or_default();
+        if scenarios::find(&scenario).is_err() {
+            let functions = Function::ALL.map(|function| function.name);
+            let names = scenarios::ALL.iter().map(|program| program.name).chain(functions);
+            let hint = did_you_mean(&nearest(&scenario, names));
+            let message = format!("no scenario or function is called `{scenario}`{hint}");
+            return Err(Error::Usage(format!("{message}; `paracosm-fuzz list` and `bench --help` show them all")));
+        }
+        Ok(Target::study(text, self.subject.on(&scenario, parts).study(verbosity)?))
+    }
+
+    /// The maps of all scenarios: read where they are there, made and kept where not.
+    fn maps(
+        &self,
+        bench: &Bench,
+        stop: &AtomicBool,
+        verbosity: Verbosity,
+    ) -> Result<BTreeMap<String, ReferenceMap>, Failure> {
+        let mut maps = BTreeMap::new();
+        if self.reference_tests == 0 {
+            return Ok(maps);
+        }
+        let folder = self.reference.clone().unwrap_or_else(|| self.out.join("maps"));
+        std::fs::create_dir_all(&folder).map_err(Error::file("create", &folder))?;
+        for target in &bench.targets {
+            let Some(study) = target.as_study() else { continue };
+            let path = folder.join(format!("{}.json", target.file_name()));
+            let map = if path.exists() {
+                ReferenceMap::read(&path, study)?
+            } else {
+                let bar = bar(verbosity, self.reference_tests, "tests");
+                bar.set_message(format!("where tests of {} fail", target.name()));
+                let map = ReferenceMap::make(study, self.reference_tests, self.jobs(), stop, |done| {
+                    bar.set_position(done as u64);
+                });
+                bar.finish_and_clear();
+                let map = map?;
+                map.write(&path, &command())?;
+                map
+            };
+            let (tests, failing) = map.counts();
+            verbosity.note(format_args!("{}: {failing} of {tests} tests of the map fail", target.name()));
+            maps.insert(target.name().to_owned(), map);
+        }
+        Ok(maps)
+    }
+
+    fn jobs(&self) -> NonZeroUsize {
+        self.jobs.or(available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
+    }
+}
+
+/// The command that was given, to be kept with what it makes.
+fn command() -> String {
+    let arguments: Vec<String> = std::env::args().skip(1).map(|word| shell_word(&word)).collect();
+    format!("paracosm-fuzz {}", arguments.join(" "))
+}
+
+/// A bar of so many things, hidden where nothing is to be said.
+fn bar(verbosity: Verbosity, of: usize, what: &str) -> ProgressBar {
+    let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(of as u64) };
+    let template = format!("{{bar:40.blue/white}} {{human_pos}}/{{human_len}} {what}  {{eta}} left  {{msg}}");
+    bar.with_style(ProgressStyle::with_template(&template).expect("the template is one"))
+}

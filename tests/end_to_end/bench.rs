@@ -1,0 +1,182 @@
+//! `paracosm-fuzz bench`: what it writes, that it is right, that it goes on where it was, and what it refuses.
+
+use crate::common::{fuzz, golden, refused, stdout, succeeds};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// A tiny study in `dir/NAME`.
+fn bench(dir: &Path, name: &str, more: &[&str]) -> String {
+    let study = ["bench", "--scenarios", "pedestrian-crossing,ball5", "--strategies", "random,halton,cmaes,auto"];
+    let sizes = ["--budget", "40", "--seeds", "4", "--reference-tests", "400", "--quiet", "--out", name];
+    stdout(&succeeds(fuzz(dir, &[&study, sizes.as_slice(), more].concat())))
+}
+
+/// The rows of a CSV, each by the names of its columns.
+fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned));
+    let header: Vec<String> = lines.next().unwrap().collect();
+    lines.map(|line| header.iter().cloned().zip(line).collect()).collect()
+}
+
+fn number(row: &BTreeMap<String, String>, column: &str) -> Option<f64> {
+    (!row[column].is_empty()).then(|| row[column].parse().unwrap())
+}
+
+#[test]
+fn a_bench_has_a_row_for_every_run_and_a_table_of_them() {
+    let dir = tempfile::tempdir().unwrap();
+    let printed = bench(dir.path(), "out", &["--format", "table"]);
+    golden("bench.txt", &printed);
+    let out = dir.path().join("out");
+    let mut names: Vec<_> =
+        fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    let mut expected: Vec<String> = ["ball5-survival", "pedestrian-crossing-recall", "pedestrian-crossing-survival"]
+        .iter()
+        .flat_map(|figure| ["png", "svg"].map(|end| format!("{figure}.{end}")))
+        .collect();
+    let files = ["bench.json", "correlations.csv", "maps", "runs.csv", "standings.csv", "summary.csv", "survival.csv"];
+    expected.extend(files.map(str::to_owned));
+    expected.push("table.tex".into());
+    expected.sort();
+    assert_eq!(names, expected);
+    let runs = rows(&out.join("runs.csv"));
+    assert_eq!(runs.len(), 2 * 4 * 4);
+    for run in &runs {
+        let is_function = run["scenario"] == "ball5";
+        assert_eq!(run["recall"].is_empty(), is_function, "{run:?}");
+        assert_eq!(run["dispersion"].is_empty(), is_function, "{run:?}");
+        let first = number(run, "first_failure");
+        assert!(first.is_none_or(|first| first <= number(run, "tests").unwrap()), "{run:?}");
+        assert_eq!(first.is_none(), run["failures"] == "0", "{run:?}");
+    }
+}
+
+#[test]
+fn the_summary_is_what_the_rows_say() {
+    let dir = tempfile::tempdir().unwrap();
+    bench(dir.path(), "out", &["--baseline", "halton"]);
+    let out = dir.path().join("out");
+    let (runs, summary) = (rows(&out.join("runs.csv")), rows(&out.join("summary.csv")));
+    assert_eq!(summary.len(), 2 * 4);
+    let waited = |scenario: &str, strategy: &str| -> Vec<f64> {
+        let here = runs.iter().filter(|run| run["scenario"] == scenario && run["strategy"] == strategy);
+        here.map(|run| number(run, "first_failure").unwrap_or(40.0)).collect()
+    };
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    for cell in &summary {
+        let scenario = &cell["scenario"];
+        let mine = waited(scenario, &cell["strategy"]);
+        let close = |column: &str, expected: f64| {
+            let found = number(cell, column).unwrap();
+            assert!((found - expected).abs() < 1e-9, "{column}: {found}, expected {expected} in {cell:?}");
+        };
+        close("restricted_mean", mean(&mine));
+        let best = ["random", "halton", "cmaes"].map(|strategy| mean(&waited(scenario, strategy)));
+        close("over_best", mean(&mine) / best.into_iter().fold(f64::INFINITY, f64::min));
+        if cell["strategy"] == "halton" {
+            assert!(cell["ratio"].is_empty() && cell["holm_p"].is_empty());
+        } else {
+            close("ratio", mean(&mine) / mean(&waited(scenario, "halton")));
+        }
+    }
+    let curve: Vec<_> = rows(&out.join("survival.csv"));
+    for step in &curve {
+        let mine = waited(&step["scenario"], &step["strategy"]);
+        let later = mine.iter().filter(|time| **time > number(step, "tests").unwrap()).count();
+        let found = number(step, "without_failure").unwrap();
+        // A run that ends at the budget without a failure is later than it.
+        assert!(step["tests"] == "40" || (found - later as f64 / 4.0).abs() < 1e-12, "{step:?}");
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_jobs_nor_on_being_cut_short() {
+    let dir = tempfile::tempdir().unwrap();
+    let one = bench(dir.path(), "one", &["--jobs", "1"]);
+    let text = fs::read_to_string(dir.path().join("one/runs.csv")).unwrap();
+    // What a kill leaves behind: some rows, and one without an end; nothing of what is derived.
+    let two = dir.path().join("two");
+    fs::create_dir(&two).unwrap();
+    fs::copy(dir.path().join("one/bench.json"), two.join("bench.json")).unwrap();
+    fs::write(two.join("runs.csv"), &text[..text.len() / 3]).unwrap();
+    let again = bench(dir.path(), "two", &["--jobs", "2", "--resume"]);
+    assert_eq!(one.replace("one", "two"), again);
+    for name in ["runs.csv", "summary.csv", "table.tex", "maps/pedestrian-crossing.json", "ball5-survival.svg"] {
+        let read = |folder: &str| fs::read_to_string(dir.path().join(folder).join(name)).unwrap();
+        let without_command = |text: String| text.lines().filter(|l| !l.contains("\"command\"")).collect::<String>();
+        assert!(without_command(read("one")) == without_command(read("two")), "{name} differs");
+    }
+}
+
+#[test]
+fn a_run_is_the_campaign_of_its_seed() {
+    let dir = tempfile::tempdir().unwrap();
+    bench(dir.path(), "out", &["--seed", "7"]);
+    for strategy in ["halton", "cmaes"] {
+        let campaign = ["run", "--strategy", strategy, "--budget", "40", "--seed", "9", "--out", strategy, "--quiet"];
+        let printed: Value =
+            serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &campaign)))).expect("the summary is JSON");
+        let trials = fs::read_to_string(dir.path().join(strategy).join("trials.jsonl")).unwrap();
+        let first = trials.lines().position(|line| line.contains("\"verdict\":\"fail\"")).map(|index| index + 1);
+        let runs = rows(&dir.path().join("out/runs.csv"));
+        let run = runs
+            .iter()
+            .find(|run| run["scenario"] == "pedestrian-crossing" && run["strategy"] == strategy && run["seed"] == "9");
+        let run = run.unwrap();
+        assert_eq!(number(run, "first_failure"), first.map(|first| first as f64));
+        assert_eq!(number(run, "failures"), printed["verdicts"]["fail"].as_f64());
+        let dispersion = printed["coverage"]["continuous"]["dispersion"]["upper"].as_f64();
+        // The points of a campaign were values in between.
+        let off = number(run, "dispersion").unwrap() - dispersion.unwrap();
+        assert!(off.abs() < 1e-12, "{off}");
+    }
+}
+
+#[test]
+fn the_map_that_is_kept_here_is_the_one_that_is_made() {
+    let dir = tempfile::tempdir().unwrap();
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments/maps");
+    let small = ["bench", "--strategies", "random", "--budget", "30", "--seeds", "2", "--quiet"];
+    let reference = kept.to_str().unwrap();
+    succeeds(fuzz(dir.path(), &[small.as_slice(), &["--out", "kept", "--reference", reference]].concat()));
+    succeeds(fuzz(dir.path(), &[small.as_slice(), &["--out", "made", "--reference-tests", "400"]].concat()));
+    let verdicts = |path: &Path| -> Vec<String> {
+        let map: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+        map["verdicts"].as_array().unwrap().iter().map(|line| line.as_str().unwrap().to_owned()).collect()
+    };
+    let all = verdicts(&kept.join("pedestrian-crossing.json"));
+    assert_eq!(all.iter().map(String::len).sum::<usize>(), 100_000);
+    assert_eq!(all[..4], verdicts(&dir.path().join("made/maps/pedestrian-crossing.json")));
+    // Four hundred tests of the map judge a run about as a hundred thousand do.
+    let recall = |folder: &str| number(&rows(&dir.path().join(folder).join("runs.csv"))[0], "recall").unwrap();
+    assert!((recall("kept") - recall("made")).abs() < 0.2);
+}
+
+#[test]
+fn what_cannot_be_benched_is_said() {
+    let dir = tempfile::tempdir().unwrap();
+    let bench = |more: &[&str]| fuzz(dir.path(), &[&["bench"], more].concat());
+    refused(&bench(&["--scenarios", "cutin"]), &["`cutin`", "did you mean `cut-in`"]);
+    refused(&bench(&["--scenarios", "bal5"]), &["did you mean `ball5`"]);
+    refused(&bench(&["--scenarios", "cut-in,cut-in"]), &["cut-in is twice among the scenarios"]);
+    refused(&bench(&["--strategies", "cmase"]), &["`cmase`", "cmaes"]);
+    refused(&bench(&["--seeds", "1"]), &["seeds is 1", "at least 2"]);
+    refused(&bench(&["--budget", "0"]), &["0 as the budget"]);
+    refused(&bench(&["--baseline", "greedy"]), &["the baseline greedy is not among the strategies"]);
+    refused(&bench(&["--strategies", "fibonacci", "--scenarios", "ball5"]), &["fibonacci on ball5"]);
+    refused(&bench(&["--scenarios", "cut-in+wind"]), &["wind"]);
+    fs::write(dir.path().join("there"), "").unwrap();
+    refused(&bench(&["--out", "there"]), &["is a file"]);
+    refused(&bench(&["--out", "."]), &["is not empty"]);
+    let small = ["--budget", "5", "--seeds", "2", "--reference-tests", "20", "--strategies", "random", "--out", "out"];
+    succeeds(bench(&small));
+    refused(&bench(&[&small[2..], &["--budget", "6", "--resume"]].concat()), &["different bench", "`budget`"]);
+    let runs = dir.path().join("out/runs.csv");
+    let text = fs::read_to_string(&runs).unwrap();
+    fs::write(&runs, text.replace("random,2", "random,3")).unwrap();
+    refused(&bench(&[small.as_slice(), &["--resume"]].concat()), &["runs.csv, line 3", "edited"]);
+}
