@@ -51,6 +51,7 @@ mod promise;
 #[cfg(feature = "camera")]
 pub mod record;
 mod regression;
+mod scales;
 mod shrink;
 mod simulator;
 pub mod statistics;

@@ -5,6 +5,7 @@
 //! answer. So everything follows from the study and the trials in their order, and a resumed campaign goes on as it
 //! would have.
 
+use crate::scales::Scales;
 use crate::{Error, Study, Trial};
 use paracosm_coverage::Point;
 use paracosm_generators::{Bandit, Generator};
@@ -13,6 +14,7 @@ use paracosm_generators::{Bandit, Generator};
 pub(crate) struct Steering<'a> {
     study: &'a Study,
     search: Search,
+    scales: Scales<'a>,
     /// The tests that were told before any requirement was known: all came to nothing.
     before: Vec<Point>,
 }
@@ -28,7 +30,8 @@ impl<'a> Steering<'a> {
     /// # Errors
     /// As [`Study::generator`].
     pub fn new(study: &'a Study) -> Result<Self, Error> {
-        let mut steering = Self { study, search: Search::One(study.generator()?), before: Vec::new() };
+        let mut steering =
+            Self { study, search: Search::One(study.generator()?), scales: Scales::of(study), before: Vec::new() };
         let judged = study.requirements.iter().filter(|requirement| requirement.has_formula());
         steering.know(judged.map(|requirement| requirement.id.as_str()))?;
         Ok(steering)
@@ -47,20 +50,21 @@ impl<'a> Steering<'a> {
     /// # Errors
     /// As [`Study::generator`].
     pub fn tell(&mut self, tests: &[Point], trials: &[Trial]) -> Result<(), Error> {
-        let study = self.study;
+        self.scales.learn(trials);
         if let (Search::One(_), Some(first)) = (&self.search, trials.iter().find(|trial| trial.covers())) {
             self.know(first.requirements())?;
         }
+        let scales = &self.scales;
         match &mut self.search {
             Search::One(search) => {
-                let worst: Vec<_> = trials.iter().map(|trial| study.objective(trial)).collect();
+                let worst: Vec<_> = trials.iter().map(|trial| scales.worst(trial)).collect();
                 search.tell(tests, &worst);
                 if worst.iter().all(Option::is_none) {
                     self.before.extend_from_slice(tests);
                 }
             }
             Search::Several { ids, bandit } => {
-                let of = |trial: &Trial| ids.iter().map(|id| study.clipped(trial, id)).collect();
+                let of = |trial: &Trial| ids.iter().map(|id| scales.clipped(trial, id)).collect();
                 bandit.tell(tests, &trials.iter().map(of).collect::<Vec<_>>());
             }
         }

@@ -313,7 +313,7 @@ impl Study {
 
     /// The robustness of a requirement in multiples of its scale. `None` where the trial broke or it was not decided.
     fn normalised(&self, trial: &Trial, requirement: &str) -> Option<f64> {
-        let scale = self.requirement(requirement).map_or(1.0, |requirement| requirement.scale);
+        let scale = self.requirement(requirement).and_then(|requirement| requirement.scale).unwrap_or(1.0);
         trial.robustness(requirement).filter(|_| trial.covers()).map(|robustness| robustness / scale)
     }
 
@@ -324,15 +324,9 @@ impl Study {
         all.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// What an adaptive strategy minimises where nothing competes: the worst robustness, in multiples of the
-    /// requirement's scale and clipped to [-10, 10].
+    /// The worst robustness, in multiples of the requirement's scale, or 1 where none is stated, and clipped to [-10, 10].
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
         self.worst(trial).map(|(_, robustness)| clip(robustness))
-    }
-
-    /// What a search for one requirement minimises.
-    pub(crate) fn clipped(&self, trial: &Trial, requirement: &str) -> Option<f64> {
-        self.normalised(trial, requirement).map(clip)
     }
 
     /// All values of a test: its own and the fixed ones.

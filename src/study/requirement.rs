@@ -17,8 +17,8 @@ pub struct RequirementText {
     pub formula: String,
     /// The unit of its robustness.
     pub unit: String,
-    /// How much robustness is a lot, in that unit.
-    pub scale: f64,
+    /// How much robustness is a lot, in that unit; `None` where nobody said, and a search has to find out.
+    pub scale: Option<f64>,
     /// Where it comes from: a regulation, a specification, a hazard.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub source: Option<String>,
@@ -34,7 +34,7 @@ impl From<Requirement> for RequirementText {
     fn from(requirement: Requirement) -> Self {
         let Requirement { id, text, formula, unit, scale } = requirement;
         let formula = formula.to_string();
-        Self { id, text, formula, unit, scale, source: None, severity: None, given: false }
+        Self { id, text, formula, unit, scale: Some(scale), source: None, severity: None, given: false }
     }
 }
 
@@ -46,7 +46,7 @@ impl RequirementText {
 }
 
 impl Study {
-    /// Asks this formula, too, of every trace: as `spec-1`, the next as `spec-2`, in no unit and with the scale 1. To be
+    /// Asks this formula, too, of every trace: as `spec-1`, the next as `spec-2`, in no unit and without a scale. To be
     /// called when all parameters are opened, fixed and varied.
     ///
     /// # Errors
@@ -61,7 +61,7 @@ impl Study {
             text: formula.clone(),
             formula,
             unit: String::new(),
-            scale: 1.0,
+            scale: None,
             source: None,
             severity: None,
             given: true,

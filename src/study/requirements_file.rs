@@ -122,7 +122,7 @@ impl Study {
             id,
             formula,
             unit: entry.unit.unwrap_or_default(),
-            scale: entry.scale.map_or(1.0, Spanned::into_inner),
+            scale: entry.scale.map(Spanned::into_inner),
             source: entry.source,
             severity: entry.severity,
             given: true,

@@ -1,0 +1,94 @@
+//! How much robustness is a lot, for searches.
+//!
+//! A requirement of a scenario states its scale. A formula given on the command line, or a requirement that a system judges
+//! itself by, states none: it may be in thousands of revolutions or in fractions of a metre. Its scale is the largest
+//! robustness among the first tests that decide it, and stays: a search sees differences wherever these differ, and far
+//! beyond.
+
+use crate::{Study, Trial};
+use std::collections::BTreeMap;
+
+/// Where a robustness says no more to a search, in multiples of its scale.
+const MOST: f64 = 10.0;
+
+/// The scales of all requirements of a study.
+pub(crate) struct Scales<'a> {
+    study: &'a Study,
+    learned: BTreeMap<String, f64>,
+}
+
+impl<'a> Scales<'a> {
+    /// The scales that are stated.
+    pub fn of(study: &'a Study) -> Self {
+        Self { study, learned: BTreeMap::new() }
+    }
+
+    /// Learns the scales that are not known yet from the next trials of the campaign.
+    pub fn learn(&mut self, trials: &[Trial]) {
+        let mut largest: BTreeMap<&str, f64> = BTreeMap::new();
+        for trial in trials.iter().filter(|trial| trial.covers()) {
+            for id in trial.requirements().filter(|id| self.known(id).is_none()) {
+                let size = trial.robustness(id).map_or(0.0, f64::abs);
+                let found = largest.entry(id).or_default();
+                *found = found.max(if size.is_finite() { size } else { 0.0 });
+            }
+        }
+        let learned = largest.into_iter().filter(|(_, size)| *size > 0.0);
+        self.learned.extend(learned.map(|(id, size)| (id.to_owned(), size)));
+    }
+
+    fn known(&self, id: &str) -> Option<f64> {
+        let stated = self.study.requirement(id).and_then(|requirement| requirement.scale);
+        stated.or_else(|| self.learned.get(id).copied())
+    }
+
+    /// The robustness of a requirement in multiples of its scale, clipped to [-10, 10]. `None` where the trial broke or it
+    /// was not decided.
+    pub fn clipped(&self, trial: &Trial, id: &str) -> Option<f64> {
+        let robustness = trial.robustness(id).filter(|_| trial.covers())?;
+        Some((robustness / self.known(id).unwrap_or(1.0)).clamp(-MOST, MOST))
+    }
+
+    /// What a search minimises where nothing competes: the worst of all requirements.
+    pub fn worst(&self, trial: &Trial) -> Option<f64> {
+        trial.requirements().filter_map(|id| self.clipped(trial, id)).min_by(f64::total_cmp)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BlackBox;
+    use paracosm_coverage::{Space, Values};
+    use paracosm_engine::Outcome;
+    use paracosm_oracles::Verdict;
+
+    fn trial(robustness: &[(&str, f64)]) -> Trial {
+        let robustness = robustness.iter().map(|(id, worth)| ((*id).to_owned(), Some(*worth))).collect();
+        let outcome = Outcome { verdict: Verdict::Pass, robustness, metrics: vec![], trace: None, error: None };
+        Trial::new(0, Values::EMPTY, outcome, None)
+    }
+
+    #[test]
+    fn a_requirement_without_a_scale_gets_that_of_the_first_tests_that_decide_it() {
+        let study = Study::of_system(BlackBox::new("none", None).unwrap(), Space::unit_cube(1));
+        let mut scales = Scales::of(&study);
+        scales.learn(&[trial(&[("rpm", f64::INFINITY), ("gap", 0.0)])]);
+        scales.learn(&[trial(&[("rpm", 1200.0), ("gap", 0.02)]), trial(&[("rpm", -3000.0), ("gap", 0.05)])]);
+        scales.learn(&[trial(&[("rpm", 90_000.0), ("gap", 7.0)])]);
+        let told = |rpm: f64, gap: f64| scales.worst(&trial(&[("rpm", rpm), ("gap", gap)]));
+        assert_eq!(told(3000.0, 0.02), Some(0.4));
+        assert_eq!(told(1200.0, 0.05), Some(0.4));
+        assert_eq!(told(-1e9, 0.05), Some(-10.0));
+        assert_eq!(scales.clipped(&trial(&[("rpm", f64::INFINITY)]), "rpm"), Some(10.0));
+    }
+
+    #[test]
+    fn a_stated_scale_stays() {
+        let study = Study::of("pedestrian-crossing").unwrap();
+        let mut scales = Scales::of(&study);
+        let stated = study.requirement("no-collision").unwrap().scale.unwrap();
+        scales.learn(&[trial(&[("no-collision", 5000.0)])]);
+        assert_eq!(scales.clipped(&trial(&[("no-collision", 3.0)]), "no-collision"), Some(3.0 / stated));
+    }
+}
