@@ -73,8 +73,8 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
     for requirement in &study.requirements {
         table.row(&requirement.id, &requirement.text);
         let unit = if requirement.unit.is_empty() { "" } else { " " };
-        let scale = format!("{}{unit}{}", digits(requirement.scale), requirement.unit);
-        table.row("", &format!("{}, scale {scale}", requirement.formula));
+        let scale = requirement.scale.map(|scale| format!(", scale {}{unit}{}", digits(scale), requirement.unit));
+        table.row("", &format!("{}{}", requirement.formula, scale.unwrap_or_default()));
     }
     table.heading("signals that formulas can speak of");
     for (object, names) in by_object(&signals(study)?) {
