@@ -68,7 +68,7 @@ pub use folder::Folder;
 pub use live::LiveCoverage;
 pub use modes::{Extent, Mode, Modes, Touch};
 pub use plan::{Guarantee, Need, Plan};
-pub use plot::{Axis, FailureMap, Picture};
+pub use plot::{Axis, FailureMap, Lines, Picture, Tints};
 pub use promise::Promise;
 pub use regression::{Expectation, Regression, Replayed};
 pub use shrink::{Change, Sameness, Shrunk};

@@ -6,18 +6,22 @@
 
 mod animation;
 mod contour;
+mod lines;
 mod log_axis;
 mod log_log;
 mod map;
 mod raster;
 mod shade;
+mod tint;
 
 pub(crate) use animation::gif;
 #[cfg(feature = "camera")]
 pub(crate) use animation::gif_of_images;
 pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
+pub use lines::Lines;
 pub use map::{Axis, FailureMap};
 pub(crate) use raster::png;
+pub use tint::Tints;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -49,6 +53,7 @@ pub struct Picture {
 enum Panel {
     Map(FailureMap),
     LogLog(LogLog),
+    Lines(Lines),
 }
 
 type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
@@ -63,6 +68,15 @@ impl Picture {
     pub(crate) fn of_log_log(chart: LogLog) -> Self {
         let size = (log_log::LEGEND + log_log::PLANE * chart.planes.len() as u32, 520);
         Self { panels: vec![Panel::LogLog(chart)], columns: 1, size }
+    }
+
+    /// A picture of charts of curves, one below the other.
+    ///
+    /// # Panics
+    /// There is no chart.
+    pub fn of_lines(charts: Vec<Lines>) -> Self {
+        assert!(!charts.is_empty(), "a picture shows something");
+        Self { panels: charts.into_iter().map(Panel::Lines).collect(), columns: 1, size: (900, 420) }
     }
 
     /// A picture of several maps, `columns` in a row.
@@ -121,6 +135,7 @@ impl Picture {
                 match panel {
                     Panel::Map(map) => map.draw(&part, f64::from(scale))?,
                     Panel::LogLog(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Lines(chart) => chart.draw(&part, f64::from(scale))?,
                 }
             }
             area.present()

@@ -1,18 +1,20 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
+mod driver;
 mod failures;
+mod network;
 mod parameters;
 mod requirement;
 mod subject;
 
+pub use driver::DriverChoice;
 pub use requirement::RequirementText;
 pub(crate) use requirement::Specs;
 pub use subject::{Simulation, Subject};
 
 use crate::{BlackBox, Error, Extension, Promise, Trial};
-use paracosm_coverage::{Deadline, Point, Record, Space, Value, Values};
+use paracosm_coverage::{Deadline, Point, Space, Value, Values};
 use paracosm_engine::Program;
-use paracosm_engine::driver::{self, Driver};
 use paracosm_generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
@@ -57,14 +59,6 @@ pub struct Study {
     /// The tests that count as done.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub extends: Option<Extension>,
-}
-
-/// A driver with all its settings.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct DriverChoice {
-    /// Its name.
-    pub name: String,
-    settings: Record<f64>,
 }
 
 impl Study {
@@ -347,21 +341,4 @@ fn clip(robustness: f64) -> f64 {
 
 fn owned((name, value): (&str, &Value)) -> (String, Value) {
     (name.to_owned(), value.clone())
-}
-
-impl DriverChoice {
-    fn new(name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
-        let settings = driver::find(name)?.settings(changes)?;
-        let settings = settings.iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        Ok(Self { name: name.to_owned(), settings })
-    }
-
-    /// A new driver of this kind.
-    ///
-    /// # Errors
-    /// The choice was read from a file and there is no such driver or setting.
-    pub fn build(&self) -> Result<Box<dyn Driver>, Error> {
-        let settings: Vec<_> = self.settings.iter().map(|(name, value)| (name.to_owned(), *value)).collect();
-        Ok(driver::find(&self.name)?.build(&settings)?)
-    }
 }

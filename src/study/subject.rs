@@ -3,6 +3,7 @@
 use super::{DriverChoice, RequirementText, Study};
 use crate::{BlackBox, Error};
 use paracosm_coverage::{Space, Values};
+use paracosm_engine::driver::Driver;
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{Declaration, Program, Run, Setup, Test};
 use paracosm_scenarios as scenarios;
@@ -93,7 +94,7 @@ impl Simulation {
             scenario: program.name.to_owned(),
             vehicle: Model::default(),
             fixed: fixed.collect(),
-            driver: DriverChoice::new("aeb", &[])?,
+            driver: DriverChoice::new("aeb", &[], program.name)?,
             dt,
             duration,
             program: Some(program),
@@ -136,9 +137,24 @@ impl Study {
     /// Tests this driver, its settings changed so.
     ///
     /// # Errors
-    /// There is no such driver or setting, a value is out of range, or the study is of no scenario.
+    /// There is no such driver or setting, a value is out of range, the study is of no scenario, or a network cannot be
+    /// read, is not made for driving, or was not taught for this scenario.
     pub fn driver(mut self, name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
-        self.subject.scenario_mut()?.driver = DriverChoice::new(name, changes)?;
+        let simulation = self.subject.scenario_mut()?;
+        simulation.driver = DriverChoice::new(name, changes, &simulation.scenario)?;
+        Ok(self)
+    }
+
+    /// Tests a driver of one's own, which each worker makes for itself. Only this program can replay its tests.
+    ///
+    /// # Errors
+    /// The study is of no scenario.
+    pub fn own_driver(
+        mut self,
+        name: &str,
+        make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static,
+    ) -> Result<Self, Error> {
+        self.subject.scenario_mut()?.driver = DriverChoice::own(name, make);
         Ok(self)
     }
 

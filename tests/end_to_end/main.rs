@@ -18,6 +18,7 @@ mod interrupt;
 mod k_epsilon;
 mod likelihood;
 mod maps;
+mod networks;
 mod pedestrian_study;
 mod pictures;
 mod plan;

@@ -5,6 +5,7 @@
 
 mod aeb;
 mod cruise;
+mod expert;
 mod frenet;
 mod perception;
 pub mod reference;
@@ -157,9 +158,10 @@ pub enum DriverError {
 }
 
 /// Every kind of driver there is.
-pub const ALL: [&Kind; 7] = [
+pub const ALL: [&Kind; 8] = [
     &aeb::KIND,
     &cruise::KIND,
+    &expert::KIND,
     &reference::CC,
     &reference::RSS,
     &reference::FSM,
