@@ -3,7 +3,8 @@
 //! The campaign itself writes and prints nothing: the log, the progress bar and the summary watch it. A test
 //! that panics is a trial with the verdict `error`; the campaign goes on.
 
-use crate::executor::{in_order, pool};
+use crate::darkroom::Darkroom;
+use crate::executor::{Desk, from_desk, in_order, pool};
 use crate::expected::Expected;
 use crate::steering::Steering;
 use crate::{Error, Study, Trial, Worker};
@@ -17,10 +18,17 @@ use std::thread::available_parallelism;
 /// How many tests are asked for at a time, where it does not matter to the strategy: enough to keep many cores busy, few enough to keep in memory.
 const BATCH: usize = 4096;
 
+/// How many tests run in lockstep, where their drivers see: enough for a graphics card to be worth its while, and so few
+/// that their worlds and drivers fit in memory.
+const AT_ONCE: NonZeroUsize = NonZeroUsize::new(32).expect("it is more than 0");
+
 /// A study being run.
 pub struct Campaign<'a> {
     study: &'a Study,
     jobs: NonZeroUsize,
+    at_once: NonZeroUsize,
+    /// What draws for the drivers, if they see.
+    darkroom: Option<Arc<Darkroom>>,
     known: Vec<Trial>,
     stop: Arc<AtomicBool>,
     /// Workers keep what they have started from one batch of tests to the next.
@@ -31,20 +39,28 @@ impl<'a> Campaign<'a> {
     /// A campaign on all cores.
     ///
     /// # Errors
-    /// The study cannot be run: its scenario, driver, system or strategy does not exist or cannot do what is asked.
+    /// The study cannot be run: its scenario, driver, system or strategy does not exist or cannot do what is asked; or its
+    /// driver sees through cameras, and there is nothing to draw with.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
         study.generator()?;
         let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
-        let campaign = Self { study, jobs, known: Vec::new(), stop: Arc::default(), idle: Mutex::default() };
-        let mut worker = campaign.worker()?;
+        let stop = Arc::default();
+        let mut worker = Worker::until(study, Arc::clone(&stop), None)?;
         worker.start()?;
-        campaign.dismiss(worker);
-        Ok(campaign)
+        let (darkroom, idle) = (worker.darkroom().cloned(), Mutex::new(vec![worker]));
+        Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, known: Vec::new(), stop, idle })
     }
 
-    /// Runs this many tests at a time. Results do not depend on it.
+    /// Runs tests on this many threads. Results do not depend on it.
     pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
         self.jobs = jobs;
+        self
+    }
+
+    /// Runs this many tests in lockstep where their drivers see through cameras, so that all that they see is drawn at once;
+    /// without it, 32. Results do not depend on it.
+    pub fn at_once(mut self, tests: NonZeroUsize) -> Self {
+        self.at_once = tests;
         self
     }
 
@@ -125,16 +141,23 @@ impl<'a> Campaign<'a> {
         mut watch: impl FnMut(&Trial) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let hire = || Hired { campaign: self, worker: Some(self.worker().expect("one like it was made before")) };
-        let work = |hired: &mut Hired, i: usize| hired.run(first + i, &tests[i]);
         let pool = pool(self.jobs.get().min(tests.len()).max(1))?;
         let mut shown = 0;
-        let result = in_order(&pool, 0..tests.len(), hire, work, |trial| {
+        let sink = |trial| {
             watch(&expected.check(trial))
                 .and_then(|()| expected.go_on())
                 .inspect(|()| shown += 1)
                 // Nobody has to wait for a system when the results are not wanted any more.
                 .inspect_err(|_| self.stop.store(true, Ordering::Relaxed))
-        });
+        };
+        let result = if self.darkroom.is_some() {
+            let at_once = self.at_once.get().div_ceil(pool.current_num_threads());
+            let work = |desk: &Desk<Trial>| hire().run_in_lockstep((desk, at_once), (first, tests));
+            from_desk(&pool, 0..tests.len(), work, sink)
+        } else {
+            let work = |hired: &mut Hired, i: usize| hired.run(first + i, &tests[i]);
+            in_order(&pool, 0..tests.len(), hire, work, sink)
+        };
         match result {
             Err(error) => {
                 self.stop.store(false, Ordering::Relaxed);
@@ -148,7 +171,11 @@ impl<'a> Campaign<'a> {
     /// A worker that has nothing to do, or a new one.
     fn worker(&self) -> Result<Worker<'a>, Error> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        idle.map_or_else(|| Worker::until(self.study, self.stop.clone()), Ok)
+        idle.map_or_else(|| Worker::until(self.study, self.stop.clone(), self.darkroom.clone()), Ok)
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
     }
 
     fn dismiss(&self, worker: Worker<'a>) {
@@ -162,16 +189,26 @@ struct Hired<'c, 'a> {
     worker: Option<Worker<'a>>,
 }
 
-impl Hired<'_, '_> {
+impl<'a> Hired<'_, 'a> {
+    fn worker(&mut self) -> &mut Worker<'a> {
+        self.worker.as_mut().expect("it is at work")
+    }
+
     /// A trial, unless the campaign was told to stop before it had ended.
     fn run(&mut self, index: usize, test: &Values) -> Option<Trial> {
-        let stopped = || self.campaign.stop.load(Ordering::Relaxed);
-        if stopped() {
+        let campaign = self.campaign;
+        if campaign.is_stopped() {
             return None;
         }
-        let (trial, _) = self.worker.as_mut().expect("it is at work").run(index, test);
-        let cut_off = trial.verdict == Verdict::Error && stopped();
+        let (trial, _) = self.worker().run(index, test);
+        let cut_off = trial.verdict == Verdict::Error && campaign.is_stopped();
         (!cut_off).then_some(trial)
+    }
+
+    /// The trials of those of these tests that the desk gives out, until the campaign is told to stop.
+    fn run_in_lockstep(&mut self, desk: (&Desk<Trial>, usize), tests: (usize, &[Values])) {
+        let campaign = self.campaign;
+        self.worker().run_in_lockstep(desk, tests, || campaign.is_stopped());
     }
 }
 

@@ -10,7 +10,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::sync::mpsc::{self, Sender};
 
 /// The name that worker threads begin with, by which a panic of a test can be told from a panic of the program.
 pub(crate) const WORKER: &str = "paracosm-worker";
@@ -21,6 +21,35 @@ pub(crate) fn pool(workers: usize) -> Result<ThreadPool, Error> {
     builder.build().map_err(|error| Error::Usage(format!("cannot start {workers} threads: {error}")))
 }
 
+/// What is left to do, for one of those who do it.
+pub(crate) struct Desk<'a, T> {
+    next: &'a AtomicUsize,
+    end: usize,
+    closed: &'a AtomicBool,
+    results: Sender<(usize, Option<T>)>,
+}
+
+impl<T> Desk<'_, T> {
+    /// The next index, until there is none or nobody wants it any more.
+    pub fn next(&self) -> Option<usize> {
+        let index = || self.next.fetch_add(1, Ordering::Relaxed);
+        (!self.is_closed()).then(index).filter(|index| *index < self.end)
+    }
+
+    /// Whether nobody wants results any more.
+    pub fn is_closed(&self) -> bool {
+        self.closed.load(Ordering::Relaxed)
+    }
+
+    /// Takes the result of an index, or that there is none, which closes the desk.
+    pub fn hand_in(&self, index: usize, result: Option<T>) {
+        let gives_up = result.is_none();
+        if self.results.send((index, result)).is_err() || gives_up {
+            self.closed.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
 /// Calls `work` for every index on the threads of the pool, each with a worker of its own, and `sink` with the
 /// results in order, up to the first index at which a worker gave up.
 pub(crate) fn in_order<W, T: Send, E>(
@@ -28,30 +57,34 @@ pub(crate) fn in_order<W, T: Send, E>(
     indices: Range<usize>,
     new_worker: impl Fn() -> W + Sync,
     work: impl Fn(&mut W, usize) -> Option<T> + Sync,
+    sink: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
+    let one_by_one = |desk: &Desk<T>| {
+        let mut worker = new_worker();
+        while let Some(index) = desk.next() {
+            desk.hand_in(index, work(&mut worker, index));
+        }
+    };
+    from_desk(pool, indices, one_by_one, sink)
+}
+
+/// [`in_order`] for those who do several things at a time: calls `work` once on every thread of the pool, which takes what
+/// it does from the desk and hands in what comes of it.
+pub(crate) fn from_desk<T: Send, E>(
+    pool: &ThreadPool,
+    indices: Range<usize>,
+    work: impl Fn(&Desk<T>) + Sync,
     mut sink: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
     let next = AtomicUsize::new(indices.start);
-    let stop = AtomicBool::new(false);
+    let closed = AtomicBool::new(false);
     let (sender, results) = mpsc::channel();
     pool.in_place_scope(|scope| {
         for _ in 0..pool.current_num_threads() {
-            let sender = sender.clone();
+            let desk = Desk { next: &next, end: indices.end, closed: &closed, results: sender.clone() };
             scope.spawn(|_| {
-                let sender = sender;
-                let mut worker = new_worker();
-                while !stop.load(Ordering::Relaxed) {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= indices.end {
-                        break;
-                    }
-                    let result = work(&mut worker, index);
-                    if result.is_none() {
-                        stop.store(true, Ordering::Relaxed);
-                    }
-                    if sender.send((index, result)).is_err() {
-                        break;
-                    }
-                }
+                let desk = desk;
+                work(&desk);
             });
         }
         drop(sender);
@@ -63,7 +96,7 @@ pub(crate) fn in_order<W, T: Send, E>(
                 let Some(result) = result else { return Ok(()) };
                 due += 1;
                 if let Err(error) = sink(result) {
-                    stop.store(true, Ordering::Relaxed);
+                    closed.store(true, Ordering::Relaxed);
                     return Err(error);
                 }
             }

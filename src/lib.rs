@@ -23,6 +23,11 @@ mod black_box;
 mod campaign;
 pub mod certificate;
 pub mod compare;
+#[cfg(feature = "camera")]
+mod darkroom;
+#[cfg(not(feature = "camera"))]
+#[path = "darkroom/none.rs"]
+mod darkroom;
 mod error;
 mod estimate;
 mod executor;
@@ -42,6 +47,7 @@ mod promise;
 pub mod record;
 mod regression;
 mod shrink;
+mod simulator;
 pub mod statistics;
 mod steering;
 mod study;

@@ -3,17 +3,19 @@
 //! The one place where a test becomes a trial, whatever it is run on.
 
 use crate::black_box::{Answer, Connection};
-use crate::study::{Simulation, Specs, Subject};
+use crate::darkroom::Darkroom;
+use crate::executor::Desk;
+use crate::simulator::Simulator;
+use crate::study::{Specs, Subject};
 use crate::{Error, Study, Trial};
 use paracosm_coverage::Values;
-use paracosm_engine::driver::Driver;
-use paracosm_engine::{Outcome, Program, Run, Test, watch};
+use paracosm_engine::sensor::Shutters;
+use paracosm_engine::{Outcome, Run, Test};
 use paracosm_oracles::{Trace, Verdict};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Runs the tests of a study, one at a time.
+/// Runs the tests of a study, one at a time; or many in lockstep.
 pub struct Worker<'a> {
     study: &'a Study,
     specs: Specs,
@@ -22,7 +24,7 @@ pub struct Worker<'a> {
 
 /// What the tests are run on.
 enum Bench<'a> {
-    Simulator { simulation: &'a Simulation, program: Program, driver: Box<dyn Driver> },
+    Simulator(Box<Simulator<'a>>),
     System(Connection),
 }
 
@@ -30,20 +32,29 @@ impl<'a> Worker<'a> {
     /// A worker for the tests of a study.
     ///
     /// # Errors
-    /// The study was read from a file, and its scenario, driver, command or a formula does not exist or is none.
+    /// The study was read from a file, and its scenario, driver, command or a formula does not exist or is none; or its
+    /// driver sees through cameras, and there is nothing to draw with.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
-        Self::until(study, Arc::default())
+        Self::until(study, Arc::default(), None)
     }
 
-    /// A worker that does not wait for a system any more once `stop` is set.
-    pub(crate) fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
+    /// A worker that does not wait for a system any more once `stop` is set. What draws for the drivers of others draws for
+    /// its own as well.
+    pub(crate) fn until(
+        study: &'a Study,
+        stop: Arc<AtomicBool>,
+        darkroom: Option<Arc<Darkroom>>,
+    ) -> Result<Self, Error> {
         let bench = match &study.subject {
-            Subject::Scenario(simulation) => {
-                Bench::Simulator { simulation, program: simulation.program()?, driver: simulation.driver.build()? }
-            }
+            Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, darkroom)?)),
             Subject::System(system) => Bench::System(Connection::new(system, stop)?),
         };
         Ok(Self { study, specs: Specs::of(study)?, bench })
+    }
+
+    /// What it runs tests of.
+    pub fn study(&self) -> &'a Study {
+        self.study
     }
 
     /// Starts what has to be started before the first test; without it, that is done when it is needed.
@@ -64,41 +75,58 @@ impl<'a> Worker<'a> {
 
     /// [`run`](Self::run), with a look at the run of a scenario whenever the driver is asked, and at the end.
     pub fn watch(&mut self, index: usize, test: &Values, see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
-        let mut outcome = match &mut self.bench {
-            Bench::Simulator { simulation, program, driver } => {
+        self.film(index, test, None, see)
+    }
+
+    /// [`watch`](Self::watch), while these cameras film the run of a scenario.
+    pub(crate) fn film(
+        &mut self,
+        index: usize,
+        test: &Values,
+        cameras: Option<Shutters>,
+        see: impl FnMut(&Run),
+    ) -> (Trial, Option<Trace>) {
+        let outcome = match &mut self.bench {
+            Bench::Simulator(simulator) => {
                 let values = self.study.complete(test);
-                let test = Test::new(&values, &self.study.space);
-                let outcome = simulated(program, test, simulation, driver.as_mut(), see);
-                if outcome.verdict == Verdict::Error {
-                    // What broke may have left the driver in any state.
-                    *driver = simulation.driver.build().expect("it was built before");
-                }
-                outcome
+                simulator.run(Test::new(&values, &self.study.space), cameras, see)
             }
             Bench::System(connection) => match connection.ask(index, test) {
                 Ok(answer) => answered(answer, !self.specs.is_empty()),
                 Err(message) => Outcome::broken(Verdict::Error, message),
             },
         };
-        self.specs.judge(&mut outcome);
-        let trace = outcome.trace.take();
-        (Trial::new(index, test.clone(), outcome, trace.as_ref()), trace)
+        judged(&self.specs, index, test, outcome)
+    }
+
+    /// What draws for its drivers, if they see.
+    pub(crate) fn darkroom(&self) -> Option<&Arc<Darkroom>> {
+        match &self.bench {
+            Bench::Simulator(simulator) => simulator.darkroom(),
+            Bench::System(_) => None,
+        }
+    }
+
+    /// Runs those of these tests of a scenario that the desk gives out, so many at a time, until `stopped`. The first has
+    /// the index `first`.
+    pub(crate) fn run_in_lockstep(
+        &mut self,
+        (desk, at_once): (&Desk<Trial>, usize),
+        (first, tests): (usize, &[Values]),
+        stopped: impl Fn() -> bool,
+    ) {
+        let Self { study, specs, bench: Bench::Simulator(simulator) } = self else { return };
+        let test = |place: usize| study.complete(&tests[place]);
+        let trial = |place: usize, outcome| judged(specs, first + place, &tests[place], outcome).0;
+        simulator.run_in_lockstep(desk, at_once, (&test, &study.space), stopped, trial);
     }
 }
 
-fn simulated(
-    program: &Program,
-    test: Test,
-    simulation: &Simulation,
-    driver: &mut dyn Driver,
-    see: impl FnMut(&Run),
-) -> Outcome {
-    let run = AssertUnwindSafe(|| watch(program, test, simulation.vehicle, driver, see));
-    catch_unwind(run).unwrap_or_else(|panic| {
-        let message = panic.downcast_ref::<String>().map(String::as_str);
-        let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
-        Outcome::broken(Verdict::Error, format!("the run panicked: {message}"))
-    })
+/// The trial of a test that ended so, by the formulas of the study as well.
+fn judged(specs: &Specs, index: usize, test: &Values, mut outcome: Outcome) -> (Trial, Option<Trace>) {
+    specs.judge(&mut outcome);
+    let trace = outcome.trace.take();
+    (Trial::new(index, test.clone(), outcome, trace.as_ref()), trace)
 }
 
 /// What an answer comes to before formulas are asked of its trace.

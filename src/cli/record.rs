@@ -4,7 +4,7 @@ use super::output::plural;
 use super::run::{self, Conducted};
 use super::{Failure, Found, Verbosity, print};
 use crate::record::{Dataset, Kept, Projector, STANDARD_CAMERAS, read_cameras, standard_cameras};
-use crate::{Error, Trial};
+use crate::{Error, Trial, Worker};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
@@ -78,14 +78,14 @@ impl Options {
         let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(left.len() as u64) };
         let template = "{bar:40.blue/white} {human_pos}/{human_len} tests recorded  {eta} left  {msg}";
         let bar = bar.with_style(ProgressStyle::with_template(template).expect("the template is one"));
-        let mut images = 0;
+        let (mut worker, mut images) = (Worker::new(study)?, 0);
         for trial in &left {
             if stop.load(Ordering::Relaxed) {
                 bar.finish_and_clear();
                 let message = "the tests recorded so far are whole; --resume goes on from there";
                 return Err(format!("{}\n  {message}", Error::Interrupted).into());
             }
-            images += dataset.record(study, trial, projector)?;
+            images += dataset.record(&mut worker, trial, projector)?;
             bar.set_message(plural(images, "image"));
             bar.inc(1);
         }

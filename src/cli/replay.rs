@@ -92,7 +92,7 @@ impl Options {
         let mut record = Record::default();
         let stop = Arc::default();
         on_interrupt(Arc::clone(&stop));
-        let mut worker = Worker::until(&study, stop.clone())?;
+        let mut worker = Worker::until(&study, stop.clone(), None)?;
         worker.start()?;
         let watched = target.is_some();
         let (trial, trace) = worker.watch(index, &logged.test, |run| {
@@ -120,7 +120,7 @@ impl Options {
             return Err(difference(&study, logged, &trial).into());
         }
         if let Some(clip) = &clip {
-            verbosity.note(clip.write(&study, logged, &cameras)?);
+            verbosity.note(clip.write(&mut worker, logged, &cameras)?);
         }
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(&study, &trial),

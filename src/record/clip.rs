@@ -3,7 +3,7 @@
 use super::image::{Pixels, png};
 use super::{Film, Projector};
 use crate::folder::is_new;
-use crate::{Error, Study, Trial, plot};
+use crate::{Error, Trial, Worker, plot};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Outputs, Stages};
 use std::fs;
@@ -38,12 +38,12 @@ impl Clip {
         Ok(Self { path: path.to_owned(), is_film })
     }
 
-    /// Films a test with the first of these cameras; in words, what was written.
+    /// Films a test of a worker's study with the first of these cameras; in words, what was written.
     ///
     /// # Errors
     /// There is no adapter, the test is not the one that was logged, nothing was seen, or nothing can be written.
-    pub fn write(&self, study: &Study, trial: &Trial, cameras: &Cameras) -> Result<String, Error> {
-        let film = Film::of(study, trial, cameras, &Stages::default())?;
+    pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<String, Error> {
+        let film = Film::of(worker, trial, cameras, &Stages::default())?;
         let mut projector = Projector::new(cameras, Outputs { rgb: true, ..Outputs::default() })?;
         let mut images: Vec<(u64, Vec<u8>)> = Vec::new();
         projector.show(&film, 0, |pictures| {

@@ -4,9 +4,10 @@
 
 use super::coco::Annotations;
 use super::image::{Pixels, depth_words, write};
-use super::{Film, Picture, Projector, Shot, cameras};
+use super::{Film, Picture, Projector, Shot};
+use crate::darkroom::camera;
 use crate::folder::write_whole;
-use crate::{Error, Study, Trial};
+use crate::{Error, Trial, Worker};
 use paracosm_coverage::{did_you_mean, nearest};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Outputs, Stages};
@@ -120,9 +121,9 @@ impl Dataset {
     ///
     /// # Errors
     /// The test is not the one that was logged, its images cannot be drawn, or its folder cannot be written.
-    pub fn record(&self, study: &Study, trial: &Trial, projector: &mut Projector) -> Result<usize, Error> {
+    pub fn record(&self, worker: &mut Worker, trial: &Trial, projector: &mut Projector) -> Result<usize, Error> {
         let Recording { cameras, colours, .. } = &self.recording;
-        let mut film = Film::of(study, trial, cameras, &self.stages)?;
+        let mut film = Film::of(worker, trial, cameras, &self.stages)?;
         if let Some(seed) = colours {
             film.repaint(*seed, trial.index);
         }
@@ -221,7 +222,7 @@ fn control_line(camera: &str, shot: &Shot, latency: f64) -> String {
 /// where it is mounted.
 fn calibration(cameras: &Cameras) -> Result<serde_json::Value, Error> {
     let described = cameras.all.iter().map(|(name, mounted)| {
-        let camera = cameras::camera(mounted).map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))?;
+        let camera = camera(mounted).map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))?;
         let [width, height] = mounted.resolution;
         let (focal, x, y) = (camera.focal_pixels(), f64::from(width) / 2.0, f64::from(height) / 2.0);
         let pose = camera.mount().to_homogeneous();

@@ -1,11 +1,9 @@
 //! A test as its cameras have it: the moments at which they open their shutters, not drawn yet.
 
-use crate::{Error, Study, Trial};
-use paracosm_coverage::Values;
-use paracosm_engine::driver::{Driver, Equipment, Fault};
+use crate::{Error, Trial, Worker};
 use paracosm_engine::object::Class;
-use paracosm_engine::sensor::{Cameras, Chance, Delivery, Handle, Image, Moment, Mounted, Rig, Sample, Shutter};
-use paracosm_engine::{Briefing, Control, Observation, Run, Setup, Test};
+use paracosm_engine::sensor::{Cameras, Chance, Moment, Sample, Shutters};
+use paracosm_engine::{Control, Run};
 use paracosm_render::{Stage, Stages};
 use std::sync::Arc;
 
@@ -31,41 +29,32 @@ pub struct Film {
     pub shots: Vec<Vec<Shot>>,
 }
 
-/// A driver whose answers are noted, each with the time at which it was asked.
-struct Overheard {
-    driver: Box<dyn Driver>,
+/// What is noted of a run while it is filmed.
+#[derive(Default)]
+struct Notes {
+    stage: Option<Arc<Stage>>,
+    /// What each camera has taken.
+    taken: Vec<Vec<Sample<Moment>>>,
+    /// What the driver answered, each with the time at which it was asked.
     answers: Vec<(f64, Control)>,
-}
-
-impl Driver for Overheard {
-    fn period(&self) -> f64 {
-        self.driver.period()
-    }
-
-    fn equipment(&mut self) -> Equipment {
-        self.driver.equipment()
-    }
-
-    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
-        self.answers.clear();
-        self.driver.reset(briefing)
-    }
-
-    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
-        self.driver.perceive(rig, images)
-    }
-
-    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
-        let control = self.driver.step(observation)?;
-        self.answers.push((observation.time, control));
-        Ok(control)
-    }
+    /// When it was asked last.
+    asked: Option<f64>,
 }
 
 /// A whisker of time in seconds, because times are sums of ticks.
 const WHISKER: f64 = 1e-9;
 
-impl Overheard {
+impl Notes {
+    /// Takes notes whenever the driver is asked, and at the end.
+    fn take(&mut self, run: &Run, stages: &Stages) {
+        self.stage.get_or_insert_with(|| stages.of(run.network()));
+        self.answers.extend(self.asked.replace(run.time()).map(|asked| (asked, run.control())));
+        self.taken.resize_with(run.filmed().cameras().all.len(), Vec::new);
+        for (camera, sample) in run.filmed().arrived() {
+            self.taken[camera].push(sample.clone());
+        }
+    }
+
     /// The last answer at a time.
     fn answer_at(&self, time: f64) -> Control {
         let before = self.answers.partition_point(|(asked, _)| *asked <= time + WHISKER);
@@ -74,42 +63,30 @@ impl Overheard {
 }
 
 impl Film {
-    /// Runs a test of a campaign again and films it.
+    /// Runs a test of a worker's study again and films it with these cameras, beside those that its driver may have.
     ///
     /// # Errors
     /// The study is of no scenario, the test ended as invalid or in an error, or the run is not the one that was logged.
-    pub fn of(study: &Study, trial: &Trial, cameras: &Cameras, stages: &Stages) -> Result<Self, Error> {
-        let simulation = study.subject.scenario()?;
+    pub fn of(worker: &mut Worker, trial: &Trial, cameras: &Cameras, stages: &Stages) -> Result<Self, Error> {
+        worker.study().subject.scenario()?;
         if !trial.covers() {
             let message = format!("test {} ended as {}, so that there is nothing to see", trial.index, trial.verdict);
             return Err(Error::Usage(message));
         }
-        let values: Values = study.complete(&trial.test);
-        let mut driver = Overheard { driver: simulation.driver.build()?, answers: Vec::new() };
-        let setup = Setup { model: simulation.vehicle, ..Setup::asking_every(driver.period()) };
-        let mut run = Run::new(&simulation.program()?, Test::new(&values, &study.space), setup)?;
-        let stage = stages.of(run.network());
-        let mut rig = Rig::new(cameras.seed);
-        let handles = cameras.all.iter().map(|(name, camera)| attach(&mut rig, name, camera));
-        let handles: Vec<_> = handles.collect::<Result<_, _>>()?;
-        run.equip(rig);
-        let mut taken: Vec<Vec<Sample<Moment>>> = vec![Vec::new(); handles.len()];
-        let outcome = run.watch(&mut driver, |run| {
-            for (taken, handle) in taken.iter_mut().zip(&handles) {
-                taken.extend_from_slice(run.rig().arrived(handle));
-            }
-        });
-        let hash = outcome.trace.as_ref().map(paracosm_oracles::Trace::hash);
-        if hash != trial.trace_hash {
+        let shutters = Shutters::of(cameras.clone()).map_err(|error| Error::Usage(format!("camera {error}")))?;
+        let mut notes = Notes::default();
+        let (again, _) = worker.film(trial.index, &trial.test, Some(shutters), |run| notes.take(run, stages));
+        let taken = std::mem::take(&mut notes.taken);
+        let stage = notes.stage.take().filter(|_| again.trace_hash == trial.trace_hash).ok_or_else(|| {
             let message = format!("test {} is not the one that was logged: its trace has another hash", trial.index);
-            return Err(Error::Usage(message));
-        }
+            Error::Usage(message)
+        })?;
         let shots = taken.into_iter().zip(cameras.all.values()).map(|(taken, camera)| {
             let developed = |Sample { number, time, reading: moment }| Shot {
                 number,
                 time,
                 moment,
-                control: driver.answer_at(time + camera.latency),
+                control: notes.answer_at(time + camera.latency),
             };
             taken.into_iter().map(developed).collect()
         });
@@ -129,10 +106,4 @@ impl Film {
             }
         }
     }
-}
-
-fn attach(rig: &mut Rig, name: &str, camera: &Mounted) -> Result<Handle<Shutter>, Error> {
-    let delivery = Delivery { latency: camera.latency, loss: camera.dropped };
-    let attached = rig.attach(name, Shutter { period: 1.0 / camera.rate }, delivery);
-    attached.map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))
 }

@@ -14,8 +14,9 @@ mod projector;
 #[cfg(test)]
 mod tests;
 
+pub use crate::darkroom::Picture;
 pub use cameras::{STANDARD_CAMERAS, cameras_for_people, read_cameras, standard_cameras};
 pub use clip::Clip;
 pub use dataset::{Dataset, Kept};
 pub use film::{Film, Shot};
-pub use projector::{Picture, Projector};
+pub use projector::Projector;

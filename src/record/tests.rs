@@ -1,7 +1,7 @@
 //! Recordings against what they were made of, decoded and counted anew.
 
 use super::*;
-use crate::{Campaign, Study, Trial};
+use crate::{Campaign, Study, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Frame, Stages};
 use std::collections::BTreeMap;
@@ -44,9 +44,14 @@ fn two_tests() -> (Study, Vec<Trial>) {
 fn recorded(folder: &Path, cameras: &Cameras, kept: Kept, trials: &[Trial], study: &Study) {
     let dataset = Dataset::open(folder, cameras.clone(), kept, Some(3)).expect("a new data set");
     let mut projector = Projector::new(cameras, kept.outputs()).expect("there is an adapter");
+    let mut worker = Worker::new(study).expect("it can be run");
     for trial in trials.iter().filter(|trial| !dataset.has(trial)) {
-        assert!(dataset.record(study, trial, &mut projector).expect("it is recorded") > 0);
+        assert!(dataset.record(&mut worker, trial, &mut projector).expect("it is recorded") > 0);
     }
+}
+
+fn filmed(study: &Study, trial: &Trial, cameras: &Cameras) -> Result<Film, crate::Error> {
+    Film::of(&mut Worker::new(study)?, trial, cameras, &Stages::default())
 }
 
 /// All files below a folder, by their paths.
@@ -81,7 +86,7 @@ fn decoded(contents: &[u8]) -> (Vec<u16>, usize) {
 
 /// The frames of a test, drawn one by one.
 fn frames(study: &Study, trial: &Trial, cameras: &Cameras) -> Vec<(u64, Frame)> {
-    let film = Film::of(study, trial, cameras, &Stages::default()).expect("it can be filmed");
+    let film = filmed(study, trial, cameras).expect("it can be filmed");
     let mut projector = Projector::new(cameras, Kept::ALL.outputs()).expect("there is an adapter");
     let mut frames = Vec::new();
     for shot in &film.shots[0] {
@@ -165,7 +170,7 @@ fn a_recording_goes_on_where_it_was_killed_and_is_the_same_with_noise_lost_image
     assert!(whole_files == killed_files, "{:?}\n{:?}", whole_files.keys(), killed_files.keys());
     let numbers =
         |files: &BTreeMap<PathBuf, Vec<u8>>| files.keys().filter(|path| path.starts_with("000000/front/rgb")).count();
-    let film = Film::of(&study, &trials[0], &cameras(""), &Stages::default()).expect("it can be filmed");
+    let film = filmed(&study, &trials[0], &cameras("")).expect("it can be filmed");
     assert!(numbers(&whole_files) < film.shots[0].len(), "none of {} images was lost", film.shots[0].len());
     let other = Dataset::open(whole.path(), cameras(""), Kept::ALL, Some(3)).expect_err("it has other cameras");
     assert!(other.to_string().contains("other cameras"), "{other}");
@@ -190,7 +195,7 @@ fn only_what_is_asked_for_is_kept() {
 #[test]
 fn a_film_has_the_moments_of_its_rate_and_the_answers_of_its_driver() {
     let (study, trials) = two_tests();
-    let film = Film::of(&study, &trials[0], &cameras(""), &Stages::default()).expect("it can be filmed");
+    let film = filmed(&study, &trials[0], &cameras("")).expect("it can be filmed");
     for (index, shot) in film.shots[0].iter().enumerate() {
         assert_eq!((shot.number, shot.time), (index as u64, 0.5 * index as f64));
     }
@@ -203,7 +208,7 @@ fn a_film_has_the_moments_of_its_rate_and_the_answers_of_its_driver() {
     assert_eq!(colours(&film)[0], colours(&painted)[0]);
     let mut log = trials[0].clone();
     log.trace_hash = Some("another".to_owned());
-    let refused = Film::of(&study, &log, &cameras(""), &Stages::default()).expect_err("it is another run");
+    let refused = filmed(&study, &log, &cameras("")).expect_err("it is another run");
     assert!(refused.to_string().contains("trace"), "{refused}");
 }
 

@@ -20,7 +20,8 @@ pub trait Driver: Send {
     /// Seconds between two questions.
     fn period(&self) -> f64;
 
-    /// What it measures with, made anew for every run: nothing, where it is content with the observation.
+    /// What it measures with, made anew for every run, before it is [reset](Self::reset): nothing, where it is content
+    /// with the observation.
     fn equipment(&mut self) -> Equipment {
         Equipment::default()
     }
@@ -32,7 +33,8 @@ pub trait Driver: Send {
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault>;
 
     /// Takes in what its equipment has measured and what has arrived since it was last asked; comes before every
-    /// [`step`](Self::step).
+    /// [`step`](Self::step). Images come camera by camera, in the order of their names, and of each the earliest first; one
+    /// that was lost, or that was taken from within something, never comes.
     ///
     /// # Errors
     /// It cannot go on.

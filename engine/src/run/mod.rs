@@ -7,22 +7,24 @@
 //! 3. the driver is asked, if its period has passed, and otherwise keeps its control;
 //! 4. the inputs of the objects are read and everything moves on by `dt`.
 
+mod driving;
 mod metrics;
 mod scene;
 mod sensing;
 
-use crate::driver::{Driver, Fault};
+pub use driving::{simulate, watch};
+
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
 use crate::outcome::Outcome;
 use crate::program::{Program, ProgramError, Test};
 use crate::road::{Network, Path, wrapped};
 use crate::scenario::Weather;
-use crate::sensor::Rig;
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::Model;
 use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
 use scene::Scene;
+use sensing::Sensing;
 use std::sync::Arc;
 
 /// The tick in seconds where nothing else is asked for.
@@ -42,10 +44,20 @@ pub struct Setup {
 /// What a run wants next.
 #[derive(Debug)]
 pub enum Step<'a> {
-    /// A control for what is to be seen here: [`Run::supply`] it and advance again.
+    /// A control for what is to be seen here: [`Run::supply`] it, or let a driver [`Run::answer`], and advance again.
     Need(&'a Observation),
     /// Nothing: it is over.
     Done(Box<Outcome>),
+}
+
+impl Step<'_> {
+    /// What became of the test, if it is over.
+    pub fn outcome(self) -> Option<Outcome> {
+        match self {
+            Self::Need(_) => None,
+            Self::Done(outcome) => Some(*outcome),
+        }
+    }
 }
 
 /// A column of the trace.
@@ -72,7 +84,7 @@ pub struct Run {
     row: Vec<f64>,
     trace: Trace,
     observation: Observation,
-    rig: Rig,
+    sensing: Sensing,
     /// What there is to say of a run that cannot begin.
     unable: Option<Outcome>,
 }
@@ -129,7 +141,7 @@ impl Run {
             columns,
             trace,
             observation: Observation::default(),
-            rig: Rig::default(),
+            sensing: Sensing::default(),
             unable: overlap.or(fault),
             scene,
         })
@@ -183,39 +195,12 @@ impl Run {
     pub fn supply(&mut self, control: Control) {
         self.scene.ego.control = control;
         self.supplied = true;
-        self.rig.clear();
+        self.sensing.clear();
     }
 
-    /// Goes to the end with this driver, which is told that a new run begins.
-    pub fn drive(&mut self, driver: &mut dyn Driver) -> Outcome {
-        self.watch(driver, |_| ())
-    }
-
-    /// Goes to the end with this driver, and lets `see` have a look whenever the driver is asked, and at the end.
-    pub fn watch(&mut self, driver: &mut dyn Driver, mut see: impl FnMut(&Self)) -> Outcome {
-        if let Err(fault) = driver.reset(&self.briefing()) {
-            return self.broken_by(&fault);
-        }
-        loop {
-            let outcome = match self.advance() {
-                Step::Need(_) => None,
-                Step::Done(outcome) => Some(outcome),
-            };
-            see(self);
-            if let Some(outcome) = outcome {
-                return *outcome;
-            }
-            match driver.perceive(&self.rig, &[]).and_then(|()| driver.step(&self.observation)) {
-                Ok(control) => self.supply(control),
-                Err(fault) => return self.broken_by(&fault),
-            }
-        }
-    }
-
-    /// Ends the run because its driver cannot go on.
-    pub fn broken_by(&mut self, fault: &Fault) -> Outcome {
-        self.over = true;
-        Outcome::broken(Verdict::Error, format!("the driver gave up at {:.3} s: {fault}", self.time()))
+    /// What the car was told last.
+    pub fn control(&self) -> Control {
+        self.scene.ego.control
     }
 
     /// All bodies where they are now, the car under test first, the others in the order in which they were placed.
@@ -347,25 +332,4 @@ impl Setup {
     pub fn asking_every(period: f64) -> Self {
         Self { period, dt: None, model: Model::default() }
     }
-}
-
-/// Runs a test to its end with a driver, in a car that this model moves; a world that cannot be built is an outcome too.
-pub fn simulate<'a>(program: &Program, test: impl Into<Test<'a>>, model: Model, driver: &mut dyn Driver) -> Outcome {
-    watch(program, test, model, driver, |_| ())
-}
-
-/// [`simulate`], with a look at the run whenever the driver is asked, and at the end: [`Run::watch`].
-pub fn watch<'a>(
-    program: &Program,
-    test: impl Into<Test<'a>>,
-    model: Model,
-    driver: &mut dyn Driver,
-    see: impl FnMut(&Run),
-) -> Outcome {
-    let mut run = match Run::new(program, test, Setup { model, ..Setup::asking_every(driver.period()) }) {
-        Ok(run) => run,
-        Err(error @ ProgramError::World { .. }) => return Outcome::broken(Verdict::Invalid, error.to_string()),
-        Err(error) => return Outcome::broken(Verdict::Error, error.to_string()),
-    };
-    run.watch(driver, see)
 }

@@ -1,18 +1,57 @@
-//! The sensors that a run carries along.
+//! The sensors and cameras that a run carries along.
 
 use super::Run;
-use crate::sensor::{Air, Rig, View};
+use crate::sensor::{Air, Rig, Shutters, View};
+
+/// All that measures in a run. None of it depends on what else is carried.
+#[derive(Debug, Default)]
+pub(super) struct Sensing {
+    rig: Rig,
+    eyes: Shutters,
+    film: Shutters,
+}
+
+impl Sensing {
+    fn rigs(&mut self) -> [&mut Rig; 3] {
+        [&mut self.rig, self.eyes.rig(), self.film.rig()]
+    }
+
+    /// Only what arrives from now on is new.
+    pub fn clear(&mut self) {
+        self.rigs().into_iter().for_each(Rig::clear);
+    }
+}
 
 impl Run {
     /// Gives the car under test these sensors, which begin anew. From now on they see every tick.
     pub fn equip(&mut self, rig: Rig) {
-        self.rig = rig;
-        self.rig.reset();
+        self.sensing.rig = rig;
+        self.sensing.rig.reset();
+    }
+
+    /// Gives the car under test the cameras that its driver sees through.
+    pub(super) fn open_eyes(&mut self, eyes: Shutters) {
+        self.sensing.eyes = eyes;
+    }
+
+    /// Films the run with these cameras, which the driver knows nothing of.
+    pub fn film(&mut self, film: Shutters) {
+        self.sensing.film = film;
     }
 
     /// The sensors of the car under test, with what has arrived from them since its driver was last asked.
     pub fn rig(&self) -> &Rig {
-        &self.rig
+        &self.sensing.rig
+    }
+
+    /// The cameras that the driver sees through: what has arrived from them has to be drawn before it can answer.
+    pub fn eyes(&self) -> &Shutters {
+        &self.sensing.eyes
+    }
+
+    /// The cameras that the run is filmed with.
+    pub fn filmed(&self) -> &Shutters {
+        &self.sensing.film
     }
 
     /// What there is to know at this tick.
@@ -30,8 +69,9 @@ impl Run {
 
     /// Shows the sensors this tick.
     pub(super) fn sense(&mut self) {
-        let mut rig = std::mem::take(&mut self.rig);
-        rig.see(&self.view());
-        self.rig = rig;
+        let mut sensing = std::mem::take(&mut self.sensing);
+        let view = self.view();
+        sensing.rigs().into_iter().for_each(|rig| rig.see(&view));
+        self.sensing = sensing;
     }
 }

@@ -3,7 +3,7 @@
 //! The engine draws nothing. A [`Shutter`] notes the [`Moment`] that a camera saw, and whoever runs the test develops it to
 //! an [`Image`] when it has arrived.
 
-use super::{Chance, Sensor, View};
+use super::{Chance, Delivery, Handle, Rig, Sample, Sensor, SensorError, View};
 use crate::object::BodyState;
 use crate::scenario::Weather;
 use serde::{Deserialize, Serialize};
@@ -103,6 +103,48 @@ impl Sensor for Shutter {
         moment.weather = view.weather;
         moment.speed = view.car.speed();
         moment.travelled = view.car.travelled;
+    }
+}
+
+/// The shutters of a set of cameras, with the moments that have arrived: a rig of their own, so that no camera depends on
+/// what else the car carries.
+#[derive(Debug, Default)]
+pub struct Shutters {
+    cameras: Cameras,
+    rig: Rig,
+    each: Vec<Handle<Shutter>>,
+}
+
+impl Shutters {
+    /// The shutters of these cameras.
+    ///
+    /// # Errors
+    /// A camera has a rate, a latency or a probability of losing images that there is not; the error names it.
+    pub fn of(cameras: Cameras) -> Result<Self, SensorError> {
+        let mut rig = Rig::new(cameras.seed);
+        let attached = cameras.all.iter().map(|(name, camera)| {
+            let delivery = Delivery { latency: camera.latency, loss: camera.dropped };
+            rig.attach(name, Shutter { period: 1.0 / camera.rate }, delivery)
+        });
+        let each = attached.collect::<Result<_, _>>()?;
+        Ok(Self { cameras, rig, each })
+    }
+
+    /// The cameras that they belong to.
+    pub fn cameras(&self) -> &Cameras {
+        &self.cameras
+    }
+
+    /// The moments that have arrived since the driver was last asked, each with the place of its camera among the names:
+    /// camera by camera, and the earliest first.
+    pub fn arrived(&self) -> impl Iterator<Item = (usize, &Sample<Moment>)> {
+        let each = self.each.iter().enumerate();
+        each.flat_map(|(camera, shutter)| self.rig.arrived(shutter).iter().map(move |sample| (camera, sample)))
+    }
+
+    /// All their moments go through it.
+    pub(crate) fn rig(&mut self) -> &mut Rig {
+        &mut self.rig
     }
 }
 

@@ -50,7 +50,7 @@ mod sight;
 mod truth;
 
 pub use air::Air;
-pub use camera::{Cameras, Image, Moment, Mounted, Shutter};
+pub use camera::{Cameras, Image, Moment, Mounted, Shutter, Shutters};
 pub use chance::Chance;
 pub use drift::Inaccuracy;
 pub use error::SensorError;

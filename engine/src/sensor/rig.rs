@@ -38,6 +38,7 @@ pub struct Sample<R> {
 }
 
 /// A sensor of a rig, by which its readings are asked for.
+#[derive(Debug)]
 pub struct Handle<S> {
     index: usize,
     sensor: PhantomData<fn() -> S>,
@@ -75,6 +76,11 @@ impl Rig {
         }
         self.sensors.push(Box::new(Port::new(name, sensor, delivery)));
         Ok(Handle { index: self.sensors.len() - 1, sensor: PhantomData })
+    }
+
+    /// Whether it has no sensor.
+    pub fn is_empty(&self) -> bool {
+        self.sensors.is_empty()
     }
 
     /// Forgets everything: a new run begins.

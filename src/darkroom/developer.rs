@@ -1,0 +1,110 @@
+//! Draws sights: many at once, whatever they belong to.
+
+use super::{Exposure, Sight};
+use paracosm_render::{Adapter, Box3, Frame, Outputs, RenderError, Renderer, View, ViewError};
+use rayon::prelude::*;
+
+/// How many pixels are drawn at once, so that large images do not fill the memory, and how many images at most.
+const PIXELS: usize = 1 << 22;
+pub(crate) const IMAGES: usize = 64;
+
+/// A moment that was drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// All that was asked for; its colours are those that the camera gives.
+    pub frame: Frame,
+    /// The things in front of the camera.
+    pub boxes: Vec<Box3>,
+}
+
+/// Why a moment was not drawn: in words, or nothing where the camera was within something that the car ran into.
+pub(crate) type Undrawn = Option<String>;
+
+/// Draws with an adapter.
+#[derive(Debug)]
+pub(crate) struct Developer {
+    renderer: Renderer,
+}
+
+impl Developer {
+    /// One with the best adapter of this machine.
+    ///
+    /// # Errors
+    /// There is no adapter, or it does not let itself be used.
+    pub fn new() -> Result<Self, RenderError> {
+        Ok(Self { renderer: Renderer::new()? })
+    }
+
+    /// What it draws with.
+    pub fn adapter(&self) -> &Adapter {
+        self.renderer.adapter()
+    }
+
+    /// Draws all these on all cores, in their order.
+    pub fn draw(&mut self, exposures: &[Exposure<'_>], wanted: Outputs) -> Vec<Result<Picture, Undrawn>> {
+        let sights: Vec<Sight> = exposures.par_iter().map(|exposure| exposure.sight(wanted)).collect();
+        let frames = self.render(&sights.iter().collect::<Vec<_>>());
+        let all = exposures.par_iter().zip(&sights).zip(frames);
+        let picture = |((exposure, sight), frame): ((&Exposure<'_>, &Sight), Result<Frame, Undrawn>)| {
+            Ok(Picture { frame: exposure.through_lens(frame?), boxes: sight.boxes() })
+        };
+        all.map(picture).collect()
+    }
+
+    /// Draws what is there, before any lens.
+    pub fn render(&mut self, sights: &[&Sight]) -> Vec<Result<Frame, Undrawn>> {
+        let mut drawn: Vec<Option<Result<Frame, Undrawn>>> = sights.iter().map(|_| None).collect();
+        let mut left: Vec<usize> = (0..sights.len()).collect();
+        while let Some(first) = left.first() {
+            let wanted = sights[*first].wanted;
+            let (alike, others) = left.into_iter().partition::<Vec<_>, _>(|i| sights[*i].wanted == wanted);
+            left = others;
+            for portion in portions(&alike, |i| sights[i].pixels()) {
+                let views: Vec<View<'_>> = portion.iter().map(|i| sights[*i].view()).collect();
+                for (i, frame) in portion.iter().zip(self.render_alike(&views, wanted)) {
+                    drawn[*i] = Some(frame);
+                }
+            }
+        }
+        drawn.into_iter().map(|frame| frame.expect("each was drawn or could not be")).collect()
+    }
+
+    /// Where the device fails, each is drawn by itself on a new one, so that only those fail that have to.
+    fn render_alike(&mut self, views: &[View<'_>], wanted: Outputs) -> Vec<Result<Frame, Undrawn>> {
+        match self.renderer.render(views, wanted) {
+            Ok(frames) => frames.into_iter().map(|frame| frame.map_err(undrawn)).collect(),
+            Err(_) => views.iter().map(|view| self.render_alone(view, wanted)).collect(),
+        }
+    }
+
+    fn render_alone(&mut self, view: &View<'_>, wanted: Outputs) -> Result<Frame, Undrawn> {
+        let failed = |error: RenderError| Some(error.to_string());
+        self.renderer = Renderer::new().map_err(failed)?;
+        let mut frames = self.renderer.render(std::slice::from_ref(view), wanted).map_err(failed)?;
+        frames.remove(0).map_err(undrawn)
+    }
+}
+
+fn undrawn(error: ViewError) -> Undrawn {
+    match error {
+        ViewError::Inside { .. } => None,
+        error => Some(error.to_string()),
+    }
+}
+
+/// Divides these into portions that are drawn at once, by how many pixels each has.
+fn portions(all: &[usize], pixels: impl Fn(usize) -> usize) -> Vec<&[usize]> {
+    let mut portions = Vec::new();
+    let mut left = all;
+    while !left.is_empty() {
+        let mut sum = 0;
+        let fits = |i: &&usize| {
+            sum += pixels(**i);
+            sum <= PIXELS
+        };
+        let (portion, later) = left.split_at(left.iter().take(IMAGES).take_while(fits).count().max(1));
+        portions.push(portion);
+        left = later;
+    }
+    portions
+}

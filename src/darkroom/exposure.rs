@@ -1,0 +1,85 @@
+//! A moment before a camera: what there is to draw, and what its lens makes of it.
+
+use super::Optics;
+use nalgebra::{Isometry3, Point3, Vector3};
+use paracosm_engine::sensor::Moment;
+use paracosm_render::{Air, Box3, Camera, Frame, Outputs, Scene, Stage, View, boxes_in_space};
+
+/// The id of the car under test, which would see its own inside.
+const OWN: u16 = 1;
+/// How high head lamps are, in metres.
+const LAMPS: f64 = 0.6;
+
+/// A moment that a camera is to draw.
+#[derive(Clone, Copy)]
+pub(crate) struct Exposure<'a> {
+    pub stage: &'a Stage,
+    pub moment: &'a Moment,
+    pub optics: &'a Optics,
+    /// Which of the camera's images it is.
+    pub number: u64,
+}
+
+/// What there is to draw.
+#[derive(Debug)]
+pub(crate) struct Sight {
+    scene: Scene,
+    camera: Camera,
+    pose: Isometry3<f64>,
+    head_lamps: Point3<f64>,
+    pub wanted: Outputs,
+}
+
+impl Exposure<'_> {
+    /// What there is to draw to have these outputs. Colours come with shadows.
+    pub fn sight(&self, wanted: Outputs) -> Sight {
+        let plain = self.optics.are_plain();
+        let car = &self.moment.bodies[0];
+        let place = Vector3::new(car.pose.position.x, car.pose.position.y, 0.0);
+        Sight {
+            scene: self.stage.scene_of(self.moment.bodies.iter().enumerate(), Air::of(&self.moment.weather)),
+            camera: self.optics.camera.clone(),
+            pose: Isometry3::new(place, Vector3::z() * car.pose.heading),
+            head_lamps: Point3::new(car.body.outline.half_extent().x, 0.0, LAMPS),
+            wanted: Outputs {
+                rgb: wanted.rgb && plain,
+                linear: wanted.rgb && !plain,
+                shadows: wanted.rgb,
+                ..wanted
+            },
+        }
+    }
+
+    /// What was drawn, with the colours that the camera gives.
+    pub fn through_lens(&self, mut frame: Frame) -> Frame {
+        if frame.linear.is_some() {
+            frame.rgb = self.optics.develop(&frame, self.number);
+            frame.linear = None;
+        }
+        frame
+    }
+}
+
+impl Sight {
+    pub fn view(&self) -> View<'_> {
+        View {
+            without: Some(OWN),
+            head_lamps: Some(self.head_lamps),
+            ..View::new(&self.scene, &self.camera, self.pose)
+        }
+    }
+
+    pub fn pixels(&self) -> usize {
+        self.camera.width() as usize * self.camera.height() as usize
+    }
+
+    /// The things in front of the camera, where boxes are wanted.
+    pub fn boxes(&self) -> Vec<Box3> {
+        if !self.wanted.alone {
+            return Vec::new();
+        }
+        let mut boxes = boxes_in_space(&self.scene, &self.camera, &self.pose);
+        boxes.retain(|thing| thing.id != OWN);
+        boxes
+    }
+}

@@ -1,0 +1,127 @@
+//! Runs the tests of a scenario: one by one, or many in lockstep where drivers see.
+//!
+//! Tests in lockstep go on to where their drivers wait for images, and what all their cameras have taken is drawn in one go.
+//! A test that is over makes room for the next one, so that there is always as much to draw as can be. None has anything to
+//! do with another, so that how many there are changes nothing but the speed.
+
+mod ride;
+
+use crate::Error;
+use crate::darkroom::Darkroom;
+use crate::executor::Desk;
+use crate::study::Simulation;
+use paracosm_coverage::{Space, Values};
+use paracosm_engine::driver::Driver;
+use paracosm_engine::sensor::{Cameras, Shutters};
+use paracosm_engine::{Outcome, Program, Run, Test};
+use ride::Ride;
+use std::slice;
+use std::sync::Arc;
+
+/// A scenario, its drivers, and what draws for them.
+pub(crate) struct Simulator<'a> {
+    simulation: &'a Simulation,
+    program: Program,
+    /// Drivers that have nothing to do.
+    idle: Vec<Box<dyn Driver>>,
+    darkroom: Option<Arc<Darkroom>>,
+}
+
+impl<'a> Simulator<'a> {
+    /// A simulator with a driver.
+    ///
+    /// # Errors
+    /// The scenario or the driver does not exist, or the driver sees through cameras and there is nothing to draw with.
+    pub fn new(simulation: &'a Simulation, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
+        let mut simulator =
+            Self { simulation, program: simulation.program()?, idle: vec![simulation.driver.build()?], darkroom };
+        let cameras = simulator.idle[0].equipment().cameras;
+        if !cameras.all.is_empty() {
+            simulator.open(&cameras)?;
+        }
+        Ok(simulator)
+    }
+
+    /// What draws for its drivers, if they see.
+    pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
+        self.darkroom.as_ref()
+    }
+
+    /// Runs a test, which is filmed with these cameras, with a look at the run whenever the driver is asked, and at the end.
+    pub fn run(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Outcome {
+        let driver = self.driver();
+        let mut ride = Ride::begin(0, &self.program, test, self.simulation.vehicle, driver);
+        if let Some(film) = film {
+            ride.film(film);
+        }
+        loop {
+            ride.go_on(&mut see);
+            if ride.is_over() {
+                return self.dismiss(ride).1;
+            }
+            self.draw(slice::from_mut(&mut ride));
+        }
+    }
+
+    /// Runs the tests that the desk gives out, at most so many at a time, until `stopped`. What a test is, by its index,
+    /// `tests` says, and `judged` what comes of it.
+    pub fn run_in_lockstep<T>(
+        &mut self,
+        desk: &Desk<T>,
+        at_once: usize,
+        (tests, space): (&dyn Fn(usize) -> Values, &Space),
+        stopped: impl Fn() -> bool,
+        judged: impl Fn(usize, Outcome) -> T,
+    ) {
+        let mut rides: Vec<Ride> = Vec::new();
+        loop {
+            while rides.len() < at_once.max(1) && let Some(index) = desk.next() {
+                let (values, driver) = (tests(index), self.driver());
+                let test = Test::new(&values, space);
+                rides.push(Ride::begin(index, &self.program, test, self.simulation.vehicle, driver));
+            }
+            rides.iter_mut().for_each(|ride| ride.go_on(|_| ()));
+            // What broke because it was stopped came to nothing.
+            if rides.is_empty() || desk.is_closed() || stopped() {
+                return;
+            }
+            for over in rides.extract_if(.., |ride| ride.is_over()) {
+                let (index, outcome) = self.dismiss(over);
+                desk.hand_in(index, Some(judged(index, outcome)));
+            }
+            self.draw(&mut rides);
+        }
+    }
+
+    /// A driver that has nothing to do, or a new one.
+    fn driver(&mut self) -> Result<Box<dyn Driver>, Error> {
+        self.idle.pop().map_or_else(|| self.simulation.driver.build(), Ok)
+    }
+
+    /// What became of a test, with its place; its driver has nothing to do any more.
+    fn dismiss(&mut self, ride: Ride) -> (usize, Outcome) {
+        let (ended, driver) = ride.end();
+        self.idle.extend(driver);
+        ended
+    }
+
+    /// Draws what the drivers of these wait for.
+    fn draw(&mut self, rides: &mut [Ride]) {
+        let runs: Vec<&Run> = rides.iter().filter_map(Ride::run).collect();
+        let Some(first) = runs.first() else { return };
+        let images = match self.open(first.eyes().cameras()) {
+            Ok(darkroom) => darkroom.develop(&runs),
+            Err(error) => runs.iter().map(|_| Err(error.to_string())).collect(),
+        };
+        let waiting = rides.iter_mut().filter(|ride| !ride.is_over());
+        waiting.zip(images).for_each(|(ride, images)| ride.show(images));
+    }
+
+    /// What draws for its drivers.
+    fn open(&mut self, cameras: &Cameras) -> Result<&Darkroom, Error> {
+        match &mut self.darkroom {
+            Some(darkroom) => Ok(darkroom),
+            none => Ok(none.insert(Arc::new(Darkroom::open(cameras)?))),
+        }
+    }
+}
