@@ -1,6 +1,6 @@
 //! What networks are taught, in which tests, and how long.
 
-use paracosm::coverage::Domain;
+use paracosm::coverage::{Domain, Value};
 use paracosm::{Error, Study};
 use paracosm_neural::learn::Recipe;
 
@@ -20,6 +20,8 @@ pub struct Course {
     pub disturbance: [f64; 2],
     /// How much an error of the steering and one of the throttle count, squared.
     pub weights: [f32; 2],
+    /// Every so-many-th run nothing is learnt from.
+    pub held_out: usize,
     /// In the first one the expert drives, then the network.
     pub rounds: &'static [Round],
     /// The conditions that it is trained in.
@@ -32,10 +34,25 @@ pub const FOLLOW: Course = Course {
     resolution: [100, 33],
     disturbance: [0.01, 0.15],
     weights: [30.0, 1.0],
+    held_out: 8,
     rounds: &[Round { tests: 32, epochs: 8 }, Round { tests: 16, epochs: 4 }, Round { tests: 16, epochs: 8 }],
     conditions: || {
         let range = |lo, hi| Some(Domain::Interval { lo, hi });
         Study::of("follow-leader")?.open("leader_speed", range(2.0, 12.0))?.open("gap", range(18.0, 40.0))
+    },
+};
+
+/// Figure 10b: round the loop, always right, without fog.
+pub const LOOP: Course = Course {
+    name: "loop",
+    resolution: [100, 33],
+    disturbance: [0.06, 0.1],
+    weights: [4.0, 1.0],
+    held_out: 4,
+    rounds: &[Round { tests: 2, epochs: 10 }, Round { tests: 1, epochs: 5 }, Round { tests: 2, epochs: 8 }],
+    conditions: || {
+        let study = Study::of("t-loop")?.open("speed", Some(Domain::Interval { lo: 7.8, hi: 8.2 }))?;
+        study.set("friction", Value::Number(0.8))
     },
 };
 
@@ -53,7 +70,7 @@ impl Course {
             batch: 32,
             rates: [1e-3, 1e-4],
             weights: self.weights,
-            held_out: 8,
+            held_out: self.held_out,
         }
     }
 
