@@ -12,7 +12,7 @@ mod film;
 mod image;
 mod projector;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use crate::darkroom::Picture;
 pub use cameras::{STANDARD_CAMERAS, cameras_for_people, read_cameras, standard_cameras};

@@ -5,6 +5,8 @@
 //! do with another, so that how many there are changes nothing but the speed.
 
 mod ride;
+#[cfg(all(test, feature = "camera"))]
+mod tests;
 
 use crate::Error;
 use crate::darkroom::Darkroom;
@@ -13,29 +15,45 @@ use crate::study::Simulation;
 use paracosm_coverage::{Space, Values};
 use paracosm_engine::driver::Driver;
 use paracosm_engine::sensor::{Cameras, Shutters};
+use paracosm_engine::vehicle::Model;
 use paracosm_engine::{Outcome, Program, Run, Test};
 use ride::Ride;
 use std::slice;
 use std::sync::Arc;
 
+/// Makes a driver.
+type Make<'a> = dyn Fn() -> Result<Box<dyn Driver>, Error> + Send + Sync + 'a;
+
 /// A scenario, its drivers, and what draws for them.
 pub(crate) struct Simulator<'a> {
-    simulation: &'a Simulation,
     program: Program,
+    model: Model,
+    make: Box<Make<'a>>,
     /// Drivers that have nothing to do.
     idle: Vec<Box<dyn Driver>>,
     darkroom: Option<Arc<Darkroom>>,
 }
 
 impl<'a> Simulator<'a> {
-    /// A simulator with a driver.
+    /// A simulator of a scenario with its driver.
     ///
     /// # Errors
     /// The scenario or the driver does not exist, or the driver sees through cameras and there is nothing to draw with.
     pub fn new(simulation: &'a Simulation, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
-        let mut simulator =
-            Self { simulation, program: simulation.program()?, idle: vec![simulation.driver.build()?], darkroom };
-        let cameras = simulator.idle[0].equipment().cameras;
+        let make = Box::new(|| simulation.driver.build());
+        Self::with(simulation.program()?, simulation.vehicle, make, darkroom)
+    }
+
+    /// A simulator of a program, in which drivers that are made so drive a car that this model moves.
+    fn with(
+        program: Program,
+        model: Model,
+        make: Box<Make<'a>>,
+        darkroom: Option<Arc<Darkroom>>,
+    ) -> Result<Self, Error> {
+        let mut driver = make()?;
+        let cameras = driver.equipment().cameras;
+        let mut simulator = Self { program, model, make, idle: vec![driver], darkroom };
         if !cameras.all.is_empty() {
             simulator.open(&cameras)?;
         }
@@ -50,7 +68,7 @@ impl<'a> Simulator<'a> {
     /// Runs a test, which is filmed with these cameras, with a look at the run whenever the driver is asked, and at the end.
     pub fn run(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Outcome {
         let driver = self.driver();
-        let mut ride = Ride::begin(0, &self.program, test, self.simulation.vehicle, driver);
+        let mut ride = Ride::begin(0, &self.program, test, self.model, driver);
         if let Some(film) = film {
             ride.film(film);
         }
@@ -78,7 +96,7 @@ impl<'a> Simulator<'a> {
             while rides.len() < at_once.max(1) && let Some(index) = desk.next() {
                 let (values, driver) = (tests(index), self.driver());
                 let test = Test::new(&values, space);
-                rides.push(Ride::begin(index, &self.program, test, self.simulation.vehicle, driver));
+                rides.push(Ride::begin(index, &self.program, test, self.model, driver));
             }
             rides.iter_mut().for_each(|ride| ride.go_on(|_| ()));
             // What broke because it was stopped came to nothing.
@@ -95,7 +113,7 @@ impl<'a> Simulator<'a> {
 
     /// A driver that has nothing to do, or a new one.
     fn driver(&mut self) -> Result<Box<dyn Driver>, Error> {
-        self.idle.pop().map_or_else(|| self.simulation.driver.build(), Ok)
+        self.idle.pop().map_or_else(|| (self.make)(), Ok)
     }
 
     /// What became of a test, with its place; its driver has nothing to do any more.

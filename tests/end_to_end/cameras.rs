@@ -59,6 +59,33 @@ fn a_recording_is_a_campaign_with_images_and_can_be_resumed_and_replayed() {
 }
 
 #[test]
+fn a_driver_that_sees_is_tested_replayed_and_recorded_like_any_other() {
+    if !can_draw() {
+        return;
+    }
+    let dir = tempfile::tempdir().expect("a folder");
+    let dir = dir.path();
+    write_cameras(dir);
+    let open = ["oncoming-distractor", "--driver", "lane-camera", "--open", "fog", "--budget", "3"];
+    let jobs = |jobs: &str, out: &str| {
+        succeeds(fuzz(dir, &[&open[..], &["--jobs", jobs, "--out", out]].concat()));
+        fs::read_to_string(dir.join(out).join("trials.jsonl")).expect("a log")
+    };
+    let log = jobs("1", "one");
+    assert_eq!(log.lines().filter(|line| line.contains("\"error\":null")).count(), 3, "{log}");
+    assert_eq!(log, jobs("2", "two"));
+    let whole = log.split_inclusive('\n').take(1).collect::<String>();
+    fs::write(dir.join("two/trials.jsonl"), whole).expect("a file");
+    succeeds(fuzz(dir, &[&open[..], &["--jobs", "2", "--out", "two", "--resume"]].concat()));
+    assert_eq!(log, fs::read_to_string(dir.join("two/trials.jsonl")).expect("a log"));
+    succeeds(fuzz(dir, &["replay", "one", "2", "--camera", "front", "--cameras", "cameras.toml"]));
+    let record = ["--cameras", "cameras.toml", "--outputs", "rgb", "--out", "images"];
+    succeeds(fuzz(dir, &[&["record"][..], &open, &record].concat()));
+    let filmed = |path: &str| fs::read(dir.join(path)).expect("an image");
+    assert!(filmed("front/000003.png") == filmed("images/000002/front/rgb/000003.png"));
+}
+
+#[test]
 fn what_cannot_be_recorded_is_said_before_anything_is_run() {
     let dir = tempfile::tempdir().expect("a folder");
     let dir = dir.path();
@@ -114,7 +141,9 @@ fn without_an_adapter_only_what_needs_cameras_is_refused() {
     succeeds(blind(&["--budget", "2"]));
     refused(&blind(&["record", "--budget", "2", "--out", "images"]), &["mesa-vulkan-drivers"]);
     refused(&blind(&["replay", "paracosm-out", "0", "--camera", "front.gif"]), &["mesa-vulkan-drivers"]);
-    assert!(!dir.path().join("images").exists());
+    let seeing = ["follow-leader", "--driver", "lane-camera", "--budget", "2", "--out", "seen"];
+    refused(&blind(&seeing), &["the driver sees through cameras", "mesa-vulkan-drivers"]);
+    assert!(!dir.path().join("images").exists() && !dir.path().join("seen").exists());
     let told = stdout(&succeeds(blind(&["doctor", "--format", "table"])));
     assert!(told.contains("none") && told.contains("apt install mesa-vulkan-drivers"), "{told}");
 }

@@ -10,7 +10,7 @@ pub use stage::{Stage, Stages};
 
 use crate::Mesh;
 use nalgebra::Isometry3;
-use paracosm_engine::Weather;
+use paracosm_engine::{Weather, sensor};
 use std::sync::Arc;
 
 /// What there is to see at one moment.
@@ -51,23 +51,14 @@ pub struct Air {
     pub extinction: f32,
 }
 
-/// How far one sees in the thickest fog, in metres, and how many times as far in the thinnest.
-const THICKEST: f64 = 10.0;
-const THINNEST: f64 = 1000.0;
-/// Extinction times visibility (Koschmieder, 2 % contrast).
-const KOSCHMIEDER: f64 = 3.912;
-
 impl Air {
-    /// The air of a weather. Fog from 0 to 1 is extinction from 0 to that of a visibility of 10 m, exponentially in
-    /// between: `3.912 / 10 m * (1000^fog - 1) / 999`, so that one sees 326 m in a fog of 0.5, and 3.4 km in one of 0.2.
+    /// The air of a weather, with the fog that its other sensors see through ([`sensor::Air::of`]).
     pub fn of(weather: &Weather) -> Self {
-        let fog = weather.fog.clamp(0.0, 1.0);
-        let thickness = (libm::pow(THINNEST, fog) - 1.0) / (THINNEST - 1.0);
         Self {
             light: weather.light as f32,
             sun_elevation: weather.sun_elevation as f32,
             sun_azimuth: weather.sun_azimuth as f32,
-            extinction: (KOSCHMIEDER / THICKEST * thickness) as f32,
+            extinction: sensor::Air::of(weather).extinction as f32,
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::{Driver, Fault, Kind, Settings};
 use crate::observation::{Briefing, Control, Observation, Way};
+use nalgebra::Vector2;
 
 pub(super) const KIND: Kind = Kind {
     name: "cruise",
@@ -40,7 +41,7 @@ impl Cruise {
     /// The acceleration in m/s² that brings the car to its set speed, and to that of the bends ahead when it is there.
     pub fn acceleration(&self, observation: &Observation) -> f64 {
         let speed = observation.speed;
-        let keep = (GAIN * (self.set_speed - speed)).clamp(-COMFORT, COMFORT);
+        let keep = self.keeping(speed);
         let bends = observation.way.ahead.iter().enumerate().filter(|(_, point)| point.curvature != 0.0);
         let slower = bends.map(|(i, point)| {
             let allowed = (SIDEWAYS / point.curvature.abs()).sqrt();
@@ -52,17 +53,31 @@ impl Cruise {
         slower.fold(keep, f64::min).max(-2.0 * COMFORT)
     }
 
-    /// The control that asks the car for an acceleration in m/s² and steers it along its way.
-    pub fn control(&self, acceleration: f64, observation: &Observation) -> Control {
-        let throttle = (acceleration / self.max_acceleration).clamp(-1.0, 1.0);
-        Control { throttle, steering: self.steering(observation) }
+    /// The acceleration in m/s² that brings the car from a speed in m/s to its set speed.
+    pub fn keeping(&self, speed: f64) -> f64 {
+        (GAIN * (self.set_speed - speed)).clamp(-COMFORT, COMFORT)
     }
 
-    /// Pure pursuit (Coulter 1992): the wheels are turned to the arc on which the rear axle comes to a point of the way
-    /// ahead.
-    fn steering(&self, observation: &Observation) -> f64 {
+    /// The share of the pedals' way that asks the car for an acceleration in m/s².
+    pub fn throttle(&self, acceleration: f64) -> f64 {
+        (acceleration / self.max_acceleration).clamp(-1.0, 1.0)
+    }
+
+    /// The control that asks the car for an acceleration in m/s² and steers it along its way.
+    pub fn control(&self, acceleration: f64, observation: &Observation) -> Control {
+        let way = observation.way.at(Self::looks_ahead(observation.speed));
+        Control { throttle: self.throttle(acceleration), steering: self.steering(way.position) }
+    }
+
+    /// How far ahead in metres it looks to steer, at a speed in m/s.
+    pub fn looks_ahead(speed: f64) -> f64 {
         let (seconds, least, most) = LOOK_AHEAD;
-        let target = observation.way.at((seconds * observation.speed).clamp(least, most)).position;
+        (seconds * speed).clamp(least, most)
+    }
+
+    /// Pure pursuit (Coulter 1992): the wheels are turned to the arc on which the rear axle comes to this point ahead, as seen
+    /// from the car's middle.
+    pub fn steering(&self, target: Vector2<f64>) -> f64 {
         let (x, y) = (target.x + self.rear_axle, target.y);
         let angle = libm::atan2(2.0 * self.wheelbase * y, x * x + y * y);
         let steering = (angle / self.max_steering_angle).clamp(-1.0, 1.0);

@@ -7,6 +7,7 @@ mod aeb;
 mod cruise;
 mod expert;
 mod frenet;
+mod lane_camera;
 mod perception;
 pub mod reference;
 
@@ -160,10 +161,11 @@ pub enum DriverError {
 }
 
 /// Every kind of driver there is.
-pub const ALL: [&Kind; 8] = [
+pub const ALL: [&Kind; 9] = [
     &aeb::KIND,
     &cruise::KIND,
     &expert::KIND,
+    &lane_camera::KIND,
     &reference::CC,
     &reference::RSS,
     &reference::FSM,

@@ -22,7 +22,7 @@ pub struct Cameras {
 }
 
 /// A camera, where it is mounted, and how it takes images.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mounted {
     /// Pixels across and down.
