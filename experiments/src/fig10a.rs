@@ -21,11 +21,11 @@ const TRAINING: usize = 100;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let nominal = FOLLOW.study(1000, TRAINING)?.driver("cnn", &[])?;
+    let nominal = FOLLOW.drives(FOLLOW.study(1000, TRAINING)?)?;
     let training = trials(&nominal, bar)?;
     let passed = training.iter().filter(|trial| trial.verdict == Verdict::Pass).count();
 
-    let study = Study::of("follow-leader")?.driver("cnn", &[])?.open("fog", None)?.open("light", None)?;
+    let study = FOLLOW.drives(Study::of("follow-leader")?)?.open("fog", None)?.open("light", None)?;
     let study = study.set("leader_speed", Value::Number(LEADER))?.budget(TESTS)?;
     let trials = trials(&study, bar)?;
     bar.finish_and_clear();

@@ -3,6 +3,7 @@
 //! A network that was taught without fog drives until it runs into something, or for 200 s. Below the time to that stands
 //! how it steers in low, medium and high fog.
 
+use crate::cloning::LOOP;
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
 use paracosm::coverage::{Value, Values};
@@ -22,7 +23,7 @@ const SPEED: f64 = 8.0;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let study = Study::of("t-loop")?.driver("cnn", &[])?.open("fog", None)?;
+    let study = LOOP.drives(Study::of("t-loop")?)?.open("fog", None)?;
     let study = study.set("speed", Value::Number(SPEED))?.set("friction", Value::Number(0.8))?;
     let fogs: Vec<f64> = (0..TESTS).map(|i| i as f64 / (TESTS - 1) as f64).collect();
     let test = |fog: f64| -> Values { [("fog".to_owned(), Value::Number(fog))].into_iter().collect() };
@@ -45,9 +46,9 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         let (trial, trace) = worker.run(0, &test(fog));
         bar.inc(1);
         let trace = trace.ok_or_else(|| trial.error.clone().unwrap_or_default())?;
-        let signal = |name: &str| trace.signal(name).expect("every run has it").step_by(10);
+        let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().step_by(10).collect() };
         let time = |i: usize| 10.0 * i as f64 * trace.dt();
-        let points: Vec<(f64, f64)> = signal("car.steering").enumerate().map(|(i, turned)| (time(i), turned)).collect();
+        let points: Vec<(f64, f64)> = signal("car.steering").into_iter().enumerate().map(|(i, turned)| (time(i), turned)).collect();
         for ((at, turned), speed) in points.iter().zip(signal("car.speed")) {
             steering.push(format!("{fog},{at:.2},{turned},{speed}"));
         }

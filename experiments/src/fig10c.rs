@@ -3,13 +3,13 @@
 //! Behind a red leader it drives three times: alone with it, with another red car that comes the other way, and with the
 //! leader painted white. The paper's network braked for the one that came, and ran into the white one.
 
+use crate::cloning::FOLLOW;
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
 use paracosm::coverage::{Value, Values};
 use paracosm::engine::object::{Body, Colour};
 use paracosm::engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario};
 use paracosm::{Axis, Lines, Picture, Study, Worker};
-use paracosm_neural::{CLONED, Model, Pilot};
 use std::path::Path;
 
 const PROGRAM: Program = Program { name: "fig10c", about: "a leader of either colour, with or without a car that comes", build };
@@ -53,9 +53,7 @@ const SHOWN: f64 = 8.0;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, _: &ProgressBar) -> Done {
-    let network = CLONED.iter().find(|network| network.name == "follow").expect("it comes with the software");
-    let pilot = Pilot::new(Model::read(network.contents)?);
-    let study = Study::new(PROGRAM)?.own_driver("cnn", move || Box::new(pilot.clone()))?;
+    let study = FOLLOW.drives(Study::new(PROGRAM)?)?;
     let mut worker = Worker::new(&study)?;
     let mut curves = Vec::new();
     let mut table = vec!["case,leader_speed,verdict,clearance_or_missing_braking_m,least_speed_m_per_s,travelled_m".to_owned()];
@@ -67,9 +65,9 @@ pub fn run(out: &Path, _: &ProgressBar) -> Done {
             let test: Values = [("leader_speed".to_owned(), Value::Number(speed))].into_iter().chain(test).collect();
             let (trial, trace) = worker.run(0, &test);
             let trace = trace.ok_or_else(|| trial.error.clone().unwrap_or_default())?;
-            let signal = |name: &str| trace.signal(name).expect("every run has it").step_by(5);
+            let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().step_by(5).collect() };
             let time = |i: usize| 5.0 * i as f64 * trace.dt();
-            let points: Vec<(f64, f64)> = signal("car.speed").enumerate().map(|(i, speed)| (time(i), speed)).collect();
+            let points: Vec<(f64, f64)> = signal("car.speed").into_iter().enumerate().map(|(i, speed)| (time(i), speed)).collect();
             for ((time, at), throttle) in points.iter().zip(signal("car.throttle")) {
                 over_time.push(format!("{name},{speed},{time:.2},{at},{throttle}"));
             }

@@ -11,6 +11,8 @@ mod fig9;
 #[cfg(feature = "neural")]
 mod fig10a;
 #[cfg(feature = "neural")]
+mod fig10b;
+#[cfg(feature = "neural")]
 mod fig10c;
 mod recovery;
 mod samplers;
@@ -78,6 +80,20 @@ const STUDIES: &[Study] = &[
     },
     #[cfg(feature = "neural")]
     Study {
+        name: "train-loop",
+        about: "teaches the network that drives round the loop, for Figure 10b",
+        time: "8 min",
+        run: |out, bar| cloning::run(&cloning::LOOP, out, bar),
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig10b",
+        about: "the paper's Figure 10b: a cloned driver round a loop of T-intersections, in more and more fog",
+        time: "5 min",
+        run: fig10b::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
         name: "fig10c",
         about: "the paper's Figure 10c: what a cloned driver follows: a red leader, a red car that comes, a white leader",
         time: "20 s",
@@ -87,7 +103,7 @@ const STUDIES: &[Study] = &[
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 3] = ["train-follow", "fig10a", "fig10c"];
+const NEURAL: [&str; 5] = ["train-follow", "fig10a", "train-loop", "fig10b", "fig10c"];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 

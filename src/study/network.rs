@@ -90,9 +90,13 @@ impl Network {
 #[cfg(feature = "neural")]
 fn cloned_for(scenario: &str) -> Result<paracosm_neural::Cloned, Error> {
     let all = paracosm_neural::CLONED;
-    all.into_iter().find(|network| network.scenarios.contains(&scenario)).ok_or_else(|| {
+    all.iter().find(|network| network.scenarios.contains(&scenario)).copied().ok_or_else(|| {
         let known: Vec<&str> = all.iter().flat_map(|network| network.scenarios.iter().copied()).collect();
-        Error::Usage(format!("driver `{CLONED}` was not taught to drive in `{scenario}`, but in {}", known.join(", ")))
+        let known = if known.is_empty() { "no scenario yet".to_owned() } else { known.join(", ") };
+        Error::Usage(format!(
+            "no network comes with the software that drives in `{scenario}`: driver `{CLONED}` drives in {known}; a network \
+             of one's own is --driver MODEL.onnx, and the studies train-follow and train-loop of the experiments make some"
+        ))
     })
 }
 
@@ -101,7 +105,7 @@ fn contents(driver: &str, file: &str) -> Result<std::borrow::Cow<'static, [u8]>,
     if driver != CLONED {
         return Ok(std::fs::read(file).map_err(Error::file("read", file.as_ref()))?.into());
     }
-    let network = paracosm_neural::CLONED.into_iter().find(|network| network.name == file);
+    let network = paracosm_neural::CLONED.iter().find(|network| network.name == file);
     let missing = || Error::Usage(format!("no network called `{file}` comes with this version of the software"));
     Ok(network.ok_or_else(missing)?.contents.into())
 }

@@ -3,6 +3,7 @@
 use paracosm::coverage::{Domain, Value};
 use paracosm::{Error, Study};
 use paracosm_neural::learn::Recipe;
+use std::path::Path;
 
 /// A round: tests in which lessons are given, then how often all lessons so far are gone through.
 pub struct Round {
@@ -35,7 +36,7 @@ pub const FOLLOW: Course = Course {
     disturbance: [0.01, 0.15],
     weights: [30.0, 1.0],
     held_out: 8,
-    rounds: &[Round { tests: 32, epochs: 8 }, Round { tests: 16, epochs: 4 }, Round { tests: 16, epochs: 8 }],
+    rounds: &[Round { tests: 12, epochs: 6 }, Round { tests: 8, epochs: 3 }, Round { tests: 12, epochs: 6 }],
     conditions: || {
         let range = |lo, hi| Some(Domain::Interval { lo, hi });
         Study::of("follow-leader")?.open("leader_speed", range(2.0, 12.0))?.open("gap", range(18.0, 40.0))
@@ -49,7 +50,7 @@ pub const LOOP: Course = Course {
     disturbance: [0.06, 0.1],
     weights: [4.0, 1.0],
     held_out: 4,
-    rounds: &[Round { tests: 2, epochs: 10 }, Round { tests: 1, epochs: 5 }, Round { tests: 2, epochs: 8 }],
+    rounds: &[Round { tests: 2, epochs: 6 }, Round { tests: 1, epochs: 4 }, Round { tests: 2, epochs: 6 }],
     conditions: || {
         let study = Study::of("t-loop")?.open("speed", Some(Domain::Interval { lo: 7.8, hi: 8.2 }))?;
         study.set("friction", Value::Number(0.8))
@@ -60,6 +61,19 @@ impl Course {
     /// So many tests of the conditions that it is trained in.
     pub fn study(&self, seed: u64, tests: usize) -> Result<Study, Error> {
         (self.conditions)()?.strategy("halton")?.seed(Some(seed)).budget(tests)
+    }
+
+    /// A study with the network at the wheel that the course has made.
+    ///
+    /// # Errors
+    /// The course has not been held, or the study is of no scenario.
+    pub fn drives(&self, study: Study) -> Result<Study, Error> {
+        let name = self.name;
+        let file = format!("experiments/out/train-{name}/{name}.onnx");
+        if !Path::new(&file).exists() {
+            return Err(Error::Usage(format!("there is no {file}; the study `train-{name}` makes it")));
+        }
+        study.driver(&file, &[])
     }
 
     /// How it learns.

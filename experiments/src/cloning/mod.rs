@@ -7,7 +7,7 @@
 mod courses;
 mod teacher;
 
-pub use courses::{Course, FOLLOW};
+pub use courses::{Course, FOLLOW, LOOP};
 
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
@@ -32,7 +32,7 @@ pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
     let mut pupil = None;
     let mut table = vec!["round,epoch,lessons,loss,held_out_steering,held_out_throttle".to_owned()];
     for (round, plan) in course.rounds.iter().enumerate() {
-        let said = |text: String| bar.println(format!("[{:>4.0} s] {text}", began.elapsed().as_secs_f64()));
+        let said = |text: String| bar.suspend(|| eprintln!("[{:>4.0} s] {text}", began.elapsed().as_secs_f64()));
         let driving = if pupil.is_some() { "the network drives" } else { "the expert drives" };
         said(format!("round {}: {driving} in {} tests", round + 1, plan.tests));
         lessons.extend(taught(course, round, pupil.take(), lessons.last().map_or(0, |last| last.run + 1), bar)?);
