@@ -34,7 +34,9 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
 
     let mut map = FailureMap::of(&study, &trials).expect("fog and light are open");
     map.title = "Figure 10a: a cloned driver behind a slow leader".to_owned();
-    map.note = format!("{TESTS} Halton tests of 15 s; trained at light 1 without fog, where {passed} of {TRAINING} tests pass");
+    map.note = format!(
+        "{TESTS} Halton tests of 15 s; trained at light 1 without fog, where {passed} of {TRAINING} tests pass"
+    );
     for ((_, _, verdict), collided) in map.marks.iter_mut().zip(&collided) {
         *verdict = if *collided { Verdict::Fail } else { Verdict::Pass };
     }

@@ -48,7 +48,8 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         let trace = trace.ok_or_else(|| trial.error.clone().unwrap_or_default())?;
         let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().step_by(10).collect() };
         let time = |i: usize| 10.0 * i as f64 * trace.dt();
-        let points: Vec<(f64, f64)> = signal("car.steering").into_iter().enumerate().map(|(i, turned)| (time(i), turned)).collect();
+        let points: Vec<(f64, f64)> =
+            signal("car.steering").into_iter().enumerate().map(|(i, turned)| (time(i), turned)).collect();
         for ((at, turned), speed) in points.iter().zip(signal("car.speed")) {
             steering.push(format!("{fog},{at:.2},{turned},{speed}"));
         }
@@ -66,7 +67,8 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     };
     let below = Lines {
         title: "How it steers".to_owned(),
-        note: "share of the wheels' full turn, positive to the left; a curve ends where the car runs into something".to_owned(),
+        note: "share of the wheels' full turn, positive to the left; a curve ends where the car runs into something"
+            .to_owned(),
         x: axis("time [s]", (0.0, SECONDS)),
         y: axis("steering", (-1.0, 1.0)),
         curves,

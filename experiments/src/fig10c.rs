@@ -12,7 +12,8 @@ use paracosm::engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, 
 use paracosm::{Axis, Lines, Picture, Study, Worker};
 use std::path::Path;
 
-const PROGRAM: Program = Program { name: "fig10c", about: "a leader of either colour, with or without a car that comes", build };
+const PROGRAM: Program =
+    Program { name: "fig10c", about: "a leader of either colour, with or without a car that comes", build };
 
 const RED: Colour = [190, 25, 30];
 const WHITE: Colour = [235, 235, 235];
@@ -56,7 +57,8 @@ pub fn run(out: &Path, _: &ProgressBar) -> Done {
     let study = FOLLOW.drives(Study::new(PROGRAM)?)?;
     let mut worker = Worker::new(&study)?;
     let mut curves = Vec::new();
-    let mut table = vec!["case,leader_speed,verdict,clearance_or_missing_braking_m,least_speed_m_per_s,travelled_m".to_owned()];
+    let mut table =
+        vec!["case,leader_speed,verdict,clearance_or_missing_braking_m,least_speed_m_per_s,travelled_m".to_owned()];
     let mut over_time = vec!["case,leader_speed,time,speed,throttle".to_owned()];
     for (name, leader, oncoming) in CASES {
         for speed in SPEEDS {
@@ -67,7 +69,8 @@ pub fn run(out: &Path, _: &ProgressBar) -> Done {
             let trace = trace.ok_or_else(|| trial.error.clone().unwrap_or_default())?;
             let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().step_by(5).collect() };
             let time = |i: usize| 5.0 * i as f64 * trace.dt();
-            let points: Vec<(f64, f64)> = signal("car.speed").into_iter().enumerate().map(|(i, speed)| (time(i), speed)).collect();
+            let points: Vec<(f64, f64)> =
+                signal("car.speed").into_iter().enumerate().map(|(i, speed)| (time(i), speed)).collect();
             for ((time, at), throttle) in points.iter().zip(signal("car.throttle")) {
                 over_time.push(format!("{name},{speed},{time:.2},{at},{throttle}"));
             }

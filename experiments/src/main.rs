@@ -7,13 +7,13 @@ mod automatic_transmission;
 mod boundary;
 #[cfg(feature = "neural")]
 mod cloning;
-mod fig9;
 #[cfg(feature = "neural")]
 mod fig10a;
 #[cfg(feature = "neural")]
 mod fig10b;
 #[cfg(feature = "neural")]
 mod fig10c;
+mod fig9;
 mod recovery;
 mod samplers;
 mod system;
@@ -157,7 +157,9 @@ fn run(arguments: &Arguments) -> Done {
     if NEURAL.contains(&arguments.name.as_str()) {
         let name = &arguments.name;
         let how = "cargo run --release -p paracosm-experiments --features neural --";
-        return Err(format!("the study `{name}` is of networks that drive, which take long to build: {how} {name}").into());
+        return Err(
+            format!("the study `{name}` is of networks that drive, which take long to build: {how} {name}").into()
+        );
     }
     let Some(study) = STUDIES.iter().find(|study| study.name == arguments.name) else {
         let names = STUDIES.iter().map(|study| study.name);

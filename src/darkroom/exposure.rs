@@ -41,12 +41,7 @@ impl Exposure<'_> {
             camera: self.optics.camera.clone(),
             pose: Isometry3::new(place, Vector3::z() * car.pose.heading),
             head_lamps: Point3::new(car.body.outline.half_extent().x, 0.0, LAMPS),
-            wanted: Outputs {
-                rgb: wanted.rgb && plain,
-                linear: wanted.rgb && !plain,
-                shadows: wanted.rgb,
-                ..wanted
-            },
+            wanted: Outputs { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, shadows: wanted.rgb, ..wanted },
         }
     }
 

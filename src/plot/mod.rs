@@ -17,8 +17,8 @@ mod tint;
 pub(crate) use animation::gif;
 #[cfg(feature = "camera")]
 pub(crate) use animation::gif_of_images;
-pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
 pub use lines::Lines;
+pub(crate) use log_log::{Curve, Entry, LogLog, Look, Plane, Shape};
 pub use map::{Axis, FailureMap};
 pub(crate) use raster::png;
 pub use tint::Tints;

@@ -17,13 +17,8 @@ pub struct Tints {
 }
 
 // From pale to dark in one hue after another, and so in grey, too: some of the colours of ColorBrewer's YlGnBu (Brewer).
-const COLOURS: [[f64; 3]; 5] = [
-    [255.0, 255.0, 204.0],
-    [161.0, 218.0, 180.0],
-    [65.0, 182.0, 196.0],
-    [44.0, 127.0, 184.0],
-    [37.0, 52.0, 148.0],
-];
+const COLOURS: [[f64; 3]; 5] =
+    [[255.0, 255.0, 204.0], [161.0, 218.0, 180.0], [65.0, 182.0, 196.0], [44.0, 127.0, 184.0], [37.0, 52.0, 148.0]];
 
 /// So many tints does the bar show.
 const STEPS: usize = 40;

@@ -1,6 +1,6 @@
 //! A network that has learnt as a file in the ONNX format.
 
-use crate::network::{CONVOLUTIONS, DENSE, MIDDLE, Network, SPEED_SCALE};
+use crate::network::{CONVOLUTIONS, DENSE, LEAK, MIDDLE, Network, SPEED_SCALE};
 use burn::prelude::Tensor;
 use prost::Message;
 use tract_onnx::pb::attribute_proto::AttributeType;
@@ -31,7 +31,7 @@ pub fn onnx(network: &Network, [width, height]: [u32; 2], story: &str) -> Vec<u8
         let attributes = vec![both("kernel_shape", form.kernel), both("strides", form.stride), around];
         file.node("Conv", &[&last, &weights, &bias], &name, attributes);
         last = format!("{name} rectified");
-        file.node("Relu", &[&name], &last, vec![]);
+        file.node("LeakyRelu", &[&name], &last, vec![leak()]);
     }
     file.node("Flatten", &[&last], "found", vec![]);
     file.node("Mul", &["speed", "speed scale"], "scaled speed", vec![]);
@@ -44,7 +44,7 @@ pub fn onnx(network: &Network, [width, height]: [u32; 2], story: &str) -> Vec<u8
         file.node("Gemm", &[&last, &weights, &bias], &name, vec![]);
         if i + 1 < DENSE.len() {
             last = format!("{name} rectified");
-            file.node("Relu", &[&name], &last, vec![]);
+            file.node("LeakyRelu", &[&name], &last, vec![leak()]);
         } else {
             file.node("Tanh", &[&name], "control", vec![]);
         }
@@ -108,6 +108,16 @@ impl File {
 
 fn attribute(name: &str, ints: Vec<i64>) -> AttributeProto {
     AttributeProto { name: name.to_owned(), r#type: AttributeType::Ints as i32, ints, ..AttributeProto::default() }
+}
+
+/// The slope of a rectifier below zero.
+fn leak() -> AttributeProto {
+    AttributeProto {
+        name: "alpha".to_owned(),
+        r#type: AttributeType::Float as i32,
+        f: LEAK,
+        ..AttributeProto::default()
+    }
 }
 
 fn integer(name: &str, i: i64) -> AttributeProto {

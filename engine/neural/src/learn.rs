@@ -69,7 +69,10 @@ impl Learner {
     /// # Panics
     /// The images are smaller than 33 x 33, or the recipe holds out every 0th run or learns 0 lessons at a time.
     pub fn new(recipe: Recipe) -> Self {
-        assert!(recipe.resolution.iter().zip(SMALLEST).all(|(size, least)| *size >= least), "images of 33 x 33 or more");
+        assert!(
+            recipe.resolution.iter().zip(SMALLEST).all(|(size, least)| *size >= least),
+            "images of 33 x 33 or more"
+        );
         assert!(recipe.held_out > 0 && recipe.batch > 0, "a recipe needs whole numbers from 1 on");
         let device = Device::flex().autodiff();
         let mut chance = Pcg64::seed_from_u64(recipe.seed);
@@ -132,11 +135,7 @@ impl Learner {
     }
 }
 
-fn tensors(
-    batch: &[&Lesson],
-    [width, height]: [u32; 2],
-    device: &Device,
-) -> (Tensor<4>, Tensor<2>, Tensor<2>) {
+fn tensors(batch: &[&Lesson], [width, height]: [u32; 2], device: &Device) -> (Tensor<4>, Tensor<2>, Tensor<2>) {
     let count = batch.len();
     let images: Vec<f32> = batch.iter().flat_map(|lesson| planes(&lesson.rgb)).collect();
     let images = TensorData::new(images, [count, 3, height as usize, width as usize]);

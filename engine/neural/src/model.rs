@@ -8,6 +8,7 @@ use tract_onnx::prelude::{
     DatumType, Framework, InferenceFact, InferenceModel, InferenceModelExt, IntoRunnable, IntoTValue, Tensor,
     TypedRunnableModel, tvec,
 };
+use tract_onnx::tract_hir::infer::Factoid;
 
 /// The fewest and the most pixels each way.
 const PIXELS: (usize, usize) = (8, 1024);

@@ -6,7 +6,7 @@ use burn::nn::conv::{Conv2d, Conv2dConfig};
 use burn::nn::{Linear, LinearConfig, PaddingConfig2d};
 use burn::prelude::{Device, Tensor};
 use burn::tensor::TensorData;
-use burn::tensor::activation::{relu, tanh};
+use burn::tensor::activation::{leaky_relu, tanh};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -39,6 +39,11 @@ pub const MIDDLE: f32 = 0.5;
 /// What the speed in m/s is multiplied by.
 pub const SPEED_SCALE: f32 = 0.05;
 
+/// The slope of the rectifiers below zero, so that none of them ever dies.
+pub const LEAK: f32 = 0.1;
+/// How much smaller the last layer begins, so that its answers are near zero at first.
+const TIMID: f32 = 0.1;
+
 /// The fewest pixels across and down that leave something after the five.
 pub const SMALLEST: [u32; 2] = [33, 33];
 
@@ -69,7 +74,8 @@ impl Network {
         let convolutions = CONVOLUTIONS.map(|layer| {
             let Convolution { channels: out, kernel, stride, padding } = layer;
             let config = Conv2dConfig::new([channels, out], [kernel, kernel]).with_stride([stride, stride]);
-            let mut made = config.with_padding(PaddingConfig2d::Explicit(padding, padding, padding, padding)).init(device);
+            let mut made =
+                config.with_padding(PaddingConfig2d::Explicit(padding, padding, padding, padding)).init(device);
             let inputs = channels * kernel * kernel;
             let shape = [out, channels, kernel, kernel];
             made.weight = parameter(weights(out * inputs, inputs), shape, device);
@@ -81,7 +87,11 @@ impl Network {
         let mut inputs = found(resolution) + 1;
         let dense = DENSE.map(|out| {
             let mut made = LinearConfig::new(inputs, out).init(device);
-            made.weight = parameter(weights(inputs * out, inputs), [inputs, out], device);
+            let mut first = weights(inputs * out, inputs);
+            if out == DENSE[DENSE.len() - 1] {
+                first.iter_mut().for_each(|weight| *weight *= TIMID);
+            }
+            made.weight = parameter(first, [inputs, out], device);
             made.bias = Some(parameter(vec![0.0; out], [out], device));
             inputs = out;
             made
@@ -93,22 +103,18 @@ impl Network {
     pub fn forward(&self, images: Tensor<4>, speeds: Tensor<2>) -> Tensor<2> {
         let mut seen = images - MIDDLE;
         for layer in &self.convolutions {
-            seen = relu(layer.forward(seen));
+            seen = leaky_relu(layer.forward(seen), LEAK.into());
         }
         let mut thought = Tensor::cat(vec![seen.flatten::<2>(1, 3), speeds * SPEED_SCALE], 1);
         let last = self.dense.len() - 1;
         for (i, layer) in self.dense.iter().enumerate() {
             thought = layer.forward(thought);
-            thought = if i < last { relu(thought) } else { tanh(thought) };
+            thought = if i < last { leaky_relu(thought, LEAK.into()) } else { tanh(thought) };
         }
         thought
     }
 }
 
-fn parameter<const D: usize>(
-    numbers: Vec<f32>,
-    shape: [usize; D],
-    device: &Device,
-) -> burn::module::Param<Tensor<D>> {
+fn parameter<const D: usize>(numbers: Vec<f32>, shape: [usize; D], device: &Device) -> burn::module::Param<Tensor<D>> {
     burn::module::Param::from_data(TensorData::new(numbers, shape), device)
 }

@@ -71,7 +71,9 @@ impl Driver for Pilot {
         let Some(image) = &self.newest else { return Ok(Control::default()) };
         let [steering, throttle] = self.model.answer(image, observation.speed).map_err(Fault)?.map(f64::from);
         if !(steering.is_finite() && throttle.is_finite()) {
-            return Err(Fault(format!("the network answers steering {steering}, throttle {throttle}, expected numbers")));
+            return Err(Fault(format!(
+                "the network answers steering {steering}, throttle {throttle}, expected numbers"
+            )));
         }
         Ok(Control { throttle: throttle.clamp(-1.0, 1.0), steering: steering.clamp(-1.0, 1.0) })
     }

@@ -83,8 +83,7 @@ impl Driver for Expert {
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         let way = Frenet::of(observation);
         let speed = observation.speed;
-        let allowed =
-            observation.others.iter().filter_map(|body| self.allowed(&way.straightened(body, 0.0), speed));
+        let allowed = observation.others.iter().filter_map(|body| self.allowed(&way.straightened(body, 0.0), speed));
         let held_back = allowed.map(|allowed| RELAXATION * (allowed - speed)).fold(f64::INFINITY, f64::min);
         let acceleration = self.cruise.acceleration(observation).min(held_back).max(-BRAKES);
         Ok(self.cruise.control(acceleration, observation))

@@ -34,9 +34,14 @@ pub const FOLLOW: Course = Course {
     name: "follow",
     resolution: [100, 33],
     disturbance: [0.01, 0.15],
-    weights: [30.0, 1.0],
+    weights: [10.0, 1.0],
     held_out: 8,
-    rounds: &[Round { tests: 12, epochs: 6 }, Round { tests: 8, epochs: 3 }, Round { tests: 12, epochs: 6 }],
+    rounds: &[
+        Round { tests: 16, epochs: 8 },
+        Round { tests: 12, epochs: 4 },
+        Round { tests: 16, epochs: 4 },
+        Round { tests: 16, epochs: 6 },
+    ],
     conditions: || {
         let range = |lo, hi| Some(Domain::Interval { lo, hi });
         Study::of("follow-leader")?.open("leader_speed", range(2.0, 12.0))?.open("gap", range(18.0, 40.0))

@@ -40,7 +40,9 @@ pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
         learner.learn(&lessons, plan.epochs, |progress| {
             let [steering, throttle] = progress.held_out;
             let (epoch, loss) = (progress.epoch, progress.loss);
-            said(format!("  epoch {epoch:>2}: loss {loss:.5}; held out: steering {steering:.4}, throttle {throttle:.4}"));
+            said(format!(
+                "  epoch {epoch:>2}: loss {loss:.5}; held out: steering {steering:.4}, throttle {throttle:.4}"
+            ));
             table.push(format!("{},{epoch},{},{loss},{steering},{throttle}", round + 1, lessons.len()));
         });
         let contents = learner.onnx(&course.story());
@@ -54,7 +56,13 @@ pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
 }
 
 /// What is noted in a round of a course, its runs numbered from `first` on.
-fn taught(course: &Course, round: usize, pupil: Option<Pilot>, first: usize, bar: &ProgressBar) -> Result<Vec<Lesson>, Failure> {
+fn taught(
+    course: &Course,
+    round: usize,
+    pupil: Option<Pilot>,
+    first: usize,
+    bar: &ProgressBar,
+) -> Result<Vec<Lesson>, Failure> {
     let notes = Notes::default();
     let seed = round as u64 + 1;
     let (taken, resolution) = (notes.clone(), course.resolution);
