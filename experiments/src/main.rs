@@ -5,6 +5,14 @@
 
 mod automatic_transmission;
 mod boundary;
+#[cfg(feature = "neural")]
+mod cloning;
+#[cfg(feature = "neural")]
+mod fig10a;
+#[cfg(feature = "neural")]
+mod fig10b;
+#[cfg(feature = "neural")]
+mod fig10c;
 mod fig9;
 mod recovery;
 mod samplers;
@@ -31,7 +39,7 @@ struct Study {
     run: fn(&Path, &ProgressBar) -> Done,
 }
 
-const STUDIES: [Study; 4] = [
+const STUDIES: &[Study] = &[
     Study {
         name: "automatic-transmission",
         about: "after how many simulations each strategy falsifies the automatic transmission benchmark",
@@ -56,7 +64,48 @@ const STUDIES: [Study; 4] = [
         time: "4 min",
         run: samplers::run,
     },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "train-follow",
+        about: "teaches the network that follows a leader, for Figures 10a and 10c",
+        time: "12 min",
+        run: |out, bar| cloning::run(&cloning::FOLLOW, out, bar),
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig10a",
+        about: "the paper's Figure 10a: a cloned driver behind a slow leader, over fog and light",
+        time: "5 min",
+        run: fig10a::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "train-loop",
+        about: "teaches the network that drives round the loop, for Figure 10b",
+        time: "8 min",
+        run: |out, bar| cloning::run(&cloning::LOOP, out, bar),
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig10b",
+        about: "the paper's Figure 10b: a cloned driver round a loop of T-intersections, in more and more fog",
+        time: "5 min",
+        run: fig10b::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig10c",
+        about: "the paper's Figure 10c: what a cloned driver follows: a red leader, a red car that comes, a white leader",
+        time: "20 s",
+        run: fig10c::run,
+    },
 ];
+
+/// The studies of networks, which are there only where networks are built.
+#[cfg(not(feature = "neural"))]
+const NEURAL: [&str; 5] = ["train-follow", "fig10a", "train-loop", "fig10b", "fig10c"];
+#[cfg(feature = "neural")]
+const NEURAL: [&str; 0] = [];
 
 /// Runs a study of the paper or of ours.
 #[derive(Debug, Parser)]
@@ -104,6 +153,13 @@ fn run(arguments: &Arguments) -> Done {
     if arguments.name == "list" {
         let line = |Study { name, about, time, .. }: &Study| format!("{name:<24}{time:<8}{about}\n");
         return print(&STUDIES.iter().map(line).collect::<String>());
+    }
+    if NEURAL.contains(&arguments.name.as_str()) {
+        let name = &arguments.name;
+        let how = "cargo run --release -p paracosm-experiments --features neural --";
+        return Err(
+            format!("the study `{name}` is of networks that drive, which take long to build: {how} {name}").into()
+        );
     }
     let Some(study) = STUDIES.iter().find(|study| study.name == arguments.name) else {
         let names = STUDIES.iter().map(|study| study.name);

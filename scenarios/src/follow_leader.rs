@@ -3,6 +3,8 @@
 //! The leader starts `gap` metres ahead, bumper to bumper, and drives as the signal has it, which may well mean that it
 //! brakes. Fog and light are there for drivers that see.
 
+use crate::oncoming_distractor::RED;
+use paracosm_engine::object::Body;
 use paracosm_engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario, Shape};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -24,7 +26,8 @@ fn follow_leader(s: &mut Scenario) {
     s.place(Environment::new().light(light).fog(fog).friction(friction));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(speed.value()));
     let leader = 10.0 + crate::middles(gap.value());
-    s.place(Mover::car(road.path(1)).named("leader").starting(leader).speed(leader_speed));
+    let red = Body::car().coloured(RED);
+    s.place(Mover::new("leader", red, road.path(1)).starting(leader).speed(leader_speed));
 
     s.duration(15.0);
     s.monitor(Monitor::no_collision(&car));

@@ -10,7 +10,8 @@ pub(crate) const PROGRAM: Program = Program {
     build: oncoming_distractor,
 };
 
-const RED: Colour = [190, 25, 30];
+/// The colour of leaders.
+pub(crate) const RED: Colour = [190, 25, 30];
 
 fn oncoming_distractor(s: &mut Scenario) {
     let distance = s.interval("distance", 40.0..=200.0).unit("m").default(120.0);

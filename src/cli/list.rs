@@ -70,10 +70,19 @@ fn table() -> Result<String, Failure> {
             writeln!(text, "    {:<21}{value:<14}{}", setting.name, setting.about)?;
         }
     }
+    for (name, about) in NETWORKS {
+        writeln!(text, "  {name:<22}{about}")?;
+    }
     text.push_str(EXTERNAL);
     text.push_str("\nParameters: --open NAME[=LO..HI], --set NAME=VALUE. Settings: --set driver.NAME=VALUE.\n");
     Ok(text)
 }
+
+/// Drivers that are networks, which a program has only if it was built with them.
+const NETWORKS: [(&str, &str); 2] = [
+    ("cnn", "a network that comes with the software and drives by a camera (feature `neural`)"),
+    ("MODEL.onnx", "a network of one's own in a file (feature `neural`)"),
+];
 
 fn as_json() -> Result<serde_json::Value, Failure> {
     let mut programs = Vec::new();

@@ -47,7 +47,7 @@ impl<'a> Drivers<'a> {
     pub fn new(choice: &'a DriverChoice, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let (latency, ended) = (choice.latency(), stop.clone());
         let source = match choice.origin()? {
-            Origin::Engine => {
+            Origin::Here => {
                 let mut drivers = Self::made_by(|| choice.build());
                 let first = drivers.hire()?;
                 drivers.dismiss(Some(first));

@@ -1,11 +1,12 @@
 //! The failure map: every test a mark at the values of two of its parameters, as in the paper's Figure 9.
 
 use super::mark::{Drawn, Mark, ORDER};
-use super::{FAMILY, GRID, INK, shade};
+use super::{FAMILY, GRID, INK, Tints, shade};
 use crate::blame::Blame;
 use crate::failure_estimate::{self, Axes, FailureEstimate};
 use crate::{Error, Study, Trial};
 use paracosm_coverage::{Coordinate, Domain};
+use paracosm_oracles::Verdict;
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
@@ -47,6 +48,8 @@ pub struct FailureMap {
     pub marks: Vec<(f64, f64, Mark)>,
     /// How probable a failure is, if that is to be seen behind the tests.
     pub estimate: Option<FailureEstimate>,
+    /// A number of each test, if the dots are to be tinted by it.
+    pub tints: Option<Tints>,
 }
 
 /// How wide the bar of shades is with its numbers, in heights of the text.
@@ -105,6 +108,7 @@ impl FailureMap {
             y: Axis::of(&y)?,
             marks: trials.iter().filter_map(mark).collect(),
             estimate: None,
+            tints: None,
         })
     }
 
@@ -125,12 +129,12 @@ impl FailureMap {
         let (text, side) = if small { (14.0, 2.2) } else { (18.0, 3.2) };
         let (header, body) = area.split_vertically(px(5.0 * text));
         self.draw_header(&header, text * scale, side * scale, scale)?;
-        let (body, bar) = match &self.estimate {
-            None => (body, None),
-            Some(_) => {
-                let (body, bar) = body.split_horizontally(body.dim_in_pixel().0 - px(BAR * text));
-                (body, Some(bar))
-            }
+        let has_bar = self.estimate.is_some() || self.tints.is_some();
+        let (body, bar) = if has_bar {
+            let (body, bar) = body.split_horizontally(body.dim_in_pixel().0 - px(BAR * text));
+            (body, Some(bar))
+        } else {
+            (body, None)
         };
 
         let ink = TextStyle::from((FAMILY, px(text - 2.0)).into_font()).color(&INK);
@@ -156,16 +160,24 @@ impl FailureMap {
             .x_labels(if small { 6 } else { 11 })
             .y_labels(if small { 7 } else { 12 })
             .draw()?;
+        let along = (0, (body.dim_in_pixel().1 - px(3.3 * text)) as i32);
+        // A thousand marks have room; more of them become smaller, so that they do not run together.
+        let crowd = (self.marks.len() as f64 / 1000.0).max(1.0);
+        let side = (side / crowd.sqrt()).max(1.2) * scale;
         if let (Some(estimate), Some(bar)) = (&self.estimate, &bar) {
             shade::draw_lines(&chart.plotting_area().strip_coord_spec(), estimate, scale)?;
-            let height = body.dim_in_pixel().1;
-            shade::draw_bar(bar, (0, (height - px(3.3 * text)) as i32), "probability of failure", text * scale)?;
+            shade::draw_bar(bar, along, "probability of failure", text * scale)?;
+        } else if let (Some(tints), Some(bar)) = (&self.tints, &bar) {
+            let dot = |((x, y, _), value): (&(f64, f64, Mark), &f64)| {
+                Circle::new((*x, *y), 2.2 * side, tints.colour(*value).filled())
+            };
+            chart.draw_series(self.marks.iter().zip(&tints.values).map(dot))?;
+            tints.draw_bar(bar, along, text * scale)?;
         }
         for mark in ORDER {
-            let marks = self.marks.iter().filter(|other| other.2 == mark);
-            // A thousand marks have room; more of them become smaller, so that they do not run together.
-            let crowd = (self.marks.len() as f64 / 1000.0).max(1.0);
-            let side = (side / crowd.sqrt()).max(1.2) * scale;
+            // A tinted dot says that it passed.
+            let hidden = self.tints.is_some() && mark == Mark::Verdict(Verdict::Pass);
+            let marks = self.marks.iter().filter(|other| other.2 == mark && !hidden);
             chart.draw_series(marks.map(|(x, y, _)| EmptyElement::at((*x, *y)) + Drawn { mark, side }))?;
         }
         Ok(())
@@ -205,7 +217,7 @@ impl FailureMap {
 }
 
 /// A range with both ends among its numbers, since they are what a reader of a map asks for first.
-struct Ends((f64, f64));
+pub(super) struct Ends(pub (f64, f64));
 
 impl Ranged for Ends {
     type FormatOption = NoDefaultFormatting;

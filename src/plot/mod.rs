@@ -7,6 +7,7 @@
 mod animation;
 mod contour;
 mod frame;
+mod lines;
 mod log_axis;
 mod log_log;
 mod map;
@@ -15,17 +16,20 @@ mod raster;
 mod shade;
 mod shares;
 mod symbol;
+mod tint;
 
 pub use animation::film_gif;
 #[cfg(feature = "camera")]
 pub(crate) use animation::gif_of_images;
 pub(crate) use frame::{Entry, Frame};
+pub use lines::Lines;
 pub(crate) use log_log::{Curve, LogLog, Plane};
 pub use map::{Axis, FailureMap};
 pub use mark::Mark;
 pub use raster::drawing_png;
 pub(crate) use shares::{Series, Shares};
 pub(crate) use symbol::{Look, Shape};
+pub use tint::Tints;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -58,6 +62,7 @@ enum Panel {
     Map(FailureMap),
     LogLog(LogLog),
     Shares(Shares),
+    Lines(Lines),
 }
 
 type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
@@ -77,6 +82,15 @@ impl Picture {
     /// A picture of shares over sizes.
     pub(crate) fn of_shares(chart: Shares) -> Self {
         Self { panels: vec![Panel::Shares(chart)], columns: 1, size: (frame::LEGEND + shares::PLANE, 520) }
+    }
+
+    /// A picture of charts of curves, one below the other.
+    ///
+    /// # Panics
+    /// There is no chart.
+    pub fn of_lines(charts: Vec<Lines>) -> Self {
+        assert!(!charts.is_empty(), "a picture shows something");
+        Self { panels: charts.into_iter().map(Panel::Lines).collect(), columns: 1, size: (900, 420) }
     }
 
     /// A picture of several maps, `columns` in a row.
@@ -136,6 +150,7 @@ impl Picture {
                     Panel::Map(map) => map.draw(&part, f64::from(scale))?,
                     Panel::LogLog(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Shares(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Lines(chart) => chart.draw(&part, f64::from(scale))?,
                 }
             }
             area.present()

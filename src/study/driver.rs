@@ -1,12 +1,15 @@
-//! Who drives: a driver that comes with the engine, or one in a process of its own.
+//! Who drives: a driver that comes with the engine, a network, one in a process of its own, or one that the program brings.
 
 use super::Study;
+use super::network::{Network, is_network};
 use crate::black_box::checked_timeout;
 use crate::{Error, process};
 use paracosm_coverage::Record;
 use paracosm_engine::driver::{self, Driver};
 use paracosm_rpc::{Address, Terms};
 use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The settings that every driver in a process of its own has, which are not passed on to it as others are.
@@ -27,6 +30,26 @@ pub struct DriverChoice {
     settings: Record<f64>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
     external: Option<External>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    network: Option<Network>,
+    #[serde(skip)]
+    own: Option<Own>,
+}
+
+/// How a driver is made that is not in the catalogue.
+#[derive(Clone)]
+struct Own(Arc<dyn Fn() -> Box<dyn Driver> + Send + Sync>);
+
+impl fmt::Debug for Own {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Own")
+    }
+}
+
+impl PartialEq for Own {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 /// A driver in a process of its own.
@@ -48,8 +71,8 @@ enum By {
 /// Where drivers come from.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Origin {
-    /// They come with the engine.
-    Engine,
+    /// They are made in this process.
+    Here,
     /// A server that somebody has started.
     Server(Address, Terms),
     /// A process that is started with these words.
@@ -57,30 +80,49 @@ pub(crate) enum Origin {
 }
 
 impl DriverChoice {
-    /// The driver of that name, or at that address.
+    fn named(name: &str) -> Self {
+        Self { name: name.to_owned(), settings: Record::default(), external: None, network: None, own: None }
+    }
+
+    /// The driver of that name in a scenario, or at that address; or a network.
     ///
     /// # Errors
-    /// There is no such driver or setting, or a value is out of range.
-    pub(super) fn new(name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
+    /// There is no such driver, network or setting, or a value is out of range.
+    pub(super) fn new(name: &str, changes: &[(String, f64)], scenario: &str) -> Result<Self, Error> {
         if Address::is_meant(name) {
             return Self::external(name, By::Address, changes);
         }
+        if is_network(name) {
+            let network = Some(Network::of(name, scenario)?);
+            return match changes.first() {
+                None => Ok(Self { network, ..Self::named(name) }),
+                Some((setting, _)) => {
+                    Err(Error::Usage(format!("driver `{name}` is a network and has no setting `{setting}`")))
+                }
+            };
+        }
         let settings = driver::find(name)?.settings(changes)?;
         let settings = settings.iter().map(|(name, value)| (name.to_owned(), value)).collect();
-        Ok(Self { name: name.to_owned(), settings, external: None })
+        Ok(Self { settings, ..Self::named(name) })
     }
 
     fn external(name: &str, by: By, changes: &[(String, f64)]) -> Result<Self, Error> {
         let external = Some(External { by, timeout: checked_timeout(None)? });
-        let choice = Self { name: name.to_owned(), settings: changes.iter().cloned().collect(), external };
+        let choice = Self { settings: changes.iter().cloned().collect(), external, ..Self::named(name) };
         choice.origin().map(|_| choice)
     }
 
     /// A new driver of this kind.
     ///
     /// # Errors
-    /// The choice was read from a file and there is no such driver or setting; or it is in a process of its own.
+    /// The choice was read from a file and there is no such driver, network or setting; or it is in a process of its own.
     pub fn build(&self) -> Result<Box<dyn Driver>, Error> {
+        if let Some(Own(make)) = &self.own {
+            return Ok(make());
+        }
+        if let Some(network) = &self.network {
+            return network.driver(&self.name);
+        }
         let settings: Vec<_> = self.settings.iter().map(|(name, value)| (name.to_owned(), *value)).collect();
         Ok(driver::find(&self.name)?.build(&settings)?)
     }
@@ -101,7 +143,7 @@ impl DriverChoice {
     /// It was read from a file and is no address or command, or has a setting out of range.
     pub(crate) fn origin(&self) -> Result<Origin, Error> {
         let Some(External { by, timeout }) = self.external else {
-            return Ok(Origin::Engine);
+            return Ok(Origin::Here);
         };
         self.within(LATENCY, (0.0, LONGEST_LATENCY), false)?;
         self.within(SEED, (0.0, GREATEST_SEED), true)?;
@@ -141,10 +183,25 @@ impl Study {
     /// when its answer takes effect, and `seed`, where its chance and the noise of its sensors come from.
     ///
     /// # Errors
-    /// There is no such driver or setting, a value is out of range, or the study is of no scenario.
+    /// There is no such driver or setting, a value is out of range, the study is of no scenario, or a network cannot be
+    /// read, is not made for driving, or was not taught for this scenario.
     pub fn driver(mut self, name: &str, changes: &[(String, f64)]) -> Result<Self, Error> {
-        let chosen = DriverChoice::new(name, changes);
-        self.subject.scenario_mut()?.driver = chosen?;
+        let simulation = self.subject.scenario_mut()?;
+        simulation.driver = DriverChoice::new(name, changes, &simulation.scenario)?;
+        Ok(self)
+    }
+
+    /// Tests a driver of one's own, which each worker makes for itself. Only this program can replay its tests.
+    ///
+    /// # Errors
+    /// The study is of no scenario.
+    pub fn own_driver(
+        mut self,
+        name: &str,
+        make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static,
+    ) -> Result<Self, Error> {
+        self.subject.scenario_mut()?.driver =
+            DriverChoice { own: Some(Own(Arc::new(make))), ..DriverChoice::named(name) };
         Ok(self)
     }
 

@@ -2,6 +2,7 @@
 
 mod driver;
 mod failures;
+mod network;
 mod odd;
 mod parameters;
 mod requirement;

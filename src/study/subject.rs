@@ -93,7 +93,7 @@ impl Simulation {
             scenario: program.name.to_owned(),
             vehicle: Model::default(),
             fixed: fixed.collect(),
-            driver: DriverChoice::new("aeb", &[])?,
+            driver: DriverChoice::new("aeb", &[], program.name)?,
             dt,
             duration,
             program: Some(program),

@@ -5,6 +5,7 @@
 
 mod aeb;
 mod cruise;
+mod expert;
 mod frenet;
 mod lane_camera;
 mod perception;
@@ -166,9 +167,10 @@ pub enum DriverError {
 }
 
 /// Every kind of driver there is.
-pub const ALL: [&Kind; 8] = [
+pub const ALL: [&Kind; 9] = [
     &aeb::KIND,
     &cruise::KIND,
+    &expert::KIND,
     &lane_camera::KIND,
     &reference::CC,
     &reference::RSS,

@@ -143,3 +143,41 @@ fn unknown_drivers_and_settings_are_named_with_the_nearest() {
     assert_eq!(set("ttc", -1.0), "driver `aeb`: setting `ttc` is -1, expected a number from 0 to 10");
     assert!(set("ttc", f64::NAN).contains("NaN"));
 }
+
+/// What `expert` gives at its cruise speed when one body is there.
+fn expert_with(body: Other) -> f64 {
+    let mut driver = find("expert").unwrap().build(&[]).unwrap();
+    driver.reset(&Briefing { cruise_speed: SPEED, vehicle: Vehicle::BMW_320I }).unwrap();
+    let observation = Observation { speed: SPEED, others: vec![body], ..Observation::default() };
+    driver.step(&observation).unwrap().throttle
+}
+
+#[test]
+fn the_expert_keeps_a_distance_in_proportion_to_its_speed() {
+    let car = |gap: f64| Other {
+        class: Class::Car,
+        outline: Outline::Rectangle { length: 4.5, width: 1.8 },
+        ..person(gap + 0.5 * (4.5 + Vehicle::BMW_320I.length), 0.0)
+    };
+    // 5 m and 1.5 s.
+    let kept = 5.0 + 1.5 * SPEED;
+    assert!(expert_with(car(kept + 0.1)).abs() < 1e-9);
+    let throttles = [0.0, 2.0, 5.0, 10.0].map(|nearer| expert_with(car(kept - nearer)));
+    assert!(throttles.windows(2).all(|pair| pair[0] > pair[1]), "{throttles:?}");
+    let beside = Other { position: Vector2::new(15.0, 3.5), ..car(10.0) };
+    assert!(expert_with(beside).abs() < 1e-9, "who drives in the next lane is not in the way");
+}
+
+#[test]
+fn the_expert_stops_for_people_who_walk_on_the_road_if_it_can() {
+    let walker = |x: f64, y: f64, speed: f64| Other {
+        class: Class::Pedestrian,
+        velocity: Vector2::new(0.0, -speed),
+        ..person(x, y)
+    };
+    assert!(expert_with(walker(25.0, 3.5, 1.0)) < -0.2, "on the other lane");
+    assert!(expert_with(walker(25.0, 0.0, 0.0)) < -0.2, "standing in the way");
+    assert!(expert_with(walker(25.0, 6.5, 0.0)).abs() < 1e-9, "on the sidewalk");
+    assert!(expert_with(walker(12.0, 4.5, 1.0)).abs() < 1e-9, "too near to stop, and not yet in the way");
+    assert!(expert_with(walker(-8.0, 0.0, 1.0)).abs() < 1e-9, "behind");
+}

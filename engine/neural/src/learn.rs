@@ -1,0 +1,145 @@
+//! Behavioural cloning: a network learns to answer as an expert did, image by image.
+//!
+//! All chance, that of the first weights and that of the order of the lessons, comes from the recipe's seed.
+
+use crate::export::onnx;
+use crate::model::planes;
+use crate::network::{Network, SMALLEST};
+use burn::module::Module;
+use burn::optim::{AdamConfig, GradientsParams, ModuleOptimizer};
+use burn::prelude::{Device, Tensor};
+use burn::tensor::TensorData;
+use rand::SeedableRng;
+use rand::seq::SliceRandom;
+use rand_pcg::Pcg64;
+
+/// What an expert did when it saw something.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lesson {
+    /// Which run it is from: what is learnt is examined on runs that nothing was learnt from.
+    pub run: usize,
+    /// The image, three bytes a pixel.
+    pub rgb: Vec<u8>,
+    /// The car's speed in m/s.
+    pub speed: f32,
+    /// Steering and throttle.
+    pub control: [f32; 2],
+}
+
+/// How a network learns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recipe {
+    /// Pixels across and down of the images.
+    pub resolution: [u32; 2],
+    /// Where all chance comes from.
+    pub seed: u64,
+    /// Lessons at a time.
+    pub batch: usize,
+    /// Adam's step at first and at last, between which it falls evenly.
+    pub rates: [f64; 2],
+    /// How much an error of the steering and one of the throttle count, squared.
+    pub weights: [f32; 2],
+    /// Every so-many-th run is held out.
+    pub held_out: usize,
+}
+
+/// How far a network has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// How often it has seen all lessons.
+    pub epoch: usize,
+    /// The weighted mean square error while it learnt.
+    pub loss: f64,
+    /// The root mean square error of steering and throttle on the runs that are held out; `NaN` where there are none.
+    pub held_out: [f64; 2],
+}
+
+/// A network and what it learns with.
+pub struct Learner {
+    recipe: Recipe,
+    device: Device,
+    network: Network,
+    optimiser: ModuleOptimizer,
+    chance: Pcg64,
+}
+
+impl Learner {
+    /// A network that knows nothing.
+    ///
+    /// # Panics
+    /// The images are smaller than 33 x 33, or the recipe holds out every 0th run or learns 0 lessons at a time.
+    pub fn new(recipe: Recipe) -> Self {
+        assert!(
+            recipe.resolution.iter().zip(SMALLEST).all(|(size, least)| *size >= least),
+            "images of 33 x 33 or more"
+        );
+        assert!(recipe.held_out > 0 && recipe.batch > 0, "a recipe needs whole numbers from 1 on");
+        let device = Device::flex().autodiff();
+        let mut chance = Pcg64::seed_from_u64(recipe.seed);
+        let network = Network::new(recipe.resolution, &mut chance, &device);
+        Self { recipe, device, network, optimiser: AdamConfig::new().init(), chance }
+    }
+
+    /// Goes through the lessons this many times.
+    ///
+    /// # Panics
+    /// There is no lesson to learn from, or an image has another size than the recipe says.
+    pub fn learn(&mut self, lessons: &[Lesson], epochs: usize, mut show: impl FnMut(Progress)) {
+        let (examined, learnt): (Vec<&Lesson>, Vec<&Lesson>) =
+            lessons.iter().partition(|lesson| lesson.run % self.recipe.held_out == self.recipe.held_out - 1);
+        assert!(!learnt.is_empty(), "there are no lessons");
+        let mut order = learnt;
+        let batches = order.len().div_ceil(self.recipe.batch);
+        let [first, last] = self.recipe.rates;
+        for epoch in 1..=epochs {
+            order.shuffle(&mut self.chance);
+            let mut sum = 0.0;
+            for (i, batch) in order.chunks(self.recipe.batch).enumerate() {
+                let done = ((epoch - 1) * batches + i) as f64 / (epochs * batches) as f64;
+                sum += self.step(batch, first + (last - first) * done) * batch.len() as f64;
+            }
+            show(Progress { epoch, loss: sum / order.len() as f64, held_out: self.examine(&examined) });
+        }
+    }
+
+    /// One step of Adam (Kingma and Ba 2015); the loss before it.
+    fn step(&mut self, batch: &[&Lesson], rate: f64) -> f64 {
+        let (images, speeds, controls) = tensors(batch, self.recipe.resolution, &self.device);
+        let answers = self.network.forward(images, speeds);
+        let weights = TensorData::new(self.recipe.weights.to_vec(), [1, 2]);
+        let errors = (answers - controls).square() * Tensor::<2>::from_data(weights, &self.device);
+        let loss = errors.mean();
+        let gradients = GradientsParams::from_grads(loss.backward(), &self.network);
+        self.network = self.optimiser.step(rate, self.network.clone(), gradients);
+        f64::from(loss.into_scalar::<f32>())
+    }
+
+    /// The root mean square errors on some lessons.
+    fn examine(&self, lessons: &[&Lesson]) -> [f64; 2] {
+        let network = self.network.valid();
+        let device = Device::flex();
+        let mut squares = [0.0; 2];
+        for batch in lessons.chunks(self.recipe.batch) {
+            let (images, speeds, controls) = tensors(batch, self.recipe.resolution, &device);
+            let errors = (network.forward(images, speeds) - controls).square().sum_dim(0).into_data();
+            let errors = errors.as_slice::<f32>().expect("they are floats");
+            squares = [0, 1].map(|i| squares[i] + f64::from(errors[i]));
+        }
+        squares.map(|sum| (sum / lessons.len() as f64).sqrt())
+    }
+
+    /// What it has learnt, as the contents of an ONNX file that [`Model`](crate::Model) reads. `story` says where it comes
+    /// from.
+    pub fn onnx(&self, story: &str) -> Vec<u8> {
+        onnx(&self.network.valid(), self.recipe.resolution, story)
+    }
+}
+
+fn tensors(batch: &[&Lesson], [width, height]: [u32; 2], device: &Device) -> (Tensor<4>, Tensor<2>, Tensor<2>) {
+    let count = batch.len();
+    let images: Vec<f32> = batch.iter().flat_map(|lesson| planes(&lesson.rgb)).collect();
+    let images = TensorData::new(images, [count, 3, height as usize, width as usize]);
+    let speeds = TensorData::new(batch.iter().map(|lesson| lesson.speed).collect(), [count, 1]);
+    let controls = TensorData::new(batch.iter().flat_map(|lesson| lesson.control).collect(), [count, 2]);
+    (Tensor::from_data(images, device), Tensor::from_data(speeds, device), Tensor::from_data(controls, device))
+}

@@ -1,0 +1,80 @@
+//! A network at the wheel.
+
+use crate::Model;
+use paracosm_engine::driver::{Driver, Equipment, Fault};
+use paracosm_engine::sensor::{Cameras, Image, Mounted, Rig};
+use paracosm_engine::{Briefing, Control, Observation};
+
+/// Seconds between two images, and between two questions.
+pub const PERIOD: f64 = 0.1;
+
+/// A driver that does as its model says.
+#[derive(Debug, Clone)]
+pub struct Pilot {
+    model: Model,
+    newest: Option<Image>,
+}
+
+/// The camera that networks look through, with this many pixels across and down.
+pub fn camera(resolution: [u32; 2]) -> Mounted {
+    Mounted {
+        resolution,
+        focal_mm: 24.0,
+        sensor_mm: 36.0,
+        position: [0.3, 0.0, 1.35],
+        yaw_pitch_roll: [0.0, 2.0, 0.0],
+        rate: 1.0 / PERIOD,
+        latency: 0.0,
+        dropped: 0.0,
+        motion: 0.0,
+        motion_angle: 0.0,
+        defocus: 0.0,
+        blur: 0.0,
+        vignetting: 0.0,
+        exposure: 0.0,
+        full_well: 0.0,
+        read_noise: 0.0,
+    }
+}
+
+impl Pilot {
+    /// A driver by this model.
+    pub fn new(model: Model) -> Self {
+        Self { model, newest: None }
+    }
+}
+
+impl Driver for Pilot {
+    fn period(&self) -> f64 {
+        PERIOD
+    }
+
+    fn equipment(&mut self) -> Equipment {
+        let all = [("front".to_owned(), camera(self.model.resolution()))];
+        Equipment { cameras: Cameras { seed: 0, all: all.into() }, ..Equipment::default() }
+    }
+
+    fn reset(&mut self, _: &Briefing) -> Result<(), Fault> {
+        self.newest = None;
+        Ok(())
+    }
+
+    fn perceive(&mut self, _: &Rig, images: &[Image]) -> Result<(), Fault> {
+        if let Some(image) = images.last() {
+            self.newest = Some(image.clone());
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        // Whoever sees nothing yet does nothing.
+        let Some(image) = &self.newest else { return Ok(Control::default()) };
+        let [steering, throttle] = self.model.answer(image, observation.speed).map_err(Fault)?.map(f64::from);
+        if !(steering.is_finite() && throttle.is_finite()) {
+            return Err(Fault(format!(
+                "the network answers steering {steering}, throttle {throttle}, expected numbers"
+            )));
+        }
+        Ok(Control { throttle: throttle.clamp(-1.0, 1.0), steering: steering.clamp(-1.0, 1.0) })
+    }
+}

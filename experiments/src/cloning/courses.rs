@@ -1,0 +1,101 @@
+//! What networks are taught, in which tests, and how long.
+
+use paracosm::coverage::{Domain, Value};
+use paracosm::{Error, Study};
+use paracosm_neural::learn::Recipe;
+use std::path::Path;
+
+/// A round: tests in which lessons are given, then how often all lessons so far are gone through.
+pub struct Round {
+    pub tests: usize,
+    pub epochs: usize,
+}
+
+/// How a network comes to drive.
+pub struct Course {
+    /// The name of the network.
+    pub name: &'static str,
+    /// Pixels across and down of what it sees.
+    pub resolution: [u32; 2],
+    /// The standard deviation of what pushes steering and throttle while the expert drives.
+    pub disturbance: [f64; 2],
+    /// How much an error of the steering and one of the throttle count, squared.
+    pub weights: [f32; 2],
+    /// Every so-many-th run nothing is learnt from.
+    pub held_out: usize,
+    /// In the first one the expert drives, then the network.
+    pub rounds: &'static [Round],
+    /// The conditions that it is trained in.
+    conditions: fn() -> Result<Study, Error>,
+}
+
+/// Figures 10a and 10c: behind a slow leader in broad daylight.
+pub const FOLLOW: Course = Course {
+    name: "follow",
+    resolution: [100, 33],
+    disturbance: [0.01, 0.15],
+    weights: [10.0, 1.0],
+    held_out: 8,
+    rounds: &[
+        Round { tests: 16, epochs: 8 },
+        Round { tests: 12, epochs: 4 },
+        Round { tests: 16, epochs: 4 },
+        Round { tests: 16, epochs: 6 },
+    ],
+    conditions: || {
+        let range = |lo, hi| Some(Domain::Interval { lo, hi });
+        Study::of("follow-leader")?.open("leader_speed", range(2.0, 12.0))?.open("gap", range(18.0, 40.0))
+    },
+};
+
+/// Figure 10b: round the loop, always right, without fog.
+pub const LOOP: Course = Course {
+    name: "loop",
+    resolution: [100, 33],
+    disturbance: [0.06, 0.1],
+    weights: [4.0, 1.0],
+    held_out: 4,
+    rounds: &[Round { tests: 2, epochs: 6 }, Round { tests: 1, epochs: 4 }, Round { tests: 2, epochs: 6 }],
+    conditions: || {
+        let study = Study::of("t-loop")?.open("speed", Some(Domain::Interval { lo: 7.8, hi: 8.2 }))?;
+        study.set("friction", Value::Number(0.8))
+    },
+};
+
+impl Course {
+    /// So many tests of the conditions that it is trained in.
+    pub fn study(&self, seed: u64, tests: usize) -> Result<Study, Error> {
+        (self.conditions)()?.strategy("halton")?.seed(Some(seed)).budget(tests)
+    }
+
+    /// A study with the network at the wheel that the course has made.
+    ///
+    /// # Errors
+    /// The course has not been held, or the study is of no scenario.
+    pub fn drives(&self, study: Study) -> Result<Study, Error> {
+        let name = self.name;
+        let file = format!("experiments/out/train-{name}/{name}.onnx");
+        if !Path::new(&file).exists() {
+            return Err(Error::Usage(format!("there is no {file}; the study `train-{name}` makes it")));
+        }
+        study.driver(&file, &[])
+    }
+
+    /// How it learns.
+    pub fn recipe(&self) -> Recipe {
+        Recipe {
+            resolution: self.resolution,
+            seed: 1,
+            batch: 32,
+            rates: [1e-3, 1e-4],
+            weights: self.weights,
+            held_out: self.held_out,
+        }
+    }
+
+    /// Where it comes from.
+    pub fn story(&self) -> String {
+        let name = self.name;
+        format!("made by: cargo run --release -p paracosm-experiments --features neural -- train-{name}")
+    }
+}

@@ -1,0 +1,104 @@
+//! Behavioural cloning: how the networks were made that come with the software.
+//!
+//! A course has tests in which an expert drives; a network learns from its images and controls, then drives itself, and
+//! learns from what the expert says to that. Everything follows from seeds: the tests, the disturbances, the first weights
+//! and the order of the lessons.
+
+mod courses;
+mod teacher;
+
+pub use courses::{Course, FOLLOW, LOOP};
+
+use crate::{Done, print, write};
+use indicatif::ProgressBar;
+use paracosm::engine::driver;
+use paracosm::{Campaign, Error, Study, Trial};
+use paracosm_neural::learn::{Learner, Lesson};
+use paracosm_neural::{Model, Pilot};
+use std::path::Path;
+use std::time::Instant;
+use teacher::{Notes, Teacher};
+
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// How many tests of its own conditions a network is examined on at the end.
+const EXAMINED: usize = 100;
+
+/// Teaches a network and writes it to a folder.
+pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
+    let began = Instant::now();
+    let mut lessons: Vec<Lesson> = Vec::new();
+    let mut learner = Learner::new(course.recipe());
+    let mut pupil = None;
+    let mut table = vec!["round,epoch,lessons,loss,held_out_steering,held_out_throttle".to_owned()];
+    for (round, plan) in course.rounds.iter().enumerate() {
+        let said = |text: String| bar.suspend(|| eprintln!("[{:>4.0} s] {text}", began.elapsed().as_secs_f64()));
+        let driving = if pupil.is_some() { "the network drives" } else { "the expert drives" };
+        said(format!("round {}: {driving} in {} tests", round + 1, plan.tests));
+        lessons.extend(taught(course, round, pupil.take(), lessons.last().map_or(0, |last| last.run + 1), bar)?);
+        said(format!("round {}: {} lessons, {} epochs", round + 1, lessons.len(), plan.epochs));
+        learner.learn(&lessons, plan.epochs, |progress| {
+            let [steering, throttle] = progress.held_out;
+            let (epoch, loss) = (progress.epoch, progress.loss);
+            said(format!(
+                "  epoch {epoch:>2}: loss {loss:.5}; held out: steering {steering:.4}, throttle {throttle:.4}"
+            ));
+            table.push(format!("{},{epoch},{},{loss},{steering},{throttle}", round + 1, lessons.len()));
+        });
+        let contents = learner.onnx(&course.story());
+        pupil = Some(Pilot::new(Model::read(&contents)?));
+        write(&out.join(format!("{}.onnx", course.name)), &contents)?;
+        write(&out.join("learning.csv"), table.join("\n") + "\n")?;
+    }
+    let passed = examined(course, pupil.expect("there is a round"), bar)?;
+    let minutes = began.elapsed().as_secs_f64() / 60.0;
+    print(&format!("{}: {passed} of {EXAMINED} tests of its training conditions pass; {minutes:.1} min\n", course.name))
+}
+
+/// What is noted in a round of a course, its runs numbered from `first` on.
+fn taught(
+    course: &Course,
+    round: usize,
+    pupil: Option<Pilot>,
+    first: usize,
+    bar: &ProgressBar,
+) -> Result<Vec<Lesson>, Failure> {
+    let notes = Notes::default();
+    let seed = round as u64 + 1;
+    let (taken, resolution) = (notes.clone(), course.resolution);
+    // The network's own mistakes are enough of a disturbance.
+    let disturbance = if pupil.is_some() { [0.0; 2] } else { course.disturbance };
+    let expert = || driver::find("expert").and_then(|kind| kind.build(&[])).expect("there is an expert");
+    let study = course.study(seed, course.rounds[round].tests)?.own_driver("teacher", move || {
+        Box::new(Teacher::new(expert(), pupil.clone(), resolution, disturbance, seed, taken.clone()))
+    })?;
+    trials(&study, bar)?;
+    drop(study);
+    let mut runs = std::mem::take(&mut *notes.lock().expect("nobody panics while taking notes"));
+    // By what they are, since the order in which tests end is a matter of chance.
+    let key = |run: &Vec<Lesson>| -> Vec<u32> {
+        run.iter().flat_map(|lesson| [lesson.speed, lesson.control[0], lesson.control[1]]).map(f32::to_bits).collect()
+    };
+    runs.sort_by_cached_key(key);
+    let numbered = runs.into_iter().zip(first..);
+    Ok(numbered.flat_map(|(run, number)| run.into_iter().map(move |lesson| Lesson { run: number, ..lesson })).collect())
+}
+
+/// How many of the tests of a course a network passes that it has not seen.
+fn examined(course: &Course, pupil: Pilot, bar: &ProgressBar) -> Result<usize, Failure> {
+    let study = course.study(1000, EXAMINED)?.own_driver("cnn", move || Box::new(pupil.clone()))?;
+    Ok(trials(&study, bar)?.iter().filter(|trial| trial.verdict == paracosm::oracles::Verdict::Pass).count())
+}
+
+/// Runs the tests of a study.
+pub fn trials(study: &Study, bar: &ProgressBar) -> Result<Vec<Trial>, Error> {
+    bar.set_length(study.budget as u64);
+    bar.set_position(0);
+    let mut trials = Vec::new();
+    Campaign::new(study)?.run(|trial| {
+        bar.inc(1);
+        trials.push(trial.clone());
+        Ok(())
+    })?;
+    Ok(trials)
+}

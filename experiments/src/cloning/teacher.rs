@@ -1,0 +1,121 @@
+//! Whoever shows a network how to drive: an expert, who at every image says what should be done.
+//!
+//! At first the expert drives, and a disturbance pushes the car about, so that the network sees how one comes back. Then the
+//! network drives and the expert only says what it should have done, where the network's own mistakes have taken the car
+//! (Ross, Gordon, Bagnell, "A Reduction of Imitation Learning and Structured Prediction to No-Regret Online Learning",
+//! 2011).
+
+use paracosm::engine::driver::{Driver, Equipment, Fault};
+use paracosm::engine::sensor::{Cameras, Chance, Image, Rig};
+use paracosm::engine::{Briefing, Control, Observation};
+use paracosm_neural::learn::Lesson;
+use paracosm_neural::{PERIOD, Pilot, camera};
+use std::mem::take;
+use std::sync::{Arc, Mutex};
+
+/// The lessons of runs, in the order in which they ended.
+pub type Notes = Arc<Mutex<Vec<Vec<Lesson>>>>;
+
+/// How much of a disturbance is left after a step: a time constant of half a second.
+const LEFT: f64 = 0.8;
+
+/// This many metres beside its way nothing can be learnt any more.
+const LOST: f64 = 3.0;
+
+/// A driver that takes notes.
+pub struct Teacher {
+    expert: Box<dyn Driver>,
+    /// Who drives instead.
+    pupil: Option<Pilot>,
+    resolution: [u32; 2],
+    /// The standard deviation of what is added to steering and throttle.
+    disturbance: [f64; 2],
+    seed: u64,
+    notes: Notes,
+    run: Vec<Lesson>,
+    seen: Option<Image>,
+    /// Where the disturbance comes from, once a run has begun, and what it is.
+    pushed: Option<(Chance, [f64; 2])>,
+}
+
+impl Teacher {
+    /// A teacher who drives and is pushed so much, or lets the pupil drive.
+    pub fn new(
+        expert: Box<dyn Driver>,
+        pupil: Option<Pilot>,
+        resolution: [u32; 2],
+        disturbance: [f64; 2],
+        seed: u64,
+        notes: Notes,
+    ) -> Self {
+        Self { expert, pupil, resolution, disturbance, seed, notes, run: Vec::new(), seen: None, pushed: None }
+    }
+
+    fn hand_in(&mut self) {
+        let run = take(&mut self.run);
+        if !run.is_empty() {
+            self.notes.lock().expect("nobody panics while taking notes").push(run);
+        }
+    }
+
+    /// What is added now: noise that changes slowly, the same in every run that begins alike.
+    fn push(&mut self, observation: &Observation) -> [f64; 2] {
+        let seed = self.seed;
+        let (chance, push) = self.pushed.get_or_insert_with(|| {
+            let places = observation.others.iter().map(|other| other.position.x.to_bits());
+            let number = places.fold(observation.speed.to_bits(), |sum, bits| sum.rotate_left(7) ^ bits);
+            (Chance::of(seed, "disturbance", number), [0.0; 2])
+        });
+        for (push, deviation) in push.iter_mut().zip(self.disturbance) {
+            *push = LEFT * *push + (1.0 - LEFT * LEFT).sqrt() * deviation * chance.normal();
+        }
+        *push
+    }
+}
+
+impl Drop for Teacher {
+    fn drop(&mut self) {
+        self.hand_in();
+    }
+}
+
+impl Driver for Teacher {
+    fn period(&self) -> f64 {
+        PERIOD
+    }
+
+    fn equipment(&mut self) -> Equipment {
+        let all = [("front".to_owned(), camera(self.resolution))];
+        Equipment { cameras: Cameras { seed: 0, all: all.into() }, ..Equipment::default() }
+    }
+
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.hand_in();
+        (self.seen, self.pushed) = (None, None);
+        self.expert.reset(briefing)?;
+        self.pupil.as_mut().map_or(Ok(()), |pupil| pupil.reset(briefing))
+    }
+
+    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
+        self.seen = images.last().cloned();
+        self.pupil.as_mut().map_or(Ok(()), |pupil| pupil.perceive(rig, images))
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        if observation.way.offset.abs() > LOST {
+            return Err(Fault("the car is lost, and the lesson over".to_owned()));
+        }
+        let right = self.expert.step(observation)?;
+        if let Some(image) = self.seen.take() {
+            let control = [right.steering as f32, right.throttle as f32];
+            let speed = observation.speed as f32;
+            self.run.push(Lesson { run: 0, rgb: image.rgb, speed, control });
+        }
+        let wanted = self.pupil.as_mut().map_or(Ok(right), |pupil| pupil.step(observation))?;
+        let [steering, throttle] = self.push(observation);
+        Ok(Control {
+            steering: (wanted.steering + steering).clamp(-1.0, 1.0),
+            throttle: (wanted.throttle + throttle).clamp(-1.0, 1.0),
+        })
+    }
+}

@@ -1,0 +1,94 @@
+//! The paper's Figure 10a: a network that was taught to follow a slow leader in broad daylight, over fog and light.
+//!
+//! The paper's shade is the distance that the car covers in 15 s, and a cross a collision. The leader is slow and steady here,
+//! so that what differs between tests is what the network sees.
+
+use crate::cloning::{FOLLOW, trials};
+use crate::{Done, print, write};
+use indicatif::ProgressBar;
+use paracosm::coverage::Value;
+use paracosm::engine::Metric;
+use paracosm::oracles::Verdict;
+use paracosm::{FailureMap, Picture, Study, Tints, Trial};
+use std::path::Path;
+
+/// How many tests over fog and light.
+const TESTS: usize = 200;
+/// The speed of the leader in m/s.
+const LEADER: f64 = 6.0;
+/// How many tests of its training conditions.
+const TRAINING: usize = 100;
+
+/// Runs the study and writes it to a folder.
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
+    let nominal = FOLLOW.drives(FOLLOW.study(1000, TRAINING)?)?;
+    let training = trials(&nominal, bar)?;
+    let passed = training.iter().filter(|trial| trial.verdict == Verdict::Pass).count();
+
+    let study = FOLLOW.drives(Study::of("follow-leader")?)?.open("fog", None)?.open("light", None)?;
+    let study = study.set("leader_speed", Value::Number(LEADER))?.budget(TESTS)?;
+    let trials = trials(&study, bar)?;
+    bar.finish_and_clear();
+    let collided: Vec<bool> = trials.iter().map(|trial| trial.violates("no-collision")).collect();
+    let covered: Vec<f64> = trials.iter().map(travelled).collect();
+
+    let mut map = FailureMap::of(&study, &trials).expect("fog and light are open");
+    map.title = "Figure 10a: a cloned driver behind a slow leader".to_owned();
+    map.note = format!(
+        "{TESTS} Halton tests of 15 s; trained at light 1 without fog, where {passed} of {TRAINING} tests pass"
+    );
+    for ((_, _, verdict), collided) in map.marks.iter_mut().zip(&collided) {
+        *verdict = if *collided { Verdict::Fail } else { Verdict::Pass };
+    }
+    map.tints = Some(Tints { label: "distance covered [m]".to_owned(), range: (0.0, 200.0), values: covered.clone() });
+    let picture = Picture::of(map);
+    write(&out.join("fig10a.svg"), picture.svg()?)?;
+    write(&out.join("fig10a.png"), picture.png()?)?;
+
+    let mut rows = vec!["fog,light,travelled,collided,verdict".to_owned()];
+    for ((trial, covered), collided) in trials.iter().zip(&covered).zip(&collided) {
+        let [fog, light] = ["fog", "light"].map(|name| number(trial, name));
+        rows.push(format!("{fog},{light},{covered},{collided},{}", trial.verdict));
+    }
+    write(&out.join("fig10a.csv"), rows.join("\n") + "\n")?;
+    let mut rows = vec!["index,verdict,travelled,no_collision,lane_keeping".to_owned()];
+    rows.extend(training.iter().map(|trial| {
+        let [clear, lane] = ["no-collision", "lane-keeping"].map(|id| trial.robustness(id).unwrap_or(f64::NAN));
+        format!("{},{},{},{clear},{lane}", trial.index, trial.verdict, travelled(trial))
+    }));
+    write(&out.join("training.csv"), rows.join("\n") + "\n")?;
+
+    let mut text = format!("training conditions: {passed} of {TRAINING} pass\n");
+    text += &format!("{:<26}{:>6}{:>12}{:>16}\n", "tests", "", "collisions", "mean distance");
+    for (name, of) in REGIONS {
+        let within: Vec<usize> =
+            (0..trials.len()).filter(|&i| of(number(&trials[i], "fog"), number(&trials[i], "light"))).collect();
+        let crashes = within.iter().filter(|i| collided[**i]).count();
+        let mean = within.iter().map(|i| covered[*i]).sum::<f64>() / within.len() as f64;
+        text += &format!("{name:<26}{:>6}{crashes:>12}{mean:>14.1} m\n", within.len());
+    }
+    print(&text)
+}
+
+/// A part of the tests: its name, and whether a fog and a light belong to it.
+type Region = (&'static str, fn(f64, f64) -> bool);
+
+const REGIONS: [Region; 5] = [
+    ("light >= 0.8, fog < 0.2", |fog, light| light >= 0.8 && fog < 0.2),
+    ("light >= 0.8, fog >= 0.6", |fog, light| light >= 0.8 && fog >= 0.6),
+    ("light < 0.5, fog < 0.2", |fog, light| light < 0.5 && fog < 0.2),
+    ("fog >= 0.6", |fog, _| fog >= 0.6),
+    ("all", |_, _| true),
+];
+
+fn number(trial: &Trial, name: &str) -> f64 {
+    trial.test.get(name).and_then(Value::number).expect("the study varies it")
+}
+
+/// Metres.
+fn travelled(trial: &Trial) -> f64 {
+    match trial.metric("travelled") {
+        Some(Metric::Number(metres)) => *metres,
+        _ => f64::NAN,
+    }
+}

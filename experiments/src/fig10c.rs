@@ -1,0 +1,101 @@
+//! The paper's Figure 10c: what the network that follows a red leader has learnt to follow.
+//!
+//! Behind a red leader it drives three times: alone with it, with another red car that comes the other way, and with the
+//! leader painted white. The paper's network braked for the one that came, and ran into the white one.
+
+use crate::cloning::FOLLOW;
+use crate::{Done, print, write};
+use indicatif::ProgressBar;
+use paracosm::coverage::{Value, Values};
+use paracosm::engine::object::{Body, Colour};
+use paracosm::engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario};
+use paracosm::{Axis, Lines, Picture, Study, Worker};
+use std::path::Path;
+
+const PROGRAM: Program =
+    Program { name: "fig10c", about: "a leader of either colour, with or without a car that comes", build };
+
+const RED: Colour = [190, 25, 30];
+const WHITE: Colour = [235, 235, 235];
+
+/// Metres between the bumpers at first.
+const GAP: f64 = 25.0;
+
+fn build(s: &mut Scenario) {
+    let leader_speed = s.interval("leader_speed", 2.0..=12.0).unit("m/s").default(8.0);
+    let colour = s.choice("leader", ["red", "white"]);
+    let oncoming = s.choice("oncoming", ["nobody", "red car"]);
+
+    let road = s.place(RoadSegment::new(500.0));
+    s.place(Environment::new());
+    let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(15.0));
+    let colour = if colour.value() == "white" { WHITE } else { RED };
+    let leader = Mover::new("leader", Body::car().coloured(colour), road.path(1));
+    s.place(leader.starting(10.0 + GAP + 4.5).speed(leader_speed.value()));
+    if oncoming.value() == "red car" {
+        let other = Mover::new("oncoming", Body::car().coloured(RED), road.path(-1));
+        s.place(other.starting(500.0 - 10.0 - 160.0).speed(10.0));
+    }
+
+    s.duration(15.0);
+    s.monitor(Monitor::no_collision(&car));
+}
+
+/// What the figure shows: a name, the leader's colour, and who comes.
+const CASES: [(&str, &str, &str); 3] = [
+    ("red leader", "red", "nobody"),
+    ("red leader, red car coming", "red", "red car"),
+    ("white leader", "white", "nobody"),
+];
+
+/// The speeds of the leader in m/s, of which the figure shows one.
+const SPEEDS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 12.0];
+const SHOWN: f64 = 8.0;
+
+/// Runs the study and writes it to a folder.
+pub fn run(out: &Path, _: &ProgressBar) -> Done {
+    let study = FOLLOW.drives(Study::new(PROGRAM)?)?;
+    let mut worker = Worker::new(&study)?;
+    let mut curves = Vec::new();
+    let mut table =
+        vec!["case,leader_speed,verdict,clearance_or_missing_braking_m,least_speed_m_per_s,travelled_m".to_owned()];
+    let mut over_time = vec!["case,leader_speed,time,speed,throttle".to_owned()];
+    for (name, leader, oncoming) in CASES {
+        for speed in SPEEDS {
+            let words = [("leader", leader), ("oncoming", oncoming)];
+            let test = words.map(|(name, word)| (name.to_owned(), Value::Word(word.to_owned())));
+            let test: Values = [("leader_speed".to_owned(), Value::Number(speed))].into_iter().chain(test).collect();
+            let (trial, trace) = worker.run(0, &test);
+            let trace = trace.ok_or_else(|| trial.error.clone().unwrap_or_default())?;
+            let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().step_by(5).collect() };
+            let time = |i: usize| 5.0 * i as f64 * trace.dt();
+            let points: Vec<(f64, f64)> =
+                signal("car.speed").into_iter().enumerate().map(|(i, speed)| (time(i), speed)).collect();
+            for ((time, at), throttle) in points.iter().zip(signal("car.throttle")) {
+                over_time.push(format!("{name},{speed},{time:.2},{at},{throttle}"));
+            }
+            let least = points.iter().map(|point| point.1).fold(f64::INFINITY, f64::min);
+            let clearance = trial.robustness("no-collision").unwrap_or(f64::NAN);
+            let travelled = trace.signal("car.travelled").and_then(|mut way| way.next_back()).unwrap_or(f64::NAN);
+            table.push(format!("{name},{speed},{},{clearance:.3},{least:.3},{travelled:.2}", trial.verdict));
+            if speed == SHOWN {
+                let end = if trial.is_failure() { " (collides)" } else { "" };
+                curves.push((format!("{name}{end}"), points));
+            }
+        }
+    }
+    let axis = |label: &str, range| Axis { label: label.to_owned(), range };
+    let chart = Lines {
+        title: "Figure 10c: what the cloned driver follows".to_owned(),
+        note: format!("speed behind a leader of {SHOWN} m/s, {GAP} m ahead at first; trained behind red leaders alone"),
+        x: axis("time [s]", (0.0, 15.0)),
+        y: axis("speed [m/s]", (0.0, 16.0)),
+        curves,
+    };
+    let picture = Picture::of_lines(vec![chart]);
+    write(&out.join("fig10c.svg"), picture.svg()?)?;
+    write(&out.join("fig10c.png"), picture.png()?)?;
+    write(&out.join("fig10c.csv"), table.join("\n") + "\n")?;
+    write(&out.join("speeds.csv"), over_time.join("\n") + "\n")?;
+    print(&(table.join("\n") + "\n"))
+}
