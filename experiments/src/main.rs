@@ -10,8 +10,6 @@ mod cloning;
 #[cfg(feature = "neural")]
 mod fig10a;
 #[cfg(feature = "neural")]
-mod fig10b;
-#[cfg(feature = "neural")]
 mod fig10c;
 mod fig9;
 mod recovery;
@@ -68,42 +66,28 @@ const STUDIES: &[Study] = &[
     Study {
         name: "train-follow",
         about: "teaches the network that follows a leader, for Figures 10a and 10c",
-        time: "12 min",
+        time: "4 min",
         run: |out, bar| cloning::run(&cloning::FOLLOW, out, bar),
     },
     #[cfg(feature = "neural")]
     Study {
         name: "fig10a",
         about: "the paper's Figure 10a: a cloned driver behind a slow leader, over fog and light",
-        time: "5 min",
+        time: "2 min",
         run: fig10a::run,
-    },
-    #[cfg(feature = "neural")]
-    Study {
-        name: "train-loop",
-        about: "teaches the network that drives round the loop, for Figure 10b",
-        time: "8 min",
-        run: |out, bar| cloning::run(&cloning::LOOP, out, bar),
-    },
-    #[cfg(feature = "neural")]
-    Study {
-        name: "fig10b",
-        about: "the paper's Figure 10b: a cloned driver round a loop of T-intersections, in more and more fog",
-        time: "5 min",
-        run: fig10b::run,
     },
     #[cfg(feature = "neural")]
     Study {
         name: "fig10c",
         about: "the paper's Figure 10c: what a cloned driver follows: a red leader, a red car that comes, a white leader",
-        time: "20 s",
+        time: "6 s",
         run: fig10c::run,
     },
 ];
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 5] = ["train-follow", "fig10a", "train-loop", "fig10b", "fig10c"];
+const NEURAL: [&str; 3] = ["train-follow", "fig10a", "fig10c"];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 

@@ -92,10 +92,10 @@ fn cloned_for(scenario: &str) -> Result<paracosm_neural::Cloned, Error> {
     let all = paracosm_neural::CLONED;
     all.iter().find(|network| network.scenarios.contains(&scenario)).copied().ok_or_else(|| {
         let known: Vec<&str> = all.iter().flat_map(|network| network.scenarios.iter().copied()).collect();
-        let known = if known.is_empty() { "no scenario yet".to_owned() } else { known.join(", ") };
+        let known = known.join(", ");
         Error::Usage(format!(
             "no network comes with the software that drives in `{scenario}`: driver `{CLONED}` drives in {known}; a network \
-             of one's own is --driver MODEL.onnx, and the studies train-follow and train-loop of the experiments make some"
+             of one's own is --driver MODEL.onnx"
         ))
     })
 }

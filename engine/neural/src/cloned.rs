@@ -12,5 +12,9 @@ pub struct Cloned {
     pub contents: &'static [u8],
 }
 
-/// All of them; none yet.
-pub const CLONED: &[Cloned] = &[];
+/// All of them.
+pub const CLONED: &[Cloned] = &[Cloned {
+    name: "follow",
+    scenarios: &["follow-leader", "oncoming-distractor"],
+    contents: include_bytes!("../weights/follow.onnx"),
+}];

@@ -1,9 +1,9 @@
 //! What networks are taught, in which tests, and how long.
 
-use paracosm::coverage::{Domain, Value};
+use paracosm::coverage::Domain;
 use paracosm::{Error, Study};
 use paracosm_neural::learn::Recipe;
-use std::path::Path;
+use paracosm_neural::{CLONED, Model, Pilot};
 
 /// A round: tests in which lessons are given, then how often all lessons so far are gone through.
 pub struct Round {
@@ -48,37 +48,20 @@ pub const FOLLOW: Course = Course {
     },
 };
 
-/// Figure 10b: round the loop, always right, without fog.
-pub const LOOP: Course = Course {
-    name: "loop",
-    resolution: [100, 33],
-    disturbance: [0.06, 0.1],
-    weights: [4.0, 1.0],
-    held_out: 4,
-    rounds: &[Round { tests: 2, epochs: 6 }, Round { tests: 1, epochs: 4 }, Round { tests: 2, epochs: 6 }],
-    conditions: || {
-        let study = Study::of("t-loop")?.open("speed", Some(Domain::Interval { lo: 7.8, hi: 8.2 }))?;
-        study.set("friction", Value::Number(0.8))
-    },
-};
-
 impl Course {
     /// So many tests of the conditions that it is trained in.
     pub fn study(&self, seed: u64, tests: usize) -> Result<Study, Error> {
         (self.conditions)()?.strategy("halton")?.seed(Some(seed)).budget(tests)
     }
 
-    /// A study with the network at the wheel that the course has made.
+    /// A study with the network at the wheel that came of the course, as it comes with the software.
     ///
     /// # Errors
-    /// The course has not been held, or the study is of no scenario.
+    /// The study is of no scenario.
     pub fn drives(&self, study: Study) -> Result<Study, Error> {
-        let name = self.name;
-        let file = format!("experiments/out/train-{name}/{name}.onnx");
-        if !Path::new(&file).exists() {
-            return Err(Error::Usage(format!("there is no {file}; the study `train-{name}` makes it")));
-        }
-        study.driver(&file, &[])
+        let network = CLONED.iter().find(|network| network.name == self.name).expect("every course has been held");
+        let pilot = Pilot::new(Model::read(network.contents).expect("it was written as a driver"));
+        study.own_driver("cnn", move || Box::new(pilot.clone()))
     }
 
     /// How it learns.

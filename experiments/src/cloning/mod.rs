@@ -7,7 +7,7 @@
 mod courses;
 mod teacher;
 
-pub use courses::{Course, FOLLOW, LOOP};
+pub use courses::{Course, FOLLOW};
 
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
