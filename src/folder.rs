@@ -191,13 +191,14 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
         serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
     let here = serde_json::to_value(study).expect("a study is always JSON");
     // The same tests may be read from another file.
-    let [there, here] = [there, here].map(|mut study| {
+    let [tests_there, tests_here] = [&there, &here].map(|study| {
+        let mut study = study.clone();
         if let Some(extends) = study.get_mut("extends") {
             *extends = extends["hash"].take();
         }
         study
     });
-    match differing_key(&there, &here) {
+    match differing_key(&tests_there, &tests_here) {
         None => Ok(()),
         Some(key) => {
             let show = |study: &serde_json::Value| study.get(key).map_or("nothing".into(), ToString::to_string);

@@ -74,12 +74,12 @@ mod tests {
         let study = Study::of_system(BlackBox::new("none", None).unwrap(), Space::unit_cube(1));
         let mut scales = Scales::of(&study);
         scales.learn(&[trial(&[("rpm", f64::INFINITY), ("gap", 0.0)])]);
-        scales.learn(&[trial(&[("rpm", 1200.0), ("gap", 0.02)]), trial(&[("rpm", -3000.0), ("gap", 0.05)])]);
+        scales.learn(&[trial(&[("rpm", 1000.0), ("gap", 0.25)]), trial(&[("rpm", -4000.0), ("gap", 0.5)])]);
         scales.learn(&[trial(&[("rpm", 90_000.0), ("gap", 7.0)])]);
         let told = |rpm: f64, gap: f64| scales.worst(&trial(&[("rpm", rpm), ("gap", gap)]));
-        assert_eq!(told(3000.0, 0.02), Some(0.4));
-        assert_eq!(told(1200.0, 0.05), Some(0.4));
-        assert_eq!(told(-1e9, 0.05), Some(-10.0));
+        assert_eq!(told(4000.0, 0.25), Some(0.5));
+        assert_eq!(told(1000.0, 0.5), Some(0.25));
+        assert_eq!(told(-1e9, 0.5), Some(-10.0));
         assert_eq!(scales.clipped(&trial(&[("rpm", f64::INFINITY)]), "rpm"), Some(10.0));
     }
 

@@ -31,7 +31,7 @@ pub struct DriverChoice {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     external: Option<External>,
     #[serde(skip_serializing_if = "Option::is_none", default)]
-    network: Option<Network>,
+    network: Option<Box<Network>>,
     #[serde(skip)]
     own: Option<Own>,
 }
@@ -93,7 +93,7 @@ impl DriverChoice {
             return Self::external(name, By::Address, changes);
         }
         if is_network(name) {
-            let network = Some(Network::of(name, scenario)?);
+            let network = Some(Box::new(Network::of(name, scenario)?));
             return match changes.first() {
                 None => Ok(Self { network, ..Self::named(name) }),
                 Some((setting, _)) => {

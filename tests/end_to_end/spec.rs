@@ -38,7 +38,7 @@ fn a_formula_is_a_further_requirement_and_changes_no_run() {
     let study: Value = serde_json::from_str(&study).unwrap();
     let formula = "always[0,1] ((car.speed < 16.5) -> (car.x > 1000))";
     let expected =
-        json!({"id": "spec-2", "text": formula, "formula": formula, "unit": "", "scale": 1.0, "given": true});
+        json!({"id": "spec-2", "text": formula, "formula": formula, "unit": "", "scale": null, "given": true});
     assert_eq!(study["requirements"][3], expected);
     let replay = succeeds(fuzz(dir.path(), &["replay", "asked", "3", "--format", "table"]));
     assert!(stdout(&replay).contains("spec-2"), "{}", stdout(&replay));
