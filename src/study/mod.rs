@@ -16,6 +16,7 @@ pub use requirement::RequirementText;
 pub(crate) use requirement::Specs;
 pub use subject::{Simulation, Subject};
 
+use crate::scales::Scales;
 use crate::{BlackBox, Error, Extension, Promise, Trial};
 use paracosm_coverage::{Deadline, Point, Space, Value, Values};
 use paracosm_engine::Program;
@@ -327,18 +328,13 @@ impl Study {
 
     /// The worst robustness, in multiples of the requirement's scale, or 1 where none is stated, and clipped to [-10, 10].
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
-        self.worst(trial).map(|(_, robustness)| clip(robustness))
+        Scales::of(self).worst(trial)
     }
 
     /// All values of a test: its own and the fixed ones.
     pub fn complete(&self, test: &Values) -> Values {
         test.iter().chain(self.subject.fixed().iter()).map(owned).collect()
     }
-}
-
-/// Beyond that a robustness says no more to a search.
-fn clip(robustness: f64) -> f64 {
-    robustness.clamp(-10.0, 10.0)
 }
 
 fn owned((name, value): (&str, &Value)) -> (String, Value) {
