@@ -101,9 +101,12 @@ fn rain_falls_down_the_image_and_towards_who_drives() {
 #[test]
 fn a_streak_covers_as_much_as_its_drop_wherever_it_runs() {
     let camera = camera();
-    for (from, to, diameter) in
-        [((40.0, 40.0), (40.0, 40.0), 9.0), ((20.3, 30.1), (60.7, 80.2), 0.4), ((20.5, 30.5), (20.5, 30.6), 0.2), ((100.0, 20.0), (70.5, 20.0), 3.0)]
-    {
+    for (from, to, diameter) in [
+        ((40.0, 40.0), (40.0, 40.0), 9.0),
+        ((20.3, 30.1), (60.7, 80.2), 0.4),
+        ((20.5, 30.5), (20.5, 30.6), 0.2),
+        ((100.0, 20.0), (70.5, 20.0), 3.0),
+    ] {
         let streak = Streak { from: Point2::new(from.0, from.1), to: Point2::new(to.0, to.1), diameter };
         let mut sum = 0.0;
         streak.cover(&camera, |_, share| sum += f64::from(share));
