@@ -3,8 +3,8 @@
 use paracosm_coverage::Values;
 use paracosm_engine::driver::{Driver, Fault};
 use paracosm_engine::{
-    AutonomousVehicle, Briefing, Control, Environment, Observation, Outcome, Program, RoadSegment, Run, Scenario, Setup,
-    Stream, eventually,
+    AutonomousVehicle, Briefing, Control, Environment, Observation, Outcome, Program, RoadSegment, Run, Scenario,
+    Setup, Stream, eventually,
 };
 
 /// Puts on the brakes and keeps them on.

@@ -64,6 +64,12 @@ impl Renderer {
         &self.gpu.adapter
     }
 
+    /// Loses its device, as when a driver gives up: for tests of those who draw with it.
+    #[doc(hidden)]
+    pub fn lose(&self) {
+        self.gpu.device.destroy();
+    }
+
     /// Draws the views; the frames are in their order. A view that cannot be drawn does not keep the others from it.
     ///
     /// # Errors
