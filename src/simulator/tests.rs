@@ -1,5 +1,7 @@
 //! The closed loop with eyes in it: whatever is drawn together, every test is the same.
 
+mod bends;
+
 use super::*;
 use crate::executor::{from_desk, pool};
 use crate::record::tests::can_draw;
