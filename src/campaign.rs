@@ -168,6 +168,12 @@ impl<'a> Campaign<'a> {
         }
     }
 
+    /// What draws for the drivers.
+    #[cfg(all(test, feature = "camera"))]
+    pub(crate) fn darkroom(&self) -> Option<&Arc<Darkroom>> {
+        self.darkroom.as_ref()
+    }
+
     /// A worker that has nothing to do, or a new one.
     fn worker(&self) -> Result<Worker<'a>, Error> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();

@@ -1,8 +1,10 @@
-//! The car of a whole run brakes as the friction of its road allows, at any tick.
+//! The car of a whole run brakes as the friction of its road allows, at any tick and in any weather.
 
+use paracosm_coverage::Values;
 use paracosm_engine::driver::{Driver, Fault};
 use paracosm_engine::{
-    AutonomousVehicle, Briefing, Control, Observation, Outcome, Program, RoadSegment, Run, Scenario, Setup, eventually,
+    AutonomousVehicle, Briefing, Control, Environment, Observation, Outcome, Program, RoadSegment, Run, Scenario,
+    Setup, Stream, eventually,
 };
 
 /// Puts on the brakes and keeps them on.
@@ -24,6 +26,8 @@ impl Driver for FullBrakes {
 
 fn road(s: &mut Scenario) {
     let friction = s.nominal("friction", 0.1..=1.0, 0.8);
+    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
+    s.place(Environment::new().rain(rain));
     let road = s.place(RoadSegment::new(200.0).friction(friction));
     let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(50.0 / 3.6));
     s.duration(12.0);
@@ -33,13 +37,22 @@ fn road(s: &mut Scenario) {
 const PROGRAM: Program = Program { name: "brakes", about: "a car that stops", build: road };
 
 fn outcome(friction: f64, dt: f64, driver: &mut dyn Driver) -> Outcome {
+    in_rain(0.0, friction, dt, driver)
+}
+
+fn in_rain(rain: f64, friction: f64, dt: f64, driver: &mut dyn Driver) -> Outcome {
     let mut test = PROGRAM.declare().unwrap().nominal();
     test.set("friction", friction);
+    test.set("rain", rain);
     Run::new(&PROGRAM, &test, Setup { dt: Some(dt), ..Setup::asking_every(driver.period()) }).unwrap().drive(driver)
 }
 
 fn stopping_distance(friction: f64, dt: f64) -> f64 {
-    let trace = outcome(friction, dt, &mut FullBrakes).trace.unwrap();
+    way(outcome(friction, dt, &mut FullBrakes))
+}
+
+fn way(outcome: Outcome) -> f64 {
+    let trace = outcome.trace.unwrap();
     trace.signal("car.travelled").unwrap().next_back().unwrap()
 }
 
@@ -52,6 +65,19 @@ fn full_brakes_from_50_km_h_stop_within_two_percent_of_the_ideal_distance_at_any
         for distance in distances {
             assert!((distance / ideal - 1.0).abs() < 0.02, "mu {friction}: {distance} m, ideal {ideal} m");
             assert!((distance / distances[0] - 1.0).abs() < 0.01, "mu {friction}: {distances:?}");
+        }
+    }
+}
+
+#[test]
+fn rain_takes_friction_from_any_road_up_to_three_tenths_and_brakes_need_as_much_more() {
+    for friction in [0.3, 0.8] {
+        let dry = stopping_distance(friction, 0.01);
+        for rain in [0.0, 0.5, 1.0] {
+            let wet = way(in_rain(rain, friction, 0.01, &mut FullBrakes));
+            let left = 1.0 - 0.3 * rain;
+            assert!((wet * left / dry - 1.0).abs() < 0.01, "mu {friction}, rain {rain}: {wet} m for {dry} m");
+            assert_eq!(wet, stopping_distance(friction * left, 0.01));
         }
     }
 }
@@ -123,4 +149,50 @@ fn a_late_driver_brakes_later_by_whole_ticks_and_rolls_until_then() {
         assert!(late[..=ticks].iter().all(|speed| *speed == at_once[0]), "{latency} s");
         assert_eq!(late[ticks..], at_once[..at_once.len() - ticks], "{latency} s");
     }
+}
+
+/// A road under a sky, in this order or the other, with friction said by the one or the other, in rain that swells.
+fn swelling(s: &mut Scenario, sky_first: bool, by_road: bool) {
+    let rain = Stream::<()>::tick().scan(0.0, |rain: f64, ()| rain + 0.002);
+    let sky = Environment::new().rain(&rain);
+    let sky = if by_road { sky } else { sky.friction(0.5) };
+    let road = |s: &mut Scenario| match RoadSegment::new(200.0) {
+        road if by_road => s.place(road.friction(0.5)),
+        road => s.place(road),
+    };
+    let road = if sky_first {
+        s.place(sky);
+        road(s)
+    } else {
+        let road = road(s);
+        s.place(sky);
+        road
+    };
+    let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+    s.duration(4.0);
+    s.require("stops", eventually(car.speed().at_most(0.0)));
+    s.require("swells", eventually((rain * 1.0).named("rain").at_least(0.5)));
+}
+
+#[test]
+fn rain_is_a_stream_and_makes_roads_slippery_in_whatever_order_a_world_is_placed() {
+    let stopped = |build: fn(&mut Scenario)| {
+        let program = Program { name: "rain", about: "a car that stops in rain", build };
+        let mut rains = Vec::new();
+        let mut run = Run::new(&program, &Values::default(), Setup::asking_every(0.05)).unwrap();
+        let outcome = run.watch(&mut FullBrakes, |run| rains.push((run.time(), run.weather().rain)));
+        assert!(rains.len() > 50 && rains.iter().all(|(time, rain)| (rain - 0.2 * time).abs() < 0.003), "{rains:?}");
+        outcome.trace.unwrap()
+    };
+    let first = stopped(|s| swelling(s, true, true));
+    // The deceleration is that of the friction which rain leaves: 0.5 g, and less and less.
+    let speeds: Vec<f64> = first.signal("car.speed").unwrap().collect();
+    let rains: Vec<f64> = first.signal("rain").unwrap().collect();
+    for tick in [50, 100, 150] {
+        let (found, left) = ((speeds[tick] - speeds[tick + 20]) / 0.2, 1.0 - 0.3 * rains[tick + 10]);
+        assert!((found / (0.5 * 9.80665 * left) - 1.0).abs() < 0.01, "{found} m/s² at tick {tick}");
+    }
+    assert!(stopped(|s| swelling(s, false, true)) == first);
+    assert!(stopped(|s| swelling(s, true, false)) == first);
+    assert!(stopped(|s| swelling(s, false, false)) == first);
 }

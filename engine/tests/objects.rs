@@ -199,7 +199,8 @@ fn a_run_says_its_weather_and_how_far_bodies_have_come() {
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
     let mut ways = Vec::new();
     run.watch(driver.as_mut(), |run| {
-        let expected = Weather { light: 0.999 - 0.1 * run.time(), fog: 0.2, sun_elevation: 0.3, sun_azimuth: -1.0 };
+        let expected =
+            Weather { light: 0.999 - 0.1 * run.time(), fog: 0.2, rain: 0.0, sun_elevation: 0.3, sun_azimuth: -1.0 };
         assert!((run.weather().light - expected.light).abs() < 1e-9);
         assert_eq!(run.weather(), Weather { light: run.weather().light, ..expected });
         ways.push((run.bodies()[0].travelled, run.bodies()[1].travelled));
@@ -276,6 +277,12 @@ fn what_is_no_number_is_a_mistake_and_no_panic() {
         s.require("some", eventually(car.speed().above(1.0)));
     });
     assert_eq!(fog.error.unwrap(), "the fog is 10, expected 0 to 1 at 0.000 s");
+    let rain = run(|s| {
+        let (_, car) = rolling(s);
+        s.place(Environment::new().rain(car.speed()));
+        s.require("some", eventually(car.speed().above(1.0)));
+    });
+    assert_eq!(rain.error.unwrap(), "the rain is 10, expected 0 to 1 at 0.000 s");
     let sun = run(|s| {
         let (_, car) = rolling(s);
         s.place(Environment::new().sun(2.0, 0.0));

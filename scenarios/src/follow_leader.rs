@@ -21,9 +21,10 @@ fn follow_leader(s: &mut Scenario) {
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
     let fog = s.nominal("fog", 0.0..=1.0, 0.0);
     let light = s.nominal("light", 0.0..=1.0, 1.0);
+    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
 
     let road = s.place(RoadSegment::new(1000.0));
-    s.place(Environment::new().light(light).fog(fog).friction(friction));
+    s.place(Environment::new().light(light).fog(fog).rain(rain).friction(friction));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(speed.value()));
     let leader = 10.0 + crate::middles(gap.value());
     let red = Body::car().coloured(RED);

@@ -39,9 +39,10 @@ fn highway_traffic(s: &mut Scenario) {
     let seed = s.nominal_choice("traffic_seed", [1, 2, 3, 4], 1);
     let fog = s.nominal("fog", 0.0..=1.0, 0.0);
     let light = s.nominal("light", 0.0..=1.0, 1.0);
+    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
 
     let streets = s.place(ROADS.clone());
-    s.place(Environment::new().light(light).fog(fog));
+    s.place(Environment::new().light(light).fog(fog).rain(rain));
     let way = streets.way(("west", -1, 240.0), ("east", 1, 140.0));
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
     // From the left of the car, which drives east, to its right. It minds the traffic, but not the car.

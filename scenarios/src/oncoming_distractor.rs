@@ -20,9 +20,10 @@ fn oncoming_distractor(s: &mut Scenario) {
     let gap = s.nominal("gap", 10.0..=60.0, 25.0).unit("m");
     let fog = s.nominal("fog", 0.0..=1.0, 0.0);
     let light = s.nominal("light", 0.0..=1.0, 1.0);
+    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
 
     let road = s.place(RoadSegment::new(500.0));
-    s.place(Environment::new().light(light).fog(fog));
+    s.place(Environment::new().light(light).fog(fog).rain(rain));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(10.0));
     let leader = 10.0 + crate::middles(gap.value());
     let red = Body::car().coloured(RED);

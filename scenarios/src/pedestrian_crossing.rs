@@ -5,7 +5,8 @@
 //! time to see what is coming, so that whether it brakes early enough is a matter of both parameters, and a
 //! slow walker can be as dangerous as a quick one. The run lasts 25 s: enough to stop, wait and go on.
 //!
-//! Light and fog are what the world is like to a camera; a driver that does not see by one drives as in broad daylight.
+//! Light and fog are what the world is like to a camera; a driver that does not see by one drives as in broad daylight. Rain
+//! makes the road slippery besides.
 
 use paracosm_engine::{
     AutonomousVehicle, Environment, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never,
@@ -25,8 +26,9 @@ fn pedestrian_crossing(s: &mut Scenario) {
     let lanes = s.nominal_choice("lanes", [2, 4, 6], 2);
     let fog = s.nominal("fog", 0.0..=1.0, 0.0);
     let light = s.nominal("light", 0.0..=1.0, 1.0);
+    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
 
-    s.place(Environment::new().light(light).fog(fog));
+    s.place(Environment::new().light(light).fog(fog).rain(rain));
     let road = s.place(RoadSegment::new(800.0).lanes(lanes.value()).friction(friction));
     let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(approach.value()));
     let walker = s.place(Pedestrian::at(road.on_sidewalk(Side::Left, 100.0)));

@@ -42,9 +42,10 @@ fn t_loop(s: &mut Scenario) {
     let friction = s.interval("friction", 0.2..=0.8).default(0.8);
     let fog = s.nominal("fog", 0.0..=1.0, 0.0);
     let light = s.nominal("light", 0.0..=1.0, 1.0);
+    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
 
     let streets = s.place(LOOP.clone());
-    s.place(Environment::new().light(light).fog(fog).friction(friction));
+    s.place(Environment::new().light(light).fog(fog).rain(rain).friction(friction));
     for i in 1..=4 {
         for at in [12.0, 30.0, 48.0] {
             let kerb = streets.on_sidewalk(&format!("side {i}"), Side::Left, at);

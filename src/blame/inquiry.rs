@@ -1,6 +1,7 @@
 //! Runs failing tests with the reference drivers, all pairs of a test and a driver on all cores.
 
 use super::{Blame, Blamed};
+use crate::darkroom::Darkroom;
 use crate::executor::{in_order, pool};
 use crate::{Error, Study, Subject, Trial, Worker};
 use std::num::NonZeroUsize;
@@ -10,10 +11,31 @@ use std::thread::available_parallelism;
 
 /// Who failures of a study are judged by.
 pub struct Inquiry {
-    /// The references' names, each with the study in which it drives.
-    references: Vec<(String, Study)>,
+    references: Vec<Reference>,
     jobs: NonZeroUsize,
     stop: Arc<AtomicBool>,
+}
+
+/// A driver that failures are judged by.
+struct Reference {
+    name: String,
+    /// The study in which it drives.
+    study: Study,
+    /// What draws for it on all threads, if it sees.
+    darkroom: Option<Arc<Darkroom>>,
+}
+
+impl Reference {
+    fn new(study: &Study, name: &str) -> Result<Self, Error> {
+        let study = study.clone().driver(name, &[])?;
+        let darkroom = Worker::new(&study)?.darkroom().cloned();
+        Ok(Self { name: name.to_owned(), study, darkroom })
+    }
+
+    fn worker(&self) -> Worker<'_> {
+        let worker = Worker::beside(&self.study, Arc::default(), self.darkroom.clone());
+        worker.expect("one like it was made before")
+    }
 }
 
 impl Inquiry {
@@ -33,11 +55,7 @@ impl Inquiry {
         if let Some(twice) = references.iter().enumerate().find(|(i, name)| references[..*i].contains(name)) {
             return Err(Error::Usage(format!("driver `{}` is named twice", twice.1)));
         }
-        let with = |name: &&str| Ok(((*name).to_owned(), study.clone().driver(name, &[])?));
-        let references = references.iter().map(with).collect::<Result<Vec<_>, Error>>()?;
-        for (_, study) in &references {
-            Worker::new(study)?;
-        }
+        let references = references.iter().map(|name| Reference::new(study, name)).collect::<Result<_, _>>()?;
         let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
         Ok(Self { references, jobs, stop: Arc::default() })
     }
@@ -59,11 +77,8 @@ impl Inquiry {
     /// It was told to stop.
     pub fn run(&self, trials: &[Trial], mut watch: impl FnMut(&Blamed)) -> Result<Blame, Error> {
         let failing: Vec<&Trial> = trials.iter().filter(|trial| trial.is_failure()).collect();
-        let names = || self.references.iter().map(|(name, _)| name.clone());
-        let hire = || -> Vec<Worker> {
-            let studies = self.references.iter().map(|(_, study)| study);
-            studies.map(|study| Worker::new(study).expect("one like it was made before")).collect()
-        };
+        let names = || self.references.iter().map(|reference| reference.name.clone());
+        let hire = || -> Vec<Worker> { self.references.iter().map(Reference::worker).collect() };
         let drivers = self.references.len();
         let work = |workers: &mut Vec<Worker>, i: usize| {
             let failing = failing[i / drivers];

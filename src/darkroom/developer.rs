@@ -24,6 +24,8 @@ pub(crate) type Undrawn = Option<String>;
 #[derive(Debug)]
 pub(crate) struct Developer {
     renderer: Renderer,
+    /// Makes another one in its place.
+    open: fn() -> Result<Renderer, RenderError>,
 }
 
 impl Developer {
@@ -32,7 +34,7 @@ impl Developer {
     /// # Errors
     /// There is no adapter, or it does not let itself be used.
     pub fn new() -> Result<Self, RenderError> {
-        Ok(Self { renderer: Renderer::new()? })
+        Ok(Self { renderer: Renderer::new()?, open: Renderer::new })
     }
 
     /// What it draws with.
@@ -69,7 +71,7 @@ impl Developer {
         drawn.into_iter().map(|frame| frame.expect("each was drawn or could not be")).collect()
     }
 
-    /// Where the device fails, each is drawn by itself on a new one, so that only those fail that have to.
+    /// Where the device fails, each is drawn by itself, so that only those fail that have to.
     fn render_alike(&mut self, views: &[View<'_>], wanted: Outputs) -> Vec<Result<Frame, Undrawn>> {
         match self.renderer.render(views, wanted) {
             Ok(frames) => frames.into_iter().map(|frame| frame.map_err(undrawn)).collect(),
@@ -77,11 +79,21 @@ impl Developer {
         }
     }
 
+    /// A device that is lost gives way to a new one.
     fn render_alone(&mut self, view: &View<'_>, wanted: Outputs) -> Result<Frame, Undrawn> {
-        let failed = |error: RenderError| Some(error.to_string());
-        self.renderer = Renderer::new().map_err(failed)?;
-        let mut frames = self.renderer.render(std::slice::from_ref(view), wanted).map_err(failed)?;
-        frames.remove(0).map_err(undrawn)
+        let view = std::slice::from_ref(view);
+        let frames = self.renderer.render(view, wanted).or_else(|_| {
+            self.renderer = (self.open)()?;
+            self.renderer.render(view, wanted)
+        });
+        frames.map_err(|error| Some(error.to_string()))?.remove(0).map_err(undrawn)
+    }
+
+    /// Loses its device; `open` makes the next one.
+    #[cfg(test)]
+    pub fn lose(&mut self, open: fn() -> Result<Renderer, RenderError>) {
+        self.renderer.lose();
+        self.open = open;
     }
 }
 

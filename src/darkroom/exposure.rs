@@ -3,6 +3,7 @@
 use super::Optics;
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm_engine::sensor::Moment;
+use paracosm_render::lens::Rain;
 use paracosm_render::{Air, Box3, Camera, Frame, Outputs, Scene, Stage, View, boxes_in_space};
 
 /// The id of the car under test, which would see its own inside.
@@ -33,21 +34,34 @@ pub(crate) struct Sight {
 impl Exposure<'_> {
     /// What there is to draw to have these outputs. Colours come with shadows.
     pub fn sight(&self, wanted: Outputs) -> Sight {
-        let plain = self.optics.are_plain();
+        let plain = self.optics.are_plain() && self.moment.weather.rain <= 0.0;
         let car = &self.moment.bodies[0];
-        let place = Vector3::new(car.pose.position.x, car.pose.position.y, 0.0);
         Sight {
             scene: self.stage.scene_of(self.moment.bodies.iter().enumerate(), Air::of(&self.moment.weather)),
             camera: self.optics.camera.clone(),
-            pose: Isometry3::new(place, Vector3::z() * car.pose.heading),
+            pose: self.carrier(),
             head_lamps: Point3::new(car.body.outline.half_extent().x, 0.0, LAMPS),
             wanted: Outputs { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, shadows: wanted.rgb, ..wanted },
         }
     }
 
+    /// Where the car is that carries the camera.
+    fn carrier(&self) -> Isometry3<f64> {
+        let pose = &self.moment.bodies[0].pose;
+        Isometry3::new(Vector3::new(pose.position.x, pose.position.y, 0.0), Vector3::z() * pose.heading)
+    }
+
+    /// The rain before the camera.
+    fn rain(&self) -> Rain {
+        let Moment { bodies, weather, .. } = self.moment;
+        let camera = self.optics.camera.pose(&self.carrier());
+        Rain::new(weather.rain_rate(), &Air::of(weather), &camera, &bodies[0].velocity.push(0.0))
+    }
+
     /// What was drawn, with the colours that the camera gives.
     pub fn through_lens(&self, mut frame: Frame) -> Frame {
         if frame.linear.is_some() {
+            self.rain().fall(&mut frame, &mut self.optics.chance("rain", self.number));
             frame.rgb = self.optics.develop(&frame, self.number);
             frame.linear = None;
         }

@@ -78,6 +78,14 @@ impl Darkroom {
     }
 }
 
+#[cfg(test)]
+impl Darkroom {
+    /// Loses the device that it draws with; `open` makes the next one.
+    pub fn lose(&self, open: fn() -> Result<paracosm_render::Renderer, RenderError>) {
+        self.developer.lock().unwrap_or_else(PoisonError::into_inner).lose(open);
+    }
+}
+
 /// What has arrived from the eyes of a run.
 struct Seen<'a> {
     stage: Arc<Stage>,

@@ -39,7 +39,12 @@ impl Optics {
 
     /// What comes of linear light, with the noise of this image.
     pub fn develop(&self, frame: &Frame, number: u64) -> Option<Vec<u8>> {
-        self.effects.develop(frame, &mut Chance::of(self.seed, &format!("{}, noise", self.name), number))
+        self.effects.develop(frame, &mut self.chance("noise", number))
+    }
+
+    /// The chance of something in an image of this number.
+    pub fn chance(&self, what: &str, number: u64) -> Chance {
+        Chance::of(self.seed, &format!("{}, {what}", self.name), number)
     }
 }
 

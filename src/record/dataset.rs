@@ -204,7 +204,7 @@ fn write_images(camera: &Path, shot: &Shot, picture: &Picture, kept: Kept) -> Re
     Ok(())
 }
 
-const CONTROLS: &str = "camera,frame,time,arrival,speed,travelled,steering,throttle,light,fog\n";
+const CONTROLS: &str = "camera,frame,time,arrival,speed,travelled,steering,throttle,light,fog,rain\n";
 
 /// A line of `controls.csv`. Names of cameras need no quotes.
 fn control_line(camera: &str, shot: &Shot, latency: f64) -> String {
@@ -213,8 +213,8 @@ fn control_line(camera: &str, shot: &Shot, latency: f64) -> String {
     let (speed, travelled, weather) = (moment.speed, moment.travelled, moment.weather);
     let (steering, throttle) = (control.steering, control.throttle);
     format!(
-        "{camera},{number},{time},{arrival},{speed},{travelled},{steering},{throttle},{},{}\n",
-        weather.light, weather.fog
+        "{camera},{number},{time},{arrival},{speed},{travelled},{steering},{throttle},{},{},{}\n",
+        weather.light, weather.fog, weather.rain
     )
 }
 

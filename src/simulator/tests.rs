@@ -1,5 +1,7 @@
 //! The closed loop with eyes in it: whatever is drawn together, every test is the same.
 
+mod bends;
+
 use super::*;
 use crate::executor::{from_desk, pool};
 use crate::record::tests::can_draw;
@@ -11,7 +13,7 @@ use paracosm_engine::{
     AutonomousVehicle, Briefing, Control, Environment, Monitor, Observation, RoadSegment, Scenario, simulate,
 };
 use paracosm_oracles::Verdict;
-use paracosm_render::{Outputs, Stages};
+use paracosm_render::{Outputs, RenderError, Renderer, Stages};
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::sync::atomic::Ordering;
@@ -23,8 +25,9 @@ fn quiet_road(s: &mut Scenario) {
     let turned = s.interval("turned", -0.1..=0.1).unit("rad");
     let fog = s.nominal("fog", 0.0..=1.0, 0.0);
     let light = s.nominal("light", 0.0..=1.0, 1.0);
+    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
     let road = s.place(RoadSegment::new(200.0));
-    s.place(Environment::new().light(light).fog(fog));
+    s.place(Environment::new().light(light).fog(fog).rain(rain));
     let start = road.on_lane(1, 10.0);
     let start = paracosm_engine::Pose { heading: start.heading + turned.value(), ..start };
     let car = s.place(AutonomousVehicle::at(start).speed(speed.value()));
@@ -72,6 +75,44 @@ fn whatever_is_drawn_together_the_trials_are_the_same() {
 }
 
 #[test]
+fn streaks_of_rain_are_those_of_the_image_whatever_is_drawn_together() {
+    if !can_draw() {
+        return;
+    }
+    let rainy = study(&[]).open("rain", None).unwrap();
+    let once = trials(Campaign::new(&rainy).unwrap().jobs(number(1)).at_once(number(1)));
+    assert!(trials(Campaign::new(&rainy).unwrap().jobs(number(2)).at_once(number(5))) == once);
+
+    let trial = trials(Campaign::new(&study(&[])).unwrap()).swap_remove(0);
+    let cameras = find("lane-camera").unwrap().build(&[]).unwrap().equipment().cameras;
+    let dry = study(&[]);
+    let filmed = |rain: Option<f64>| {
+        let mut worker = Worker::new(&dry).unwrap();
+        let mut trial = trial.clone();
+        if let Some(rain) = rain {
+            trial.test.set("rain", rain);
+            trial = worker.run(0, &trial.test).0;
+        }
+        let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
+        let mut first = None;
+        let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();
+        let show = |pictures: Vec<(&crate::record::Shot, crate::record::Picture)>| {
+            first = first.take().or_else(|| pictures.into_iter().next().and_then(|(_, picture)| picture.frame.rgb));
+            Ok(())
+        };
+        projector.show(&film, 0, show).unwrap();
+        first.expect("it has an image")
+    };
+    let none = filmed(None);
+    assert!(filmed(Some(0.0)) == none);
+    let apart = |rain: f64| -> u64 {
+        filmed(Some(rain)).iter().zip(&none).map(|(wet, dry)| u64::from(wet.abs_diff(*dry))).sum()
+    };
+    let (little, much) = (apart(0.1), apart(1.0));
+    assert!(0 < little && little < much, "{little} and {much}");
+}
+
+#[test]
 fn a_campaign_of_drivers_that_see_is_stopped_and_goes_on() {
     if !can_draw() {
         return;
@@ -115,6 +156,49 @@ fn it_keeps_its_lane_by_day_and_stops_in_fog() {
     assert_eq!(in_fog(0.1).verdict, Verdict::Pass);
     let (thin, dense) = (in_fog(0.1), in_fog(1.0));
     assert!(dense.robustness("progress") < thin.robustness("progress"), "{dense:?}");
+}
+
+/// The trials of a campaign whose device is lost when the first trial is there; `open` makes the next one.
+fn trials_with_a_loss(study: &Study, open: fn() -> Result<Renderer, RenderError>) -> Vec<Trial> {
+    let campaign = Campaign::new(study).unwrap().jobs(number(2)).at_once(number(2));
+    let darkroom = campaign.darkroom().cloned().expect("its driver sees");
+    let mut trials: Vec<Trial> = Vec::new();
+    let run = campaign.run(|trial| {
+        if trials.is_empty() {
+            darkroom.lose(open);
+        }
+        trials.push(trial.clone());
+        Ok(())
+    });
+    run.map(|()| trials).expect("it goes on")
+}
+
+#[test]
+fn a_campaign_whose_device_is_lost_draws_with_a_new_one_and_its_trials_are_the_same() {
+    if !can_draw() {
+        return;
+    }
+    let study = study(&[]).budget(12).unwrap();
+    assert!(trials_with_a_loss(&study, Renderer::new) == trials(Campaign::new(&study).unwrap()));
+}
+
+#[test]
+fn where_there_is_no_new_device_the_tests_under_way_are_errors_that_say_so_and_the_campaign_goes_on() {
+    if !can_draw() {
+        return;
+    }
+    let study = study(&[]).budget(12).unwrap();
+    let undisturbed = trials(Campaign::new(&study).unwrap());
+    let found = trials_with_a_loss(&study, || Err(RenderError::NoAdapter("it was unplugged".to_owned())));
+    assert_eq!(found.len(), 12);
+    let (broken, whole): (Vec<&Trial>, _) = found.iter().partition(|trial| trial.verdict == Verdict::Error);
+    assert!(whole.iter().all(|trial| **trial == undisturbed[trial.index]) && !whole.is_empty(), "{found:?}");
+    assert!(broken.last().is_some_and(|trial| trial.index == 11), "{found:?}");
+    for trial in broken {
+        let error = trial.error.as_deref().unwrap_or_default();
+        assert!(error.starts_with("the driver could not see at ") && error.contains("camera `front`"), "{error}");
+        assert!(error.contains("no graphics adapter was found (it was unplugged)"), "{error}");
+    }
 }
 
 /// A driver that keeps what another one is shown, and when.

@@ -28,6 +28,12 @@ fn rgb(bencher: Bencher) {
     batches(bencher, &camera(200, 66), Outputs { rgb: true, ..Outputs::default() });
 }
 
+/// 200 x 66, RGB with shadows: what drivers that see are shown.
+#[divan::bench(sample_count = 20)]
+fn rgb_shadows_small(bencher: Bencher) {
+    batches(bencher, &camera(200, 66), Outputs { rgb: true, shadows: true, ..Outputs::default() });
+}
+
 /// 640 x 480, RGB with shadows.
 #[divan::bench(sample_count = 5)]
 fn rgb_shadows(bencher: Bencher) {

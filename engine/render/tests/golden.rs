@@ -2,7 +2,9 @@
 
 mod support;
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Point3, Translation3, Vector3};
+use paracosm_engine::{Weather, sensor::Chance};
+use paracosm_render::lens::{Effects, Rain};
 use paracosm_render::{Air, Frame, Outputs, View};
 use std::fs::File;
 use std::io::BufReader;
@@ -11,6 +13,8 @@ use support::{camera, one, renderer, street};
 
 const WIDTH: u32 = 240;
 const HEIGHT: u32 = 160;
+/// Where the car is.
+const PLACE: Translation3<f64> = Translation3::new(0.0, -1.7, 0.0);
 
 fn path(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(format!("{name}.png"))
@@ -51,9 +55,9 @@ fn seen(air: Air) -> Option<Frame> {
     let mut scene = street();
     scene.air = air;
     let camera = camera(WIDTH, HEIGHT);
-    let mut view = View::new(&scene, &camera, Isometry3::translation(0.0, -1.7, 0.0));
+    let mut view = View::new(&scene, &camera, PLACE.into());
     view.head_lamps = Some(Point3::new(2.0, 0.0, 0.65));
-    let wanted = Outputs { rgb: true, semantic: true, shadows: true, ..support::NOTHING };
+    let wanted = Outputs { rgb: true, linear: true, semantic: true, shadows: true, ..support::NOTHING };
     Some(one(&mut renderer, &view, wanted))
 }
 
@@ -68,6 +72,18 @@ fn a_street_at_noon() {
 fn a_street_in_fog() {
     let Some(frame) = seen(Air { light: 0.8, extinction: 3.912 / 60.0, ..Air::default() }) else { return };
     compare("fog", frame.rgb.as_deref().expect("asked for"));
+}
+
+#[test]
+fn a_street_in_rain_from_a_car_of_10_m_s() {
+    let weather = Weather { light: 0.6, rain: 1.0, ..Weather::default() };
+    let air = Air::of(&weather);
+    let Some(mut frame) = seen(air) else { return };
+    let place = frame.camera.pose(&PLACE.into());
+    let rain = Rain::new(weather.rain_rate(), &air, &place, &Vector3::new(10.0, 0.0, 0.0));
+    rain.fall(&mut frame, &mut Chance::of(0, "rain", 0));
+    let developed = Effects::default().develop(&frame, &mut Chance::of(0, "noise", 0));
+    compare("rain", &developed.expect("asked for"));
 }
 
 #[test]

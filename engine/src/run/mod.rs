@@ -235,7 +235,7 @@ impl Run {
         &self.scene.network
     }
 
-    /// Light, fog and the sun at this tick.
+    /// Light, fog, rain and the sun at this tick.
     pub fn weather(&self) -> Weather {
         self.scene.weather(&self.graph)
     }

@@ -33,7 +33,7 @@ pub(super) struct Scene {
     /// Where the values of their inputs stand.
     inputs: Vec<Slot>,
     friction: Slot,
-    /// Light, fog and the sun, as far as the program says anything of them.
+    /// Light, fog, rain and the sun, as far as the program says anything of them.
     weather: Vec<(WeatherPart, Slot)>,
     world: World,
     /// How the car touches another body.
@@ -143,15 +143,15 @@ impl Scene {
     /// Inputs are checked where they enter: minima and maxima would swallow a NaN, and a road whose friction
     /// is no number would pass for one that limits nothing.
     pub fn step(&mut self, graph: &Graph, dt: f64) -> Result<(), String> {
-        let friction: f64 = graph.value(self.friction).unwrap_or(f64::NAN);
-        if !(0.0..f64::INFINITY).contains(&friction) {
-            return Err(format!("the friction of the road is {friction}, expected a number from 0 on"));
-        }
         for (part, slot) in &self.weather {
             let value: f64 = graph.value(*slot).unwrap_or(f64::NAN);
             if !part.range.contains(&value) {
                 return Err(format!("the {} is {value}, expected {}", part.name, part.expected));
             }
+        }
+        let friction: f64 = graph.value(self.friction).unwrap_or(f64::NAN);
+        if !(0.0..f64::INFINITY).contains(&friction) {
+            return Err(format!("the friction of the road is {friction}, expected a number from 0 on"));
         }
         self.ego.step(friction, dt)?;
         self.next[0].move_to(Some(self.ego.pose()), dt);

@@ -1,4 +1,4 @@
-//! What holds for the whole world: light, fog, the sun, and how slippery the roads are (the paper's `World`).
+//! What holds for the whole world: light, fog, rain, the sun, and how slippery the roads are (the paper's `World`).
 
 use super::{Place, Scenario};
 use crate::stream::{Node, Stream};
@@ -8,12 +8,18 @@ use std::rc::Rc;
 
 /// Friction coefficient of dry asphalt.
 const DRY_ASPHALT: f64 = 0.8;
+/// How much of its friction a road loses in the heaviest rain. Average peak values of the adhesion of tyres are 0.8 to 0.9 on
+/// dry asphalt and 0.5 to 0.7 on wet asphalt (Wong, Theory of Ground Vehicles, table 1.3, after Taborek 1957): 0.6 of 0.85.
+const LOST_IN_RAIN: f64 = 0.3;
+/// What the heaviest rain brings, in mm/h.
+const CLOUDBURST: f64 = 50.0;
 
-/// The conditions of a world, not placed yet: broad daylight, no fog, dry asphalt.
+/// The conditions of a world, not placed yet: broad daylight, no fog, no rain, dry asphalt.
 #[derive(Debug, Clone)]
 pub struct Environment {
     light: Stream<f64>,
     fog: Stream<f64>,
+    rain: Option<Stream<f64>>,
     sun: Option<[Stream<f64>; 2]>,
     friction: Option<Stream<f64>>,
 }
@@ -25,11 +31,13 @@ pub struct Conditions {
     pub light: Stream<f64>,
     /// From 0, none, to 1, so thick that nothing is seen.
     pub fog: Stream<f64>,
+    /// From 0, none, to 1, a cloudburst of 50 mm/h.
+    pub rain: Stream<f64>,
     /// How high the sun stands, in radians above the horizon.
     pub sun_elevation: Stream<f64>,
     /// Where the sun stands, in radians counter-clockwise from x.
     pub sun_azimuth: Stream<f64>,
-    /// The friction coefficient between tyre and road.
+    /// The friction coefficient between tyre and road, as far as rain leaves it.
     pub friction: Stream<f64>,
 }
 
@@ -40,6 +48,8 @@ pub struct Weather {
     pub light: f64,
     /// From 0, none, to 1, so thick that nothing is seen.
     pub fog: f64,
+    /// From 0, none, to 1, a cloudburst of 50 mm/h.
+    pub rain: f64,
     /// How high the sun stands, in radians above the horizon.
     pub sun_elevation: f64,
     /// Where the sun stands, in radians counter-clockwise from x.
@@ -58,18 +68,25 @@ pub(crate) struct WeatherPart {
 }
 
 impl Default for Weather {
-    /// Broad daylight from behind and the left of who drives along x, without fog.
+    /// Broad daylight from behind and the left of who drives along x, without fog or rain.
     fn default() -> Self {
-        Self { light: 1.0, fog: 0.0, sun_elevation: 0.9, sun_azimuth: 2.3 }
+        Self { light: 1.0, fog: 0.0, rain: 0.0, sun_elevation: 0.9, sun_azimuth: 2.3 }
+    }
+}
+
+impl Weather {
+    /// How much rain falls, in mm/h.
+    pub fn rain_rate(&self) -> f64 {
+        CLOUDBURST * self.rain
     }
 }
 
 impl Environment {
-    /// Broad daylight, no fog, dry asphalt.
+    /// Broad daylight, no fog, no rain, dry asphalt.
     #[expect(clippy::new_without_default, reason = "as every other object it is made by its name")]
     pub fn new() -> Self {
         let Weather { light, fog, .. } = Weather::default();
-        Self { light: Stream::constant(light), fog: Stream::constant(fog), sun: None, friction: None }
+        Self { light: Stream::constant(light), fog: Stream::constant(fog), rain: None, sun: None, friction: None }
     }
 
     /// From 0, night, to 1, broad daylight.
@@ -84,13 +101,20 @@ impl Environment {
         self
     }
 
+    /// From 0, none, to 1, a cloudburst of 50 mm/h. It takes from the roads as much of their friction as 0.3 times itself,
+    /// whatever they are made of, and from all sensors but radars some of their sight.
+    pub fn rain(mut self, rain: impl Into<Stream<f64>>) -> Self {
+        self.rain = Some(rain.into());
+        self
+    }
+
     /// Where the sun stands, in radians: its elevation above the horizon, and its azimuth, counter-clockwise from x.
     pub fn sun(mut self, elevation: impl Into<Stream<f64>>, azimuth: impl Into<Stream<f64>>) -> Self {
         self.sun = Some([elevation.into(), azimuth.into()]);
         self
     }
 
-    /// The friction coefficient between tyre and road.
+    /// The friction coefficient between tyre and dry road.
     pub fn friction(mut self, friction: impl Into<Stream<f64>>) -> Self {
         self.friction = Some(friction.into());
         self
@@ -99,24 +123,31 @@ impl Environment {
 
 impl Default for Conditions {
     fn default() -> Self {
-        let Weather { light, fog, sun_elevation, sun_azimuth } = Weather::default();
-        let [light, fog, sun_elevation, sun_azimuth] = [light, fog, sun_elevation, sun_azimuth].map(Stream::constant);
-        Self { light, fog, sun_elevation, sun_azimuth, friction: Stream::constant(DRY_ASPHALT) }
+        let Weather { light, fog, rain, sun_elevation, sun_azimuth } = Weather::default();
+        let [light, fog, rain] = [light, fog, rain].map(Stream::constant);
+        let [sun_elevation, sun_azimuth] = [sun_elevation, sun_azimuth].map(Stream::constant);
+        Self { light, fog, rain, sun_elevation, sun_azimuth, friction: Stream::constant(DRY_ASPHALT) }
     }
 }
 
 impl Conditions {
-    /// Light and fog, and the place of the sun.
-    pub(super) fn weather(&self) -> [[(WeatherPart, Rc<Node>); 2]; 2] {
+    /// How much friction rain leaves of this much.
+    pub(super) fn wet(&self, friction: Stream<f64>) -> Stream<f64> {
+        friction * (1.0 - LOST_IN_RAIN * &self.rain)
+    }
+
+    /// Light and fog, the rain, and the place of the sun.
+    pub(super) fn weather(&self) -> [Vec<(WeatherPart, Rc<Node>)>; 3] {
         let part = |name, range, expected, of, stream: &Stream<f64>| {
             (WeatherPart { name, range, expected, of }, stream.node.clone())
         };
         [
-            [
+            vec![
                 part("light", 0.0..=1.0, "0 to 1", |weather| &mut weather.light, &self.light),
                 part("fog", 0.0..=1.0, "0 to 1", |weather| &mut weather.fog, &self.fog),
             ],
-            [
+            vec![part("rain", 0.0..=1.0, "0 to 1", |weather| &mut weather.rain, &self.rain)],
+            vec![
                 part(
                     "sun's elevation",
                     -FRAC_PI_2..=FRAC_PI_2,
@@ -144,6 +175,9 @@ impl Place for Environment {
             scenario.say_friction(friction);
         }
         scenario.say_weather(self.light, self.fog, self.sun);
+        if let Some(rain) = self.rain {
+            scenario.say_rain(rain);
+        }
         scenario.conditions.clone()
     }
 }

@@ -68,6 +68,7 @@ pub struct Scenario {
 struct Said {
     friction: bool,
     weather: bool,
+    rain: bool,
     sun: bool,
 }
 
@@ -201,7 +202,14 @@ impl Scenario {
         if std::mem::replace(&mut self.said.friction, true) {
             self.problem("the friction of the roads is said twice".to_owned());
         }
-        self.conditions.friction = friction;
+        self.conditions.friction = if self.said.rain { self.conditions.wet(friction) } else { friction };
+    }
+
+    /// There is one environment at most, so that it rains once.
+    fn say_rain(&mut self, rain: Stream<f64>) {
+        self.conditions.rain = rain;
+        self.conditions.friction = self.conditions.wet(self.conditions.friction.clone());
+        self.said.rain = true;
     }
 
     fn say_weather(&mut self, light: Stream<f64>, fog: Stream<f64>, sun: Option<[Stream<f64>; 2]>) {
@@ -243,9 +251,9 @@ impl Scenario {
         self.dt = seconds;
     }
 
-    /// Light and fog, and the place of the sun, as far as the program has said anything of them.
+    /// Light and fog, the rain, and the place of the sun, as far as the program has said anything of them.
     pub(crate) fn weather(&self) -> impl Iterator<Item = (WeatherPart, Rc<Node>)> {
-        let said = [self.said.weather, self.said.sun];
+        let said = [self.said.weather, self.said.rain, self.said.sun];
         self.conditions.weather().into_iter().zip(said).filter(|(_, said)| *said).flat_map(|(parts, _)| parts)
     }
 

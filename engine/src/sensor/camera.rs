@@ -75,7 +75,7 @@ pub struct Mounted {
 pub struct Moment {
     /// All bodies, that of the car first.
     pub bodies: Vec<BodyState>,
-    /// Light, fog and the sun.
+    /// Light, fog, rain and the sun.
     pub weather: Weather,
     /// Of the car in m/s.
     pub speed: f64,

@@ -97,7 +97,7 @@ pub struct View<'a> {
     pub bodies: &'a [BodyState],
     /// The roads.
     pub network: &'a Network,
-    /// Light, fog and the sun.
+    /// Light, fog, rain and the sun.
     pub weather: Weather,
     /// What of the weather is in the way of light: [`Air::of`] it.
     pub air: Air,

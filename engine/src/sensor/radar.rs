@@ -3,8 +3,8 @@
 //! A body answers with its nearest point. How likely it is detected follows from the radar equation: the signal-to-noise
 //! ratio falls with the fourth power of the distance and rises with the radar cross-section, and a fluctuating target
 //! (Swerling I, a single look) is detected with the probability P_fa^(1 / (1 + SNR)) (Richards, Fundamentals of Radar Signal
-//! Processing, section 6.3). What stands behind something large is not seen. Fog does nothing to the wavelengths of radars;
-//! there are no multiple reflections.
+//! Processing, section 6.3). What stands behind something large is not seen. Fog does nothing to the wavelengths of radars, and
+//! rain, which takes some decibels over 200 m, is left out; there are no multiple reflections.
 
 use super::error::{Checks, SensorError};
 use super::sight::hidden;

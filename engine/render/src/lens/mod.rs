@@ -1,12 +1,14 @@
 //! What a lens and a sensor do to light: from the linear light of a [`Frame`] to the image that a camera gives.
 //!
-//! Light passes in this order: it is smeared by motion, spread by defocus and by blur, dimmed towards the corners, exposed,
+//! Light passes in this order: rain falls into it, it is smeared by motion, spread by defocus and by blur, dimmed towards the corners, exposed,
 //! counted as electrons with their noise, cut off where the sensor is full, and written in sRGB. All is computed on the
 //! processor, so that an image is the same whatever it was drawn beside.
 
 mod kernel;
+mod rain;
 
 pub use kernel::Kernel;
+pub use rain::Rain;
 
 use crate::{Camera, CameraError, Frame};
 use nalgebra::Point2;

@@ -7,7 +7,6 @@ use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Arc, Weak};
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 /// Street lamps are at least so high, in metres; below are those of cars.
 const HIGH: f32 = 2.5;
@@ -103,7 +102,12 @@ impl GpuMesh {
         }
         let positions = || mesh.vertices().iter().map(|vertex| Vector3::from(vertex.position).cast::<f64>());
         let buffer = |contents: &[u8], usage| {
-            gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some("mesh"), contents, usage })
+            let (size, usage) = (contents.len() as u64, usage | wgpu::BufferUsages::COPY_DST);
+            let mesh = wgpu::BufferDescriptor { label: Some("mesh"), size, usage, mapped_at_creation: false };
+            // A buffer that is made with its contents panics where the device is lost; writing is refused.
+            let buffer = gpu.device.create_buffer(&mesh);
+            gpu.queue.write_buffer(&buffer, 0, contents);
+            buffer
         };
         Ok(Self {
             corners: buffer(bytemuck::cast_slice(&corners), wgpu::BufferUsages::VERTEX),

@@ -25,6 +25,7 @@ use meshes::{Finish, Meshes};
 use pipelines::Pipelines;
 use prepare::{Draw, Prepared, prepare};
 use raw::RawView;
+use shadow::texels;
 use targets::{Format, Targets, cleared, view_stride};
 
 /// Draws what cameras see.
@@ -62,6 +63,12 @@ impl Renderer {
     /// What it draws with.
     pub fn adapter(&self) -> &Adapter {
         &self.gpu.adapter
+    }
+
+    /// Loses its device, as when a driver gives up: for tests of those who draw with it.
+    #[doc(hidden)]
+    pub fn lose(&self) {
+        self.gpu.device.destroy();
     }
 
     /// Draws the views; the frames are in their order. A view that cannot be drawn does not keep the others from it.
@@ -162,12 +169,15 @@ impl Renderer {
         prepared: &Prepared,
         first: u32,
     ) {
-        let wanted = targets.format.wanted;
+        let Format { width, height, wanted } = targets.format;
         let offset = layer * view_stride(&self.gpu) as u32;
+        // Where nothing throws a shadow, there is no map to clear, nor one to look at.
+        let wanted = Outputs { shadows: !prepared.casters.is_empty(), ..wanted };
         let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
-        if wanted.shadows && wanted.light() {
+        let sun = self.pipelines.sun(&self.gpu, texels(width, height));
+        if wanted.shadows {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),
+                depth_stencil_attachment: Some(cleared(&sun.depth, 1.0, wgpu::StoreOp::Store)),
                 ..Default::default()
             });
             pass.set_pipeline(&self.pipelines.shadow);
@@ -177,7 +187,7 @@ impl Renderer {
         {
             let mut pass = targets.begin(encoder, layer, true);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
-            pass.set_bind_group(1, &self.pipelines.sun, &[]);
+            pass.set_bind_group(1, &sun.group, &[]);
             for (finish, surface) in Finish::ALL.into_iter().zip(&drawing.surfaces) {
                 pass.set_pipeline(surface);
                 self.draw(&mut pass, targets, &prepared.draws, first, Some(finish));

@@ -75,8 +75,10 @@ fn a_lost_device_is_an_error_and_a_new_renderer_sees_again() {
     let (scene, camera) = (board(), camera());
     let views = [View::new(&scene, &camera, Isometry3::identity())];
     renderer.render(&views, INSTANCES).expect("the adapter works");
-    renderer.gpu.device.destroy();
-    for _ in 0..2 {
+    renderer.lose();
+    // What it has never drawn before fails no otherwise.
+    let new = board();
+    for views in [[View::new(&new, &camera, Isometry3::identity())], views, views] {
         let error = renderer.render(&views, INSTANCES).expect_err("it is lost");
         assert!(matches!(error, RenderError::Lost(_)), "{error}");
     }

@@ -4,7 +4,7 @@
 //! moment: the car does not move while the beams go round. The car that carries the sensor is not hit.
 //!
 //! What comes back has the intensity exp(-(a + 2 β) d) at the distance d, where a is the attenuation of clear air and β the
-//! extinction of the fog, which light passes on its way there and back. Weak echoes are lost: none from `sure` on, and below
+//! extinction of fog and rain, which light passes on its way there and back. Weak echoes are lost: none from `sure` on, and below
 //! it the more the weaker, up to all of those of which nothing is left. Surfaces are all alike.
 //!
 //! The beams are cast in 64 bits ([`scanner`]), not by parry, which computes in 32. Measured over a million beams each at
