@@ -5,8 +5,8 @@
 //! Bando, Hasebe, Nakayama, Shibata, Sugiyama, "Dynamical model of traffic congestion and numerical simulation", Phys. Rev.
 //! E 51, 1995). A time headway of 1.5 s and a relaxation of 1.5 /s leave a damping ratio of 0.75, so that it hardly
 //! overshoots; how fast the other one is, which an image does not show, it need not know. For a person who walks on the
-//! road ahead, or onto it, or stands in the way it stops, braking evenly, unless it is too near to stop at all: then the best is to be
-//! past before them.
+//! road ahead, or onto it, or stands in the way it stops, braking evenly, and holds the brakes while it stands. If they are
+//! too near to stop at all, the best is to be past before them.
 
 use super::cruise::{Cruise, PERIOD};
 use super::frenet::Frenet;
