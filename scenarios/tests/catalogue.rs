@@ -358,3 +358,15 @@ fn on_the_highway_the_truck_drives_through_nobody() {
     }
     assert!(crossed >= 3, "{crossed} trucks cross in time");
 }
+
+#[test]
+fn the_expert_stops_for_who_crosses_at_one_metre_a_second_and_goes_on() {
+    let program = find("pedestrian-crossing").unwrap();
+    for distance in [5.0, 15.0, 25.0, 30.0, 40.0, 50.0, 60.0] {
+        let changes = [("speed", Value::Number(1.0)), ("distance", Value::Number(distance))];
+        let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "expert");
+        assert_eq!(outcome.verdict, Verdict::Pass, "from {distance} m on");
+        let least = signal(&outcome, "car.speed").into_iter().fold(f64::INFINITY, f64::min);
+        assert_eq!(least < 0.5, distance > 20.0, "{least} m/s from {distance} m on");
+    }
+}

@@ -5,8 +5,8 @@
 //! Bando, Hasebe, Nakayama, Shibata, Sugiyama, "Dynamical model of traffic congestion and numerical simulation", Phys. Rev.
 //! E 51, 1995). A time headway of 1.5 s and a relaxation of 1.5 /s leave a damping ratio of 0.75, so that it hardly
 //! overshoots; how fast the other one is, which an image does not show, it need not know. For a person who walks on the
-//! road ahead or stands in the way it stops, braking evenly, unless it is too near to stop at all: then the best is to be
-//! past before them.
+//! road ahead, or onto it, or stands in the way it stops, braking evenly, and holds the brakes while it stands. If they are
+//! too near to stop at all, the best is to be past before them.
 
 use super::cruise::{Cruise, PERIOD};
 use super::frenet::Frenet;
@@ -31,6 +31,8 @@ const RELAXATION: f64 = 1.5;
 const MARGIN: f64 = 0.3;
 /// How far to the left and right of its way the road goes, in metres, on which it lets nobody walk.
 const ROAD: (f64, f64) = (-2.0, 5.3);
+/// Who is on the road in so many seconds counts as on it now.
+const SOON: f64 = 1.0;
 /// From this speed in m/s on a person walks.
 const WALKING: f64 = 0.1;
 /// How it slows down for people, in m/s².
@@ -58,10 +60,16 @@ impl Expert {
         }
         match body.class {
             Class::Pedestrian => {
-                let on_the_road = (ROAD.0..=ROAD.1).contains(&body.position.y) && body.velocity.norm() > WALKING;
+                let walks = body.velocity.norm() > WALKING;
+                let road = ROAD.0..=ROAD.1;
+                let on_the_road =
+                    walks && [0.0, SOON].iter().any(|t| road.contains(&(body.position.y + t * body.velocity.y)));
                 let needed = speed * speed / (2.0 * gap.max(0.1));
                 let concerns = in_the_way || on_the_road && needed <= HARDEST;
-                concerns.then(|| (2.0 * EVENLY * (gap - STANDSTILL).max(0.0)).sqrt())
+                // What it covers while it takes up a speed is not there any more to brake in.
+                let room = gap - STANDSTILL - speed / RELAXATION;
+                // Nearer than it wants to stand it holds the brakes, the harder the nearer.
+                concerns.then(|| (2.0 * EVENLY * room.abs()).sqrt().copysign(room))
             }
             Class::Building | Class::Tree | Class::Sign => None,
             _ => in_the_way.then(|| (gap - STANDSTILL).max(0.0) / HEADWAY),

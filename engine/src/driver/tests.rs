@@ -177,6 +177,7 @@ fn the_expert_stops_for_people_who_walk_on_the_road_if_it_can() {
     };
     assert!(expert_with(walker(25.0, 3.5, 1.0)) < -0.2, "on the other lane");
     assert!(expert_with(walker(25.0, 0.0, 0.0)) < -0.2, "standing in the way");
+    assert!(expert_with(walker(25.0, 6.0, 1.0)) < -0.2, "on the road in a second");
     assert!(expert_with(walker(25.0, 6.5, 0.0)).abs() < 1e-9, "on the sidewalk");
     assert!(expert_with(walker(12.0, 4.5, 1.0)).abs() < 1e-9, "too near to stop, and not yet in the way");
     assert!(expert_with(walker(-8.0, 0.0, 1.0)).abs() < 1e-9, "behind");

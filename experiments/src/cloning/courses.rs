@@ -1,6 +1,6 @@
 //! What networks are taught, in which tests, and how long.
 
-use paracosm::coverage::Domain;
+use paracosm::coverage::{Domain, Value};
 use paracosm::{Error, Study};
 use paracosm_neural::learn::Recipe;
 use paracosm_neural::{CLONED, Model, Pilot};
@@ -46,6 +46,17 @@ pub const FOLLOW: Course = Course {
         let range = |lo, hi| Some(Domain::Interval { lo, hi });
         Study::of("follow-leader")?.open("leader_speed", range(2.0, 12.0))?.open("gap", range(18.0, 40.0))
     },
+};
+
+/// Figure 9: on a straight road that a pedestrian crosses at 1 m/s, who sets out at any of the study's distances.
+pub const STOP: Course = Course {
+    name: "stop",
+    resolution: [120, 40],
+    disturbance: [0.01, 0.15],
+    weights: [10.0, 1.0],
+    held_out: 8,
+    rounds: &[Round { tests: 20, epochs: 6 }, Round { tests: 14, epochs: 4 }, Round { tests: 16, epochs: 8 }],
+    conditions: || Study::of("pedestrian-crossing")?.set("speed", Value::Number(1.0)),
 };
 
 impl Course {

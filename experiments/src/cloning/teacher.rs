@@ -22,6 +22,9 @@ const LEFT: f64 = 0.8;
 /// This many metres beside its way nothing can be learnt any more.
 const LOST: f64 = 3.0;
 
+/// With everybody this many metres behind there is nothing to learn any more either.
+const PAST: f64 = 60.0;
+
 /// A driver that takes notes.
 pub struct Teacher {
     expert: Box<dyn Driver>,
@@ -104,6 +107,9 @@ impl Driver for Teacher {
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         if observation.way.offset.abs() > LOST {
             return Err(Fault("the car is lost, and the lesson over".to_owned()));
+        }
+        if !observation.others.is_empty() && observation.others.iter().all(|other| other.position.x < -PAST) {
+            return Err(Fault("everybody is far behind, and the lesson over".to_owned()));
         }
         let right = self.expert.step(observation)?;
         if let Some(image) = self.seen.take() {
