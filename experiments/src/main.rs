@@ -13,6 +13,8 @@ mod fig10a;
 mod fig10c;
 mod fig9;
 mod recovery;
+#[cfg(feature = "neural")]
+mod saliency;
 mod samplers;
 mod system;
 mod transmission;
@@ -83,11 +85,18 @@ const STUDIES: &[Study] = &[
         time: "6 s",
         run: fig10c::run,
     },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "saliency",
+        about: "which pixels a cloned driver goes by: what covering each changes, and whether red ones make it brake",
+        time: "1 min",
+        run: saliency::run,
+    },
 ];
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 3] = ["train-follow", "fig10a", "fig10c"];
+const NEURAL: [&str; 4] = ["train-follow", "fig10a", "fig10c", "saliency"];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 
