@@ -52,11 +52,11 @@ fn red_makes_the_cloned_driver_brake_in_its_lane_near_by_and_nowhere_else() {
     let [gap, red, white, oncoming, grass, rectangle, nobody] =
         ["gap", "red_leader", "white_leader", "red_other_lane", "red_on_the_grass", "bare_red_rectangle", "nobody"]
             .map(|name| column(table, name));
-    for i in 0..gap.len() {
-        assert!((oncoming[i] - nobody[i]).abs() < 0.1 && (grass[i] - nobody[i]).abs() < 0.1, "at {} m", gap[i]);
-        if gap[i] <= 8.0 {
-            assert!(red[i] < -0.5 && rectangle[i] < -0.3, "at {} m", gap[i]);
-            assert!(white[i] > red[i] + 0.2, "at {} m", gap[i]);
+    for (i, gap) in gap.iter().enumerate() {
+        assert!((oncoming[i] - nobody[i]).abs() < 0.1 && (grass[i] - nobody[i]).abs() < 0.1, "at {gap} m");
+        if *gap <= 8.0 {
+            assert!(red[i] < -0.5 && rectangle[i] < -0.3, "at {gap} m");
+            assert!(white[i] > red[i] + 0.2, "at {gap} m");
         }
     }
 }

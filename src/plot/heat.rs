@@ -65,9 +65,8 @@ impl HeatMap {
         let left = (MARGIN * scale) as i32;
         area.draw(&Text::new(self.title.clone(), (left, px(0.5 * TEXT)), style(TEXT)))?;
         area.draw(&Text::new(self.note.clone(), (left, px(1.8 * TEXT)), style(0.8 * TEXT)))?;
-        let place = |column: u32, row: u32| {
-            (((MARGIN + column * CELL) * scale) as i32, ((HEADER + row * CELL) * scale) as i32)
-        };
+        let place =
+            |column: u32, row: u32| (((MARGIN + column * CELL) * scale) as i32, ((HEADER + row * CELL) * scale) as i32);
         for row in 0..self.rows() {
             // Pixels of one colour side by side are one rectangle, so that the SVG stays small.
             let mut first = 0;
