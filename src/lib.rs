@@ -82,7 +82,7 @@ pub use folder::Folder;
 pub use live::LiveCoverage;
 pub use modes::{Extent, Mode, Modes, Touch};
 pub use plan::{Guarantee, Need, Plan};
-pub use plot::{Axis, FailureMap, Lines, Mark, Picture, Tints, drawing_png, film_gif};
+pub use plot::{Axis, FailureMap, HeatMap, Lines, Mark, Picture, Tints, drawing_png, film_gif};
 pub use promise::Promise;
 pub use regression::{Expectation, Regression, Replayed};
 pub use shrink::{Change, Sameness, Shrunk};

@@ -15,6 +15,8 @@ mod fig9;
 #[cfg(feature = "neural")]
 mod fig9_cnn;
 mod recovery;
+#[cfg(feature = "neural")]
+mod saliency;
 mod samplers;
 mod sampling;
 mod system;
@@ -107,11 +109,19 @@ const STUDIES: &[Study] = &[
         time: "6 s",
         run: fig10c::run,
     },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "saliency",
+        about: "which pixels a cloned driver goes by: what covering each changes, and whether red ones make it brake",
+        time: "1 min",
+        run: saliency::run,
+    },
 ];
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 6] = ["train-follow", "train-stop", "fig9-cnn", "fig9-cnn-reference", "fig10a", "fig10c"];
+const NEURAL: [&str; 7] =
+    ["train-follow", "train-stop", "fig9-cnn", "fig9-cnn-reference", "fig10a", "fig10c", "saliency"];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 

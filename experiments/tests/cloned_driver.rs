@@ -1,4 +1,4 @@
-//! What Figure 10a shows, as its numbers have it.
+//! What the figures of cloned drivers show, as their numbers have it.
 
 /// Fog, light, metres and whether the test passed.
 fn tests() -> Vec<(f64, f64, f64, bool)> {
@@ -29,4 +29,34 @@ fn the_cloned_driver_gets_less_far_and_fails_more_in_fog_than_where_it_was_train
     };
     let (clear, fog) = (failing(|fog| fog < 0.2), failing(|fog| fog >= 0.6));
     assert!(fog > clear + 0.2, "{clear} fail in clear air, {fog} in fog");
+}
+
+/// The columns of a table by their names.
+fn column(table: &str, name: &str) -> Vec<f64> {
+    let place = table.lines().next().unwrap().split(',').position(|column| column == name).expect("a column");
+    table.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap()).collect()
+}
+
+#[test]
+fn covering_the_leader_changes_the_throttle_far_more_than_its_share_of_the_image() {
+    let table = include_str!("../data/saliency.csv");
+    let (places, throttle) = (column(table, "share_of_places"), column(table, "share_of_throttle"));
+    // Red, white, nobody.
+    assert!(throttle[0] > 5.0 * places[0] && throttle[1] > 5.0 * places[1], "{throttle:?} of {places:?}");
+    assert!(throttle[2] < throttle[1], "{throttle:?}");
+}
+
+#[test]
+fn red_makes_the_cloned_driver_brake_in_its_lane_near_by_and_nowhere_else() {
+    let table = include_str!("../data/saliency-gap.csv");
+    let [gap, red, white, oncoming, grass, rectangle, nobody] =
+        ["gap", "red_leader", "white_leader", "red_other_lane", "red_on_the_grass", "bare_red_rectangle", "nobody"]
+            .map(|name| column(table, name));
+    for (i, gap) in gap.iter().enumerate() {
+        assert!((oncoming[i] - nobody[i]).abs() < 0.1 && (grass[i] - nobody[i]).abs() < 0.1, "at {gap} m");
+        if *gap <= 8.0 {
+            assert!(red[i] < -0.5 && rectangle[i] < -0.3, "at {gap} m");
+            assert!(white[i] > red[i] + 0.2, "at {gap} m");
+        }
+    }
 }

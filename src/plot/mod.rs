@@ -8,6 +8,7 @@ mod animation;
 mod bar;
 mod contour;
 mod frame;
+mod heat;
 mod lines;
 mod log_axis;
 mod log_log;
@@ -23,6 +24,7 @@ pub use animation::film_gif;
 #[cfg(feature = "camera")]
 pub(crate) use animation::gif_of_images;
 pub(crate) use frame::{Entry, Frame};
+pub use heat::HeatMap;
 pub use lines::Lines;
 pub(crate) use log_log::{Curve, LogLog, Plane};
 pub use map::{Axis, FailureMap};
@@ -59,7 +61,7 @@ fn level(size: f64, along: HPos) -> TextStyle<'static> {
     ink(size).pos(Pos::new(along, VPos::Center))
 }
 
-/// Failure maps side by side in rows, or a chart.
+/// Failure maps or images side by side in rows, or a chart.
 #[derive(Debug, Clone)]
 pub struct Picture {
     panels: Vec<Panel>,
@@ -75,6 +77,7 @@ enum Panel {
     LogLog(LogLog),
     Shares(Shares),
     Lines(Lines),
+    Heat(HeatMap),
 }
 
 type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
@@ -112,6 +115,16 @@ impl Picture {
     pub fn grid(columns: usize, maps: Vec<FailureMap>) -> Self {
         assert!(columns > 0 && !maps.is_empty(), "a picture shows something");
         Self { panels: maps.into_iter().map(Panel::Map).collect(), columns, size: (480, 440) }
+    }
+
+    /// A picture of several images of one size, `columns` in a row.
+    ///
+    /// # Panics
+    /// There is no image or no column.
+    pub fn of_images(columns: usize, images: Vec<HeatMap>) -> Self {
+        assert!(columns > 0 && !images.is_empty(), "a picture shows something");
+        let size = images[0].size();
+        Self { panels: images.into_iter().map(Panel::Heat).collect(), columns, size }
     }
 
     fn extent(&self) -> (u32, u32) {
@@ -161,6 +174,7 @@ impl Picture {
                     Panel::LogLog(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Shares(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Lines(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Heat(image) => image.draw(&part, scale)?,
                 }
             }
             area.present()

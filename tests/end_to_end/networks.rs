@@ -55,15 +55,21 @@ mod with_networks {
 
     /// An ONNX file, byte by byte: a driver that goes straight on and gives as much power, whatever it sees.
     fn model(throttle: f32) -> Vec<u8> {
+        answering(&[0.0, throttle])
+    }
+
+    /// One that always answers with these numbers.
+    fn answering(numbers: &[f32]) -> Vec<u8> {
+        let count = numbers.len() as u8;
         let graph = [
             node("GlobalAveragePool", &["image"], "mean"),
             node("Flatten", &["mean"], "colours"),
             node("Gemm", &["colours", "weights", "bias"], "control"),
             field(2, b"steady"),
-            tensor("weights", [3, 2], &[0.0; 6]),
-            tensor("bias", [1, 2], &[0.0, throttle]),
+            tensor("weights", [3, count], &vec![0.0; 3 * numbers.len()]),
+            tensor("bias", [1, count], numbers),
             value(11, "image", &[1, 3, 16, 24]),
-            value(12, "control", &[1, 2]),
+            value(12, "control", &[1, count]),
         ];
         [number(1, 8), field(8, &[field(1, b""), number(2, 13)].concat()), field(7, &graph.concat())].concat()
     }
@@ -99,9 +105,37 @@ mod with_networks {
         fs::write(dir.join("none.onnx"), "no network").expect("a file");
         refused(&run(dir, &["--open", "fog", "--driver", "none.onnx"]), &["none.onnx", "ONNX"]);
         refused(&run(dir, &["--open", "fog", "--driver", "missing.onnx"]), &["cannot read missing.onnx"]);
+        fs::write(dir.join("three.onnx"), answering(&[0.0; 3])).expect("a file");
+        let three = run(dir, &["--open", "fog", "--driver", "three.onnx"]);
+        refused(&three, &["three.onnx", "the output is", "1,3", "expected 1 x 2"]);
         fs::write(dir.join("steady.onnx"), model(0.1)).expect("a file");
         let set = ["--open", "fog", "--driver", "steady.onnx", "--set", "driver.ttc=1"];
         refused(&run(dir, &set), &["network", "`ttc`"]);
         refused(&fuzz(dir, &["cut-in", "--driver", "cnn", "--budget", "1"]), &["`cut-in`", "MODEL.onnx"]);
+    }
+
+    #[test]
+    fn the_network_that_comes_along_drives_the_same_on_any_number_of_threads() {
+        let dir = tempfile::tempdir().expect("a folder");
+        let dir = dir.path();
+        let log = |jobs: &str| {
+            let study = ["--open", "fog", "--open", "light", "--driver", "cnn", "--jobs", jobs, "--out", jobs];
+            succeeds(run(dir, &study));
+            fs::read_to_string(dir.join(jobs).join("trials.jsonl")).expect("a log")
+        };
+        assert_eq!(log("1"), log("2"));
+        assert!(stdout(&succeeds(fuzz(dir, &["replay", "2", "1", "--format", "json"]))).contains("hash"));
+    }
+
+    #[test]
+    fn a_failure_of_a_network_shrinks_to_a_sentence() {
+        let dir = tempfile::tempdir().expect("a folder");
+        let dir = dir.path();
+        fs::write(dir.join("steady.onnx"), model(0.3)).expect("a file");
+        // It sees neither the leader nor the fog, and so runs into the one at whatever speed the other allows.
+        let open = ["--open", "gap=10..60", "--open", "fog", "--set", "leader_speed=5", "--driver", "steady.onnx"];
+        succeeds(fuzz(dir, &[&["follow-leader", "--budget", "2", "--out", "out"][..], &open].concat()));
+        let shrunk = stdout(&succeeds(fuzz(dir, &["shrink", "out", "0", "--format", "json"])));
+        assert!(shrunk.contains("violates no-collision with everything nominal"), "{shrunk}");
     }
 }

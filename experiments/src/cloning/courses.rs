@@ -70,9 +70,14 @@ impl Course {
     /// # Errors
     /// The study is of no scenario.
     pub fn drives(&self, study: Study) -> Result<Study, Error> {
-        let network = CLONED.iter().find(|network| network.name == self.name).expect("every course has been held");
-        let pilot = Pilot::new(Model::read(network.contents).expect("it was written as a driver"));
+        let pilot = Pilot::new(self.network());
         study.own_driver("cnn", move || Box::new(pilot.clone()))
+    }
+
+    /// The network that came of the course, as it comes with the software.
+    pub fn network(&self) -> Model {
+        let network = CLONED.iter().find(|network| network.name == self.name).expect("every course has been held");
+        Model::read(network.contents).expect("it was written as a driver")
     }
 
     /// How it learns.

@@ -1,0 +1,115 @@
+//! What the network is shown: the first image of a test behind a leader, drawn again with the leader elsewhere, in another
+//! colour, or without it, so that nothing else differs.
+
+use crate::cloning::FOLLOW;
+use paracosm::coverage::{Value, Values};
+use paracosm::engine::object::Colour;
+use paracosm::engine::sensor::{Cameras, Image};
+use paracosm::record::{Film, Projector, Shot};
+use paracosm::render::{Outputs, Stages};
+use paracosm::{Study, Worker};
+use paracosm_neural::camera;
+
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// The places of the leader and of the car among the bodies, and the number of the leader's pixels in a mask.
+const CAR: usize = 0;
+const LEADER: usize = 1;
+const LEADERS_ID: u16 = 2;
+
+/// Where a leader is to be, and how it looks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scene {
+    /// Metres between the bumpers; `None` where there is no leader.
+    pub gap: Option<f64>,
+    /// Metres to the left of the lane's middle.
+    pub beside: f64,
+    pub colour: Colour,
+}
+
+/// An image with the pixels of the leader.
+#[derive(Debug, Clone)]
+pub struct Seen {
+    pub image: Image,
+    pub leader: Vec<bool>,
+}
+
+impl Seen {
+    pub fn width(&self) -> usize {
+        self.image.width as usize
+    }
+
+    pub fn height(&self) -> usize {
+        self.image.height as usize
+    }
+
+    /// The first and the last column and row of the leader.
+    pub fn bounds(&self) -> Option<[usize; 4]> {
+        let width = self.width();
+        let pixels = || self.leader.iter().enumerate().filter(|pixel| *pixel.1).map(|(i, _)| (i % width, i / width));
+        let (left, right) = (pixels().map(|p| p.0).min()?, pixels().map(|p| p.0).max()?);
+        let (top, bottom) = (pixels().map(|p| p.1).min()?, pixels().map(|p| p.1).max()?);
+        Some([left, right, top, bottom])
+    }
+
+    /// The mean colour of the leader.
+    pub fn leaders_colour(&self) -> Colour {
+        let count = self.leader.iter().filter(|mine| **mine).count().max(1);
+        [0, 1, 2].map(|channel| {
+            let mine = self.leader.iter().zip(self.image.rgb.chunks_exact(3)).filter(|(mine, _)| **mine);
+            (mine.map(|(_, pixel)| usize::from(pixel[channel])).sum::<usize>() / count) as u8
+        })
+    }
+}
+
+/// Where scenes are drawn.
+pub struct Studio {
+    projector: Projector,
+    film: Film,
+    /// What all scenes are made from.
+    first: Shot,
+}
+
+impl Studio {
+    /// One with the first image of a test in the conditions of training.
+    pub fn open() -> Result<Self, Failure> {
+        let study = FOLLOW.drives(Study::of("follow-leader")?)?;
+        let mut worker = Worker::new(&study)?;
+        let test: Values = [("leader_speed".to_owned(), Value::Number(8.0))].into_iter().collect();
+        let (trial, _) = worker.run(0, &test);
+        let cameras = Cameras { seed: 0, all: [("front".to_owned(), camera(FOLLOW.resolution))].into() };
+        let film = Film::of(&mut worker, &trial, &cameras, &Stages::default())?;
+        let first = film.shots[0].first().ok_or("the camera takes no image")?.clone();
+        let outputs = Outputs { rgb: true, instance: true, ..Outputs::default() };
+        Ok(Self { projector: Projector::new(&cameras, outputs)?, film, first })
+    }
+
+    /// Draws these scenes.
+    pub fn draw(&mut self, scenes: &[Scene]) -> Result<Vec<Seen>, Failure> {
+        self.film.shots[0] = scenes.iter().map(|scene| arranged(&self.first, scene)).collect();
+        let mut seen = Vec::new();
+        self.projector.show(&self.film, 0, |drawn| {
+            seen.extend(drawn.into_iter().filter_map(|(_, picture)| {
+                let frame = picture.frame;
+                let (width, height) = (frame.width(), frame.height());
+                let image = Image { camera: 0, number: 0, time: 0.0, width, height, rgb: frame.rgb? };
+                Some(Seen { image, leader: frame.instance?.iter().map(|id| *id == LEADERS_ID).collect() })
+            }));
+            Ok(())
+        })?;
+        if seen.len() == scenes.len() { Ok(seen) } else { Err("the camera is within a leader".into()) }
+    }
+}
+
+/// A shot with the leader elsewhere.
+fn arranged(shot: &Shot, scene: &Scene) -> Shot {
+    let mut shot = shot.clone();
+    let car = shot.moment.bodies[CAR];
+    let leader = &mut shot.moment.bodies[LEADER];
+    let lengths = car.body.outline.half_extent().x + leader.body.outline.half_extent().x;
+    let ahead = car.pose.forward() * (scene.gap.unwrap_or_default() + lengths);
+    leader.pose.position = car.pose.position + ahead + car.pose.left() * scene.beside;
+    leader.body.colour = scene.colour;
+    leader.present = scene.gap.is_some();
+    shot
+}

@@ -1,0 +1,253 @@
+//! Which pixels the network that follows goes by, and whether it follows red pixels, as the paper guesses of its own.
+//!
+//! Three things are done to what it sees, at one speed. Each place is covered with grey, and what that changes is how much the
+//! place matters. A red rectangle of the leader's size is put anywhere into the empty road. And the leader is moved away, in
+//! red, in white, beside the road, or as a bare rectangle, and the throttle read off.
+
+mod frames;
+mod occlusion;
+
+use crate::cloning::FOLLOW;
+use crate::{Done, print, write};
+use frames::{Scene, Seen, Studio};
+use indicatif::ProgressBar;
+use occlusion::{NOTHING, changes, covered, share, touching};
+use paracosm::engine::object::Colour;
+use paracosm::engine::sensor::Image;
+use paracosm::{Axis, HeatMap, Lines, Picture};
+use paracosm_neural::Model;
+use std::path::Path;
+
+const RED: Colour = [190, 25, 30];
+const WHITE: Colour = [235, 235, 235];
+
+/// What the network is told of its speed, in m/s, and how far ahead the leader is on the maps, in metres.
+const SPEED: f64 = 8.0;
+const GAP: f64 = 8.0;
+/// The greatest gap at which the throttle is read off, in metres.
+const FARTHEST: u8 = 30;
+/// The side of the patch that covers, in pixels; odd, so that it has a middle.
+const PATCH: usize = 5;
+/// Metres to the left, on the other lane, and to the right, on the grass.
+const ONCOMING: f64 = 3.5;
+const GRASS: f64 = -6.0;
+
+/// The frames that are covered: a name, and the leader.
+const FRAMES: [(&str, Option<Colour>); 3] =
+    [("red leader", Some(RED)), ("white leader", Some(WHITE)), ("nobody", None)];
+
+/// The answers, in the order in which the network gives them.
+const OUTPUTS: [&str; 2] = ["Steering", "Throttle"];
+const STEERING: usize = 0;
+const THROTTLE: usize = 1;
+
+/// A frame with what covering its places changes.
+struct Covered {
+    name: &'static str,
+    seen: Seen,
+    answer: [f32; 2],
+    changes: Vec<[f64; 2]>,
+}
+
+/// Runs the study and writes it to a folder.
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
+    bar.finish_and_clear();
+    let model = FOLLOW.network();
+    let scene = |colour: Option<Colour>| Scene { gap: colour.map(|_| GAP), beside: 0.0, colour: colour.unwrap_or(RED) };
+    let mut studio = Studio::open()?;
+    let seen = studio.draw(&FRAMES.map(|(_, colour)| scene(colour)))?;
+    let mut all = Vec::new();
+    for ((name, _), seen) in FRAMES.into_iter().zip(seen) {
+        let answer = model.answer(&seen.image, SPEED)?;
+        let changes = changes(&model, &seen.image, SPEED, [PATCH; 2], NOTHING)?;
+        all.push(Covered { name, seen, answer, changes });
+    }
+    let [red, _, nobody] = &all[..] else { unreachable!("there are three frames") };
+    let rectangle = rectangle_of(&red.seen)?;
+    let red_anywhere = changes(&model, &nobody.seen.image, SPEED, rectangle.size, rectangle.colour)?;
+
+    let picture = Picture::of_images(3, panels(&model, &all, &red_anywhere, &rectangle)?);
+    write(&out.join("saliency.svg"), picture.svg()?)?;
+    write(&out.join("saliency.png"), picture.png()?)?;
+    write(&out.join("maps.csv"), maps(&all, &red_anywhere))?;
+    let shares = shares(&all);
+    write(&out.join("saliency.csv"), &shares)?;
+
+    let (chart, table) = by_gap(&model, &mut studio)?;
+    let picture = Picture::of_lines(vec![chart]);
+    write(&out.join("saliency-gap.svg"), picture.svg()?)?;
+    write(&out.join("saliency-gap.png"), picture.png()?)?;
+    write(&out.join("gap.csv"), &table)?;
+    print(&format!("{shares}{}{table}", anywhere(&red_anywhere, &nobody.seen, &rectangle)))
+}
+
+/// A rectangle as large and as red as the leader.
+struct Rectangle {
+    size: [usize; 2],
+    middle: [usize; 2],
+    colour: Colour,
+}
+
+fn rectangle_of(seen: &Seen) -> Result<Rectangle, String> {
+    let [left, right, top, bottom] = seen.bounds().ok_or("the leader is not to be seen")?;
+    let size = [right - left + 1, bottom - top + 1];
+    Ok(Rectangle { size, middle: [left + size[0] / 2, top + size[1] / 2], colour: seen.leaders_colour() })
+}
+
+/// A row for each frame: what the network sees, and what covering its places changes in throttle and steering; below, what a
+/// red rectangle changes.
+fn panels(
+    model: &Model,
+    all: &[Covered],
+    red_anywhere: &[[f64; 2]],
+    rectangle: &Rectangle,
+) -> Result<Vec<HeatMap>, String> {
+    let mut panels = Vec::new();
+    for frame in all {
+        let most = [0, 1].map(|output| largest(all.iter().flat_map(|frame| &frame.changes), output));
+        panels.extend(row(frame.name, &frame.seen.image, frame.answer, &frame.changes, most, "covering it"));
+    }
+    let Rectangle { size: [width, height], middle, colour } = *rectangle;
+    let nobody = &all[2].seen.image;
+    let painted = covered(nobody, middle, [width, height], colour);
+    let answer = model.answer(&painted, SPEED)?;
+    let most = [0, 1].map(|output| largest(red_anywhere.iter(), output));
+    let what = format!("{width} x {height} red pixels around it");
+    let mut last = row("red rectangle", &painted, answer, red_anywhere, most, &what);
+    // What is behind the rectangle's changes is the empty road.
+    last[1..].iter_mut().for_each(|panel| panel.rgb.clone_from(&nobody.rgb));
+    panels.extend(last);
+    Ok(panels)
+}
+
+fn largest<'a>(changes: impl Iterator<Item = &'a [f64; 2]>, output: usize) -> f64 {
+    changes.map(|change| change[output].abs()).fold(0.0, f64::max)
+}
+
+fn row(
+    name: &str,
+    image: &Image,
+    [steering, throttle]: [f32; 2],
+    changes: &[[f64; 2]],
+    most: [f64; 2],
+    what: &str,
+) -> [HeatMap; 3] {
+    let panel = |title: String, note: String, values: Vec<f64>, most: f64| HeatMap {
+        title,
+        note,
+        width: image.width,
+        rgb: image.rgb.clone(),
+        values,
+        most,
+    };
+    let map = |output: usize, more: &str, less: &str| {
+        let note = format!("{what}: {more} (orange), {less} (blue), by up to {:.2}", most[output]);
+        let values = changes.iter().map(|change| change[output]).collect();
+        panel(format!("{}, {name}", OUTPUTS[output]), note, values, most[output])
+    };
+    let note = format!("steering {steering:.2}, throttle {throttle:.2} at {SPEED} m/s");
+    [
+        panel(format!("What it sees: {name}"), note, vec![], 1.0),
+        map(THROTTLE, "more power", "less"),
+        map(STEERING, "to the left", "right"),
+    ]
+}
+
+/// Every number of the maps.
+fn maps(all: &[Covered], red_anywhere: &[[f64; 2]]) -> String {
+    let mut rows = vec!["what,column,row,leader,steering,throttle".to_owned()];
+    let mut add = |what: &str, seen: &Seen, changes: &[[f64; 2]]| {
+        for (i, [steering, throttle]) in changes.iter().enumerate() {
+            let (column, row) = (i % seen.width(), i / seen.width());
+            rows.push(format!("{what},{column},{row},{},{steering:.6},{throttle:.6}", u8::from(seen.leader[i])));
+        }
+    };
+    all.iter().for_each(|frame| add(frame.name, &frame.seen, &frame.changes));
+    add("red rectangle", &all[2].seen, red_anywhere);
+    rows.join("\n") + "\n"
+}
+
+/// How much of all change the leader has, against its share of the places.
+fn shares(all: &[Covered]) -> String {
+    let mut rows = vec!["frame,steering,throttle,share_of_places,share_of_throttle,share_of_steering".to_owned()];
+    // Where nobody is, the places are those of the red leader.
+    let red = touching(&all[0].seen, PATCH);
+    for Covered { name, seen, answer: [steering, throttle], changes } in all {
+        let places = if seen.leader.contains(&true) { touching(seen, PATCH) } else { red.clone() };
+        let area = places.iter().filter(|place| **place).count() as f64 / places.len() as f64;
+        let [of_steering, of_throttle] = [STEERING, THROTTLE].map(|output| share(changes, output, &places));
+        rows.push(format!("{name},{steering:.4},{throttle:.4},{area:.4},{of_throttle:.4},{of_steering:.4}"));
+    }
+    rows.join("\n") + "\n"
+}
+
+/// What a red rectangle does where the leader would be, and elsewhere.
+fn anywhere(changes: &[[f64; 2]], seen: &Seen, rectangle: &Rectangle) -> String {
+    let [column, row] = rectangle.middle;
+    let there = changes[row * seen.width() + column][THROTTLE];
+    let mean = changes.iter().map(|change| change[THROTTLE]).sum::<f64>() / changes.len() as f64;
+    let (at, least) = changes
+        .iter()
+        .map(|change| change[THROTTLE])
+        .enumerate()
+        .fold((0, 0.0), |best, (i, change)| if change < best.1 { (i, change) } else { best });
+    let (column, row) = (at % seen.width(), at / seen.width());
+    format!(
+        "a red rectangle changes the throttle by {there:.3} where the leader would be, by {mean:.3} on average over the \
+         image, by {least:.3} at most (column {column}, row {row})\n"
+    )
+}
+
+/// The throttle by the distance of what may be taken for a leader.
+fn by_gap(model: &Model, studio: &mut Studio) -> Result<(Lines, String), Box<dyn std::error::Error + Send + Sync>> {
+    let gaps: Vec<f64> = (3..=FARTHEST).map(f64::from).collect();
+    let scenes = |beside: f64, colour: Colour| -> Vec<Scene> {
+        gaps.iter().map(|gap| Scene { gap: Some(*gap), beside, colour }).collect()
+    };
+    let cases = [
+        ("red leader", 0.0, RED),
+        ("white leader", 0.0, WHITE),
+        ("red, other lane", ONCOMING, RED),
+        ("red, on the grass", GRASS, RED),
+    ];
+    let mut curves: Vec<(String, Vec<f64>)> = Vec::new();
+    let mut leaders = Vec::new();
+    for (name, beside, colour) in cases {
+        let seen = studio.draw(&scenes(beside, colour))?;
+        curves.push((name.to_owned(), throttles(model, seen.iter())?));
+        if curves.len() == 1 {
+            leaders = seen;
+        }
+    }
+    let empty = studio.draw(&[Scene { gap: None, beside: 0.0, colour: RED }])?.remove(0);
+    let alone = model.answer(&empty.image, SPEED)?[THROTTLE];
+    let mut painted = Vec::new();
+    for leader in &leaders {
+        let Rectangle { size, middle, colour } = rectangle_of(leader)?;
+        painted.push(Seen { image: covered(&empty.image, middle, size, colour), leader: vec![] });
+    }
+    curves.push(("bare red rectangle".to_owned(), throttles(model, painted.iter())?));
+    curves.push(("nobody".to_owned(), vec![f64::from(alone); gaps.len()]));
+
+    let names: Vec<String> = curves.iter().map(|curve| curve.0.replace(", ", "_").replace(' ', "_")).collect();
+    let mut rows = vec![format!("gap,pixels,{}", names.join(","))];
+    for (i, gap) in gaps.iter().enumerate() {
+        let pixels = leaders[i].leader.iter().filter(|mine| **mine).count();
+        let numbers: Vec<String> = curves.iter().map(|curve| format!("{:.4}", curve.1[i])).collect();
+        rows.push(format!("{gap},{pixels},{}", numbers.join(",")));
+    }
+    let over = |values: Vec<f64>| gaps.iter().copied().zip(values).collect();
+    let axis = |label: &str, range| Axis { label: label.to_owned(), range };
+    let chart = Lines {
+        title: "What makes the cloned driver brake".to_owned(),
+        note: format!("one image each, at {SPEED} m/s; trained behind red leaders alone"),
+        x: axis("gap to it [m]", (0.0, f64::from(FARTHEST))),
+        y: axis("throttle", (-1.0, 1.0)),
+        curves: curves.into_iter().map(|(name, values)| (name, over(values))).collect(),
+    };
+    Ok((chart, rows.join("\n") + "\n"))
+}
+
+fn throttles<'a>(model: &Model, seen: impl Iterator<Item = &'a Seen>) -> Result<Vec<f64>, String> {
+    seen.map(|seen| Ok(f64::from(model.answer(&seen.image, SPEED)?[THROTTLE]))).collect()
+}
