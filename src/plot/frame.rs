@@ -1,7 +1,7 @@
 //! What stands around the planes of a chart: two lines above them and a legend beside them.
 
 use super::symbol::{LINE, Look, Symbol};
-use super::{FAMILY, INK};
+use super::{HPos, INK, ink, level};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -45,24 +45,20 @@ impl Frame {
         scale: f64,
     ) -> Result<Areas<B>, B> {
         let px = |length: f64| (length * scale).round() as i32;
-        let style = |size: f64| TextStyle::from((FAMILY, size * scale).into_font()).color(&INK);
         let (header, body) = area.split_vertically(px(4.2 * TEXT));
-        header.draw(&Text::new(self.title.clone(), (px(14.0), px(0.5 * TEXT)), style(1.15 * TEXT)))?;
-        header.draw(&Text::new(self.note.clone(), (px(14.0), px(2.0 * TEXT)), style(0.85 * TEXT)))?;
+        header.draw(&Text::new(self.title.clone(), (px(14.0), px(0.5 * TEXT)), ink(1.15 * TEXT * scale)))?;
+        header.draw(&Text::new(self.note.clone(), (px(14.0), px(2.0 * TEXT)), ink(0.85 * TEXT * scale)))?;
         Ok(body.split_horizontally(px(f64::from(width))))
     }
 
     /// Draws the legend.
     pub(super) fn draw_legend<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> Result<(), B> {
         let px = |length: f64| (length * scale).round() as i32;
-        let style = TextStyle::from((FAMILY, 0.85 * TEXT * scale).into_font()).color(&INK);
+        let size = 0.85 * TEXT * scale;
         let (name_at, number_at) = (px(36.0), px(f64::from(LEGEND) - 18.0));
         let write = |name: &str, number: &str, y: i32| {
-            let (width, height) = area.estimate_text_size(number, &style)?;
-            // The middle of a line's lower-case letters is a little below that of its box.
-            let top = y - (0.42 * f64::from(height)) as i32;
-            area.draw(&Text::new(name.to_owned(), (name_at, top), style.clone()))?;
-            area.draw(&Text::new(number.to_owned(), (number_at - width as i32, top), style.clone()))
+            area.draw(&Text::new(name.to_owned(), (name_at, y), level(size, HPos::Left)))?;
+            area.draw(&Text::new(number.to_owned(), (number_at, y), level(size, HPos::Right)))
         };
         let line = |i: usize| px(TEXT * (1.2 + 1.55 * i as f64));
         write(&self.legend[0], &self.legend[1], line(0))?;

@@ -2,7 +2,7 @@
 //! grey, by the names at their sides.
 
 use super::map::{Axis, Ends, Result};
-use super::{FAMILY, GRID, INK};
+use super::{GRID, HPos, INK, ink, level};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -37,11 +37,10 @@ impl Lines {
     /// Draws the chart over the whole area, every length in pixels times `scale`.
     pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> Result<B> {
         let px = |length: f64| (length * scale).round() as u32;
-        let style = |size: f64| TextStyle::from((FAMILY, size * scale).into_font()).color(&INK);
         let (header, body) = area.split_vertically(px(5.6 * TEXT));
         let left = px(0.8 * TEXT) as i32;
-        header.draw(&Text::new(self.title.clone(), (left, px(0.5 * TEXT) as i32), style(1.15 * TEXT)))?;
-        header.draw(&Text::new(self.note.clone(), (left, px(2.0 * TEXT) as i32), style(0.85 * TEXT)))?;
+        header.draw(&Text::new(self.title.clone(), (left, px(0.5 * TEXT) as i32), ink(1.15 * TEXT * scale)))?;
+        header.draw(&Text::new(self.note.clone(), (left, px(2.0 * TEXT) as i32), ink(0.85 * TEXT * scale)))?;
         self.draw_names(&header, px(4.4 * TEXT) as i32, scale)?;
         let mut chart = ChartBuilder::on(&body)
             .margin_right(px(1.6 * TEXT))
@@ -54,8 +53,8 @@ impl Lines {
             .configure_mesh()
             .x_desc(&self.x.label)
             .y_desc(&self.y.label)
-            .axis_desc_style(style(TEXT))
-            .label_style(style(0.85 * TEXT))
+            .axis_desc_style(ink(TEXT * scale))
+            .label_style(ink(0.85 * TEXT * scale))
             .axis_style(INK.stroke_width(px(1.0)))
             .bold_line_style(GRID.stroke_width(px(1.0)))
             .light_line_style(TRANSPARENT)
@@ -71,14 +70,14 @@ impl Lines {
     }
 
     fn draw_names<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, y: i32, scale: f64) -> Result<B> {
-        let style = TextStyle::from((FAMILY, 0.9 * TEXT * scale).into_font()).color(&INK);
+        let style = level(0.9 * TEXT * scale, HPos::Left);
         let px = |length: f64| (length * scale).round() as i32;
         let mut x = px(TEXT);
         for ((name, _), colour) in self.curves.iter().zip(COLOURS) {
             area.draw(&PathElement::new([(x, y), (x + px(24.0), y)], colour.stroke_width(px(2.0) as u32)))?;
             x += px(30.0);
-            let (width, height) = area.estimate_text_size(name, &style)?;
-            area.draw(&Text::new(name.clone(), (x, y - (0.42 * f64::from(height)) as i32), style.clone()))?;
+            let (width, _) = area.estimate_text_size(name, &style)?;
+            area.draw(&Text::new(name.clone(), (x, y), style.clone()))?;
             x += width as i32 + px(1.6 * TEXT);
         }
         Ok(())

@@ -7,7 +7,7 @@
 use super::frame::{Frame, TEXT};
 use super::log_axis::Log;
 use super::symbol::{LINE, Look, Symbol};
-use super::{FAMILY, GRID, INK};
+use super::{GRID, INK, ink};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::prelude::*;
@@ -64,9 +64,8 @@ impl LogLog {
 impl Plane {
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> Result<B> {
         let px = |length: f64| (length * scale).round() as u32;
-        let style = |size: f64| TextStyle::from((FAMILY, size * scale).into_font()).color(&INK);
         let (x, y) = self.axes();
-        area.draw(&Text::new(self.y.clone(), (px(14.0) as i32, 0), style(0.9 * TEXT)))?;
+        area.draw(&Text::new(self.y.clone(), (px(14.0) as i32, 0), ink(0.9 * TEXT * scale)))?;
         let mut chart = ChartBuilder::on(area)
             .margin_top(px(1.9 * TEXT))
             .margin_right(px(1.4 * TEXT))
@@ -77,8 +76,8 @@ impl Plane {
         chart
             .configure_mesh()
             .x_desc(&self.x)
-            .axis_desc_style(style(0.9 * TEXT))
-            .label_style(style(0.8 * TEXT))
+            .axis_desc_style(ink(0.9 * TEXT * scale))
+            .label_style(ink(0.8 * TEXT * scale))
             .axis_style(INK.stroke_width(px(1.0)))
             .bold_line_style(GRID.stroke_width(px(1.0)))
             .light_line_style(TRANSPARENT)

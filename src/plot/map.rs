@@ -1,7 +1,7 @@
 //! The failure map: every test a mark at the values of two of its parameters, as in the paper's Figure 9.
 
 use super::mark::{Drawn, Mark, ORDER};
-use super::{FAMILY, GRID, INK, Tints, shade};
+use super::{GRID, HPos, INK, Tints, ink, level, shade};
 use crate::blame::Blame;
 use crate::failure_estimate::{self, Axes, FailureEstimate};
 use crate::{Error, Study, Trial};
@@ -137,7 +137,6 @@ impl FailureMap {
             (body, None)
         };
 
-        let ink = TextStyle::from((FAMILY, px(text - 2.0)).into_font()).color(&INK);
         let mut chart = ChartBuilder::on(&body)
             .margin_right(px(1.6 * text))
             .margin_left(px(0.5 * text))
@@ -152,8 +151,8 @@ impl FailureMap {
             .configure_mesh()
             .x_desc(&self.x.label)
             .y_desc(&self.y.label)
-            .axis_desc_style(TextStyle::from((FAMILY, px(text)).into_font()).color(&INK))
-            .label_style(ink)
+            .axis_desc_style(ink(px(text).into()))
+            .label_style(ink(px(text - 2.0).into()))
             .axis_style(INK.stroke_width(px(1.0)))
             .bold_line_style(GRID.stroke_width(px(1.0)))
             .light_line_style(TRANSPARENT)
@@ -166,7 +165,7 @@ impl FailureMap {
         let side = (side / crowd.sqrt()).max(1.2) * scale;
         if let (Some(estimate), Some(bar)) = (&self.estimate, &bar) {
             shade::draw_lines(&chart.plotting_area().strip_coord_spec(), estimate, scale)?;
-            shade::draw_bar(bar, along, "probability of failure", text * scale)?;
+            shade::draw_bar(bar, along, text * scale)?;
         } else if let (Some(tints), Some(bar)) = (&self.tints, &bar) {
             let dot = |((x, y, _), value): (&(f64, f64, Mark), &f64)| {
                 Circle::new((*x, *y), 2.2 * side, tints.colour(*value).filled())
@@ -191,10 +190,9 @@ impl FailureMap {
         side: f64,
         scale: f64,
     ) -> Result<B> {
-        let style = |size: f64| TextStyle::from((FAMILY, size).into_font()).color(&INK);
         let left = (0.8 * text) as i32;
-        area.draw(&Text::new(self.title.clone(), (left, (0.5 * text) as i32), style(1.15 * text)))?;
-        area.draw(&Text::new(self.note(), (left, (1.95 * text) as i32), style(0.85 * text)))?;
+        area.draw(&Text::new(self.title.clone(), (left, (0.5 * text) as i32), ink(1.15 * text)))?;
+        area.draw(&Text::new(self.note(), (left, (1.95 * text) as i32), ink(0.85 * text)))?;
         let line = (3.8 * text) as i32;
         let mut at = left + side as i32;
         let of_faults = self.marks.iter().any(|mark| matches!(mark.2, Mark::Fault(_)));
@@ -205,11 +203,10 @@ impl FailureMap {
             }
             area.draw(&(EmptyElement::at((at, line)) + Drawn { mark, side: 1.3 * side }))?;
             let label = format!("{mark} {count}");
-            let style = style(0.9 * text);
-            let (width, height) = area.estimate_text_size(&label, &style)?;
+            let style = level(0.9 * text, HPos::Left);
+            let (width, _) = area.estimate_text_size(&label, &style)?;
             at += (0.8 * text) as i32;
-            // The middle of a line's lower-case letters is a little below that of its box.
-            area.draw(&Text::new(label, (at, line - (0.42 * f64::from(height)) as i32), style))?;
+            area.draw(&Text::new(label, (at, line), style))?;
             at += width as i32 + (1.8 * text) as i32;
         }
         if self.estimate.is_some() { shade::draw_key(area, (at, line), text, scale) } else { Ok(()) }

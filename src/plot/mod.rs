@@ -1,10 +1,11 @@
 //! Pictures, as SVG for papers and PNG for everything else.
 //!
 //! Both come from the same drawing code; the PNG is drawn at twice the size, so that it is sharp on any screen. Failure
-//! maps and charts are plotters' (`raster.rs` and `animation.rs` are for the engine's pictures of worlds and runs).
+//! maps and charts are plotters', which draws pixels on a canvas of ours; pictures of worlds and runs are the engine's.
 //! The font is in the program: pictures look the same on a machine without any.
 
 mod animation;
+mod bar;
 mod contour;
 mod frame;
 mod lines;
@@ -33,6 +34,7 @@ pub use tint::Tints;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 use std::error::Error as StdError;
 use std::sync::Once;
@@ -46,6 +48,16 @@ const PNG_SCALE: u32 = 2;
 
 const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
+
+/// The style of a text.
+fn ink(size: f64) -> TextStyle<'static> {
+    TextStyle::from((FAMILY, size).into_font()).color(&INK)
+}
+
+/// That of a text in a line with what is drawn beside it: its middle is where it is put.
+fn level(size: f64, along: HPos) -> TextStyle<'static> {
+    ink(size).pos(Pos::new(along, VPos::Center))
+}
 
 /// Failure maps side by side in rows, or a chart.
 #[derive(Debug, Clone)]
@@ -126,11 +138,9 @@ impl Picture {
     pub fn png(&self) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
         let (width, height) = self.extent();
         let (width, height) = (width * PNG_SCALE, height * PNG_SCALE);
-        let mut pixels = vec![0xff; (width * height * 3) as usize];
-        let area = BitMapBackend::with_buffer(&mut pixels, (width, height)).into_drawing_area();
-        self.draw(&area, PNG_SCALE)?;
-        drop(area);
-        encode_png(width, height, &pixels)
+        let mut pixels = raster::sheet(width, height);
+        self.draw(&raster::Canvas::on(&mut pixels).into_drawing_area(), PNG_SCALE)?;
+        encode_png(width, height, &raster::opaque(&pixels))
     }
 
     fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn

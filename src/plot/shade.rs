@@ -1,9 +1,10 @@
 //! The probability of failure behind the marks of a failure map: a shade, the line at one half, a hatch where it is not sure
-//! on which side of it a place is, and a bar that says which shade means what.
+//! on which side of it a place is, and what these mean.
 
+use super::bar::Bar;
 use super::contour::contour;
 use super::map::Result;
-use super::{FAMILY, INK};
+use super::{HPos, INK, level};
 use crate::failure_estimate::{FailureEstimate, decided};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -116,30 +117,10 @@ fn runs<T: PartialEq>(len: usize, value: impl Fn(usize) -> Option<T>) -> Vec<(us
     runs
 }
 
-/// Draws the bar of shades along the left side of an area, from `top` to `bottom`, with its label to the right.
-pub(super) fn draw_bar<B: DrawingBackend>(
-    area: &DrawingArea<B, Shift>,
-    (top, bottom): (i32, i32),
-    label: &str,
-    text: f64,
-) -> Result<B> {
-    let width = text.round() as i32;
-    let y = |share: f64| bottom - (share * f64::from(bottom - top)).round() as i32;
-    for shade in 0..SHADES {
-        let (low, high) = (shade as f64 / SHADES as f64, (shade + 1) as f64 / SHADES as f64);
-        area.draw(&Rectangle::new([(0, y(high)), (width, y(low))], colour(0.5 * (low + high)).filled()))?;
-    }
-    area.draw(&Rectangle::new([(0, top), (width, bottom)], INK.stroke_width(1)))?;
-    let style = TextStyle::from((FAMILY, 0.85 * text).into_font()).color(&INK);
-    for tick in [0.0, 0.25, 0.5, 0.75, 1.0] {
-        let number = format!("{:.0} %", 100.0 * tick);
-        let (_, height) = area.estimate_text_size(&number, &style)?;
-        area.draw(&PathElement::new([(width, y(tick)), (width + width / 3, y(tick))], INK.stroke_width(1)))?;
-        area.draw(&Text::new(number, (width + width / 2, y(tick) - (0.42 * f64::from(height)) as i32), style.clone()))?;
-    }
-    let style = style.transform(FontTransform::Rotate90);
-    let (length, _) = area.estimate_text_size(label, &style)?;
-    area.draw(&Text::new(label.to_owned(), ((3.7 * text) as i32, (top + bottom - length as i32) / 2), style))
+/// Draws the bar of shades along the left side of an area, from `top` to `bottom`.
+pub(super) fn draw_bar<B: DrawingBackend>(area: &DrawingArea<B, Shift>, along: (i32, i32), text: f64) -> Result<B> {
+    let ticks = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| (share, format!("{:.0} %", 100.0 * share)));
+    Bar { label: "probability of failure", steps: SHADES, ticks: ticks.into() }.draw(area, along, colour, text)
 }
 
 /// Draws what the line and the hatch mean, from a place on.
@@ -150,7 +131,7 @@ pub(super) fn draw_key<B: DrawingBackend>(
     scale: f64,
 ) -> Result<B> {
     let (side, stroke) = ((0.4 * text).round() as i32, scale.round() as u32);
-    let style = TextStyle::from((FAMILY, 0.9 * text).into_font()).color(&INK);
+    let style = level(0.9 * text, HPos::Left);
     for (label, is_line) in [("50 % fail", true), ("undecided", false)] {
         if is_line {
             area.draw(&PathElement::new([(x, y), (x + 3 * side, y)], INK.stroke_width(2 * stroke)))?;
@@ -161,8 +142,8 @@ pub(super) fn draw_key<B: DrawingBackend>(
             }
         }
         x += 4 * side;
-        let (width, height) = area.estimate_text_size(label, &style)?;
-        area.draw(&Text::new(label, (x, y - (0.42 * f64::from(height)) as i32), style.clone()))?;
+        let (width, _) = area.estimate_text_size(label, &style)?;
+        area.draw(&Text::new(label, (x, y), style.clone()))?;
         x += width as i32 + (1.8 * text) as i32;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use super::frame::{Frame, TEXT};
 use super::log_axis::Log;
 use super::symbol::{LINE, Look, Symbol};
-use super::{FAMILY, GRID, INK};
+use super::{GRID, INK, ink};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -42,8 +42,7 @@ impl Shares {
     pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> Result<B> {
         let (plane, legend) = self.frame.split(area, PLANE, scale)?;
         let px = |length: f64| (length * scale).round() as u32;
-        let style = |size: f64| TextStyle::from((FAMILY, size * scale).into_font()).color(&INK);
-        plane.draw(&Text::new(self.y.clone(), (px(14.0) as i32, 0), style(0.9 * TEXT)))?;
+        plane.draw(&Text::new(self.y.clone(), (px(14.0) as i32, 0), ink(0.9 * TEXT * scale)))?;
         let mut chart = ChartBuilder::on(&plane)
             .margin_top(px(1.9 * TEXT))
             .margin_right(px(1.4 * TEXT))
@@ -56,8 +55,8 @@ impl Shares {
             .x_desc(&self.x)
             .y_labels(6)
             .y_label_formatter(&|share| format!("{share:.1}"))
-            .axis_desc_style(style(0.9 * TEXT))
-            .label_style(style(0.8 * TEXT))
+            .axis_desc_style(ink(0.9 * TEXT * scale))
+            .label_style(ink(0.8 * TEXT * scale))
             .axis_style(INK.stroke_width(px(1.0)))
             .bold_line_style(GRID.stroke_width(px(1.0)))
             .light_line_style(TRANSPARENT)

@@ -1,8 +1,10 @@
 //! A number of each test as the tint of its dot on a map, and a bar that says which tint means what.
 
+use super::bar::Bar;
 use super::map::Result;
-use super::{FAMILY, INK};
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::Ranged;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 /// A number of every test of a map.
@@ -34,33 +36,18 @@ impl Tints {
         RGBColor(channel(0).round() as u8, channel(1).round() as u8, channel(2).round() as u8)
     }
 
-    /// Draws the bar along the left side of an area, from `top` to `bottom`, with its label to the right.
+    /// Draws the bar along the left side of an area, from `top` to `bottom`, with round numbers beside it.
     pub(super) fn draw_bar<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
-        (top, bottom): (i32, i32),
+        along: (i32, i32),
         text: f64,
     ) -> Result<B> {
-        let width = text.round() as i32;
-        let y = |share: f64| bottom - (share * f64::from(bottom - top)).round() as i32;
-        let value = |share: f64| self.range.0 + share * (self.range.1 - self.range.0);
-        for step in 0..STEPS {
-            let (low, high) = (step as f64 / STEPS as f64, (step + 1) as f64 / STEPS as f64);
-            let colour = self.colour(value(0.5 * (low + high)));
-            area.draw(&Rectangle::new([(0, y(high)), (width, y(low))], colour.filled()))?;
-        }
-        area.draw(&Rectangle::new([(0, top), (width, bottom)], INK.stroke_width(1)))?;
-        let style = TextStyle::from((FAMILY, 0.85 * text).into_font()).color(&INK);
-        for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
-            let number = format!("{:.0}", value(share));
-            let (_, height) = area.estimate_text_size(&number, &style)?;
-            let right = width + width / 2;
-            area.draw(&PathElement::new([(width, y(share)), (width + width / 3, y(share))], INK.stroke_width(1)))?;
-            area.draw(&Text::new(number, (right, y(share) - (0.42 * f64::from(height)) as i32), style.clone()))?;
-        }
-        let style = style.transform(FontTransform::Rotate90);
-        let (length, _) = area.estimate_text_size(&self.label, &style)?;
-        area.draw(&Text::new(self.label.clone(), ((3.7 * text) as i32, (top + bottom - length as i32) / 2), style))
+        let (low, high) = self.range;
+        let numbers = RangedCoordf64::from(low..high).key_points(6);
+        let ticks = numbers.into_iter().map(|number| ((number - low) / (high - low), number.to_string())).collect();
+        let colour = |share: f64| self.colour(low + share * (high - low));
+        Bar { label: &self.label, steps: STEPS, ticks }.draw(area, along, colour, text)
     }
 }
 

@@ -1,8 +1,14 @@
-//! Pictures of worlds and runs as pixels: the one module that names tiny-skia.
+//! Pictures of worlds and runs as pixels. Here alone tiny-skia is named.
+
+mod canvas;
+mod letters;
+
+pub(super) use canvas::{Canvas, sheet};
 
 use super::FONT;
-use crate::engine::picture::{Anchor, Contour, Drawing, Mark, Paint as Look, Pixel, Segment};
-use ab_glyph::{Font, FontRef, OutlineCurve, Point};
+use crate::engine::picture::{Contour, Drawing, Mark, Paint as Look, Pixel, Segment};
+use ab_glyph::FontRef;
+use letters::letters;
 use std::error::Error as StdError;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
@@ -110,51 +116,10 @@ fn path(contour: &Contour) -> Option<Path> {
     path.finish()
 }
 
-/// The outlines of the letters of a text.
-fn letters(font: &FontRef, text: &str, [x, y]: Pixel, anchor: Anchor, size: f64) -> Option<Path> {
-    let scale = size as f32 / font.units_per_em()?;
-    let glyphs: Vec<_> = text.chars().map(|letter| font.glyph_id(letter)).collect();
-    let width: f32 = glyphs.iter().map(|glyph| scale * font.h_advance_unscaled(*glyph)).sum();
-    let mut pen = x as f32
-        - match anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => 0.5 * width,
-            Anchor::End => width,
-        };
-    let mut path = PathBuilder::new();
-    for glyph in glyphs {
-        let place = |point: Point| (pen + scale * point.x, y as f32 - scale * point.y);
-        let mut at = None;
-        for curve in font.outline(glyph).into_iter().flat_map(|outline| outline.curves) {
-            let (OutlineCurve::Line(from, _) | OutlineCurve::Quad(from, ..) | OutlineCurve::Cubic(from, ..)) = curve;
-            // Curves follow each other; where one begins elsewhere, so does a new part of the letter.
-            if at != Some(from) {
-                path.move_to(place(from).0, place(from).1);
-            }
-            at = Some(match curve {
-                OutlineCurve::Line(_, to) => {
-                    path.line_to(place(to).0, place(to).1);
-                    to
-                }
-                OutlineCurve::Quad(_, a, to) => {
-                    path.quad_to(place(a).0, place(a).1, place(to).0, place(to).1);
-                    to
-                }
-                OutlineCurve::Cubic(_, a, b, to) => {
-                    path.cubic_to(place(a).0, place(a).1, place(b).0, place(b).1, place(to).0, place(to).1);
-                    to
-                }
-            });
-        }
-        pen += scale * font.h_advance_unscaled(glyph);
-    }
-    path.finish()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::picture::Colour;
+    use crate::engine::picture::{Anchor, Colour};
 
     const WHITE: Colour = [255, 255, 255];
     const RED: Colour = [200, 0, 0];
