@@ -5,7 +5,7 @@ use crate::transmission::{SAMPLES_PER_SECOND, run as simulate};
 use crate::{Done, print, system, write};
 use indicatif::ProgressBar;
 use paracosm::coverage::{Point, Space};
-use paracosm::generators::{Generator, Request, Strategy};
+use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Trace, Truth};
 use rayon::prelude::*;
 use std::path::Path;
@@ -28,68 +28,39 @@ const REQUIREMENTS: [(&str, &str); 5] = [
     ("AT6c", "always[0,30] (rpm < 3000) implies always[0,20] (speed < 65)"),
 ];
 
-/// Where tests come from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Source {
-    Strategy(Strategy),
-    /// The control: every coordinate at a random one of its ends, all by themselves.
-    RandomCorners,
-}
-
-const SOURCES: [Source; 10] = [
-    Source::Strategy(Strategy::Random),
-    Source::Strategy(Strategy::Halton),
-    Source::RandomCorners,
-    Source::Strategy(Strategy::Anneal),
-    Source::Strategy(Strategy::Pso),
-    Source::Strategy(Strategy::NelderMead),
-    Source::Strategy(Strategy::Cmaes),
-    Source::Strategy(Strategy::Bayes),
-    Source::Strategy(Strategy::Boundary),
-    Source::Strategy(Strategy::Auto),
+/// Where tests come from: `random-corners` is the control.
+const STRATEGIES: [Strategy; 10] = [
+    Strategy::Random,
+    Strategy::Halton,
+    Strategy::RandomCorners,
+    Strategy::Anneal,
+    Strategy::Pso,
+    Strategy::NelderMead,
+    Strategy::Cmaes,
+    Strategy::Bayes,
+    Strategy::Boundary,
+    Strategy::Auto,
 ];
 
-impl Source {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Strategy(strategy) => strategy.name(),
-            Self::RandomCorners => "random corners",
-        }
-    }
-
-    fn generator(self, request: &Request) -> Result<Box<dyn Generator>, Box<dyn std::error::Error + Send + Sync>> {
-        let strategy = if let Self::Strategy(strategy) = self { strategy } else { Strategy::Random };
-        Ok(strategy.build(request)?)
-    }
-
-    /// What is tested in place of a point.
-    fn moved(self, mut point: Point) -> Point {
-        if self == Self::RandomCorners {
-            point.continuous.iter_mut().for_each(|u| *u = if *u < 0.5 { 0.0 } else { 1.0_f64.next_down() });
-        }
-        point
-    }
-}
-
-/// The simulations that a run took, of one source for one requirement.
+/// The simulations that a run took, of one strategy for one requirement.
 type Runs = Vec<Option<usize>>;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let space = Space::from_toml(SPACE)?;
-    bar.set_length((REQUIREMENTS.len() * SOURCES.len()) as u64 * SEEDS);
+    bar.set_length((REQUIREMENTS.len() * STRATEGIES.len()) as u64 * SEEDS);
     let mut table = String::from("requirement,strategy,seed,simulations\n");
     for (name, formula) in REQUIREMENTS {
         let formula: Formula = formula.parse()?;
         bar.suspend(|| {
             print(&format!("{name}: {formula}\n  {:<16}{:>8}{:>8}{:>8}\n", "strategy", "mean", "median", "found"))
         })?;
-        for source in SOURCES {
+        for strategy in STRATEGIES {
             let seeds: Vec<u64> = (0..SEEDS).collect();
             let runs: Result<Runs, _> = seeds
                 .into_par_iter()
                 .map(|seed| {
-                    let first = first_failure(&space, &formula, source, seed);
+                    let first = first_failure(&space, &formula, strategy, seed);
                     bar.inc(1);
                     first
                 })
@@ -97,9 +68,9 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
             let runs = runs?;
             for (seed, run) in runs.iter().enumerate() {
                 let simulations = run.map_or_else(String::new, |run| run.to_string());
-                table += &format!("{name},{},{seed},{simulations}\n", source.name());
+                table += &format!("{name},{},{seed},{simulations}\n", strategy.name());
             }
-            bar.suspend(|| print(&line(source.name(), &runs)))?;
+            bar.suspend(|| print(&line(strategy.name(), &runs)))?;
         }
     }
     bar.finish_and_clear();
@@ -120,10 +91,10 @@ fn line(name: &str, runs: &[Option<usize>]) -> String {
 fn first_failure(
     space: &Space,
     formula: &Formula,
-    source: Source,
+    strategy: Strategy,
     seed: u64,
 ) -> Result<Option<usize>, Box<dyn std::error::Error + Send + Sync>> {
-    let mut generator = source.generator(&Request { seed: Some(seed), ..Request::new(space, BUDGET) })?;
+    let mut generator = strategy.build(&Request { seed: Some(seed), ..Request::new(space, BUDGET) })?;
     let mut done = 0;
     while done < BUDGET {
         let tests = generator.ask(BATCH.min(BUDGET - done));
@@ -132,7 +103,7 @@ fn first_failure(
         }
         let mut robustness = Vec::new();
         for (index, test) in tests.iter().enumerate() {
-            let trace = trace(space, source.moved(test.clone()))?;
+            let trace = trace(space, test)?;
             let evaluation = formula.evaluate(&trace)?;
             if evaluation.truth == Truth::Violated {
                 return Ok(Some(done + index + 1));
@@ -145,8 +116,8 @@ fn first_failure(
     Ok(None)
 }
 
-fn trace(space: &Space, test: Point) -> Result<Trace, String> {
-    let [throttle, brake] = system::inputs(&space.decode(&test))?;
+fn trace(space: &Space, test: &Point) -> Result<Trace, String> {
+    let [throttle, brake] = system::inputs(&space.decode(test))?;
     let mut trace = Trace::new(1.0 / SAMPLES_PER_SECOND, ["speed", "rpm", "gear"].map(str::to_owned).to_vec());
     for sample in simulate(&throttle, &brake) {
         trace.record(&[sample.speed, sample.rpm, sample.gear as f64]);
@@ -162,7 +133,7 @@ mod tests {
     fn truths(throttle: [f64; 7]) -> Vec<Truth> {
         let space = Space::from_toml(SPACE).unwrap();
         let continuous = throttle.into_iter().map(|percent| percent / 100.0).chain([0.0; 3]).collect();
-        let trace = trace(&space, Point { continuous, discrete: Vec::new() }).unwrap();
+        let trace = trace(&space, &Point { continuous, discrete: Vec::new() }).unwrap();
         let truth = |(_, text): &(&str, &str)| text.parse::<Formula>().unwrap().evaluate(&trace).unwrap().truth;
         REQUIREMENTS.iter().map(truth).collect()
     }

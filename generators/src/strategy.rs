@@ -10,7 +10,7 @@ use crate::{
     seeded::{Purpose, seeded},
     sequence::{
         Fibonacci, Halton, HaltonScrambled, Hammersley, Kronecker, Lhs, MOST_HALTON_SCRAMBLED_DIMS, MOST_SOBOL_DIMS,
-        PerRow, Place, Sequence, Sobol, Uniform,
+        PerRow, Place, RandomCorners, Sequence, Sobol, Uniform,
     },
     spread::Spread,
 };
@@ -25,6 +25,8 @@ const MOST_GREEDY_DIMS: usize = 1_000;
 pub enum Strategy {
     /// Independent uniformly random points.
     Random,
+    /// Independent random corners of the cube, which repeat: a control.
+    RandomCorners,
     /// The Halton sequence, the paper's choice; with a seed the shifted one.
     Halton,
     /// The Halton sequence, shifted modulo 1 by a random vector.
@@ -130,8 +132,9 @@ impl<'a> Request<'a> {
 
 impl Strategy {
     /// All strategies.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Random,
+        Self::RandomCorners,
         Self::Halton,
         Self::HaltonShifted,
         Self::HaltonScrambled,
@@ -156,6 +159,7 @@ impl Strategy {
     pub fn name(self) -> &'static str {
         match self {
             Self::Random => "random",
+            Self::RandomCorners => "random-corners",
             Self::Halton => "halton",
             Self::HaltonShifted => "halton-shifted",
             Self::HaltonScrambled => "halton-scrambled",
@@ -181,6 +185,9 @@ impl Strategy {
     pub fn about(self) -> &'static str {
         match self {
             Self::Random => "independent uniform points: the baseline, and what statistics assume",
+            Self::RandomCorners => {
+                "every parameter at a random end: the control that a search for failures should beat"
+            }
             Self::Halton => "low-dispersion sequence of any length: the default for up to about ten parameters",
             Self::HaltonShifted => "halton moved by a random vector: repetitions that are as even as halton",
             Self::HaltonScrambled => "halton with random digits: without its stripes in ten parameters and more",
@@ -319,6 +326,7 @@ impl Strategy {
         let seed_or_0 = seed.unwrap_or(0);
         Some(match self {
             Self::Random => Box::new(Uniform::new(dims, seed_or_0)),
+            Self::RandomCorners => Box::new(RandomCorners::new(dims, seed_or_0)),
             Self::Halton => Box::new(Halton::new(dims, seed)),
             Self::HaltonShifted => Box::new(Halton::new(dims, Some(seed_or_0))),
             Self::HaltonScrambled => Box::new(HaltonScrambled::new(dims, seed_or_0)),
@@ -329,9 +337,13 @@ impl Strategy {
         })
     }
 
-    /// Whether its points can be asked for one by one, without saying beforehand how many there will be.
+    /// Whether its points can be asked for one by one, without saying beforehand how many there will be, and leave no
+    /// hole in the end.
     pub(crate) fn goes_on(self) -> bool {
-        !self.is_adaptive() && !matches!(self, Self::Hammersley | Self::Fibonacci | Self::Lhs | Self::LhsCentred)
+        let fills = self != Self::RandomCorners;
+        fills
+            && !self.is_adaptive()
+            && !matches!(self, Self::Hammersley | Self::Fibonacci | Self::Lhs | Self::LhsCentred)
     }
 
     /// Where a sequence starts by default; None for sets of points without an order.

@@ -171,6 +171,8 @@ impl Benched {
             "a12_better",
             "wilcoxon_p",
             "holm_p",
+            "log_rank_p",
+            "log_rank_holm_p",
             "modes",
             "recall",
             "precision",
@@ -186,6 +188,9 @@ impl Benched {
             row.extend([maybe(cell.over_best), self.bench.baseline.to_string()]);
             let versus = cell.versus.as_ref().map(|v| [v.ratio, v.interval[0], v.interval[1], v.better, v.p, v.p_holm]);
             row.extend((0..6).map(|i| maybe(versus.map(|numbers| numbers[i]))));
+            row.extend(
+                [cell.log_rank.map(|log_rank| log_rank.p), cell.log_rank.map(|log_rank| log_rank.p_holm)].map(maybe),
+            );
             row.extend([cell.modes, cell.recall, cell.precision, cell.dispersion].map(maybe));
             rows.push(row);
         }

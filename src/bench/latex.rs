@@ -1,7 +1,7 @@
 //! The bench as a LaTeX table in the manner of the package booktabs.
 
 use super::{Benched, Cell};
-use crate::write_up::latex::{LEVEL, escaped, ratio};
+use crate::write_up::latex::{LEVEL, escaped, p_value, ratio};
 use std::fmt::Write;
 
 /// The table, ready to be `\input`.
@@ -12,15 +12,15 @@ pub(super) fn table(benched: &Benched) -> String {
         "% Needs \\usepackage{{booktabs}}. Every number is in summary.csv.\n\n\\begin{{table}}\n\\centering\n\
          \\caption{{Tests to the first failure in runs of {} tests, {} seeds: share of runs with a failure (Wilson's \
          95\\,\\% interval), mean over these, restricted mean over all, least in bold; its ratio to {baseline} with the \
-         95\\,\\% bootstrap interval over pairs, the probability $A_{{12}}$ of needing fewer, and Wilcoxon's signed-rank $p$ \
-         after Holm's correction. $\\dagger$: differs from {baseline} ($p \\le {LEVEL}$). After all tests the mean number \
-         of failure modes, mean recall and precision.}}\n\\label{{tab:bench}}\n",
+         95\\,\\% bootstrap interval over pairs, the probability $A_{{12}}$ of needing fewer, and the $p$ of Wilcoxon's \
+         signed-rank test and of the log-rank test, each after Holm's correction. $\\dagger$: the former has $p \\le \
+         {LEVEL}$. After all tests the mean number of failure modes, mean recall and precision.}}\n\\label{{tab:bench}}\n",
         bench.budget, bench.seeds,
     );
-    let _ = writeln!(text, "\\begin{{tabular}}{{llrrrlrrrrr}}\n\\toprule");
+    let _ = writeln!(text, "\\begin{{tabular}}{{llrrrlrrrrrr}}\n\\toprule");
     let _ = writeln!(
         text,
-        "scenario & strategy & found & mean & restricted & ratio & $A_{{12}}$ & $p$ & modes & recall & precision \\\\"
+        "scenario & strategy & found & mean & restricted & ratio & $A_{{12}}$ & $p$ & log-rank $p$ & modes & recall & precision \\\\"
     );
     for target in &bench.targets {
         let _ = writeln!(text, "\\midrule");
@@ -48,6 +48,7 @@ fn row(cell: &Cell, least: f64) -> String {
         number(cell.mean_found, 1),
         format!("${restricted}{mark}$"),
         cell.versus.as_ref().map_or("& &".into(), ratio),
+        cell.log_rank.map_or(String::new(), |log_rank| p_value(log_rank.p_holm)),
         number(cell.modes, 1),
         number(cell.recall, 2),
         number(cell.precision, 2),

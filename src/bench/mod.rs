@@ -27,7 +27,7 @@ mod target;
 pub use files::Rows;
 pub use reference::ReferenceMap;
 pub use row::Row;
-pub use summary::{Cell, Correlation, Standing};
+pub use summary::{Cell, Correlation, LogRank, Standing};
 pub use target::Target;
 
 use crate::Error;
@@ -38,9 +38,16 @@ use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
-/// The strategies of a bench where nothing is said: chance, the paper's choice, and what goes by robustness.
-pub const USUAL: [Strategy; 6] =
-    [Strategy::Random, Strategy::Halton, Strategy::NelderMead, Strategy::Cmaes, Strategy::Bayes, Strategy::Auto];
+/// The strategies of a bench where nothing is said: chance, the paper's choice, random corners as a control, and what goes by robustness.
+pub const USUAL: [Strategy; 7] = [
+    Strategy::Random,
+    Strategy::Halton,
+    Strategy::RandomCorners,
+    Strategy::NelderMead,
+    Strategy::Cmaes,
+    Strategy::Bayes,
+    Strategy::Auto,
+];
 
 /// What is run, and how.
 #[derive(Debug, Clone)]

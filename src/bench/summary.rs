@@ -3,7 +3,7 @@
 
 use super::{Bench, Benched, Row};
 use crate::statistics::{
-    Lifetime, Survival, Versus, bootstrap_interval, correct, median_and_quartiles, spearman, wilson,
+    Lifetime, Survival, Versus, bootstrap_interval, correct, holm, log_rank_p, median_and_quartiles, spearman, wilson,
 };
 use paracosm_generators::Strategy;
 use serde::{Serialize, Serializer};
@@ -32,10 +32,12 @@ pub struct Cell {
     pub restricted_mean: f64,
     /// Its 95 % bootstrap interval over the seeds.
     pub restricted_interval: [f64; 2],
-    /// The restricted mean over the least one of any strategy but `auto`, which is made of others.
+    /// The restricted mean over the least one of any strategy but `auto`, which is made of others, and the control.
     pub over_best: Option<f64>,
     /// Restricted means against the baseline's, over pairs of the same seed; none for the baseline itself.
     pub versus: Option<Versus>,
+    /// The curve of Kaplan and Meier against the baseline's, which takes no notice of pairs.
+    pub log_rank: Option<LogRank>,
     /// The mean number of failure modes.
     pub modes: Option<f64>,
     /// The mean recall.
@@ -44,6 +46,15 @@ pub struct Cell {
     pub precision: Option<f64>,
     /// The median dispersion.
     pub dispersion: Option<f64>,
+}
+
+/// What the log-rank test says of two curves.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LogRank {
+    /// The p-value, two-sided.
+    pub p: f64,
+    /// The same after Holm's correction for all comparisons of the bench.
+    pub p_holm: f64,
 }
 
 /// How dispersion and recall go together on a target.
@@ -61,7 +72,7 @@ pub struct Correlation {
     pub interval: [f64; 2],
 }
 
-/// A strategy over all targets: its restricted means over the least of any strategy but `auto`.
+/// A strategy over all targets: its restricted means over the least of any strategy but `auto` and the control.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Standing {
     /// The strategy.
@@ -94,6 +105,9 @@ pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<Cell>, Vec<Correlat
         }
     }
     correct(cells.iter_mut().filter_map(|cell| cell.versus.as_mut()));
+    let mut log_ranks: Vec<&mut LogRank> = cells.iter_mut().filter_map(|cell| cell.log_rank.as_mut()).collect();
+    let p: Vec<f64> = log_ranks.iter().map(|log_rank| log_rank.p).collect();
+    log_ranks.iter_mut().zip(holm(&p)).for_each(|(log_rank, p_holm)| log_rank.p_holm = p_holm);
     let standings = bench.strategies.iter().filter_map(|&strategy| standing(strategy, &cells)).collect();
     (cells, correlations, standings)
 }
@@ -103,39 +117,43 @@ fn waited(bench: &Bench, row: &Row) -> f64 {
     row.first_failure.unwrap_or(bench.budget) as f64
 }
 
-/// The curve of the runs of a strategy.
-fn survival<'a>(bench: &Bench, rows: impl Iterator<Item = &'a Row>) -> Survival {
+/// How long runs wait for their first failures.
+fn lifetimes<'a>(bench: &Bench, rows: impl IntoIterator<Item = &'a Row>) -> Vec<Lifetime> {
     let lifetime = |row: &Row| Lifetime { time: waited(bench, row), happened: row.first_failure.is_some() };
-    Survival::of(&rows.map(lifetime).collect::<Vec<_>>())
+    rows.into_iter().map(lifetime).collect()
 }
 
 impl Benched {
     /// The share of the runs of a strategy on a target without a failure, over their tests.
     pub(super) fn survival(&self, scenario: &str, strategy: Strategy) -> Survival {
-        survival(&self.bench, self.rows_of(scenario, strategy))
+        Survival::of(&lifetimes(&self.bench, self.rows_of(scenario, strategy)))
     }
 }
 
 fn cells_of(bench: &Bench, rows: &[Row]) -> Vec<Cell> {
     let lines: Vec<&[Row]> = rows.chunks(bench.seeds).collect();
     let waited = |line: &[Row]| -> Vec<f64> { line.iter().map(|row| waited(bench, row)).collect() };
-    let base = lines.iter().find(|line| line[0].strategy == bench.baseline).map(|line| waited(line));
+    let base = lines.iter().find(|line| line[0].strategy == bench.baseline);
+    let base = base.map(|line| (waited(line), lifetimes(bench, *line)));
     let mut cells: Vec<Cell> = lines
         .iter()
         .map(|line| {
             let times = waited(line);
             let base = base.as_ref().filter(|_| line[0].strategy != bench.baseline);
-            Cell { versus: base.map(|base| Versus::of_means(&times, base)), ..cell(bench, line, &times) }
+            let versus = base.map(|(base, _)| Versus::of_means(&times, base));
+            let p = base.map(|(_, base)| log_rank_p(&lifetimes(bench, *line), base));
+            let log_rank = p.map(|p| LogRank { p, p_holm: p });
+            Cell { versus, log_rank, ..cell(bench, line, &times) }
         })
         .collect();
-    let single = cells.iter().filter(|cell| cell.strategy != Strategy::Auto);
+    let single = cells.iter().filter(|cell| !matches!(cell.strategy, Strategy::Auto | Strategy::RandomCorners));
     let least = single.map(|cell| cell.restricted_mean).reduce(f64::min);
     cells.iter_mut().for_each(|cell| cell.over_best = least.map(|least| cell.restricted_mean / least));
     cells
 }
 
 fn cell(bench: &Bench, line: &[Row], times: &[f64]) -> Cell {
-    let survival = survival(bench, line.iter());
+    let survival = Survival::of(&lifetimes(bench, line));
     let found: Vec<f64> = line.iter().filter_map(|row| row.first_failure).map(|tests| tests as f64).collect();
     let of = |value: fn(&Row) -> Option<f64>| line.iter().filter_map(value).collect::<Vec<f64>>();
     Cell {
@@ -153,6 +171,7 @@ fn cell(bench: &Bench, line: &[Row], times: &[f64]) -> Cell {
         }),
         over_best: None,
         versus: None,
+        log_rank: None,
         modes: mean(&of(|row| row.modes.map(|modes| modes as f64))),
         recall: mean(&of(|row| row.recall)),
         precision: mean(&of(|row| row.precision)),

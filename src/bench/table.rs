@@ -23,12 +23,24 @@ impl Benched {
 
     fn first_failures(&self, text: &mut String, scenario: &str) {
         let (budget, seeds) = (self.bench.budget, self.bench.seeds);
-        let _ = writeln!(text, "{scenario}: tests to the first failure, at most {budget}, {seeds} seeds");
+        let _ = writeln!(
+            text,
+            "{scenario}: tests to the first failure, at most {budget}, {seeds} seeds; p after Holm's correction"
+        );
         let over = format!("over {} (95 %)", self.bench.baseline);
         let _ = writeln!(
             text,
-            "  {:<17}{:<25}{:>6}{:>8}  {:<24}{:<24}{:>5}{:>10}{:>6}",
-            "strategy", "found (95 %)", "mean", "median", "restricted mean (95 %)", over, "A12", "Holm's p", "best"
+            "  {:<17}{:<25}{:>6}{:>8}  {:<24}{:<24}{:>5}{:>12}{:>12}{:>6}",
+            "strategy",
+            "found (95 %)",
+            "mean",
+            "median",
+            "restricted mean (95 %)",
+            over,
+            "A12",
+            "Wilcoxon p",
+            "log-rank p",
+            "best"
         );
         for cell in self.of_target(scenario) {
             let _ = writeln!(text, "{}", first_failure(cell).trim_end());
@@ -89,12 +101,13 @@ fn first_failure(cell: &Cell) -> String {
     let [low, high] = cell.restricted_interval;
     let restricted = format!("{:.1} ({low:.1} to {high:.1})", cell.restricted_mean);
     let best = cell.over_best.map_or(String::new(), |ratio| format!("{ratio:.2}"));
+    let curves = cell.log_rank.map_or(String::new(), |log_rank| p_value(log_rank.p_holm));
     let versus = |versus: &Versus| {
         let [low, high] = versus.interval;
         let ratio = format!("{:.2} ({low:.2} to {high:.2})", versus.ratio);
-        format!("{ratio:<24}{:>5.2}{:>10}", versus.better, p_value(versus.p_holm))
+        format!("{ratio:<24}{:>5.2}{:>12}", versus.better, p_value(versus.p_holm))
     };
-    let versus = cell.versus.as_ref().map_or(format!("{:<39}", "the baseline"), versus);
+    let versus = cell.versus.as_ref().map_or(format!("{:<41}", "the baseline"), versus);
     let (mean, median) = (number(cell.mean_found), number(cell.median));
-    format!("  {:<17}{found:<25}{mean:>6}{median:>8}  {restricted:<24}{versus}{best:>6}", cell.strategy)
+    format!("  {:<17}{found:<25}{mean:>6}{median:>8}  {restricted:<24}{versus}{curves:>12}{best:>6}", cell.strategy)
 }

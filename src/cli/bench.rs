@@ -20,7 +20,7 @@ use std::thread::available_parallelism;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
-  paracosm-fuzz bench                                          six strategies on pedestrian-crossing
+  paracosm-fuzz bench                                          seven strategies on pedestrian-crossing
   paracosm-fuzz bench --scenarios cut-in,pedestrian-crossing+friction+fog --strategies random,halton,greedy,auto
   paracosm-fuzz bench --scenarios ball5,decoy5,valley2 --reference-tests 0       functions whose failures are known
   paracosm-fuzz bench --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)' --strategies random,auto
@@ -35,7 +35,7 @@ told to fail that do. Maps are read from --reference where they are there, and m
 
 DIR gets runs.csv (a row for each run, as they end), summary.csv (success rates with Wilson's interval; restricted means of
 the tests to the first failure with bootstrap intervals; against the baseline their ratio, Vargha and Delaney's A12,
-Wilcoxon's p over pairs and Holm's correction), survival.csv (Kaplan and Meier's curves), correlations.csv (dispersion and
+Wilcoxon's p over pairs, the log-rank test's p and Holm's correction of either), survival.csv (Kaplan and Meier's curves), correlations.csv (dispersion and
 recall), standings.csv, table.tex, and for each scenario figures as SVG and PNG.";
 
 /// What `bench` takes.
@@ -46,7 +46,7 @@ pub(super) struct Options {
     /// Several scenarios, NAME or NAME+PARAMETER+.. to open parameters, or functions
     #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with_all = ["scenario", "system"])]
     scenarios: Vec<String>,
-    /// The strategies; `paracosm-fuzz list` shows them all [default: random,halton,nelder-mead,cmaes,bayes,auto]
+    /// The strategies; `paracosm-fuzz list` shows them all [default: random,halton,random-corners,nelder-mead,cmaes,bayes,auto]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     strategies: Vec<String>,
     /// How many tests a run has

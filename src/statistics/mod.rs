@@ -6,6 +6,7 @@
 
 mod bootstrap;
 mod interval;
+mod log_rank;
 pub(crate) mod random;
 mod rank;
 mod signed_rank;
@@ -14,6 +15,7 @@ mod versus;
 
 pub use bootstrap::{RESAMPLES, bootstrap_interval};
 pub use interval::{clopper_pearson, log_normal_mean_interval, mean_interval, student_quantile, wilson};
+pub use log_rank::log_rank_p;
 pub use rank::spearman;
 pub use signed_rank::{MOST_EXACT, signed_rank_p};
 pub use survival::{Lifetime, Survival};

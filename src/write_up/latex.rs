@@ -8,8 +8,12 @@ pub(crate) const LEVEL: f64 = 0.05;
 /// A ratio with its interval, how often it is better, and the corrected p-value: three columns.
 pub(crate) fn ratio(versus: &Versus) -> String {
     let [low, high] = versus.interval;
-    let p = if versus.p_holm < 1e-4 { "$<10^{-4}$".into() } else { format!("${:.4}$", versus.p_holm) };
-    format!("${:.2}$ $[{low:.2}, {high:.2}]$ & ${:.2}$ & {p}", versus.ratio, versus.better)
+    format!("${:.2}$ $[{low:.2}, {high:.2}]$ & ${:.2}$ & {}", versus.ratio, versus.better, p_value(versus.p_holm))
+}
+
+/// A p-value.
+pub(crate) fn p_value(p: f64) -> String {
+    if p < 1e-4 { "$<10^{-4}$".into() } else { format!("${p:.4}$") }
 }
 
 /// A number in a formula: `1.23e-5` with its power of ten.

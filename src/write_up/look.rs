@@ -7,6 +7,7 @@ use paracosm_generators::Strategy;
 pub(crate) fn look(strategy: Strategy) -> Look {
     let (colour, shape, filled) = match strategy {
         Strategy::Random => (0x99_9999, Shape::Circle, true),
+        Strategy::RandomCorners => (0x99_9999, Shape::Triangle, false),
         Strategy::Lhs => (0x99_9999, Shape::Square, false),
         Strategy::LhsCentred => (0x99_9999, Shape::Diamond, false),
         Strategy::Halton => (0x00_72b2, Shape::Circle, true),

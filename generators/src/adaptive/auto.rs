@@ -12,7 +12,8 @@
 //! tried: best alone in corners, they are too slow with a share of the tests.
 //!
 //! The shares are fixed: which search will find the failure does not show in how it did before there was one. A search that
-//! waits for outcomes leaves its tests to `bayes`.
+//! waits for outcomes leaves its tests undone, and the batch is shorter: tests that another would do in its place are better
+//! chosen when these outcomes are known. Where all others wait, `bayes` does not.
 
 use super::bayes::Bayes;
 use super::cmaes::Cmaes;
@@ -20,6 +21,7 @@ use super::cube::Axis;
 use super::nelder_mead::nelder_mead;
 use super::{Search, Trial};
 use crate::seeded::{Purpose, seeded};
+use nalgebra::DMatrix;
 use rand::Rng;
 use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
@@ -41,13 +43,13 @@ struct Member {
 }
 
 impl Auto {
-    pub(super) fn new(axes: Vec<Axis>, mut rng: Pcg64) -> Self {
+    pub(super) fn new(axes: Vec<Axis>, covariance: DMatrix<f64>, mut rng: Pcg64) -> Self {
         let mut chance = || seeded(rng.random(), Purpose::Search, 0);
         let bayes = Box::new(Bayes::new(axes.clone(), chance()));
         let simplices = Box::new(nelder_mead(axes.clone(), chance()));
-        let cmaes = Box::new(Cmaes::new(axes, chance()));
+        let cmaes = Box::new(Cmaes::new(axes, covariance, chance()));
         let member = |search, share| Member { search, share, proposals: 0, owed: 0.0 };
-        // The first takes what the others leave.
+        // The first is asked where no other has anything to propose.
         let members = vec![member(bayes as Box<dyn Search>, 0.45), member(simplices, 0.1), member(cmaes, 0.45)];
         Self { members, out: BTreeMap::new(), proposals: 0 }
     }
@@ -66,25 +68,32 @@ impl Auto {
         }
         quotas
     }
+
+    /// What a member proposes, at most `n` places.
+    fn of_member(&mut self, index: usize, n: usize) -> Vec<Vec<f64>> {
+        if n == 0 {
+            return Vec::new();
+        }
+        let member = &mut self.members[index];
+        let places = member.search.propose(n);
+        for _ in &places {
+            self.out.insert(self.proposals, (index, member.proposals));
+            self.proposals += 1;
+            member.proposals += 1;
+        }
+        places
+    }
 }
 
 impl Search for Auto {
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
         let quotas = self.quotas(n);
         let mut places = Vec::new();
-        // The first member comes last, so that it knows what the others left.
-        for index in (0..self.members.len()).rev() {
-            let quota = if index == 0 { n - places.len() } else { quotas[index] };
-            if quota == 0 {
-                continue;
-            }
-            let member = &mut self.members[index];
-            for at in member.search.propose(quota) {
-                self.out.insert(self.proposals, (index, member.proposals));
-                self.proposals += 1;
-                member.proposals += 1;
-                places.push(at);
-            }
+        for (index, quota) in quotas.into_iter().enumerate().rev() {
+            places.extend(self.of_member(index, quota));
+        }
+        if places.is_empty() {
+            places = self.of_member(0, n);
         }
         places
     }

@@ -4,6 +4,8 @@
 //! whose population is doubled each time, which see the coarse shape, and short ones of small populations and
 //! small steps, which look for a way in. Later starts are random.
 //!
+//! A run begins with steps that move neighbouring pieces of a signal together (`signals`).
+//!
 //! Continuous coordinates are sampled from the normal distribution (`evolution`) and moved to the nearest place of
 //! the cube, so that its corners are tested as such. Discrete ones are sampled from a probability of each level, which
 //! moves to the levels of the better half as the mean does and never falls below a floor (estimation of distribution,
@@ -12,6 +14,7 @@
 use super::cube::{Axis, level, middle};
 use super::evolution::{Evolution, default_lambda};
 use super::{Search, Trial, anywhere};
+use nalgebra::DMatrix;
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -28,6 +31,8 @@ const MOST_DOUBLED: u32 = 9;
 pub(super) struct Cmaes {
     axes: Vec<Axis>,
     dims: usize,
+    /// How the first steps of a run vary along the continuous axes.
+    covariance: DMatrix<f64>,
     run: Option<Run>,
     /// How many runs had a large population, and what each kind has spent.
     doubled: u32,
@@ -56,9 +61,9 @@ struct Sample {
 }
 
 impl Cmaes {
-    pub(super) fn new(axes: Vec<Axis>, rng: Pcg64) -> Self {
-        let dims = axes.iter().filter(|axis| **axis == Axis::Continuous).count();
-        Self { axes, dims, run: None, doubled: 0, spent: [0; 2], best: None, proposals: 0, rng }
+    pub(super) fn new(axes: Vec<Axis>, covariance: DMatrix<f64>, rng: Pcg64) -> Self {
+        let dims = covariance.nrows();
+        Self { axes, dims, covariance, run: None, doubled: 0, spent: [0; 2], best: None, proposals: 0, rng }
     }
 
     fn start(&mut self) -> Run {
@@ -89,7 +94,7 @@ impl Cmaes {
             }
         };
         let levels = at.iter().zip(&self.axes).filter_map(probabilities).collect();
-        let evolution = Evolution::new(at[..self.dims].to_vec(), sigma, lambda);
+        let evolution = Evolution::new(at[..self.dims].to_vec(), sigma, lambda, self.covariance.clone());
         Run { evolution, levels, kind, most, spent: 0, generation: Vec::new() }
     }
 }

@@ -42,19 +42,20 @@ pub(super) fn default_lambda(dims: usize) -> usize {
 }
 
 impl Evolution {
-    pub(super) fn new(mean: Vec<f64>, sigma: f64, lambda: usize) -> Self {
+    /// A distribution around a place; `covariance` is that of the first steps, in shares of `sigma` squared.
+    pub(super) fn new(mean: Vec<f64>, sigma: f64, lambda: usize, covariance: DMatrix<f64>) -> Self {
         let n = mean.len();
         let mu = lambda / 2;
         let raw = (0..mu).map(|i| libm::log((lambda as f64 + 1.0) / 2.0) - libm::log(i as f64 + 1.0));
         let sum: f64 = raw.clone().sum();
         let weights: Vec<f64> = raw.map(|weight| weight / sum).collect();
-        Self {
+        let mut evolution = Self {
             lambda,
             mu_eff: 1.0 / weights.iter().map(|weight| weight * weight).sum::<f64>(),
             weights,
             mean: DVector::from_vec(mean),
             sigma,
-            covariance: DMatrix::identity(n, n),
+            covariance,
             basis: DMatrix::identity(n, n),
             scales: DVector::repeat(n, 1.0),
             path_sigma: DVector::zeros(n),
@@ -62,7 +63,11 @@ impl Evolution {
             generation: 0,
             recent: Vec::new(),
             over: false,
+        };
+        if n > 0 {
+            evolution.decompose();
         }
+        evolution
     }
 
     /// How many samples make a generation.
@@ -158,10 +163,15 @@ mod tests {
     use super::*;
     use crate::seeded::{Purpose, seeded};
 
+    fn new(start: &[f64], sigma: f64) -> Evolution {
+        let n = start.len();
+        Evolution::new(start.to_vec(), sigma, default_lambda(n), DMatrix::identity(n, n))
+    }
+
     /// How many evaluations it takes to come below a cost; None if the run ends before.
     fn evaluations(f: impl Fn(&[f64]) -> f64, start: &[f64], sigma: f64, target: f64, seed: u64) -> Option<usize> {
         let mut rng = seeded(seed, Purpose::Search, 0);
-        let mut evolution = Evolution::new(start.to_vec(), sigma, default_lambda(start.len()));
+        let mut evolution = new(start, sigma);
         let mut spent = 0;
         while !evolution.is_over() && spent < 100_000 {
             let samples: Vec<Vec<f64>> = (0..evolution.lambda()).map(|_| evolution.sample(&mut rng)).collect();

@@ -28,6 +28,7 @@ mod opening;
 mod process;
 mod pso;
 mod region;
+mod signals;
 mod solver;
 mod surrogate;
 mod telling;
@@ -136,10 +137,10 @@ impl Adaptive {
             Strategy::Anneal => Box::new(anneal::anneal(axes, rng)),
             Strategy::Pso => Box::new(pso::pso(axes, rng)),
             Strategy::NelderMead => Box::new(nelder_mead::nelder_mead(axes, rng)),
-            Strategy::Cmaes => Box::new(cmaes::Cmaes::new(axes, rng)),
+            Strategy::Cmaes => Box::new(cmaes::Cmaes::new(axes, signals::covariance(request.space), rng)),
             Strategy::Bayes => Box::new(bayes::Bayes::new(axes, rng)),
             Strategy::Boundary => Box::new(boundary::Boundary::new(axes, rng)),
-            Strategy::Auto => Box::new(auto::Auto::new(axes, rng)),
+            Strategy::Auto => Box::new(auto::Auto::new(axes, signals::covariance(request.space), rng)),
             _ => unreachable!("`{strategy}` is open-loop"),
         };
         let opening = Opening::new(request, family);

@@ -3,9 +3,12 @@
 //! Several famous benchmarks fail at a corner: full throttle and no brake. A corner here has every continuous
 //! *parameter* at one of its ends, all coordinates of a signal at the same one. With up to three such parameters all
 //! corners are tested, with more eight of them: of an orthogonal array, so that any two of the first seven parameters
-//! meet all four combinations of their ends. Which are tested first is up to the seed. Then follow `d + 3` points of
-//! the shifted Halton sequence, from 4 to 16, and as many more as it takes to see up to 32 rows of the discrete
-//! family, which the tests take in turn. The opening is at most a third of the budget.
+//! meet all four combinations of their ends. Which are tested first is up to the seed. Then follow points of the shifted
+//! Halton sequence, three more than there are continuous parameters but from 4 to 16, and as many more as it takes to see up
+//! to 32 rows of the discrete family, which the tests take in turn. The opening is at most a third of the budget.
+//!
+//! Signals count as one parameter here too: what many points in many coordinates tell a search of does not make up for the
+//! tests that they take (experiments/automatic-transmission.md).
 
 use crate::{
     Request,
@@ -36,7 +39,7 @@ impl Opening {
         let dims = request.space.dims();
         let seed = request.seed.unwrap_or(0);
         let corners = if dims == 0 { Vec::new() } else { corners(request, seed) };
-        let points = if dims == 0 { 0 } else { (dims + 3).clamp(4, 16) };
+        let points = if dims == 0 { 0 } else { (parameters(&owners(request)).len() + 3).clamp(4, 16) };
         let rows = family.len().min(MOST_ROWS as u64) as usize;
         let len = (corners.len() + points).max(rows).min(request.budget.div_ceil(3));
         Self { family, halton: Halton::new(dims, Some(seed)), corners, len, next: 0 }
@@ -59,11 +62,22 @@ impl Opening {
     }
 }
 
+/// The name of the parameter of each continuous coordinate.
+fn owners<'a>(request: &Request<'a>) -> Vec<&'a str> {
+    request.space.continuous().map(|coordinate| coordinate.parameter.name.as_str()).collect()
+}
+
+/// The continuous parameters of these coordinates: those of one stand next to each other.
+fn parameters<'a>(owners: &[&'a str]) -> Vec<&'a str> {
+    let mut parameters = owners.to_vec();
+    parameters.dedup();
+    parameters
+}
+
 /// Corners of the box, in an order that the seed decides.
 fn corners(request: &Request, seed: u64) -> Vec<Vec<f64>> {
-    let names: Vec<&str> = request.space.continuous().map(|coordinate| coordinate.parameter.name.as_str()).collect();
-    let mut parameters = names.clone();
-    parameters.dedup();
+    let names = owners(request);
+    let parameters = parameters(&names);
     let number = |name: &str| parameters.iter().position(|other| *other == name).expect("a parameter of the list");
     let all = if parameters.len() < 3 { 1 << parameters.len() } else { MOST_CORNERS };
     let mut corners: Vec<Vec<f64>> = (0..all)

@@ -89,9 +89,9 @@ impl Region {
         (0..n)
             .map(|index| match index % 10 {
                 0..6 => inside(rng),
-                6..8 => nudged(axes, &best.at, 0.1 * self.side, rng),
+                6 => nudged(axes, &best.at, 0.1 * self.side, rng),
                 8 if index % 20 < 10 => to_ends(axes, inside(rng), rng),
-                8 => to_ends(axes, best.at.clone(), rng),
+                7 | 8 => to_ends(axes, best.at.clone(), rng),
                 _ => snapped(axes, anywhere(axes, rng)),
             })
             .collect()

@@ -5,6 +5,7 @@
 //! and every row of a discrete family can be given a stretch of its own. Sets that depend on their size become
 //! sequences in `per_row`.
 
+mod corners;
 mod fibonacci;
 mod halton;
 mod halton_scrambled;
@@ -19,6 +20,7 @@ mod sobol;
 mod uniform;
 
 pub(crate) use self::sobol::{MOST_DIMS as MOST_SOBOL_DIMS, Sobol};
+pub(crate) use corners::RandomCorners;
 pub(crate) use fibonacci::Fibonacci;
 pub(crate) use halton::Halton;
 pub(crate) use halton_scrambled::{HaltonScrambled, MOST_DIMS as MOST_HALTON_SCRAMBLED_DIMS};

@@ -1,0 +1,40 @@
+//! Random corners: the control that a search should beat.
+//!
+//! Many benchmarks fail where every input is at one of its ends. What finds failures only because it goes to ends is no
+//! better than this: every coordinate by itself at a random one of them.
+
+use super::{Sequence, Uniform};
+
+/// The corners nearest to uniformly random points.
+pub(crate) struct RandomCorners(Uniform);
+
+impl RandomCorners {
+    pub(crate) fn new(dims: usize, seed: u64) -> Self {
+        Self(Uniform::new(dims, seed))
+    }
+}
+
+impl Sequence for RandomCorners {
+    fn len(&self) -> u64 {
+        self.0.len()
+    }
+
+    fn point(&self, index: u64) -> Vec<f64> {
+        self.0.point(index).into_iter().map(|u| if u < 0.5 { 0.0 } else { 1.0_f64.next_down() }).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_coordinate_is_by_itself_at_one_of_its_ends() {
+        let corners = RandomCorners::new(3, 1);
+        let seen: BTreeSet<Vec<bool>> =
+            (0..100).map(|index| corners.point(index).into_iter().map(|u| u > 0.5).collect()).collect();
+        assert_eq!(seen.len(), 8);
+        assert!((0..100).flat_map(|index| corners.point(index)).all(|u| u == 0.0 || (u < 1.0 && u > 0.999)));
+    }
+}
