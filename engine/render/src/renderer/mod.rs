@@ -25,7 +25,6 @@ use meshes::{Finish, Meshes};
 use pipelines::Pipelines;
 use prepare::{Draw, Prepared, prepare};
 use raw::RawView;
-use shadow::texels;
 use targets::{Format, Targets, cleared, view_stride};
 
 /// Draws what cameras see.
@@ -169,15 +168,13 @@ impl Renderer {
         prepared: &Prepared,
         first: u32,
     ) {
-        let Format { width, height, wanted } = targets.format;
         let offset = layer * view_stride(&self.gpu) as u32;
         // Where nothing throws a shadow, there is no map to clear, nor one to look at.
-        let wanted = Outputs { shadows: !prepared.casters.is_empty(), ..wanted };
+        let wanted = Outputs { shadows: !prepared.casters.is_empty(), ..targets.format.wanted };
         let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
-        let sun = self.pipelines.sun(&self.gpu, texels(width, height));
         if wanted.shadows {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                depth_stencil_attachment: Some(cleared(&sun.depth, 1.0, wgpu::StoreOp::Store)),
+                depth_stencil_attachment: Some(cleared(&self.pipelines.sun_depth, 1.0, wgpu::StoreOp::Store)),
                 ..Default::default()
             });
             pass.set_pipeline(&self.pipelines.shadow);
@@ -187,7 +184,7 @@ impl Renderer {
         {
             let mut pass = targets.begin(encoder, layer, true);
             pass.set_bind_group(0, &targets.view_group, &[offset]);
-            pass.set_bind_group(1, &sun.group, &[]);
+            pass.set_bind_group(1, &self.pipelines.sun, &[]);
             for (finish, surface) in Finish::ALL.into_iter().zip(&drawing.surfaces) {
                 pass.set_pipeline(surface);
                 self.draw(&mut pass, targets, &prepared.draws, first, Some(finish));

@@ -4,6 +4,7 @@ use super::adapter::Gpu;
 use super::meshes::Finish;
 use super::prepare::Weather;
 use super::raw::{RawCorner, RawInstance, RawView};
+use super::shadow::TEXELS;
 use super::targets::{DEPTH_FORMAT, Image};
 use crate::Outputs;
 use std::collections::BTreeMap;
@@ -16,20 +17,13 @@ pub(super) struct Pipelines {
     modules: Modules,
     pub views: wgpu::BindGroupLayout,
     pub masks: wgpu::BindGroupLayout,
-    sun_layout: wgpu::BindGroupLayout,
-    /// By their texels each way.
-    suns: BTreeMap<u32, Sun>,
+    /// The sun's view of the scene, as the surfaces read it and as it is drawn.
+    pub sun: wgpu::BindGroup,
+    pub sun_depth: wgpu::TextureView,
     shaded: wgpu::PipelineLayout,
     pub shadow: wgpu::RenderPipeline,
     pub alone: wgpu::RenderPipeline,
     drawing: BTreeMap<(Outputs, Weather), Drawing>,
-}
-
-/// The sun's view of the scene: as it is drawn, and as the surfaces read it.
-#[derive(Debug, Clone)]
-pub(super) struct Sun {
-    pub depth: wgpu::TextureView,
-    pub group: wgpu::BindGroup,
 }
 
 /// The programs that draw what is asked for.
@@ -69,13 +63,7 @@ impl Pipelines {
             min_binding_size: None,
         };
         let masks = layout(gpu, &[(ShaderStages::FRAGMENT, words)]);
-        let depth = BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Depth,
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
-        let comparison = BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-        let sun_layout = layout(gpu, &[(ShaderStages::FRAGMENT, depth), (ShaderStages::FRAGMENT, comparison)]);
+        let (sun_depth, sun_layout, sun) = sun(gpu);
         let shaded = pipeline_layout(gpu, &[&views, &sun_layout]);
         let shadow = depth_only(gpu, &module(include_str!("shaders/shadow.wgsl")), &pipeline_layout(gpu, &[&views]));
         let masked = pipeline_layout(gpu, &[&views, &masks]);
@@ -84,14 +72,7 @@ impl Pipelines {
             surface: module(include_str!("shaders/surface.wgsl")),
             sky: module(include_str!("shaders/sky.wgsl")),
         };
-        let (suns, drawing) = (BTreeMap::new(), BTreeMap::new());
-        Self { modules, views, masks, sun_layout, suns, shaded, shadow, alone, drawing }
-    }
-
-    /// The sun's view of the scene with so many texels each way.
-    pub fn sun(&mut self, gpu: &Gpu, texels: u32) -> Sun {
-        let layout = &self.sun_layout;
-        self.suns.entry(texels).or_insert_with(|| Sun::new(gpu, layout, texels)).clone()
+        Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
     }
 
     /// The programs for these images in this weather.
@@ -227,33 +208,38 @@ fn pipeline_layout(gpu: &Gpu, groups: &[&wgpu::BindGroupLayout]) -> wgpu::Pipeli
     })
 }
 
-impl Sun {
-    fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, texels: u32) -> Self {
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("sun"),
-            size: wgpu::Extent3d { width: texels, height: texels, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: DEPTH_FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let depth = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            compare: Some(CompareFunction::LessEqual),
-            ..Default::default()
-        });
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&depth) },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
-            ],
-        });
-        Self { depth, group }
-    }
+fn sun(gpu: &Gpu) -> (wgpu::TextureView, wgpu::BindGroupLayout, wgpu::BindGroup) {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("sun"),
+        size: wgpu::Extent3d { width: TEXELS, height: TEXELS, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        compare: Some(CompareFunction::LessEqual),
+        ..Default::default()
+    });
+    let depth = BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let comparison = BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
+    let layout = layout(gpu, &[(ShaderStages::FRAGMENT, depth), (ShaderStages::FRAGMENT, comparison)]);
+    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&view) },
+            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
+        ],
+    });
+    (view, layout, group)
 }

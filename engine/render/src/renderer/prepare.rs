@@ -4,7 +4,7 @@ use super::adapter::Gpu;
 use super::inside::inside;
 use super::meshes::{GpuMesh, Meshes, Shape, Unfit};
 use super::raw::{RawInstance, RawView, four};
-use super::shadow::{ShadowMap, texels, to_sun};
+use super::shadow::{ShadowMap, to_sun};
 use crate::{Camera, Instance, Outputs, View, ViewError};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -81,7 +81,7 @@ pub(super) fn prepare(gpu: &Gpu, meshes: &mut Meshes, view: &View<'_>, wanted: O
     placed.sort_by(|a, b| a.middle.coords.norm_squared().total_cmp(&b.middle.coords.norm_squared()));
 
     let sun = to_sun(&view.scene.air);
-    let map = ShadowMap::new(&eye, &sun, texels(view.camera.width(), view.camera.height()));
+    let map = ShadowMap::new(&eye, &sun);
     let frustum = Frustum::new(view.camera);
     let mut prepared = Prepared {
         raw: raw_view(view, &eye, &sun, &map, &placed),
@@ -233,7 +233,7 @@ fn raw_view(
     let lamp = |place: Point3<f64>, bright: f32| four((to_eye * place).coords.cast::<f32>(), bright);
     RawView {
         image: [(width / 2.0) as f32, (height / 2.0) as f32, (1.0 / focal) as f32, Camera::NEAR as f32],
-        project: [(2.0 * focal / width) as f32, (2.0 * focal / height) as f32, map.margin(), 0.0],
+        project: [(2.0 * focal / width) as f32, (2.0 * focal / height) as f32, 0.0, 0.0],
         sun: four(before(*sun), light.lamps),
         up: four(before(Vector3::z()), air.extinction),
         sun_light: four(light.sun, 0.0),

@@ -4,18 +4,8 @@ use super::raw::rows;
 use crate::Air;
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
-/// Texels of the map each way for a camera of so many pixels: a small image shows no more of a finer map.
-pub(super) fn texels(width: u32, height: u32) -> u32 {
-    if width.max(height) <= SMALL { 512 } else { 1024 }
-}
-
-/// The most pixels each way of a small image.
-const SMALL: u32 = 256;
-/// Larger texels are those of a coarse map, in metres.
-const COARSE: f64 = 0.1;
-/// How far before a surface its shadows are looked up, in metres, so that it throws none on itself: on a fine map, and on a
-/// coarse one, where it is a texel.
-const MARGIN: [f64; 2] = [0.04, 0.15];
+/// Texels of the map each way.
+pub(super) const TEXELS: u32 = 1024;
 /// Half of what the map covers each way, in metres.
 const REACH: f64 = 36.0;
 /// How far ahead of the camera its middle is, in metres.
@@ -28,8 +18,6 @@ const DEEP: f64 = 150.0;
 pub(super) struct ShadowMap {
     /// From the camera's coordinates to light's: x and y across its rays, z towards the sun; the middle is the origin.
     to_light: Isometry3<f64>,
-    /// How large its texels are, in metres.
-    texel: f64,
 }
 
 /// The direction to the sun, in the world.
@@ -40,22 +28,17 @@ pub(super) fn to_sun(air: &Air) -> Vector3<f64> {
 }
 
 impl ShadowMap {
-    /// The map of so many texels each way for a camera here, under this sun.
-    pub fn new(camera: &Isometry3<f64>, sun: &Vector3<f64>, texels: u32) -> Self {
+    /// The map for a camera here, under this sun.
+    pub fn new(camera: &Isometry3<f64>, sun: &Vector3<f64>) -> Self {
         let ahead = camera * Vector3::x();
         let level = Vector3::new(ahead.x, ahead.y, 0.0).try_normalize(1e-9).unwrap_or_default();
         let turn = Rotation3::rotation_between(sun, &Vector3::z()).unwrap_or_else(Rotation3::identity);
         // The middle moves by whole texels, so that the edges of shadows stand still while the camera moves.
-        let texel = 2.0 * REACH / f64::from(texels);
+        let texel = 2.0 * REACH / f64::from(TEXELS);
         let middle = turn * (camera.translation.vector + level * AHEAD);
         let middle = Vector3::new((middle.x / texel).round() * texel, (middle.y / texel).round() * texel, middle.z);
         let to_light = Isometry3::from_parts((-middle).into(), turn.into());
-        Self { to_light: to_light * camera, texel }
-    }
-
-    /// How far before a surface its shadows are looked up, in metres.
-    pub fn margin(&self) -> f32 {
-        (if self.texel > COARSE { MARGIN[1] } else { MARGIN[0] }) as f32
+        Self { to_light: to_light * camera }
     }
 
     /// The rows of what takes a point before the camera to the map: from 0 to 1 across and down, and from 0 to 1 in depth.

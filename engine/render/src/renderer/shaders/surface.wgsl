@@ -106,7 +106,7 @@ fn appearance(seen: Seen, place: vec3f, distance: f32) -> vec3f {
     let facing = dot(normal, view.sun.xyz);
     var sun = view.sun_light.xyz * max(facing, 0.0);
     if SHADOWS {
-        sun *= sunlit(place + normal * view.project.z);
+        sun *= sunlit(place + normal * 0.04);
     }
     let sky = mix(view.ground_light.xyz, view.sky_light.xyz, 0.5 + 0.5 * dot(normal, view.up.xyz));
     var light = colour * (sun + sky);

@@ -10,7 +10,7 @@ override FOG: bool = false;
 struct View {
     // The middle of the image in pixels, metres across per pixel at 1 m, the nearest that is drawn.
     image: vec4f,
-    // How y / x and z / x become coordinates from -1 to 1; how far before a surface its shadows are looked up, in metres.
+    // How y / x and z / x become coordinates from -1 to 1.
     project: vec4f,
     // Towards the sun; how much lamps shine.
     sun: vec4f,
