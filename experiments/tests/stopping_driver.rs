@@ -9,7 +9,8 @@ fn rows(table: &str) -> Vec<Vec<&str>> {
 fn failing(within: impl Fn(f64) -> bool) -> f64 {
     let map = rows(include_str!("../data/fig9-cnn-reference.csv"));
     assert_eq!(map.len(), 2500);
-    let of_part: Vec<bool> = map.iter().filter(|row| within(row[0].parse().unwrap())).map(|row| row[2] == "fail").collect();
+    let of_part: Vec<bool> =
+        map.iter().filter(|row| within(row[0].parse().unwrap())).map(|row| row[2] == "fail").collect();
     of_part.iter().filter(|fails| **fails).count() as f64 / of_part.len() as f64
 }
 

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test file uses some of it")]
 
+pub mod golden;
+
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use paracosm_render::{Air, Camera, Frame, Instance, Mesh, Outputs, Renderer, Scene, Semantic, Surface, Vertex, View};
 use std::sync::Arc;
