@@ -27,6 +27,7 @@ mod bandit;
 pub mod covering;
 mod deal;
 mod error;
+mod existing;
 mod family;
 pub mod functions;
 mod greedy;

@@ -4,6 +4,7 @@ use crate::{
     DiscreteFamily, Generator, GeneratorError,
     adaptive::Adaptive,
     deal::Deal,
+    existing::check_existing,
     family::Family,
     greedy::{Aim, GreedyRows, KwiseGreedy},
     mixed::Mixed,
@@ -371,19 +372,6 @@ impl Strategy {
         let sequences = Self::ALL.into_iter().filter(|s| s.first_index().is_some()).map(Self::name);
         GeneratorError::NoSequence { strategy: self.name(), sequences: sequences.collect::<Vec<_>>().join(", ") }
     }
-}
-
-/// Existing tests come from files: they may be of another space.
-fn check_existing(space: &Space, existing: &[Point]) -> Result<(), GeneratorError> {
-    let (dims, levels) = (space.dims(), space.levels());
-    let belongs = |test: &Point| {
-        test.continuous.len() == dims
-            && test.continuous.iter().all(|x| (0.0..=1.0).contains(x))
-            && test.discrete.len() == levels.len()
-            && test.discrete.iter().zip(&levels).all(|(level, levels)| level < levels)
-    };
-    let foreign = existing.iter().position(|test| !belongs(test));
-    foreign.map_or(Ok(()), |index| Err(GeneratorError::Foreign { index }))
 }
 
 impl fmt::Display for Strategy {

@@ -7,9 +7,9 @@
 //!
 //! Of every twenty tests `bayes` and `cmaes` choose nine each and `nelder-mead` two. With half for `bayes` and a quarter for each of
 //! the others `auto` took 1.7 times the tests of the best single strategy where one corner of 32 fails, and hardly fewer
-//! elsewhere; with half for `cmaes` 1.7 times as many in `follow-leader`, where `cmaes` is misled. With these shares it takes 1.5
-//! times as many in the corner and at most 1.3 or so elsewhere (experiments/strategies.md). Swarms as a fourth search were
-//! tried: best alone in corners, they are too slow with a share of the tests.
+//! elsewhere; with half for `cmaes` 1.7 times as many in `follow-leader`, where `cmaes` is misled. With these shares it takes at
+//! most 1.4 times as many on the functions (experiments/strategies.md has what is open elsewhere). Swarms as a fourth search
+//! were tried: best alone in corners, they are too slow with a share of the tests.
 //!
 //! The shares are fixed: which search will find the failure does not show in how it did before there was one. A search that
 //! waits for outcomes leaves its tests undone, and the batch is shorter: tests that another would do in its place are better

@@ -3,7 +3,9 @@
 //! Several famous benchmarks fail at a corner: full throttle and no brake. A corner here has every continuous
 //! *parameter* at one of its ends, all coordinates of a signal at the same one. With up to three such parameters all
 //! corners are tested, with more eight of them: of an orthogonal array, so that any two of the first seven parameters
-//! meet all four combinations of their ends. Which are tested first is up to the seed. Then follow points of the shifted
+//! meet all four combinations of their ends. Where there are fewer corners of that kind, as many others make up eight that have
+//! pieces of a signal at different ends, of an array of all coordinates; but only of up to seven of these, as of more eight
+//! corners tell too little. Which are tested first is up to the seed. Then follow points of the shifted
 //! Halton sequence, three more than there are continuous parameters but from 4 to 16, and as many more as it takes to see up
 //! to 32 rows of the discrete family, which the tests take in turn. The opening is at most a third of the budget.
 //!
@@ -21,6 +23,9 @@ use rand::Rng;
 
 /// At most so many corners.
 const MOST_CORNERS: usize = 8;
+
+/// Of so many axes these corners show all pairs of ends.
+const MOST_PAIRED: usize = 7;
 
 /// Up to so many rows of the discrete family are part of the opening.
 const MOST_ROWS: usize = 32;
@@ -80,12 +85,17 @@ fn corners(request: &Request, seed: u64) -> Vec<Vec<f64>> {
     let parameters = parameters(&names);
     let number = |name: &str| parameters.iter().position(|other| *other == name).expect("a parameter of the list");
     let all = if parameters.len() < 3 { 1 << parameters.len() } else { MOST_CORNERS };
-    let mut corners: Vec<Vec<f64>> = (0..all)
-        .map(|corner| {
-            let end = |name: &&str| if is_high(corner, number(name)) { 1.0_f64.next_down() } else { 0.0 };
-            names.iter().map(end).collect()
-        })
-        .collect();
+    let end = |is_high: bool| if is_high { 1.0_f64.next_down() } else { 0.0 };
+    let mut corners: Vec<Vec<f64>> =
+        (0..all).map(|corner| names.iter().map(|name| end(is_high(corner, number(name)))).collect()).collect();
+    if names.len() <= MOST_PAIRED && parameters.len() < names.len() {
+        for corner in 0..MOST_CORNERS {
+            let jagged: Vec<f64> = (0..names.len()).map(|axis| end(is_high(corner, axis))).collect();
+            if corners.len() < MOST_CORNERS && !corners.contains(&jagged) {
+                corners.push(jagged);
+            }
+        }
+    }
     let mut rng = seeded(seed, Purpose::Corners, 0);
     for last in (1..corners.len()).rev() {
         corners.swap(last, rng.random_range(0..=last));
@@ -134,7 +144,20 @@ mod tests {
     }
 
     #[test]
-    fn all_coordinates_of_a_signal_are_at_the_same_end() {
+    fn the_pieces_of_a_short_signal_are_at_different_ends_too() {
+        let text =
+            "parameter = [{ name = \"leader_speed\", interval = [0, 20], signal = { shape = \"piecewise-linear\",
+            pieces = 3 } }]";
+        let corners = corners_of(&Space::from_toml(text).unwrap(), 3);
+        assert_eq!((corners.len(), corners[0].len()), (8, 4));
+        assert!(corners.contains(&vec![false; 4]) && corners.contains(&vec![true; 4]));
+        // As when whoever is ahead brakes at once.
+        assert!(corners.iter().any(|corner| corner[0] && !corner[1]));
+        assert_eq!(corners.iter().collect::<BTreeSet<_>>().len(), 8);
+    }
+
+    #[test]
+    fn all_coordinates_of_a_long_signal_are_at_the_same_end() {
         let text = "parameter = [{ name = \"throttle\", interval = [0, 100], signal = { shape = \"piecewise-constant\",
             pieces = 5 } }, { name = \"brake\", interval = [0, 325], signal = { shape = \"polynomial\", degree = 2 } }]";
         let corners = corners_of(&Space::from_toml(text).unwrap(), 3);
