@@ -83,14 +83,14 @@ const STUDIES: &[Study] = &[
     Study {
         name: "fig9-cnn",
         about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, with a cloned driver",
-        time: "10 min",
+        time: "4 min",
         run: fig9_cnn::run,
     },
     #[cfg(feature = "neural")]
     Study {
         name: "fig9-cnn-reference",
         about: "the reference map of fig9-cnn: 2,500 tests on a grid",
-        time: "12 min",
+        time: "6 min",
         run: fig9_cnn::reference,
     },
     #[cfg(feature = "neural")]
