@@ -12,8 +12,6 @@ mod fig10a;
 #[cfg(feature = "neural")]
 mod fig10c;
 mod fig9;
-#[cfg(feature = "neural")]
-mod fig9_cnn;
 mod recovery;
 #[cfg(feature = "neural")]
 mod saliency;
@@ -83,20 +81,6 @@ const STUDIES: &[Study] = &[
     },
     #[cfg(feature = "neural")]
     Study {
-        name: "fig9-cnn",
-        about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, with a cloned driver",
-        time: "10 min",
-        run: fig9_cnn::run,
-    },
-    #[cfg(feature = "neural")]
-    Study {
-        name: "fig9-cnn-reference",
-        about: "the reference map of fig9-cnn: 2,500 tests on a grid",
-        time: "12 min",
-        run: fig9_cnn::reference,
-    },
-    #[cfg(feature = "neural")]
-    Study {
         name: "fig10a",
         about: "the paper's Figure 10a: a cloned driver behind a slow leader, over fog and light",
         time: "2 min",
@@ -120,8 +104,7 @@ const STUDIES: &[Study] = &[
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 7] =
-    ["train-follow", "train-stop", "fig9-cnn", "fig9-cnn-reference", "fig10a", "fig10c", "saliency"];
+const NEURAL: [&str; 5] = ["train-follow", "train-stop", "fig10a", "fig10c", "saliency"];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 

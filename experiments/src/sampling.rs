@@ -279,7 +279,7 @@ fn write_tests(path: &Path, study: &Study, figure: &[&Panel]) -> Done {
 }
 
 /// Tests with what became of them.
-pub fn write_trials(path: &Path, study: &Study, trials: &[Trial]) -> Done {
+fn write_trials(path: &Path, study: &Study, trials: &[Trial]) -> Done {
     let rows: Vec<Vec<String>> =
         [header(study).collect()].into_iter().chain(trials.iter().map(|trial| row(trial).collect())).collect();
     write_csv(path, &rows)

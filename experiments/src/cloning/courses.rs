@@ -55,7 +55,13 @@ pub const STOP: Course = Course {
     disturbance: [0.01, 0.15],
     weights: [10.0, 1.0],
     held_out: 8,
-    rounds: &[Round { tests: 20, epochs: 6 }, Round { tests: 14, epochs: 4 }, Round { tests: 16, epochs: 8 }],
+    rounds: &[
+        Round { tests: 20, epochs: 4 },
+        Round { tests: 14, epochs: 3 },
+        Round { tests: 14, epochs: 3 },
+        Round { tests: 14, epochs: 3 },
+        Round { tests: 14, epochs: 8 },
+    ],
     conditions: || Study::of("pedestrian-crossing")?.set("speed", Value::Number(1.0)),
 };
 
