@@ -10,6 +10,8 @@ mod cloning;
 #[cfg(feature = "neural")]
 mod fig10a;
 #[cfg(feature = "neural")]
+mod fig10b;
+#[cfg(feature = "neural")]
 mod fig10c;
 mod fig9;
 mod recovery;
@@ -73,10 +75,24 @@ const STUDIES: &[Study] = &[
     },
     #[cfg(feature = "neural")]
     Study {
+        name: "train-loop",
+        about: "teaches the network that turns right at T-intersections, for Figure 10b",
+        time: "4 min",
+        run: |out, bar| cloning::run(&cloning::LOOP, out, bar),
+    },
+    #[cfg(feature = "neural")]
+    Study {
         name: "fig10a",
         about: "the paper's Figure 10a: a cloned driver behind a slow leader, over fog and light",
         time: "2 min",
         run: fig10a::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig10b",
+        about: "the paper's Figure 10b: round a loop of T-intersections in fog, by a cloned driver",
+        time: "2 min",
+        run: fig10b::run,
     },
     #[cfg(feature = "neural")]
     Study {
@@ -96,7 +112,7 @@ const STUDIES: &[Study] = &[
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 4] = ["train-follow", "fig10a", "fig10c", "saliency"];
+const NEURAL: [&str; 6] = ["train-follow", "train-loop", "fig10a", "fig10b", "fig10c", "saliency"];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 

@@ -1,7 +1,8 @@
 //! What networks are taught, in which tests, and how long.
 
-use paracosm::coverage::Domain;
-use paracosm::{Error, Study};
+use paracosm::coverage::{Domain, Value};
+use paracosm::engine::Program;
+use paracosm::{Error, Study, scenarios};
 use paracosm_neural::learn::Recipe;
 use paracosm_neural::{CLONED, Model, Pilot};
 
@@ -45,6 +46,36 @@ pub const FOLLOW: Course = Course {
     conditions: || {
         let range = |lo, hi| Some(Domain::Interval { lo, hi });
         Study::of("follow-leader")?.open("leader_speed", range(2.0, 12.0))?.open("gap", range(18.0, 40.0))
+    },
+};
+
+/// Figure 10b: round the loop, always right, without fog.
+pub const LOOP: Course = Course {
+    name: "loop",
+    resolution: [100, 33],
+    disturbance: [0.08, 0.1],
+    weights: [4.0, 1.0],
+    // Of so few runs none can be spared.
+    held_out: usize::MAX,
+    rounds: &[
+        Round { tests: 1, epochs: 24 },
+        Round { tests: 1, epochs: 12 },
+        Round { tests: 1, epochs: 12 },
+        Round { tests: 1, epochs: 24 },
+    ],
+    conditions: || {
+        let study = Study::new(LESSON)?.open("speed", Some(Domain::Interval { lo: 7.5, hi: 8.5 }))?;
+        study.set("friction", Value::Number(0.8))
+    },
+};
+
+/// Once round the loop: every corner has another light.
+const LESSON: Program = Program {
+    name: "t-loop-lesson",
+    about: "once round the loop",
+    build: |s| {
+        (scenarios::find("t-loop").expect("it comes with the software").build)(s);
+        s.duration(52.0);
     },
 };
 

@@ -7,7 +7,7 @@
 mod courses;
 mod teacher;
 
-pub use courses::{Course, FOLLOW};
+pub use courses::{Course, FOLLOW, LOOP};
 
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
