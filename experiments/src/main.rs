@@ -10,6 +10,8 @@ mod cloning;
 #[cfg(feature = "neural")]
 mod fig10a;
 #[cfg(feature = "neural")]
+mod fig10b;
+#[cfg(feature = "neural")]
 mod fig10c;
 mod fig9;
 mod recovery;
@@ -81,10 +83,24 @@ const STUDIES: &[Study] = &[
     },
     #[cfg(feature = "neural")]
     Study {
+        name: "train-loop",
+        about: "teaches the network that turns right at T-intersections, for Figure 10b",
+        time: "4 min",
+        run: |out, bar| cloning::run(&cloning::LOOP, out, bar),
+    },
+    #[cfg(feature = "neural")]
+    Study {
         name: "fig10a",
         about: "the paper's Figure 10a: a cloned driver behind a slow leader, over fog and light",
         time: "2 min",
         run: fig10a::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig10b",
+        about: "the paper's Figure 10b: round a loop of T-intersections in fog, by a cloned driver",
+        time: "2 min",
+        run: fig10b::run,
     },
     #[cfg(feature = "neural")]
     Study {
@@ -104,7 +120,7 @@ const STUDIES: &[Study] = &[
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 5] = ["train-follow", "train-stop", "fig10a", "fig10c", "saliency"];
+const NEURAL: [&str; 7] = ["train-follow", "train-stop", "train-loop", "fig10a", "fig10b", "fig10c", "saliency"];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 

@@ -60,3 +60,19 @@ fn red_makes_the_cloned_driver_brake_in_its_lane_near_by_and_nowhere_else() {
         }
     }
 }
+
+#[test]
+fn the_driver_goes_round_the_loop_in_thin_fog_and_gets_nowhere_in_thick_fog() {
+    let table = include_str!("../data/fig10b.csv");
+    let [fog, collision, departure, standstill, travelled] =
+        ["fog", "seconds_to_collision", "seconds_to_departure", "seconds_to_standstill", "travelled"]
+            .map(|name| column(table, name));
+    for (i, fog) in fog.iter().enumerate() {
+        let failure = collision[i].min(departure[i]).min(standstill[i]);
+        if *fog <= 0.2 {
+            assert!(failure >= 200.0 && travelled[i] > 800.0, "in fog of {fog}: {failure} s, {} m", travelled[i]);
+        } else if *fog >= 0.4 {
+            assert!(failure < 60.0 && travelled[i] < 100.0, "in fog of {fog}: {failure} s, {} m", travelled[i]);
+        }
+    }
+}

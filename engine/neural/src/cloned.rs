@@ -13,8 +13,11 @@ pub struct Cloned {
 }
 
 /// All of them.
-pub const CLONED: &[Cloned] = &[Cloned {
-    name: "follow",
-    scenarios: &["follow-leader", "oncoming-distractor"],
-    contents: include_bytes!("../weights/follow.onnx"),
-}];
+pub const CLONED: &[Cloned] = &[
+    Cloned {
+        name: "follow",
+        scenarios: &["follow-leader", "oncoming-distractor"],
+        contents: include_bytes!("../weights/follow.onnx"),
+    },
+    Cloned { name: "loop", scenarios: &["t-loop"], contents: include_bytes!("../weights/loop.onnx") },
+];

@@ -1,7 +1,8 @@
 //! What networks are taught, in which tests, and how long.
 
 use paracosm::coverage::{Domain, Value};
-use paracosm::{Error, Study};
+use paracosm::engine::Program;
+use paracosm::{Error, Study, scenarios};
 use paracosm_neural::learn::Recipe;
 use paracosm_neural::{CLONED, Model, Pilot};
 
@@ -63,6 +64,36 @@ pub const STOP: Course = Course {
         Round { tests: 14, epochs: 8 },
     ],
     conditions: || Study::of("pedestrian-crossing")?.set("speed", Value::Number(1.0)),
+};
+
+/// Figure 10b: round the loop, always right, without fog.
+pub const LOOP: Course = Course {
+    name: "loop",
+    resolution: [100, 33],
+    disturbance: [0.08, 0.1],
+    weights: [4.0, 1.0],
+    // Of so few runs none can be spared.
+    held_out: usize::MAX,
+    rounds: &[
+        Round { tests: 1, epochs: 24 },
+        Round { tests: 1, epochs: 12 },
+        Round { tests: 1, epochs: 12 },
+        Round { tests: 1, epochs: 24 },
+    ],
+    conditions: || {
+        let study = Study::new(LESSON)?.open("speed", Some(Domain::Interval { lo: 7.5, hi: 8.5 }))?;
+        study.set("friction", Value::Number(0.8))
+    },
+};
+
+/// Once round the loop: every corner has another light.
+const LESSON: Program = Program {
+    name: "t-loop-lesson",
+    about: "once round the loop",
+    build: |s| {
+        (scenarios::find("t-loop").expect("it comes with the software").build)(s);
+        s.duration(52.0);
+    },
 };
 
 impl Course {

@@ -7,7 +7,7 @@
 mod courses;
 mod teacher;
 
-pub use courses::{Course, FOLLOW, STOP};
+pub use courses::{Course, FOLLOW, LOOP, STOP};
 
 use crate::{Done, print, write};
 use indicatif::ProgressBar;

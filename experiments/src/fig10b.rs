@@ -1,0 +1,142 @@
+//! The paper's Figure 10b: round a loop of T-intersections, always right, in more and more fog.
+//!
+//! A network that was taught without fog drives until it runs into something, or for 200 s; beside that stands when it failed
+//! otherwise, by leaving its way or by standing still, since who does either need not run into anything. Below is how it
+//! steers in low, medium and high fog.
+
+use crate::cloning::LOOP;
+use crate::{Done, print, write};
+use indicatif::ProgressBar;
+use paracosm::coverage::{Value, Values};
+use paracosm::oracles::{Trace, Verdict};
+use paracosm::{Axis, Lines, Picture, Study, Worker};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// So many tests, from no fog to the thickest.
+const TESTS: usize = 21;
+/// Seconds after which a test is over.
+const TIME_OUT: f64 = 200.0;
+/// The fogs whose steering is shown.
+const SHOWN: [(&str, f64); 4] = [("no fog", 0.0), ("low, 0.2", 0.2), ("medium, 0.35", 0.35), ("high, 0.8", 0.8)];
+/// How many seconds of it.
+const SECONDS: f64 = 20.0;
+/// The speed in m/s.
+const SPEED: f64 = 8.0;
+/// Ticks from one line of the table of steering to the next.
+const STRIDE: usize = 10;
+/// Metres that the car may be off its way, as the scenario has it.
+const OFF: f64 = 2.0;
+/// Seconds that it may stand still, as the scenario has it.
+const STANDING: f64 = 10.0;
+
+/// What became of a test in fog.
+struct Drive {
+    fog: f64,
+    verdict: Verdict,
+    /// Seconds until it ran into something, left its way, or had stood still for too long; the time-out if it never did.
+    collision: f64,
+    departure: f64,
+    standstill: f64,
+    travelled: f64,
+    /// Time, steering and speed.
+    steering: Vec<[f64; 3]>,
+}
+
+/// Runs the study and writes it to a folder.
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
+    let study = LOOP.drives(Study::of("t-loop")?)?.open("fog", None)?;
+    let study = study.set("speed", Value::Number(SPEED))?.set("friction", Value::Number(0.8))?;
+    bar.set_length(TESTS as u64);
+    let drives: Vec<Drive> = (0..TESTS)
+        .into_par_iter()
+        .map_init(
+            || Worker::new(&study),
+            |worker, i| {
+                let worker = worker.as_mut().map_err(|error| error.to_string())?;
+                let drive = drive(worker, i, i as f64 / (TESTS - 1) as f64);
+                bar.inc(1);
+                drive
+            },
+        )
+        .collect::<Result<_, _>>()?;
+    bar.finish_and_clear();
+
+    let picture = Picture::of_lines(vec![times(&drives), steering(&drives)]);
+    write(&out.join("fig10b.svg"), picture.svg()?)?;
+    write(&out.join("fig10b.png"), picture.png()?)?;
+    let mut rows =
+        vec!["fog,verdict,seconds_to_collision,seconds_to_departure,seconds_to_standstill,travelled".to_owned()];
+    let mut over_time = vec!["fog,time,steering,speed".to_owned()];
+    for Drive { fog, verdict, collision, departure, standstill, travelled, steering } in &drives {
+        rows.push(format!("{fog},{verdict},{collision:.2},{departure:.2},{standstill:.2},{travelled:.1}"));
+        let lines = steering.iter().map(|[time, turned, speed]| format!("{fog},{time:.2},{turned},{speed}"));
+        over_time.extend(lines.filter(|_| shown(*fog)));
+    }
+    let table = rows.join("\n") + "\n";
+    write(&out.join("fig10b.csv"), &table)?;
+    write(&out.join("steering.csv"), over_time.join("\n") + "\n")?;
+    print(&table)
+}
+
+fn shown(fog: f64) -> bool {
+    SHOWN.iter().any(|shown| (shown.1 - fog).abs() < 1e-9)
+}
+
+fn drive(worker: &mut Worker<'_>, index: usize, fog: f64) -> Result<Drive, String> {
+    let test: Values = [("fog".to_owned(), Value::Number(fog))].into_iter().collect();
+    let (trial, trace) = worker.run(index, &test);
+    let trace = trace.ok_or_else(|| trial.error.clone().unwrap_or_default())?;
+    let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().collect() };
+    let first = |name: &str, above: f64| {
+        let tick = signal(name).iter().position(|value| *value > above);
+        tick.map_or(TIME_OUT, |tick| time(&trace, tick))
+    };
+    let (departure, standstill) = (first("abs(car.way_offset)", OFF), first("car.standing_time", STANDING));
+    let collision = if trial.violates("no-collision") { time(&trace, trial.ticks) } else { TIME_OUT };
+    let steering = signal("car.steering").into_iter().zip(signal("car.speed")).enumerate().step_by(STRIDE);
+    let steering = steering.map(|(tick, (turned, speed))| [time(&trace, tick), turned, speed]).collect();
+    let travelled = signal("car.travelled").last().copied().unwrap_or(f64::NAN);
+    Ok(Drive { fog, verdict: trial.verdict, collision, departure, standstill, travelled, steering })
+}
+
+fn time(trace: &Trace, tick: usize) -> f64 {
+    tick as f64 * trace.dt()
+}
+
+fn axis(label: &str, range: (f64, f64)) -> Axis {
+    Axis { label: label.to_owned(), range }
+}
+
+fn times(drives: &[Drive]) -> Lines {
+    let curve = |name: &str, of: fn(&Drive) -> f64| {
+        (name.to_owned(), drives.iter().map(|drive| (drive.fog, of(drive))).collect())
+    };
+    Lines {
+        title: "Figure 10b: round the loop in fog".to_owned(),
+        note: format!("taught without fog; a test is over after {TIME_OUT} s"),
+        x: axis("fog", (0.0, 1.0)),
+        y: axis("time [s]", (0.0, TIME_OUT)),
+        curves: vec![
+            curve("until the first collision", |drive| drive.collision),
+            curve("until it is 2 m off its way", |drive| drive.departure),
+            curve("until it has stood for 10 s", |drive| drive.standstill),
+        ],
+    }
+}
+
+fn steering(drives: &[Drive]) -> Lines {
+    let curve = |(name, fog): (&str, f64)| {
+        let drive = drives.iter().find(|drive| (drive.fog - fog).abs() < 1e-9).expect("it is one of the tests");
+        let points = drive.steering.iter().map(|[time, turned, _]| (*time, *turned));
+        (name.to_owned(), points.filter(|point| point.0 <= SECONDS).collect())
+    };
+    Lines {
+        title: "How it steers".to_owned(),
+        note: "share of the wheels' full turn, negative to the right; a curve ends where the car runs into something"
+            .to_owned(),
+        x: axis("time [s]", (0.0, SECONDS)),
+        y: axis("steering", (-1.0, 1.0)),
+        curves: SHOWN.into_iter().map(curve).collect(),
+    }
+}
