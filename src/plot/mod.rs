@@ -21,7 +21,7 @@ mod tint;
 
 pub use animation::film_gif;
 #[cfg(feature = "camera")]
-pub(crate) use animation::gif_of_images;
+pub(crate) use animation::{Colours, Reel};
 pub(crate) use frame::{Entry, Frame};
 pub use lines::Lines;
 pub(crate) use log_log::{Curve, LogLog, Plane};

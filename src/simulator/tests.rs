@@ -173,8 +173,8 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
     let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
     let mut recorded = Vec::new();
     let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();
-    let show = |pictures: Vec<(&crate::record::Shot, crate::record::Picture)>| {
-        recorded.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.frame.rgb.unwrap())));
+    let show = |pictures: Vec<crate::record::Developed<'_>>| {
+        recorded.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.unwrap().frame.rgb.unwrap())));
         Ok(())
     };
     projector.show(&film, 0, show).unwrap();
