@@ -1,6 +1,7 @@
 //! A scenario as the function that it is, and what it declares when it is run without a test.
 
 use crate::scenario::Scenario;
+use crate::sensor::{hashed, mixed};
 use paracosm_coverage::{Domain, Parameter, Shape, Space, SpaceError, Value, Values};
 use paracosm_oracles::Requirement;
 use thiserror::Error;
@@ -62,6 +63,16 @@ impl<'a> Test<'a> {
     /// These values, of which those of the parameters of `space` vary as it says.
     pub fn new(values: &'a Values, space: &'a Space) -> Self {
         Self { values, space: Some(space) }
+    }
+
+    /// A number that another test hardly has: a hash of the values by their names, whatever their order.
+    pub(crate) fn key(&self) -> u64 {
+        let scalar = |hash: u64, value: &Value| {
+            let bits = value.number().map_or_else(|| hashed(&value.to_string()), f64::to_bits);
+            mixed(hash ^ bits)
+        };
+        let entry = |(name, value): (&str, &Value)| value.scalars().iter().fold(hashed(name), scalar);
+        self.values.iter().map(entry).fold(0, u64::wrapping_add)
     }
 
     /// How a parameter varies, if the test says so.

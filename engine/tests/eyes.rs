@@ -1,6 +1,7 @@
 //! Runs with cameras in them, which nobody draws here: when moments arrive, and that none of them depends on what else the
 //! car carries.
 
+use paracosm_coverage::Values;
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
 use paracosm_engine::sensor::{Cameras, Delivery, Image, Imu, ImuSettings, Moment, Mounted, Rig, Sample, Shutters};
 use paracosm_engine::vehicle::Model;
@@ -13,7 +14,8 @@ const PROGRAM: Program = Program { name: "empty-road", about: "a car alone", bui
 
 fn empty_road(s: &mut Scenario) {
     let road = s.place(RoadSegment::new(300.0));
-    s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+    let speed = s.nominal("speed", 5.0..=15.0, 10.0).unit("m/s");
+    s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(speed.value()));
     s.duration(4.0);
 }
 
@@ -73,9 +75,12 @@ fn driver(cameras: Cameras, rig: bool) -> Equipped {
 type Taken = Vec<(f64, usize, Sample<Moment>)>;
 
 /// Drives to the end without images: what arrived from the driver's cameras and from those of the film, each with when.
-fn driven(mut driver: Equipped, film: &Cameras) -> (Taken, Taken, Outcome) {
-    let test = PROGRAM.declare().unwrap().nominal();
-    let mut run = Run::new(&PROGRAM, &test, Setup::asking_every(driver.period())).unwrap();
+fn driven(driver: Equipped, film: &Cameras) -> (Taken, Taken, Outcome) {
+    driven_in(&PROGRAM.declare().unwrap().nominal(), driver, film)
+}
+
+fn driven_in(test: &Values, mut driver: Equipped, film: &Cameras) -> (Taken, Taken, Outcome) {
+    let mut run = Run::new(&PROGRAM, test, Setup::asking_every(driver.period())).unwrap();
     run.seat(&mut driver).unwrap();
     run.film(Shutters::of(film.clone()).unwrap());
     let (mut seen, mut filmed) = (Vec::new(), Vec::new());
@@ -115,6 +120,27 @@ fn what_else_a_car_carries_changes_no_moment_and_no_trace() {
     let (seen, filmed, outcome) = driven(driver(front.clone(), true), &front);
     assert!(!alone.is_empty() && seen == filmed && filmed == alone);
     assert_eq!(plain.trace.unwrap().hash(), outcome.trace.unwrap().hash());
+}
+
+#[test]
+fn every_test_loses_images_of_its_own_and_the_same_ones_each_time() {
+    let lossy = cameras(&[("front", camera(20.0, 0.0, 0.5))]);
+    let kept = |speed: f64| {
+        let mut test = PROGRAM.declare().unwrap().nominal();
+        test.set("speed", speed);
+        let (seen, filmed, _) = driven_in(&test, driver(lossy.clone(), false), &lossy);
+        let numbers = |taken: Taken| taken.iter().map(|(_, _, sample)| sample.number).collect::<Vec<_>>();
+        let (seen, filmed) = (numbers(seen), numbers(filmed));
+        assert_eq!(seen, filmed);
+        seen
+    };
+    let all = [kept(10.0), kept(10.000001), kept(12.0)];
+    assert_eq!(all[0], kept(10.0));
+    for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+        // Of 81 images a quarter is kept in both of two tests by chance; five standard deviations are 19.
+        let both = all[i].iter().filter(|number| all[j].contains(number)).count();
+        assert!((1..40).contains(&both), "{both} of {} and {}", all[i].len(), all[j].len());
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::output::plural;
 use super::run::{self, Conducted};
 use super::{Failure, Found, Verbosity, print};
-use crate::record::{Dataset, Kept, Projector, STANDARD_CAMERAS, read_cameras, standard_cameras};
+use crate::record::{Dataset, Kept, Projector, STANDARD_CAMERAS, check_rates, read_cameras, standard_cameras};
 use crate::{Error, Trial, Worker};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -24,7 +24,8 @@ Beside the files of the campaign, the folder 000017 of --out has for test 17, an
   front/instance/000003.png  which thing it is, 16 bits; 0 for what is no thing
   annotations.json           boxes in the COCO format, with occlusion and boxes in space
   calibration.json           the cameras' matrices and where they are mounted
-  controls.csv               for each image its time, speed, and what the driver answered to it";
+  controls.csv               for each image its time, pose and speed, and what the driver answered to it
+and annotations.json beside these folders has the boxes of all tests as one set.";
 
 /// What `record` takes.
 #[derive(Debug, Args)]
@@ -59,7 +60,7 @@ impl Options {
         let kept: Kept = self.outputs.parse()?;
         // Before a long campaign, not after it, it is said that nothing can be drawn.
         let mut projector = Projector::new(&cameras, kept.outputs())?;
-        let conducted = self.run.conduct(verbosity)?;
+        let conducted = self.run.conduct(verbosity, |study| check_rates(study, &cameras))?;
         let dataset = Dataset::open(&self.run.out, cameras, kept, self.colours)?;
         self.record(&conducted, &dataset, &mut projector, verbosity)?;
         Ok(conducted.found)
@@ -85,11 +86,16 @@ impl Options {
                 let message = "the tests recorded so far are whole; --resume goes on from there";
                 return Err(format!("{}\n  {message}", Error::Interrupted).into());
             }
-            images += dataset.record(&mut worker, trial, projector)?;
+            let recorded = dataset.record(&mut worker, trial, projector)?;
+            images += recorded.images;
+            bar.suspend(|| {
+                recorded.notes.iter().for_each(|note| verbosity.note(format_args!("test {}: {note}", trial.index)));
+            });
             bar.set_message(plural(images, "image"));
             bar.inc(1);
         }
         bar.finish_and_clear();
+        dataset.finish(trials)?;
         let (tests, drawn) = (plural(left.len(), "test"), plural(images, "image"));
         verbosity.note(format_args!("{drawn} of {tests} written to {}", self.run.out.display()));
         if !broken.is_empty() {

@@ -128,7 +128,7 @@ impl Options {
             return Err(difference(&worker, logged, &trial).into());
         }
         if let Some(clip) = &clip {
-            verbosity.note(clip.write(&mut worker, logged, &cameras)?);
+            clip.write(&mut worker, logged, &cameras)?.iter().for_each(|line| verbosity.note(line));
         }
         print(&match Format::or_fitting(self.format) {
             Format::Table => table(&study, &trial),

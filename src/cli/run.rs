@@ -81,12 +81,17 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        self.conduct(verbosity).map(|conducted| conducted.found)
+        self.conduct(verbosity, |_| Ok(())).map(|conducted| conducted.found)
     }
 
-    /// Runs the campaign and prints its summary.
-    pub fn conduct(&self, verbosity: Verbosity) -> Result<Conducted, Failure> {
+    /// Runs the campaign, unless `check` has something against its study, and prints its summary.
+    pub fn conduct(
+        &self,
+        verbosity: Verbosity,
+        check: impl FnOnce(&Study) -> Result<(), Error>,
+    ) -> Result<Conducted, Failure> {
         let study = self.study(verbosity)?;
+        check(&study)?;
         if self.locate.is_some() && study.space.levels().is_empty() {
             let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
             return Err(Error::Usage(message.into()).into());

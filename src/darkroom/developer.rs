@@ -1,12 +1,17 @@
 //! Draws sights: many at once, whatever they belong to.
 
 use super::{Exposure, Sight};
-use paracosm_render::{Adapter, Box3, Frame, Outputs, RenderError, Renderer, View, ViewError};
+use paracosm_render::{Adapter, Box3, Camera, Frame, Outputs, RenderError, Renderer, View, ViewError};
 use rayon::prelude::*;
 
 /// How many pixels are drawn at once, so that large images do not fill the memory, and how many images at most.
 const PIXELS: usize = 1 << 22;
-pub(crate) const IMAGES: usize = 64;
+const IMAGES: usize = 64;
+
+/// How many images of so many pixels are drawn at once.
+pub(crate) fn at_once(pixels: usize) -> usize {
+    (PIXELS / pixels.max(1)).clamp(1, IMAGES)
+}
 
 /// A moment that was drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,8 +22,14 @@ pub struct Picture {
     pub boxes: Vec<Box3>,
 }
 
-/// Why a moment was not drawn: in words, or nothing where the camera was within something that the car ran into.
-pub(crate) type Undrawn = Option<String>;
+/// Why a moment was not drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Undrawn {
+    /// The camera was within a thing of this id, which the car ran into, and there was nothing to see.
+    Inside(u16),
+    /// It could not be, in words.
+    Failed(String),
+}
 
 /// Draws with an adapter.
 #[derive(Debug)]
@@ -40,6 +51,14 @@ impl Developer {
     /// What it draws with.
     pub fn adapter(&self) -> &Adapter {
         self.renderer.adapter()
+    }
+
+    /// Whether images of such a camera are small enough for the adapter, whatever there is to see.
+    ///
+    /// # Errors
+    /// They are not.
+    pub fn check_size(&self, camera: &Camera, wanted: Outputs) -> Result<(), ViewError> {
+        self.renderer.check_size(camera, wanted)
     }
 
     /// Draws all these on all cores, in their order.
@@ -86,7 +105,7 @@ impl Developer {
             self.renderer = (self.open)()?;
             self.renderer.render(view, wanted)
         });
-        frames.map_err(|error| Some(error.to_string()))?.remove(0).map_err(undrawn)
+        frames.map_err(|error: RenderError| Undrawn::Failed(error.to_string()))?.remove(0).map_err(undrawn)
     }
 
     /// Loses its device; `open` makes the next one.
@@ -99,8 +118,8 @@ impl Developer {
 
 fn undrawn(error: ViewError) -> Undrawn {
     match error {
-        ViewError::Inside { .. } => None,
-        error => Some(error.to_string()),
+        ViewError::Inside { id, .. } => Undrawn::Inside(id),
+        error => Undrawn::Failed(error.to_string()),
     }
 }
 

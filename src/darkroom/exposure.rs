@@ -6,7 +6,7 @@ use paracosm_engine::sensor::Moment;
 use paracosm_render::lens::Rain;
 use paracosm_render::{Air, Box3, Camera, Frame, Outputs, Scene, Stage, View, boxes_in_space};
 
-/// The id of the car under test, which would see its own inside.
+/// The id of the car under test.
 const OWN: u16 = 1;
 /// How high head lamps are, in metres.
 const LAMPS: f64 = 0.6;
@@ -28,6 +28,8 @@ pub(crate) struct Sight {
     camera: Camera,
     pose: Isometry3<f64>,
     head_lamps: Point3<f64>,
+    /// What is left out: the car itself, of which a camera within it would see the inside.
+    without: Option<u16>,
     pub wanted: Outputs,
 }
 
@@ -41,6 +43,7 @@ impl Exposure<'_> {
             camera: self.optics.camera.clone(),
             pose: self.carrier(),
             head_lamps: Point3::new(car.body.outline.half_extent().x, 0.0, LAMPS),
+            without: self.is_within_the_car().then_some(OWN),
             wanted: Outputs { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, shadows: wanted.rgb, ..wanted },
         }
     }
@@ -58,6 +61,14 @@ impl Exposure<'_> {
         Rain::new(weather.rain_rate(), &Air::of(weather), &camera, &bodies[0].velocity.push(0.0))
     }
 
+    /// Whether the camera is within the box of the car, or so near that parts of the car would be too near to be drawn.
+    fn is_within_the_car(&self) -> bool {
+        let body = &self.moment.bodies[0].body;
+        let (half, place) = (body.outline.half_extent(), self.optics.camera.mount().translation.vector);
+        let along = |place: f64, half: f64| place.abs() <= half + Camera::NEAR;
+        along(place.x, half.x) && along(place.y, half.y) && place.z <= body.height + Camera::NEAR
+    }
+
     /// What was drawn, with the colours that the camera gives.
     pub fn through_lens(&self, mut frame: Frame) -> Frame {
         if frame.linear.is_some() {
@@ -72,7 +83,7 @@ impl Exposure<'_> {
 impl Sight {
     pub fn view(&self) -> View<'_> {
         View {
-            without: Some(OWN),
+            without: self.without,
             head_lamps: Some(self.head_lamps),
             ..View::new(&self.scene, &self.camera, self.pose)
         }
@@ -88,7 +99,7 @@ impl Sight {
             return Vec::new();
         }
         let mut boxes = boxes_in_space(&self.scene, &self.camera, &self.pose);
-        boxes.retain(|thing| thing.id != OWN);
+        boxes.retain(|thing| Some(thing.id) != self.without);
         boxes
     }
 }

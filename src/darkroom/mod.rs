@@ -1,14 +1,14 @@
 //! Where moments become images: those that recordings keep, and those that drivers see while they drive.
 //!
-//! An image depends on its moment, its camera and its number alone, and not on what it is drawn with: so a driver sees what
-//! a recording shows, and whatever waits to be drawn is drawn in one go.
+//! An image depends on its test, its moment, its camera and its number alone, and not on what it is drawn with: so a driver
+//! sees what a recording shows, and whatever waits to be drawn is drawn in one go.
 
 mod developer;
 mod exposure;
 mod optics;
 
 pub use developer::Picture;
-pub(crate) use developer::{Developer, IMAGES, Undrawn};
+pub(crate) use developer::{Developer, Undrawn, at_once};
 pub(crate) use exposure::{Exposure, Sight};
 pub(crate) use optics::{Optics, camera, check};
 
@@ -116,8 +116,8 @@ impl<'a> Seen<'a> {
         for (((camera, sample), exposure), frame) in self.moments.iter().zip(self.exposures()).zip(mine) {
             let (number, time) = (sample.number, sample.time);
             match frame {
-                Err(None) => (),
-                Err(Some(message)) => {
+                Err(Undrawn::Inside(_)) => (),
+                Err(Undrawn::Failed(message)) => {
                     return Err(format!("camera `{}`, image {number}: {message}", exposure.optics.name));
                 }
                 Ok(frame) => {

@@ -4,10 +4,13 @@ use crate::Error;
 use nalgebra::Point3;
 use paracosm_engine::sensor::{Cameras, Chance, Mounted};
 use paracosm_render::lens::Effects;
-use paracosm_render::{Camera, CameraError, Frame};
+use paracosm_render::{Camera, CameraError, Frame, Outputs};
 
 /// The most pixels each way, so that a slip of the finger does not ask for more memory than there is.
 const MOST_PIXELS: u32 = 8192;
+/// How far from the car a camera may be, and how low, in metres.
+const FARTHEST: f64 = 100.0;
+const LOWEST: f64 = 0.05;
 
 /// A camera with its lens and its noise.
 #[derive(Debug, Clone)]
@@ -32,6 +35,17 @@ impl Optics {
         cameras.all.iter().map(ready).collect()
     }
 
+    /// The same with other noise.
+    pub fn with_seed(&self, seed: u64) -> Self {
+        Self { seed, ..self.clone() }
+    }
+
+    /// What is drawn for it of what is wanted: light as it is, or for its lens.
+    pub fn needs(&self, wanted: Outputs) -> Outputs {
+        let plain = self.are_plain();
+        Outputs { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, ..wanted }
+    }
+
     /// Whether colours go through it as they are.
     pub fn are_plain(&self) -> bool {
         self.effects.are_none()
@@ -48,19 +62,35 @@ impl Optics {
     }
 }
 
-/// Whether there is such a camera.
+/// Whether there is such a camera: the message names the key, what was found and what was expected.
 pub(crate) fn check(mounted: &Mounted) -> Result<(), String> {
-    let within = |what: &str, value: f64, (low, high): (f64, f64), unit: &str| {
-        let fine = (low..=high).contains(&value);
-        (!fine).then(|| format!("{what} is {value}, expected {low} to {high} {unit}")).map_or(Ok(()), Err)
-    };
-    if let Some(pixels) = mounted.resolution.iter().find(|pixels| **pixels > MOST_PIXELS) {
-        return Err(format!("resolution has {pixels} pixels, expected at most {MOST_PIXELS} each way"));
+    let Mounted { resolution, position, yaw_pitch_roll, .. } = mounted;
+    if !resolution.iter().all(|pixels| (1..=MOST_PIXELS).contains(pixels)) {
+        return Err(format!("`resolution` is {resolution:?}, expected 1 to {MOST_PIXELS} pixels each way"));
     }
-    within("rate", mounted.rate, (0.001, 1000.0), "Hz")?;
-    within("latency", mounted.latency, (0.0, 100.0), "s")?;
-    within("dropped", mounted.dropped, (0.0, 1.0), "as a probability")?;
-    camera(mounted).map(drop).map_err(|error| error.to_string())?;
+    let [x, y, z] = position;
+    // Below the ground there is nothing to see but the sky.
+    if ![x, y].iter().all(|along| (-FARTHEST..=FARTHEST).contains(*along)) || !(LOWEST..=FARTHEST).contains(z) {
+        return Err(format!(
+            "`position` is {position:?}, expected -{FARTHEST} to {FARTHEST} m ahead and to the left, and {LOWEST} to \
+             {FARTHEST} m up"
+        ));
+    }
+    if !yaw_pitch_roll.iter().all(|angle| (-360.0..=360.0).contains(angle)) {
+        return Err(format!("`yaw_pitch_roll` is {yaw_pitch_roll:?}, expected -360 to 360 degrees each"));
+    }
+    let numbers = [
+        ("focal_mm", mounted.focal_mm, (0.1, 10_000.0), " mm"),
+        ("sensor_mm", mounted.sensor_mm, (0.1, 1000.0), " mm"),
+        ("rate", mounted.rate, (0.001, 1000.0), " Hz"),
+        ("latency", mounted.latency, (0.0, 100.0), " s"),
+        ("dropped", mounted.dropped, (0.0, 1.0), ", a probability"),
+        ("motion_angle", mounted.motion_angle, (-360.0, 360.0), " degrees"),
+    ];
+    let wrong = numbers.into_iter().find(|(_, found, (low, high), _)| !(*low..=*high).contains(found));
+    if let Some((key, found, (low, high), unit)) = wrong {
+        return Err(format!("`{key}` is {found}, expected {low} to {high}{unit}"));
+    }
     effects(mounted).check().map_err(|error| error.to_string())
 }
 

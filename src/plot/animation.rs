@@ -8,10 +8,14 @@ use crate::engine::picture::Film;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use std::collections::BTreeMap;
 use std::error::Error as StdError;
+use std::io::Write;
 
-/// Hundredths of a second that a frame is shown, and that the last one is.
-const DELAY: u16 = 10;
+/// Seconds that a frame of a drawn film is shown.
+const SECONDS: f64 = 0.1;
+/// Hundredths of a second that the last frame is shown, and that every other one is at least: most who show films take
+/// less for a slip and slow down.
 const LAST_DELAY: u16 = 250;
+const LEAST_DELAY: u64 = 2;
 /// How many frames the colours are taken from.
 const SAMPLES: usize = 12;
 /// The index that says: as it was before.
@@ -33,43 +37,76 @@ pub fn film_gif(film: &Film) -> Result<Vec<u8>, Failure> {
         draw(&mut pixels, &frame.drawing, 1.0);
         opaque(&pixels)
     };
-    animated(film.frames.len(), pixels, [scenes[0].width(), scenes[0].height()], DELAY)
-}
-
-/// Images as the contents of a GIF file that repeats for ever: red, green and blue of each pixel, `size` across and down,
-/// each shown for so many seconds.
-///
-/// # Errors
-/// As [`gif`].
-#[cfg(feature = "camera")]
-pub(crate) fn gif_of_images(images: &[Vec<u8>], size: [u32; 2], seconds: f64) -> Result<Vec<u8>, Failure> {
-    // Most who show films take a delay below two hundredths for a slip and slow down.
-    let delay = (100.0 * seconds).round().clamp(2.0, f64::from(LAST_DELAY)) as u16;
-    animated(images.len(), |index| images[index].clone(), size, delay)
-}
-
-fn animated(
-    count: usize,
-    pixels: impl Fn(usize) -> Vec<u8>,
-    [width, height]: [u32; 2],
-    delay: u16,
-) -> Result<Vec<u8>, Failure> {
-    let last = count - 1;
-    let mut palette = Palette::of((0..SAMPLES).map(|i| pixels(i * last / (SAMPLES - 1))));
-    let (width, height) = (u16::try_from(width)?, u16::try_from(height)?);
+    let mut colours = Colours::default();
+    let last = film.frames.len() - 1;
+    (0..SAMPLES).for_each(|i| colours.count(&pixels(i * last / (SAMPLES - 1))));
     let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, width, height, &palette.colours)?;
-    encoder.set_repeat(Repeat::Infinite)?;
-    let mut before: Option<Vec<u8>> = None;
-    for index in 0..count {
-        let now: Vec<u8> = pixels(index).chunks_exact(3).map(|rgb| palette.index([rgb[0], rgb[1], rgb[2]])).collect();
-        let mut frame = changes(before.as_deref(), &now, usize::from(width));
-        frame.delay = if index == last { LAST_DELAY } else { delay };
-        encoder.write_frame(&frame)?;
-        before = Some(now);
+    let mut reel = Reel::begin(&mut file, [scenes[0].width(), scenes[0].height()], colours.palette())?;
+    for index in 0..=last {
+        reel.show(&pixels(index), SECONDS * index as f64)?;
     }
-    drop(encoder);
+    reel.end()?;
     Ok(file)
+}
+
+/// A film that repeats for ever, written frame by frame.
+pub(crate) struct Reel<W: Write> {
+    encoder: Encoder<W>,
+    palette: Palette,
+    width: usize,
+    /// The pixels of the last frame.
+    before: Option<Vec<u8>>,
+    /// The last frame, which is not written until it is known how long it is shown, and when it comes in hundredths of a
+    /// second.
+    waiting: Option<(Frame<'static>, u64)>,
+}
+
+impl<W: Write> Reel<W> {
+    /// A film of so many pixels across and down in these colours.
+    ///
+    /// # Errors
+    /// It is more than 65,535 pixels wide, or nothing can be written.
+    pub fn begin(file: W, [width, height]: [u32; 2], palette: Palette) -> Result<Self, Failure> {
+        let mut encoder = Encoder::new(file, u16::try_from(width)?, u16::try_from(height)?, &palette.colours)?;
+        encoder.set_repeat(Repeat::Infinite)?;
+        Ok(Self { encoder, palette, width: width as usize, before: None, waiting: None })
+    }
+
+    /// Adds a frame that comes at this time, later than all before: red, green and blue of each pixel. One that comes sooner
+    /// after the last than frames can be shown is left out.
+    ///
+    /// # Errors
+    /// Nothing can be written.
+    pub fn show(&mut self, pixels: &[u8], seconds: f64) -> Result<(), Failure> {
+        // Times are rounded and not what is between them, so that a film runs at the right speed.
+        let time = (100.0 * seconds).round() as u64;
+        if let Some((frame, since)) = &mut self.waiting {
+            let delay = time.saturating_sub(*since);
+            if delay < LEAST_DELAY {
+                return Ok(());
+            }
+            frame.delay = u16::try_from(delay).unwrap_or(u16::MAX);
+            self.encoder.write_frame(frame)?;
+        }
+        let palette = &mut self.palette;
+        let now: Vec<u8> = pixels.chunks_exact(3).map(|rgb| palette.index([rgb[0], rgb[1], rgb[2]])).collect();
+        self.waiting = Some((changes(self.before.as_deref(), &now, self.width), time));
+        self.before = Some(now);
+        Ok(())
+    }
+
+    /// Writes the last frame, which is shown for longer.
+    ///
+    /// # Errors
+    /// Nothing can be written.
+    pub fn end(mut self) -> Result<(), Failure> {
+        if let Some((mut last, _)) = self.waiting.take() {
+            last.delay = LAST_DELAY;
+            self.encoder.write_frame(&last)?;
+        }
+        self.encoder.into_inner()?.flush()?;
+        Ok(())
+    }
 }
 
 /// The least rectangle that holds all that changed; what did not change within it is left as it was.
@@ -96,8 +133,41 @@ fn changes(before: Option<&[u8]>, now: &[u8], width: usize) -> Frame<'static> {
     }
 }
 
+/// How often which colours are in pictures.
+#[derive(Default)]
+pub(crate) struct Colours {
+    /// By bin how many pixels there are, and the sums of their red, green and blue.
+    bins: BTreeMap<usize, (u64, [u64; 3])>,
+}
+
+impl Colours {
+    /// Whether no picture was counted.
+    #[cfg(feature = "camera")]
+    pub fn are_none(&self) -> bool {
+        self.bins.is_empty()
+    }
+
+    /// Counts those of a picture: red, green and blue of each pixel.
+    pub fn count(&mut self, picture: &[u8]) {
+        for rgb in picture.chunks_exact(3) {
+            let (count, sums) = self.bins.entry(bin([rgb[0], rgb[1], rgb[2]])).or_default();
+            *count += 1;
+            sums.iter_mut().zip(rgb).for_each(|(sum, part)| *sum += u64::from(*part));
+        }
+    }
+
+    /// The most frequent ones.
+    pub fn palette(self) -> Palette {
+        let mut bins: Vec<_> = self.bins.into_values().collect();
+        bins.sort_by(|a, b| b.cmp(a));
+        bins.truncate(usize::from(UNCHANGED));
+        let colours = bins.iter().flat_map(|(count, sums)| sums.map(|sum| ((sum + count / 2) / count) as u8)).collect();
+        Palette { colours, nearest: vec![None; 1 << (3 * BITS)] }
+    }
+}
+
 /// The colours of a film.
-struct Palette {
+pub(crate) struct Palette {
     /// Red, green and blue of each, 255 at most.
     colours: Vec<u8>,
     /// The index of the nearest one, by bin, where it has been looked for.
@@ -105,23 +175,6 @@ struct Palette {
 }
 
 impl Palette {
-    /// The most frequent colours of these pictures.
-    fn of(pictures: impl Iterator<Item = Vec<u8>>) -> Self {
-        let mut bins: BTreeMap<usize, (u64, [u64; 3])> = BTreeMap::new();
-        for picture in pictures {
-            for rgb in picture.chunks_exact(3) {
-                let (count, sums) = bins.entry(bin([rgb[0], rgb[1], rgb[2]])).or_default();
-                *count += 1;
-                sums.iter_mut().zip(rgb).for_each(|(sum, part)| *sum += u64::from(*part));
-            }
-        }
-        let mut bins: Vec<_> = bins.into_values().collect();
-        bins.sort_by(|a, b| b.cmp(a));
-        bins.truncate(usize::from(UNCHANGED));
-        let colours = bins.iter().flat_map(|(count, sums)| sums.map(|sum| ((sum + count / 2) / count) as u8)).collect();
-        Self { colours, nearest: vec![None; 1 << (3 * BITS)] }
-    }
-
     fn index(&mut self, rgb: [u8; 3]) -> u8 {
         let colours = &self.colours;
         *self.nearest[bin(rgb)].get_or_insert_with(|| {
@@ -186,10 +239,45 @@ mod tests {
     }
 
     #[test]
+    fn a_film_runs_as_fast_as_its_images_were_taken_with_no_frame_shorter_than_can_be_shown() {
+        let delays = |times: &[f64]| {
+            let mut colours = Colours::default();
+            (0..times.len()).for_each(|i| colours.count(&[i as u8; 3]));
+            let mut file = Vec::new();
+            let mut reel = Reel::begin(&mut file, [1, 1], colours.palette()).unwrap();
+            times.iter().enumerate().for_each(|(i, time)| reel.show(&[i as u8; 3], *time).unwrap());
+            reel.end().unwrap();
+            let mut decoder = gif::DecodeOptions::new().read_info(&file[..]).unwrap();
+            let mut delays = Vec::new();
+            while let Some(frame) = decoder.read_next_frame().unwrap() {
+                delays.push(frame.delay);
+            }
+            assert_eq!(delays.pop(), Some(LAST_DELAY));
+            delays
+        };
+        let every =
+            |rate: f64, seconds: f64| (0..=(rate * seconds) as usize).map(|i| i as f64 / rate).collect::<Vec<_>>();
+        assert_eq!(delays(&every(10.0, 1.0)), [10; 10]);
+        assert_eq!(delays(&every(30.0, 0.2)), [3, 4, 3, 3, 4, 3]);
+        for (rate, frames) in [(30.0, 158), (60.0, 211), (100.0, 264), (7.0, 37)] {
+            let (found, last) = (delays(&every(rate, 5.29)), (rate * 5.29_f64).floor() / rate);
+            assert!(found.len().abs_diff(frames) < 3, "{} frames at {rate} Hz", found.len());
+            let seconds = f64::from(found.iter().map(|delay| u32::from(*delay)).sum::<u32>()) / 100.0;
+            assert!((seconds - last).abs() <= 0.015, "{seconds} s at {rate} Hz");
+            assert!(found.iter().all(|delay| *delay >= 2), "{rate} Hz");
+        }
+        // Images were lost in between.
+        assert_eq!(delays(&[0.5, 0.6, 1.0, 1.1]), [10, 40, 10]);
+    }
+
+    #[test]
     fn the_most_frequent_colours_are_kept_and_the_others_are_shown_by_the_nearest_of_them() {
         let colour = |i: u32| [i % 8, i / 8 % 8, i / 64].map(|part| (32 * part) as u8);
-        let picture = (0..300).flat_map(|i| std::iter::repeat_n(colour(i), 1 + i as usize)).flatten().collect();
-        let mut palette = Palette::of(std::iter::once(picture));
+        let picture: Vec<u8> =
+            (0..300).flat_map(|i| std::iter::repeat_n(colour(i), 1 + i as usize)).flatten().collect();
+        let mut colours = Colours::default();
+        colours.count(&picture);
+        let mut palette = colours.palette();
         assert_eq!(palette.colours.len(), 3 * 255);
         let far =
             |a: [u8; 3], b: &[u8]| -> u32 { a.iter().zip(b).map(|(a, b)| u32::from(a.abs_diff(*b)).pow(2)).sum() };

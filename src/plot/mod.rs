@@ -22,7 +22,7 @@ mod tint;
 
 pub use animation::film_gif;
 #[cfg(feature = "camera")]
-pub(crate) use animation::gif_of_images;
+pub(crate) use animation::{Colours, Reel};
 pub(crate) use frame::{Entry, Frame};
 pub use heat::HeatMap;
 pub use lines::Lines;

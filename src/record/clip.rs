@@ -1,12 +1,18 @@
 //! What one camera sees of a test, for people: as a film in a GIF file, or as a folder of PNG files.
+//!
+//! Images are written as they are drawn, so that no more than a few of them are in memory.
 
-use super::image::{Pixels, png};
-use super::{Film, Projector};
+use super::image::{Pixels, write};
+use super::missing::Missing;
+use super::part::Part;
+use super::{Film, Picture, Projector, Shot};
 use crate::folder::is_new;
 use crate::{Error, Trial, Worker, plot};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Outputs, Stages};
-use std::fs;
+use rayon::prelude::*;
+use std::error::Error as StdError;
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 /// Where a clip goes, which does not exist yet.
@@ -38,40 +44,99 @@ impl Clip {
         Ok(Self { path: path.to_owned(), is_film })
     }
 
-    /// Films a test of a worker's study with the first of these cameras; in words, what was written.
+    /// Films a test of a worker's study with the first of these cameras; in words, a line each, what was written and what
+    /// there was not to see.
     ///
     /// # Errors
     /// There is no adapter, the test is not the one that was logged, nothing was seen, or nothing can be written.
-    pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<String, Error> {
+    pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<Vec<String>, Error> {
         let film = Film::of(worker, trial, cameras, &Stages::default())?;
         let mut projector = Projector::new(cameras, Outputs { rgb: true, ..Outputs::default() })?;
-        let mut images: Vec<(u64, Vec<u8>)> = Vec::new();
-        projector.show(&film, 0, |pictures| {
-            let colours = pictures.into_iter().map(|(shot, picture)| (shot.number, picture.frame.rgb));
-            images.extend(colours.filter_map(|(number, rgb)| Some((number, rgb?))));
-            Ok(())
-        })?;
-        let camera = cameras.all.values().next().expect("there is a camera in every set");
-        let drawn = format!("{} images", images.len());
-        let failed = |message: String| Error::Picture { path: self.path.clone(), message };
-        if images.is_empty() {
-            return Err(failed("the camera saw nothing".to_owned()));
-        }
-        if self.is_film {
-            let images: Vec<_> = images.into_iter().map(|(_, rgb)| rgb).collect();
-            let film = plot::gif_of_images(&images, camera.resolution, 1.0 / camera.rate);
-            crate::folder::write_whole(&self.path, &film.map_err(|error| failed(error.to_string()))?)?;
+        let (name, camera) = cameras.all.iter().next().expect("there is a camera in every set");
+        let mut missing = Missing::of(name, camera);
+        let size = camera.resolution;
+        let images = if self.is_film {
+            self.write_film(&film, &mut projector, &mut missing, size)?
         } else {
-            let part = self.path.with_extension("part");
-            fs::create_dir_all(&part).map_err(Error::file("create", &part))?;
-            for (number, rgb) in images {
-                let file = part.join(format!("{number:06}.png"));
-                let contents = png(Pixels::Colours(&rgb), camera.resolution);
-                let contents = contents.map_err(|error| failed(error.to_string()))?;
-                fs::write(&file, contents).map_err(Error::file("write", &file))?;
-            }
-            fs::rename(&part, &self.path).map_err(Error::file("write", &self.path))?;
-        }
-        Ok(format!("{drawn} written to {}", self.path.display()))
+            self.write_images(&film, &mut projector, &mut missing, size)?
+        };
+        let written = format!("{images} images written to {}", self.path.display());
+        Ok(std::iter::once(written).chain(missing.notes()).collect())
     }
+
+    fn write_film(
+        &self,
+        film: &Film,
+        projector: &mut Projector,
+        missing: &mut Missing<'_>,
+        size: [u32; 2],
+    ) -> Result<usize, Error> {
+        let mut colours = plot::Colours::default();
+        // Where the camera is inside something in all of the few, it may still see something in others.
+        for some in [&film.sample(), film] {
+            if colours.are_none() {
+                projector.show(some, 0, |shots| {
+                    shots.iter().filter_map(|(_, seen)| colours_of(seen)).for_each(|rgb| colours.count(rgb));
+                    Ok(())
+                })?;
+            }
+        }
+        if colours.are_none() {
+            self.nothing(film, missing)?;
+        }
+        let (part, file) = Part::file(&self.path)?;
+        let failed = |error: Box<dyn StdError + Send + Sync>| self.failed(error.to_string());
+        let mut reel = plot::Reel::begin(BufWriter::new(file), size, colours.palette()).map_err(failed)?;
+        let mut images = 0;
+        projector.show(film, 0, |shots| {
+            shots.iter().try_for_each(|(shot, seen)| {
+                missing.see(shot, seen);
+                let Some(rgb) = colours_of(seen) else { return Ok(()) };
+                images += 1;
+                reel.show(rgb, shot.time).map_err(failed)
+            })
+        })?;
+        reel.end().map_err(failed)?;
+        part.finish()?;
+        Ok(images)
+    }
+
+    fn write_images(
+        &self,
+        film: &Film,
+        projector: &mut Projector,
+        missing: &mut Missing<'_>,
+        size: [u32; 2],
+    ) -> Result<usize, Error> {
+        let part = Part::folder(&self.path)?;
+        let mut images = 0;
+        projector.show(film, 0, |shots| {
+            shots.iter().for_each(|(shot, seen)| missing.see(shot, seen));
+            images += shots.iter().filter(|(_, seen)| seen.is_ok()).count();
+            shots.par_iter().filter_map(|(shot, seen)| Some((shot, colours_of(seen)?))).try_for_each(|(shot, rgb)| {
+                let Shot { number, .. } = shot;
+                write(&part.path().join(format!("{number:06}.png")), Pixels::Colours(rgb), size)
+            })
+        })?;
+        if images == 0 {
+            self.nothing(film, missing)?;
+        }
+        part.finish()?;
+        Ok(images)
+    }
+
+    /// Fails and says why there is nothing to see.
+    fn nothing(&self, film: &Film, missing: &mut Missing<'_>) -> Result<(), Error> {
+        let thing = film.shots[0].first().map(|_| "it is inside something at all times".to_owned());
+        let why = thing.or_else(|| missing.notes().into_iter().next()).unwrap_or_default();
+        Err(self.failed(format!("the camera saw nothing: {why}")))
+    }
+
+    fn failed(&self, message: String) -> Error {
+        Error::Picture { path: self.path.clone(), message }
+    }
+}
+
+fn colours_of(seen: &Result<Picture, super::Inside>) -> Option<&[u8]> {
+    seen.as_ref().ok()?.frame.rgb.as_deref()
 }

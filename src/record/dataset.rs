@@ -2,9 +2,11 @@
 //!
 //! A test's folder gets its name when it is whole, so that one that is there is done, whatever happened since.
 
-use super::coco::Annotations;
+use super::coco::{ANNOTATIONS, Annotations, merge};
 use super::image::{Pixels, depth_words, write};
-use super::{Film, Picture, Projector, Shot};
+use super::missing::Missing;
+use super::part::Part;
+use super::{Film, Inside, Picture, Projector, Shot};
 use crate::darkroom::camera;
 use crate::folder::write_whole;
 use crate::{Error, Trial, Worker};
@@ -15,6 +17,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::fs;
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -59,6 +62,9 @@ impl FromStr for Kept {
     /// Some of `rgb,semantic,depth,instance,boxes`.
     fn from_str(list: &str) -> Result<Self, Error> {
         const NAMES: [&str; 5] = ["rgb", "semantic", "depth", "instance", "boxes"];
+        if list.trim().is_empty() {
+            return Err(Error::Usage(format!("found no output, expected some of {}", NAMES.join(", "))));
+        }
         let mut found = [false; 5];
         for name in list.split(',').map(str::trim) {
             let Some(place) = NAMES.iter().position(|known| *known == name) else {
@@ -79,6 +85,15 @@ struct Recording {
     /// The seed of colours, where they are drawn.
     colours: Option<u64>,
     cameras: Cameras,
+}
+
+/// What came of recording a test.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recorded {
+    /// How many images it has, of all cameras.
+    pub images: usize,
+    /// Which images it has not, and why, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A data set in the folder of its campaign.
@@ -117,11 +132,11 @@ impl Dataset {
         self.path(trial).exists()
     }
 
-    /// Records a test with a projector of its cameras and outputs: how many images it has.
+    /// Records a test with a projector of its cameras and outputs.
     ///
     /// # Errors
     /// The test is not the one that was logged, its images cannot be drawn, or its folder cannot be written.
-    pub fn record(&self, worker: &mut Worker, trial: &Trial, projector: &mut Projector) -> Result<usize, Error> {
+    pub fn record(&self, worker: &mut Worker, trial: &Trial, projector: &mut Projector) -> Result<Recorded, Error> {
         let Recording { cameras, colours, .. } = &self.recording;
         let mut film = Film::of(worker, trial, cameras, &self.stages)?;
         if let Some(seed) = colours {
@@ -132,45 +147,72 @@ impl Dataset {
         if part.exists() {
             fs::remove_dir_all(&part).map_err(Error::file("remove", &part))?;
         }
-        let images = self.write(&film, projector, &part)?;
+        let recorded = self.write(&film, projector, &part);
+        if recorded.is_err() {
+            // It is of no use to anybody; that it cannot be removed changes nothing.
+            let _ = fs::remove_dir_all(&part);
+        }
+        let recorded = recorded?;
         fs::rename(&part, &whole).map_err(Error::file("write", &whole))?;
-        Ok(images)
+        Ok(recorded)
+    }
+
+    /// Writes one file of boxes for those of these tests that are recorded, beside their folders: what loaders of COCO take.
+    ///
+    /// # Errors
+    /// A file of a test cannot be read, or this one not be written.
+    pub fn finish<'t>(&self, trials: impl IntoIterator<Item = &'t Trial>) -> Result<(), Error> {
+        if !self.recording.kept.boxes {
+            return Ok(());
+        }
+        let recorded = trials.into_iter().filter(|trial| self.has(trial));
+        let tests: Vec<String> = recorded.map(|trial| format!("{:06}", trial.index)).collect();
+        let (part, file) = Part::file(&self.folder.join(ANNOTATIONS))?;
+        merge(&self.folder, &tests, &mut BufWriter::new(file))?;
+        part.finish()
     }
 
     fn path(&self, trial: &Trial) -> PathBuf {
         self.folder.join(format!("{:06}", trial.index))
     }
 
-    fn write(&self, film: &Film, projector: &mut Projector, folder: &Path) -> Result<usize, Error> {
+    fn write(&self, film: &Film, projector: &mut Projector, folder: &Path) -> Result<Recorded, Error> {
         let Recording { cameras, kept, .. } = &self.recording;
         let mut annotations = Annotations::new();
         let mut controls = CONTROLS.to_owned();
-        let mut images = 0;
+        let (mut images, mut notes) = (0, Vec::new());
         fs::create_dir_all(folder).map_err(Error::file("create", folder))?;
         for (index, (name, camera)) in cameras.all.iter().enumerate() {
             for kind in kept.kinds() {
                 let path = folder.join(name).join(kind);
                 fs::create_dir_all(&path).map_err(Error::file("create", &path))?;
             }
-            projector.show(film, index, |pictures| {
-                images += pictures.len();
-                for (shot, picture) in &pictures {
-                    annotations.add(name, format!("{name}/rgb/{}", file_name(shot)), shot, picture);
-                    controls.push_str(&control_line(name, shot, camera.latency));
+            let mut missing = Missing::of(name, camera);
+            projector.show(film, index, |shots| {
+                for (shot, seen) in &shots {
+                    missing.see(shot, seen);
+                    controls.push_str(&control_line(name, shot, camera.latency, seen.as_ref().err()));
+                    if let Ok(picture) = seen {
+                        images += 1;
+                        let file = kept.kinds().next().map(|kind| format!("{name}/{kind}/{}", file_name(shot)));
+                        annotations.add(name, file, shot, picture);
+                    }
                 }
                 let camera = folder.join(name);
-                pictures.par_iter().try_for_each(|(shot, picture)| write_images(&camera, shot, picture, *kept))
+                let pictures = shots.par_iter().filter_map(|(shot, seen)| Some((shot, seen.as_ref().ok()?)));
+                pictures.try_for_each(|(shot, picture)| write_images(&camera, shot, picture, *kept))
             })?;
+            notes.extend(missing.notes());
         }
         let mut files = vec![("controls.csv", controls), ("calibration.json", pretty(&calibration(cameras)?))];
         if kept.boxes {
-            files.push(("annotations.json", pretty(&annotations)));
+            files.push((ANNOTATIONS, pretty(&annotations)));
         }
         for (name, contents) in files {
             let path = folder.join(name);
             fs::write(&path, contents).map_err(Error::file("write", &path))?;
         }
-        Ok(images)
+        Ok(Recorded { images, notes })
     }
 }
 
@@ -204,18 +246,27 @@ fn write_images(camera: &Path, shot: &Shot, picture: &Picture, kept: Kept) -> Re
     Ok(())
 }
 
-const CONTROLS: &str = "camera,frame,time,arrival,speed,travelled,steering,throttle,light,fog,rain\n";
+const CONTROLS: &str =
+    "camera,frame,time,arrival,x,y,heading,speed,travelled,steering,throttle,light,fog,rain,inside\n";
 
-/// A line of `controls.csv`. Names of cameras need no quotes.
-fn control_line(camera: &str, shot: &Shot, latency: f64) -> String {
+/// A line of `controls.csv`. Names of cameras need no quotes; those of things get them where they do.
+fn control_line(camera: &str, shot: &Shot, latency: f64, inside: Option<&Inside>) -> String {
     let Shot { number, time, moment, control } = shot;
     let arrival = time + latency;
+    let car = &moment.bodies[0].pose;
+    let (x, y, heading) = (car.position.x, car.position.y, car.heading);
     let (speed, travelled, weather) = (moment.speed, moment.travelled, moment.weather);
     let (steering, throttle) = (control.steering, control.throttle);
+    let inside = inside.map_or(String::new(), |Inside(thing)| quoted(thing));
     format!(
-        "{camera},{number},{time},{arrival},{speed},{travelled},{steering},{throttle},{},{},{}\n",
+        "{camera},{number},{time},{arrival},{x},{y},{heading},{speed},{travelled},{steering},{throttle},{},{},{},{inside}\n",
         weather.light, weather.fog, weather.rain
     )
+}
+
+/// A field of a CSV file.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 /// What `calibration.json` holds: each camera's matrix, which takes x to the right, y down and z forward to pixels, and
@@ -241,7 +292,7 @@ fn calibration(cameras: &Cameras) -> Result<serde_json::Value, Error> {
     });
     let cameras = described.collect::<Result<serde_json::Map<_, _>, Error>>()?;
     let axes = "of the car and of a camera: x forward, y to the left, z up, in metres; K takes x to the right, y down, \
-                z forward; depth images are metres along a camera's axis times 256, 0 for none";
+                z forward, and the middle of the upper left pixel is at (0.5, 0.5); depth images are metres along a camera's axis times 256, 0 for none";
     Ok(json!({"axes": axes, "cameras": cameras}))
 }
 

@@ -1,6 +1,6 @@
 //! A test as its cameras have it: the moments at which they open their shutters, not drawn yet.
 
-use crate::{Error, Trial, Worker};
+use crate::{Error, Study, Trial, Worker};
 use paracosm_engine::object::Class;
 use paracosm_engine::sensor::{Cameras, Chance, Moment, Sample, Shutters};
 use paracosm_engine::{Control, Run};
@@ -27,12 +27,21 @@ pub struct Film {
     pub stage: Arc<Stage>,
     /// The shots of each camera, in the order of the cameras' names.
     pub shots: Vec<Vec<Shot>>,
+    /// Where the noise of its images comes from: the cameras' seed and the values of the test.
+    pub seed: u64,
+    /// What each body is called.
+    pub names: Arc<[String]>,
 }
+
+/// The greatest number of images that a film's colours are taken from.
+const SAMPLES: usize = 12;
 
 /// What is noted of a run while it is filmed.
 #[derive(Default)]
 struct Notes {
     stage: Option<Arc<Stage>>,
+    names: Arc<[String]>,
+    seed: u64,
     /// What each camera has taken.
     taken: Vec<Vec<Sample<Moment>>>,
     /// What the driver answered, each with the time at which it was asked.
@@ -47,7 +56,11 @@ const WHISKER: f64 = 1e-9;
 impl Notes {
     /// Takes notes whenever the driver is asked, and at the end.
     fn take(&mut self, run: &Run, stages: &Stages) {
-        self.stage.get_or_insert_with(|| stages.of(run.network()));
+        if self.stage.is_none() {
+            self.stage = Some(stages.of(run.network()));
+            self.names = (0..run.bodies().len()).map(|body| run.name_of(body).to_owned()).collect();
+            self.seed = run.filmed().cameras().seed;
+        }
         self.answers.extend(self.asked.replace(run.time()).map(|asked| (asked, run.control())));
         self.taken.resize_with(run.filmed().cameras().all.len(), Vec::new);
         for (camera, sample) in run.filmed().arrived() {
@@ -68,7 +81,7 @@ impl Film {
     /// # Errors
     /// The study is of no scenario, the test ended as invalid or in an error, or the run is not the one that was logged.
     pub fn of(worker: &mut Worker, trial: &Trial, cameras: &Cameras, stages: &Stages) -> Result<Self, Error> {
-        worker.study().subject.scenario()?;
+        check_rates(worker.study(), cameras)?;
         if !trial.covers() {
             let message = format!("test {} ended as {}, so that there is nothing to see", trial.index, trial.verdict);
             return Err(Error::Usage(message));
@@ -90,7 +103,18 @@ impl Film {
             };
             taken.into_iter().map(developed).collect()
         });
-        Ok(Self { stage, shots: shots.collect() })
+        Ok(Self { stage, shots: shots.collect(), seed: notes.seed, names: notes.names.clone() })
+    }
+
+    /// The same with only a few shots of each camera, from the first to the last.
+    pub(super) fn sample(&self) -> Self {
+        let sample = |shots: &Vec<Shot>| {
+            let last = shots.len().saturating_sub(1);
+            let mut places: Vec<usize> = (0..SAMPLES).map(|i| i * last / (SAMPLES - 1)).collect();
+            places.dedup();
+            places.into_iter().filter_map(|place| shots.get(place).cloned()).collect()
+        };
+        Self { shots: self.shots.iter().map(sample).collect(), ..self.clone() }
     }
 
     /// Paints all that has an owner, but for the car under test, in colours drawn from this seed for this test: what should
@@ -105,5 +129,23 @@ impl Film {
                 }
             }
         }
+    }
+}
+
+/// Checks that none of these cameras takes images faster than a study's scenario goes on.
+///
+/// # Errors
+/// One does; the study is of no scenario.
+pub fn check_rates(study: &Study, cameras: &Cameras) -> Result<(), Error> {
+    let simulation = study.subject.scenario()?;
+    let dt = simulation.dt();
+    match cameras.all.iter().find(|(_, camera)| camera.rate * dt > 1.0 + WHISKER) {
+        None => Ok(()),
+        Some((name, camera)) => Err(Error::Usage(format!(
+            "camera `{name}`: `rate` is {} Hz, expected at most {} Hz: a tick of `{}` takes {dt} s",
+            camera.rate,
+            1.0 / dt,
+            simulation.scenario
+        ))),
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A test is run, and a [`Film`] keeps the moments at which its cameras open their shutters; a [`Projector`] draws them
 //! afterwards, many at once. The driver sees nothing of the pictures, so that nothing is lost by drawing them later, and a
-//! batch is as large with one test as with many. Everything, the noise of sensors too, depends on the test alone.
+//! batch is as large with one test as with many. Everything, the noise of sensors too, depends on the test alone: on its
+//! values and the cameras' seed, so that every test has noise of its own and loses images of its own.
 
 mod cameras;
 mod clip;
@@ -10,6 +11,8 @@ mod coco;
 mod dataset;
 mod film;
 mod image;
+mod missing;
+mod part;
 mod projector;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -17,6 +20,6 @@ pub(crate) mod tests;
 pub use crate::darkroom::Picture;
 pub use cameras::{STANDARD_CAMERAS, cameras_for_people, read_cameras, standard_cameras};
 pub use clip::Clip;
-pub use dataset::{Dataset, Kept};
-pub use film::{Film, Shot};
-pub use projector::Projector;
+pub use dataset::{Dataset, Kept, Recorded};
+pub use film::{Film, Shot, check_rates};
+pub use projector::{Developed, Inside, Projector};

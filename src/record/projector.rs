@@ -2,9 +2,16 @@
 
 use super::{Film, Shot};
 use crate::Error;
-use crate::darkroom::{Developer, Exposure, IMAGES, Optics, Picture};
+use crate::darkroom::{Developer, Exposure, Optics, Picture, Undrawn, at_once};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{Adapter, Outputs};
+
+/// The camera was within a thing of this name, which the car ran into, and there was nothing to see.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Inside(pub String);
+
+/// A shot and what there was to see.
+pub type Developed<'f> = (&'f Shot, Result<Picture, Inside>);
 
 /// Draws the films of one set of cameras.
 #[derive(Debug)]
@@ -18,10 +25,14 @@ impl Projector {
     /// A projector of these cameras' films on the best adapter of this machine. Colours come with shadows.
     ///
     /// # Errors
-    /// There is no adapter, or no such camera.
+    /// There is no adapter, no such camera, or its images are too large for the adapter.
     pub fn new(cameras: &Cameras, wanted: Outputs) -> Result<Self, Error> {
         let cameras = Optics::of(cameras)?;
         let developer = Developer::new().map_err(|error| Error::Usage(error.to_string()))?;
+        for optics in &cameras {
+            let too_large = |error| Error::Usage(format!("camera `{}`: {error}", optics.name));
+            developer.check_size(&optics.camera, optics.needs(wanted)).map_err(too_large)?;
+        }
         Ok(Self { developer, cameras, wanted })
     }
 
@@ -30,8 +41,7 @@ impl Projector {
         self.developer.adapter()
     }
 
-    /// Draws all shots of a camera, which is given by its place among the names, and shows them in order. A shot from
-    /// within something that the car ran into shows nothing, and is none.
+    /// Draws all shots of a camera, which is given by its place among the names, and shows them in order, a few at a time.
     ///
     /// # Errors
     /// A view cannot be drawn, the adapter is lost, or `show` fails.
@@ -39,13 +49,15 @@ impl Projector {
         &mut self,
         film: &Film,
         camera: usize,
-        mut show: impl FnMut(Vec<(&Shot, Picture)>) -> Result<(), Error>,
+        mut show: impl FnMut(Vec<Developed<'_>>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        film.shots[camera].chunks(IMAGES).try_for_each(|shots| show(self.draw(film, camera, shots)?))
+        let Optics { camera: pinhole, .. } = &self.cameras[camera];
+        let at_once = at_once(pinhole.width() as usize * pinhole.height() as usize);
+        film.shots[camera].chunks(at_once).try_for_each(|shots| show(self.draw(film, camera, shots)?))
     }
 
-    fn draw<'f>(&mut self, film: &Film, camera: usize, shots: &'f [Shot]) -> Result<Vec<(&'f Shot, Picture)>, Error> {
-        let optics = &self.cameras[camera];
+    fn draw<'f>(&mut self, film: &Film, camera: usize, shots: &'f [Shot]) -> Result<Vec<Developed<'f>>, Error> {
+        let optics = &self.cameras[camera].with_seed(film.seed);
         let exposure = |shot: &'f Shot| {
             let Shot { number, moment, .. } = shot;
             Exposure { stage: &film.stage, moment, optics, number: *number }
@@ -54,14 +66,22 @@ impl Projector {
         let mut drawn = Vec::with_capacity(shots.len());
         for (shot, picture) in shots.iter().zip(self.developer.draw(&exposures, self.wanted)) {
             match picture {
-                Ok(picture) => drawn.push((shot, picture)),
-                Err(None) => (),
-                Err(Some(message)) => {
+                Ok(picture) => drawn.push((shot, Ok(picture))),
+                Err(Undrawn::Inside(id)) => drawn.push((shot, Err(film.inside(id)))),
+                Err(Undrawn::Failed(message)) => {
                     let message = format!("camera `{}`, image {}: {message}", optics.name, shot.number);
                     return Err(Error::Usage(message));
                 }
             }
         }
         Ok(drawn)
+    }
+}
+
+impl Film {
+    /// That a camera was within the thing of this id: those of bodies begin with 1.
+    fn inside(&self, id: u16) -> Inside {
+        let body = usize::from(id).checked_sub(1).and_then(|body| self.names.get(body));
+        Inside(body.map_or("the scenery", String::as_str).to_owned())
     }
 }

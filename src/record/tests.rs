@@ -1,5 +1,7 @@
 //! Recordings against what they were made of, decoded and counted anew.
 
+mod whole;
+
 use super::*;
 use crate::{Campaign, Study, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
@@ -29,7 +31,12 @@ fn cameras(more: &str) -> Cameras {
 }
 
 fn two_tests() -> (Study, Vec<Trial>) {
-    let study = Study::of("pedestrian-crossing").and_then(|study| study.budget(2)).expect("a sound study");
+    tests_of(Study::of("pedestrian-crossing"), 2)
+}
+
+/// The first tests of a study.
+fn tests_of(study: Result<Study, crate::Error>, tests: usize) -> (Study, Vec<Trial>) {
+    let study = study.and_then(|study| study.budget(tests)).expect("a sound study");
     let mut trials = Vec::new();
     let campaign = Campaign::new(&study).expect("it can be run");
     campaign
@@ -46,8 +53,9 @@ fn recorded(folder: &Path, cameras: &Cameras, kept: Kept, trials: &[Trial], stud
     let mut projector = Projector::new(cameras, kept.outputs()).expect("there is an adapter");
     let mut worker = Worker::new(study).expect("it can be run");
     for trial in trials.iter().filter(|trial| !dataset.has(trial)) {
-        assert!(dataset.record(&mut worker, trial, &mut projector).expect("it is recorded") > 0);
+        assert!(dataset.record(&mut worker, trial, &mut projector).expect("it is recorded").images > 0);
     }
+    dataset.finish(trials).expect("it can be written");
 }
 
 fn filmed(study: &Study, trial: &Trial, cameras: &Cameras) -> Result<Film, crate::Error> {
@@ -90,10 +98,11 @@ fn frames(study: &Study, trial: &Trial, cameras: &Cameras) -> Vec<(u64, Frame)> 
     let mut projector = Projector::new(cameras, Kept::ALL.outputs()).expect("there is an adapter");
     let mut frames = Vec::new();
     for shot in &film.shots[0] {
-        let alone = Film { stage: film.stage.clone(), shots: vec![vec![shot.clone()]] };
+        let alone = Film { shots: vec![vec![shot.clone()]], ..film.clone() };
         projector
             .show(&alone, 0, |pictures| {
-                frames.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.frame)));
+                let frame = |(shot, picture): Developed<'_>| (shot.number, picture.expect("it is outside").frame);
+                frames.extend(pictures.into_iter().map(frame));
                 Ok(())
             })
             .expect("it is drawn");
@@ -226,10 +235,17 @@ fn files_of_cameras_say_what_is_wrong_with_them() {
         said(&STANDARD_CAMERAS.replace(from, to))
     };
     for (from, to, word) in [
-        ("focal_mm = 24.0", "focal_mm = 0.0", "focal length"),
-        ("rate = 10.0", "rate = 0.0", "rate is 0"),
-        ("[200, 66]", "[200000, 66]", "200000"),
-        ("vignetting = 0.0", "vignetting = 2.0", "vignetting of 2"),
+        ("focal_mm = 24.0", "focal_mm = 0.0", "camera `front`: `focal_mm` is 0, expected 0.1 to 10000 mm"),
+        ("focal_mm = 24.0", "focal_mm = 1e-300", "`focal_mm`"),
+        ("focal_mm = 24.0", "focal_mm = 1e300", "`focal_mm`"),
+        ("sensor_mm = 36.0", "sensor_mm = nan", "`sensor_mm` is NaN, expected 0.1 to 1000 mm"),
+        ("[0.3, 0.0, 1.35]", "[0.3, 0.0, -1.35]", "`position` is [0.3, 0.0, -1.35], expected -100 to 100 m ahead"),
+        ("[0.3, 0.0, 1.35]", "[1e30, 0.0, 1.35]", "`position`"),
+        ("[0.0, 2.0, 0.0]", "[0.0, 1e9, 0.0]", "`yaw_pitch_roll`"),
+        ("rate = 10.0", "rate = 0.0", "`rate` is 0, expected 0.001 to 1000 Hz"),
+        ("[200, 66]", "[200000, 66]", "`resolution` is [200000, 66], expected 1 to 8192 pixels each way"),
+        ("[200, 66]", "[0, 66]", "`resolution`"),
+        ("vignetting = 0.0", "vignetting = 2.0", "`vignetting` is 2"),
         ("defocus", "defocuss", "line"),
         ("[camera.front]", "[camera.\"../front\"]", "../front"),
     ] {
@@ -239,6 +255,8 @@ fn files_of_cameras_say_what_is_wrong_with_them() {
     assert!(said("seed = 1\n[camera]").contains("no camera"));
     let error = "rgb,depht".parse::<Kept>().expect_err("there is none").to_string();
     assert!(error.contains("`depth`"), "{error}");
+    let error = "".parse::<Kept>().expect_err("there is none").to_string();
+    assert_eq!(error, "found no output, expected some of rgb, semantic, depth, instance, boxes");
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod bends;
 use super::*;
 use crate::executor::{from_desk, pool};
 use crate::record::tests::can_draw;
-use crate::record::{Film, Projector};
+use crate::record::{Developed, Film, Projector};
 use crate::{Campaign, Study, Trial, Worker};
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
 use paracosm_engine::sensor::{Image, Rig};
@@ -96,8 +96,8 @@ fn streaks_of_rain_are_those_of_the_image_whatever_is_drawn_together() {
         let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
         let mut first = None;
         let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();
-        let show = |pictures: Vec<(&crate::record::Shot, crate::record::Picture)>| {
-            first = first.take().or_else(|| pictures.into_iter().next().and_then(|(_, picture)| picture.frame.rgb));
+        let show = |pictures: Vec<Developed<'_>>| {
+            first = first.take().or_else(|| pictures.into_iter().next()?.1.ok()?.frame.rgb);
             Ok(())
         };
         projector.show(&film, 0, show).unwrap();
@@ -257,8 +257,8 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
     let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
     let mut recorded = Vec::new();
     let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();
-    let show = |pictures: Vec<(&crate::record::Shot, crate::record::Picture)>| {
-        recorded.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.frame.rgb.unwrap())));
+    let show = |pictures: Vec<crate::record::Developed<'_>>| {
+        recorded.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.unwrap().frame.rgb.unwrap())));
         Ok(())
     };
     projector.show(&film, 0, show).unwrap();

@@ -104,7 +104,7 @@ pub enum CameraError {
         found: f64,
     },
     /// An effect of a lens or a sensor that there is not.
-    #[error("{what} of {found}, expected {expected}")]
+    #[error("`{what}` is {found}, expected {expected}")]
     Effect {
         /// Which effect.
         what: &'static str,

@@ -46,6 +46,15 @@ impl Extent {
         self.min = [self.min[0].min(at[0]), self.min[1].min(at[1])];
         self.max = [self.max[0].max(at[0]), self.max[1].max(at[1])];
     }
+
+    /// Adds other pixels of the same thing.
+    pub(crate) fn join(&mut self, other: &Self) {
+        self.pixels += other.pixels;
+        for axis in 0..2 {
+            self.min[axis] = self.min[axis].min(other.min[axis]);
+            self.max[axis] = self.max[axis].max(other.max[axis]);
+        }
+    }
 }
 
 impl Frame {

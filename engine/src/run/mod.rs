@@ -103,7 +103,8 @@ impl Run {
     /// # Panics
     /// The tick or the period is no positive number of seconds.
     pub fn new<'a>(program: &Program, test: impl Into<Test<'a>>, setup: Setup) -> Result<Self, ProgramError> {
-        let mut scenario = program.built(Some(test.into()))?;
+        let test = test.into();
+        let mut scenario = program.built(Some(test))?;
         let (dt, period) = (setup.dt.unwrap_or(scenario.dt), setup.period);
         assert!(dt > 0.0 && dt.is_finite() && period > 0.0, "a tick and a period are positive numbers of seconds");
         let graph = std::mem::take(&mut scenario.graph);
@@ -149,7 +150,7 @@ impl Run {
             columns,
             trace,
             observation: Observation::default(),
-            sensing: Sensing::default(),
+            sensing: Sensing::in_test(test.key()),
             unable: overlap.or(fault),
             scene,
         })
@@ -238,6 +239,11 @@ impl Run {
     /// Light, fog, rain and the sun at this tick.
     pub fn weather(&self) -> Weather {
         self.scene.weather(&self.graph)
+    }
+
+    /// What the object is called that a body is of, by the body's index; the car under test is `car`.
+    pub fn name_of(&self, body: usize) -> &str {
+        self.scene.name(body)
     }
 
     /// Seconds since it began.

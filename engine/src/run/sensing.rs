@@ -9,9 +9,16 @@ pub(super) struct Sensing {
     rig: Rig,
     eyes: Shutters,
     film: Shutters,
+    /// Which test it is: [`Test::key`](crate::Test::key).
+    test: u64,
 }
 
 impl Sensing {
+    /// What measures nothing yet, in a test of this key.
+    pub fn in_test(key: u64) -> Self {
+        Self { test: key, ..Self::default() }
+    }
+
     fn rigs(&mut self) -> [&mut Rig; 3] {
         [&mut self.rig, self.eyes.rig(), self.film.rig()]
     }
@@ -31,12 +38,13 @@ impl Run {
 
     /// Gives the car under test the cameras that its driver sees through.
     pub(super) fn open_eyes(&mut self, eyes: Shutters) {
-        self.sensing.eyes = eyes;
+        self.sensing.eyes = eyes.in_test(self.sensing.test);
     }
 
-    /// Films the run with these cameras, which the driver knows nothing of.
+    /// Films the run with these cameras, which the driver knows nothing of. Their noise and what they lose are those of this
+    /// test.
     pub fn film(&mut self, film: Shutters) {
-        self.sensing.film = film;
+        self.sensing.film = film.in_test(self.sensing.test);
     }
 
     /// The sensors of the car under test, with what has arrived from them since its driver was last asked.

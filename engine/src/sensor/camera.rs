@@ -3,7 +3,7 @@
 //! The engine draws nothing. A [`Shutter`] notes the [`Moment`] that a camera saw, and whoever runs the test develops it to
 //! an [`Image`] when it has arrived.
 
-use super::{Chance, Delivery, Handle, Rig, Sample, Sensor, SensorError, View};
+use super::{Chance, Delivery, Handle, Rig, Sample, Sensor, SensorError, View, mixed};
 use crate::object::BodyState;
 use crate::scenario::Weather;
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cameras {
-    /// Where the noise of all of them comes from.
+    /// Where the noise of all of them comes from, together with the values of the test.
     #[serde(default)]
     pub seed: u64,
     /// Each by its name.
@@ -130,7 +130,15 @@ impl Shutters {
         Ok(Self { cameras, rig, each })
     }
 
-    /// The cameras that they belong to.
+    /// The same in a test of this key: another test has other noise and loses other images, so that nobody learns them.
+    pub(crate) fn in_test(mut self, key: u64) -> Self {
+        self.cameras.seed = mixed(mixed(self.cameras.seed) ^ key);
+        self.rig.reseed(self.cameras.seed);
+        self
+    }
+
+    /// The cameras that they belong to. In a run their seed is that of its own noise: it depends on the seed that they were
+    /// given and on the values of the test.
     pub fn cameras(&self) -> &Cameras {
         &self.cameras
     }

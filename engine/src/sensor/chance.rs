@@ -20,10 +20,7 @@ pub struct Chance {
 impl Chance {
     /// That of a reading: the seed of the rig, the name of the sensor, and the number of the reading.
     pub fn of(seed: u64, name: &str, number: u64) -> Self {
-        let name = name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-        });
-        let key = mixed(mixed(mixed(seed) ^ name) ^ number);
+        let key = mixed(mixed(mixed(seed) ^ hashed(name)) ^ number);
         Self { random: Pcg64::seed_from_u64(key), spare: None }
     }
 
@@ -74,8 +71,14 @@ impl Chance {
     }
 }
 
+/// A number for a text (FNV-1a; Fowler, Noll and Vo).
+pub(crate) fn hashed(text: &str) -> u64 {
+    text.bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
 /// Mixes the bits of a number (the finaliser of SplitMix64; Steele, Lea and Flood 2014).
-fn mixed(number: u64) -> u64 {
+pub(crate) fn mixed(number: u64) -> u64 {
     let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -62,7 +62,7 @@ pub use radar::{Detection, Radar, RadarSettings};
 pub use rig::{Delivery, Handle, Rig, Sample};
 pub use truth::{GroundTruth, GroundTruthSettings, TrueBody};
 
-pub(crate) use chance::gaussian;
+pub(crate) use chance::{gaussian, hashed, mixed};
 pub(crate) use sight::hides;
 
 use crate::object::BodyState;

@@ -78,6 +78,11 @@ impl Rig {
         Ok(Handle { index: self.sensors.len() - 1, sensor: PhantomData })
     }
 
+    /// Takes another seed.
+    pub(super) fn reseed(&mut self, seed: u64) {
+        self.seed = seed;
+    }
+
     /// Whether it has no sensor.
     pub fn is_empty(&self) -> bool {
         self.sensors.is_empty()

@@ -57,14 +57,14 @@ impl Effects {
         let pixels = ((0.0, FARTHEST), "0 to 64 pixels");
         let electrons = ((0.0, 1e9), "0 to 1e9 electrons");
         let numbers = [
-            ("a motion", self.motion, pixels),
-            ("a motion_angle", self.motion_angle, ((-1e3, 1e3), "an angle")),
-            ("a defocus", self.defocus, pixels),
-            ("a blur", self.blur, ((0.0, FARTHEST / 4.0), "0 to 16 pixels")),
-            ("a vignetting", self.vignetting, ((0.0, 1.0), "0 to 1")),
-            ("an exposure", self.exposure, ((-20.0, 20.0), "-20 to 20 stops")),
-            ("a full_well", self.full_well, electrons),
-            ("a read_noise", self.read_noise, electrons),
+            ("motion", self.motion, pixels),
+            ("motion_angle", self.motion_angle, ((-1e3, 1e3), "an angle")),
+            ("defocus", self.defocus, pixels),
+            ("blur", self.blur, ((0.0, FARTHEST / 4.0), "0 to 16 pixels")),
+            ("vignetting", self.vignetting, ((0.0, 1.0), "0 to 1")),
+            ("exposure", self.exposure, ((-20.0, 20.0), "-20 to 20 stops")),
+            ("full_well", self.full_well, electrons),
+            ("read_noise", self.read_noise, electrons),
         ];
         let wrong = numbers.into_iter().find(|(_, found, ((low, high), _))| !(*low..=*high).contains(found));
         wrong.map_or(Ok(()), |(what, found, (_, expected))| Err(CameraError::Effect { what, found, expected }))

@@ -3,6 +3,7 @@
 use super::prepare::Prepared;
 use super::targets::Format;
 use crate::{Camera, Outputs};
+use std::ops::Range;
 
 /// The most views in a batch.
 const MOST_LAYERS: usize = 64;
@@ -17,6 +18,27 @@ pub(super) struct Layer<'a> {
     pub index: usize,
     pub camera: &'a Camera,
     pub prepared: Prepared,
+    /// Which rows the masks of things alone are drawn of.
+    pub rows: Range<u32>,
+}
+
+impl Layer<'_> {
+    /// Whether it has the images of its view, and not only masks.
+    pub fn has_images(&self) -> bool {
+        self.rows.start == 0
+    }
+
+    /// What images it has.
+    fn format(&self, wanted: Outputs) -> Format {
+        let masks = Outputs { alone: true, ..Outputs::default() };
+        let wanted = if self.has_images() { wanted } else { masks };
+        Format { width: self.camera.width(), height: self.camera.height(), wanted }
+    }
+
+    /// How many bytes its masks take.
+    pub fn mask_bytes(&self, format: Format) -> u64 {
+        format.mask_bytes(self.prepared.words(), self.rows.len() as u32)
+    }
 }
 
 /// Views of one size that are drawn together.
@@ -31,8 +53,8 @@ pub(super) struct Hand<'a> {
 pub(super) fn deal(layers: Vec<Layer<'_>>, wanted: Outputs, limit: usize) -> Vec<Hand<'_>> {
     let mut hands: Vec<Hand<'_>> = Vec::new();
     for layer in layers {
-        let format = Format { width: layer.camera.width(), height: layer.camera.height(), wanted };
-        let bytes = format.bytes() + format.mask_bytes(layer.prepared.words());
+        let format = layer.format(wanted);
+        let bytes = format.bytes() + layer.mask_bytes(format);
         let has_room = |hand: &&mut Hand<'_>| {
             hand.format == format && hand.bytes + bytes <= MOST_BYTES && hand.layers.len() < MOST_LAYERS.min(limit)
         };

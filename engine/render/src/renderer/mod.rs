@@ -4,6 +4,7 @@
 //! layers take turns. Which views share a batch makes no difference to any of them.
 
 mod adapter;
+mod bands;
 mod deal;
 mod inside;
 mod meshes;
@@ -18,7 +19,7 @@ mod tests;
 
 pub use adapter::{Adapter, adapter};
 
-use crate::{Frame, Outputs, RenderError, View, ViewError};
+use crate::{Camera, Frame, Outputs, RenderError, View, ViewError};
 use adapter::Gpu;
 use deal::{Hand, Layer, deal};
 use meshes::{Finish, Meshes};
@@ -38,6 +39,8 @@ pub struct Renderer {
     meshes: Meshes,
     /// Layers that no batch is in.
     idle: Vec<Targets>,
+    /// How many bytes the masks of a view take at a time.
+    most_masks: u64,
 }
 
 /// A batch that is being drawn.
@@ -56,7 +59,9 @@ impl Renderer {
         let gpu = Gpu::open()?;
         let pipelines = Pipelines::new(&gpu);
         gpu.trouble.check()?;
-        Ok(Self { gpu, pipelines, meshes: Meshes::default(), idle: Vec::new() })
+        let wgpu::Limits { max_buffer_size, max_storage_buffer_binding_size, .. } = gpu.limits;
+        let most_masks = bands::MOST_BYTES.min(max_buffer_size).min(max_storage_buffer_binding_size);
+        Ok(Self { gpu, pipelines, meshes: Meshes::default(), idle: Vec::new(), most_masks })
     }
 
     /// What it draws with.
@@ -85,7 +90,10 @@ impl Renderer {
         let mut ready = Vec::with_capacity(views.len());
         for (index, view) in views.iter().enumerate() {
             match self.prepare(view, wanted) {
-                Ok(prepared) => ready.push(Layer { index, camera: view.camera, prepared }),
+                Ok(prepared) => {
+                    let format = format(view.camera, wanted);
+                    ready.extend(bands::layers((index, view.camera), prepared, format, self.most_masks));
+                }
                 Err(error) => frames[index] = Some(Err(error)),
             }
         }
@@ -103,20 +111,28 @@ impl Renderer {
         Ok(frames.into_iter().map(|frame| frame.expect("every view was drawn or refused")).collect())
     }
 
-    fn prepare(&mut self, view: &View<'_>, wanted: Outputs) -> Result<Prepared, ViewError> {
-        let prepared = prepare(&self.gpu, &mut self.meshes, view, wanted)?;
-        let format = Format { width: view.camera.width(), height: view.camera.height(), wanted };
+    /// Whether images of such a camera are small enough for the adapter, whatever there is to see.
+    ///
+    /// # Errors
+    /// They are not.
+    pub fn check_size(&self, camera: &Camera, wanted: Outputs) -> Result<(), ViewError> {
+        let (width, height) = (camera.width(), camera.height());
         let limits = &self.gpu.limits;
-        let masks = format.mask_bytes(prepared.words());
-        let limit = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        let taken = [
-            ("what is read back of the view", format.bytes(), limits.max_buffer_size),
-            ("the mask of each thing alone", masks, limit),
-        ];
-        match taken.into_iter().find(|(_, bytes, limit)| bytes > limit) {
-            Some((what, bytes, limit)) => Err(ViewError::TooMuch { what, bytes, limit }),
-            None => Ok(prepared),
+        let limit = limits.max_texture_dimension_2d;
+        if width > limit || height > limit {
+            return Err(ViewError::TooLarge { width, height, limit });
         }
+        let (bytes, limit) = (format(camera, wanted).bytes(), limits.max_buffer_size);
+        let what = "what is read back of the view";
+        if bytes > limit { Err(ViewError::TooMuch { what, bytes, limit }) } else { Ok(()) }
+    }
+
+    fn prepare(&mut self, view: &View<'_>, wanted: Outputs) -> Result<Prepared, ViewError> {
+        self.check_size(view.camera, wanted)?;
+        let prepared = prepare(&self.gpu, &mut self.meshes, view, wanted)?;
+        let (bytes, limit) = (format(view.camera, wanted).mask_bytes(prepared.words(), 1), self.most_masks);
+        let what = "a row of the mask of each thing alone";
+        if bytes > limit { Err(ViewError::TooMuch { what, bytes, limit }) } else { Ok(prepared) }
     }
 
     /// Sends a batch to the adapter.
@@ -128,10 +144,11 @@ impl Renderer {
         let mut first_instances = Vec::new();
         let stride = view_stride(&self.gpu) as usize;
         let mut uniforms = vec![0; stride * layers.len()];
-        for (layer, Layer { prepared, .. }) in layers.iter_mut().enumerate() {
-            prepared.raw.counts[0] = words;
-            prepared.raw.counts[1] = prepared.words();
-            words += format.pixels() as u32 * prepared.words();
+        for (layer, view) in layers.iter_mut().enumerate() {
+            let masks = (view.mask_bytes(format) / 4) as u32;
+            let Layer { prepared, rows, .. } = view;
+            prepared.raw.counts = [words, prepared.words(), format.width, rows.start * format.width];
+            words += masks;
             first_instances.push(instances.len() as u32);
             instances.append(&mut prepared.instances);
             uniforms[layer * stride..][..size_of::<RawView>()].copy_from_slice(bytemuck::bytes_of(&prepared.raw));
@@ -144,8 +161,12 @@ impl Renderer {
         if let Some(masks) = &targets.masks {
             encoder.clear_buffer(&masks.words, 0, None);
         }
-        for (layer, Layer { prepared, .. }) in layers.iter().enumerate() {
-            self.encode(&mut encoder, &targets, layer as u32, prepared, first_instances[layer]);
+        for (layer, view) in layers.iter().enumerate() {
+            let (place, first) = (layer as u32, first_instances[layer]);
+            if view.has_images() {
+                self.encode(&mut encoder, &targets, place, &view.prepared, first);
+            }
+            self.encode_masks(&mut encoder, &targets, place, view, first);
         }
         targets.copy(&mut encoder, layers.len() as u32);
         if let Some(masks) = &targets.masks {
@@ -194,12 +215,24 @@ impl Renderer {
                 pass.draw(0..3, 0..1);
             }
         }
-        if let (true, Some(masks)) = (wanted.alone, &targets.masks) {
+    }
+
+    /// Draws the masks of things alone of a view, as far as they are this layer's.
+    fn encode_masks(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        layer: u32,
+        view: &Layer<'_>,
+        first: u32,
+    ) {
+        if let (true, Some(masks)) = (targets.format.wanted.alone, &targets.masks) {
             let mut pass = targets.begin(encoder, layer, false);
+            pass.set_scissor_rect(0, view.rows.start, targets.format.width, view.rows.len() as u32);
             pass.set_pipeline(&self.pipelines.alone);
-            pass.set_bind_group(0, &targets.view_group, &[offset]);
+            pass.set_bind_group(0, &targets.view_group, &[layer * view_stride(&self.gpu) as u32]);
             pass.set_bind_group(1, &masks.group, &[]);
-            self.draw(&mut pass, targets, &prepared.draws, first, None);
+            self.draw(&mut pass, targets, &view.prepared.draws, first, None);
         }
     }
 
@@ -243,16 +276,19 @@ impl Renderer {
         }
         if let Some(masks) = &targets.masks {
             let words = masks.readback.slice(..).get_mapped_range().map_err(unread)?;
-            for (frame, Layer { prepared, .. }) in read.iter_mut().zip(&layers) {
-                let bytes = format.mask_bytes(prepared.words()) as usize;
-                let words = &words[prepared.raw.counts[0] as usize * 4..][..bytes];
-                frame.alone = Some(read::alone(format, words, &prepared.bits));
+            for (frame, layer) in read.iter_mut().zip(&layers) {
+                let Layer { prepared, rows, .. } = layer;
+                let words = &words[prepared.raw.counts[0] as usize * 4..][..layer.mask_bytes(format) as usize];
+                frame.alone = Some(read::alone(format, rows.start, words, &prepared.bits));
             }
             drop(words);
             masks.readback.unmap();
         }
         for (layer, frame) in layers.iter().zip(read) {
-            frames[layer.index] = Some(Ok(frame));
+            frames[layer.index] = Some(Ok(match frames[layer.index].take() {
+                Some(Ok(before)) => bands::joined(before, frame, layer.has_images()),
+                _ => frame,
+            }));
         }
         if self.idle.len() >= MOST_IDLE {
             self.idle.remove(0);
@@ -275,3 +311,7 @@ impl Renderer {
 
 /// How many sets of layers wait for another batch of their kind: two of each of two kinds.
 const MOST_IDLE: usize = 4;
+
+fn format(camera: &Camera, wanted: Outputs) -> Format {
+    Format { width: camera.width(), height: camera.height(), wanted }
+}

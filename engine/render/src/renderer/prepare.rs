@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// A view, ready to be drawn.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub raw: RawView,
     /// Of what is in sight and of what throws shadows.
@@ -31,7 +31,7 @@ pub(super) struct Weather {
 }
 
 /// One mesh, drawn for some of the instances of its view.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Draw {
     pub mesh: u64,
     pub instances: Range<u32>,
@@ -60,7 +60,7 @@ struct Placed<'a> {
 
 /// Gets a view ready.
 pub(super) fn prepare(gpu: &Gpu, meshes: &mut Meshes, view: &View<'_>, wanted: Outputs) -> Result<Prepared, ViewError> {
-    check(gpu, view)?;
+    check(view)?;
     let eye = view.camera.pose(&view.pose);
     let to_eye = eye.inverse();
     let seen = || view.scene.instances.iter().enumerate().filter(|(_, instance)| view.without != Some(instance.id));
@@ -141,12 +141,7 @@ fn shape(instance: &Instance, to_eye: &Isometry3<f64>) -> Shape {
     Shape { to_camera: to_eye * pose, scale: Vector3::from(instance.scale).cast() }
 }
 
-fn check(gpu: &Gpu, view: &View<'_>) -> Result<(), ViewError> {
-    let (width, height) = (view.camera.width(), view.camera.height());
-    let limit = gpu.limits.max_texture_dimension_2d;
-    if width > limit || height > limit {
-        return Err(ViewError::TooLarge { width, height, limit });
-    }
+fn check(view: &View<'_>) -> Result<(), ViewError> {
     let lamps = view.head_lamps.unwrap_or_default();
     let numbers = view.pose.translation.vector.iter().chain(view.pose.rotation.coords.iter()).chain(lamps.iter());
     if !numbers.copied().all(f64::is_finite) {
@@ -245,7 +240,7 @@ fn raw_view(
         head_beam: four(before(view.pose * Vector3::new(1.0, 0.0, -0.03).normalize()), 0.0),
         street_lamps: street_lamps(placed, light.lamps),
         shadow: map.rows(),
-        counts: [0, 0, camera.width(), 0],
+        counts: [0; 4],
     }
 }
 

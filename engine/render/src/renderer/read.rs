@@ -67,14 +67,14 @@ fn gathered<'a, T, const N: usize>(
     all
 }
 
-/// Which pixels each thing would have if it were alone, from the masks of a view.
-pub(super) fn alone(format: Format, masks: &[u8], bits: &BTreeMap<u16, u32>) -> Vec<Extent> {
+/// Which pixels each thing would have if it were alone, from the masks of a view from this row on.
+pub(super) fn alone(format: Format, top: u32, masks: &[u8], bits: &BTreeMap<u16, u32>) -> Vec<Extent> {
     let ids: Vec<u16> = bits.keys().copied().collect();
     let words = ids.len().div_ceil(32);
     let mut extents: Vec<Option<Extent>> = vec![None; ids.len()];
     for (index, word) in masks.as_chunks().0.iter().map(|word| u32::from_ne_bytes(*word)).enumerate() {
         let pixel = (index / words) as u32;
-        let at = [pixel % format.width, pixel / format.width];
+        let at = [pixel % format.width, top + pixel / format.width];
         let mut left = word;
         while left != 0 {
             let bit = index % words * 32 + left.trailing_zeros() as usize;

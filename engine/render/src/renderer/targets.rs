@@ -97,9 +97,9 @@ impl Format {
         self.images().map(|image| self.stride(image)).sum()
     }
 
-    /// Bytes of the masks of things alone of a view that has so many words for each pixel.
-    pub fn mask_bytes(self, words: u32) -> u64 {
-        self.pixels() * u64::from(words) * 4
+    /// Bytes of so many rows of the masks of things alone of a view that has so many words for each pixel.
+    pub fn mask_bytes(self, words: u32, rows: u32) -> u64 {
+        u64::from(self.width) * u64::from(rows) * u64::from(words) * 4
     }
 
     pub fn pixels(self) -> u64 {

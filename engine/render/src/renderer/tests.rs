@@ -87,3 +87,32 @@ fn a_lost_device_is_an_error_and_a_new_renderer_sees_again() {
     let frame = frames[0].as_ref().expect("a sound view");
     assert!(frame.instance.iter().flatten().all(|id| *id == 3));
 }
+
+#[test]
+fn masks_of_things_alone_are_the_same_in_however_many_bands_they_are_drawn() {
+    let Some(mut renderer) = renderer() else { return };
+    let mut scene = board();
+    let mesh = scene.instances[0].mesh.clone();
+    // More things than a word has bits, one behind the other, each with a place and a size of its own.
+    for id in 10..80 {
+        let (along, across) = (6.0 + 0.1 * f32::from(id), 0.05 * f32::from(id) - 2.0);
+        let pose = Isometry3::translation(along, across, 0.02 * f32::from(id));
+        let scale = [1.0, 0.002 * f32::from(id), 0.1];
+        scene.instances.push(Instance { mesh: mesh.clone(), pose, scale, paint: [0.5; 3], id });
+    }
+    let wanted = Outputs { alone: true, ..INSTANCES };
+    let cameras = [(48, 31), (20, 7)].map(|(width, height)| Camera::new(width, height, 24.0, 36.0).expect("a camera"));
+    let views: Vec<_> = cameras.iter().chain(&cameras).map(|c| View::new(&scene, c, Isometry3::identity())).collect();
+    let whole = renderer.render(&views, wanted).expect("the adapter works");
+    let things = whole[0].as_ref().expect("a sound view").alone.as_ref().map_or(0, Vec::len);
+    assert!(things > 64, "{things} things");
+    // 3 words a pixel are 576 bytes a row of the larger camera.
+    for limit in [576, 600, 3 * 576, 10_000] {
+        renderer.most_masks = limit;
+        assert!(renderer.render(&views, wanted).expect("the adapter works") == whole, "{limit} bytes at a time");
+    }
+    renderer.most_masks = 575;
+    let refused =
+        renderer.render(&views[..1], wanted).expect("the adapter works").remove(0).expect_err("a row is more");
+    assert!(refused.to_string().contains("a row of the mask"), "{refused}");
+}

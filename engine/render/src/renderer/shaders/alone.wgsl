@@ -14,7 +14,7 @@ fn alone_corner(corner: Corner) -> Alone {
 
 @fragment
 fn alone(thing: Alone) {
-    let pixel = u32(thing.at.y) * view.counts.z + u32(thing.at.x);
+    let pixel = u32(thing.at.y) * view.counts.z + u32(thing.at.x) - view.counts.w;
     let word = view.counts.x + pixel * view.counts.y + (thing.bit >> 5u);
     atomicOr(&masks[word], 1u << (thing.bit & 31u));
 }
