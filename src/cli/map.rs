@@ -61,12 +61,20 @@ impl Options {
                 let mut table = Table::default();
                 table.heading(&format!("{}: {}", map.title, map.note));
                 table.row("axes", &format!("{} and {}", map.x.label, map.y.label));
-                table.row("failing", &estimate.map_or("unknown".into(), |estimate| percent(estimate.mean())));
-                table.row("decided", &estimate.map_or("nothing".into(), |estimate| percent(estimate.decided())));
+                let share = |of: fn(&crate::FailureEstimate) -> f64, unknown: &str| {
+                    estimate.map_or(unknown.to_owned(), |estimate| percent(of(estimate)))
+                };
+                table.row("estimated failing", &share(crate::FailureEstimate::mean, "unknown"));
+                table.row("estimated invalid", &share(crate::FailureEstimate::invalid, "unknown"));
+                table.row(
+                    "decided",
+                    &format!("{} of the map, by this estimate", share(crate::FailureEstimate::decided, "nothing")),
+                );
                 table.finish()
             }
             Format::Json => json(&json!({"tests": trials.len(), "x": x, "y": y, "others": map.others,
                 "failing": estimate.map(crate::FailureEstimate::mean),
+                "invalid": estimate.map(crate::FailureEstimate::invalid),
                 "decided": estimate.map(crate::FailureEstimate::decided)})),
         })?;
         Ok(Found::Nothing)
