@@ -61,15 +61,17 @@ impl Options {
                 let mut table = Table::default();
                 table.heading(&format!("{}: {}", map.title, map.note));
                 table.row("axes", &format!("{} and {}", map.x.label, map.y.label));
-                let share = |of: fn(&crate::FailureEstimate) -> f64, unknown: &str| {
-                    estimate.map_or(unknown.to_owned(), |estimate| percent(of(estimate)))
-                };
-                table.row("estimated failing", &share(crate::FailureEstimate::mean, "unknown"));
-                table.row("estimated invalid", &share(crate::FailureEstimate::invalid, "unknown"));
-                table.row(
-                    "decided",
-                    &format!("{} of the map, by this estimate", share(crate::FailureEstimate::decided, "nothing")),
-                );
+                match estimate {
+                    None => table.row("estimated failing", "unknown: that takes a test that fails and one that passes"),
+                    Some(estimate) => {
+                        table.row("estimated failing", &percent(estimate.mean()));
+                        if estimate.invalid() > 0.0 {
+                            table.row("estimated invalid", &format!("{} of the map", percent(estimate.invalid())));
+                        }
+                        let decided = percent(estimate.decided());
+                        table.row("decided", &format!("{decided} of the map, by this estimate"));
+                    }
+                }
                 table.finish()
             }
             Format::Json => json(&json!({"tests": trials.len(), "x": x, "y": y, "others": map.others,

@@ -97,8 +97,9 @@ pub(super) fn draw_lines<B: DrawingBackend>(
 ) -> Result<B> {
     let cells = Cells::over(area, estimate);
     let at = |i: usize, j: usize| cells.pixel((i as f64, j as f64));
-    // Along each diagonal, every other one: a run of open cells is one stroke.
-    for diagonal in (1 - cells.rows() as isize..cells.columns() as isize).step_by(2) {
+    // Along each diagonal, on a fine grid every other one: a run of open cells is one stroke.
+    let every = cells.columns().div_ceil(30);
+    for diagonal in (1 - cells.rows() as isize..cells.columns() as isize).step_by(every) {
         let begin = (-diagonal).max(0) as usize;
         let column = |step: usize| (begin + step).wrapping_add_signed(diagonal);
         let steps = (cells.rows() - begin).min(cells.columns() - column(0));
