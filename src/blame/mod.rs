@@ -2,7 +2,8 @@
 //!
 //! A driver *prevents* a failure if in its run of the same test every requirement that was violated holds, and none that
 //! the driver under test had kept is violated instead: to stand still for ever prevents no collision behind the place that
-//! the car was to reach. What was undecided, as a contact had ended the run, is held against nobody.
+//! the car was to reach. What was undecided, as a contact had ended the run, is held against nobody. Of a run that broke, or
+//! that could not be built, nothing is known: a failure that nobody else prevents is then not judged.
 //!
 //! A failure that no reference prevents is *unpreventable by these drivers*, and no more is said. They brake and do
 //! nothing else: none of them steers around anybody, or drives slower where somebody might come. For what can be done by
@@ -38,11 +39,13 @@ pub enum Fault {
     Preventable,
     /// `cruise` prevents it, who never brakes: it would not have happened without braking.
     Induced,
+    /// No reference is known to prevent it, and a run with one of them broke or could not be built: not judged.
+    Unknown,
 }
 
 impl Fault {
     /// All there are.
-    pub const ALL: [Self; 3] = [Self::Unpreventable, Self::Preventable, Self::Induced];
+    pub const ALL: [Self; 4] = [Self::Unpreventable, Self::Preventable, Self::Induced, Self::Unknown];
 }
 
 impl fmt::Display for Fault {
@@ -51,6 +54,7 @@ impl fmt::Display for Fault {
             Self::Unpreventable => "unpreventable",
             Self::Preventable => "preventable",
             Self::Induced => "induced",
+            Self::Unknown => "unknown",
         })
     }
 }
@@ -88,8 +92,8 @@ pub struct Blamed {
 pub struct Rerun {
     /// How it ended.
     pub verdict: Verdict,
-    /// Whether the failure was prevented.
-    pub prevents: bool,
+    /// Whether the failure was prevented; `None` where the run broke or could not be built.
+    pub prevents: Option<bool>,
     robustness: Record<Number>,
     /// Why the verdict is `invalid` or `error`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -114,11 +118,13 @@ impl Rerun {
     }
 }
 
-/// Whether a failure is prevented by the driver that ended so.
-fn prevents(failing: &Trial, trial: &Trial) -> bool {
+/// Whether a failure is prevented by the driver that ended so; `None` where its run judged nothing.
+fn prevents(failing: &Trial, trial: &Trial) -> Option<bool> {
     let decided = |trial: &Trial, id: &str| trial.robustness(id).is_some();
     let holds = |trial: &Trial, id: &str| decided(trial, id) && !trial.violates(id);
-    trial.covers() && failing.violated().all(|id| holds(trial, id)) && !trial.violated().any(|id| holds(failing, id))
+    trial
+        .covers()
+        .then(|| failing.violated().all(|id| holds(trial, id)) && !trial.violated().any(|id| holds(failing, id)))
 }
 
 impl Blamed {
@@ -126,8 +132,9 @@ impl Blamed {
     fn new(failing: &Trial, trials: impl Iterator<Item = (String, Trial)>) -> Self {
         let runs: Record<Rerun> = trials.map(|(name, trial)| (name, Rerun::new(failing, &trial))).collect();
         let prevented_by: Vec<String> =
-            runs.iter().filter(|(_, run)| run.prevents).map(|(name, _)| name.to_owned()).collect();
+            runs.iter().filter(|(_, run)| run.prevents == Some(true)).map(|(name, _)| name.to_owned()).collect();
         let fault = match &prevented_by {
+            nobody if nobody.is_empty() && runs.iter().any(|(_, run)| run.prevents.is_none()) => Fault::Unknown,
             nobody if nobody.is_empty() => Fault::Unpreventable,
             them if them.iter().any(|name| name == NEVER_BRAKES) => Fault::Induced,
             _ => Fault::Preventable,

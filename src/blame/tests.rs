@@ -49,10 +49,18 @@ fn an_end_before_anything_was_decided_prevents_nothing() {
     // It hit something on the way to `b`.
     assert_eq!(fault(&failing, vec![("ideal", trial(Some(-1.0), None))]), Fault::Unpreventable);
     assert_eq!(fault(&failing, vec![("ideal", trial(Some(1.0), None))]), Fault::Unpreventable);
-    for verdict in [Verdict::Error, Verdict::Invalid] {
-        assert_eq!(
-            fault(&failing, vec![("ideal", broken(verdict)), ("cruise", broken(verdict))]),
-            Fault::Unpreventable
-        );
+}
+
+#[test]
+fn what_broke_or_could_not_be_built_judges_nothing() {
+    let failing = trial(Some(1.0), Some(-2.0));
+    let (kept, violated) = (trial(Some(1.0), Some(2.0)), trial(Some(1.0), Some(-1.0)));
+    for broken in [Verdict::Error, Verdict::Invalid].map(broken) {
+        let by = |ideal: &Trial| fault(&failing, vec![("ideal", ideal.clone()), ("cruise", broken.clone())]);
+        assert_eq!(by(&broken), Fault::Unknown);
+        assert_eq!(by(&violated), Fault::Unknown);
+        assert_eq!(by(&kept), Fault::Preventable);
+        let blamed = Blamed::new(&failing, [("ideal".to_owned(), broken)].into_iter());
+        assert_eq!(serde_json::to_value(&blamed).unwrap()["runs"]["ideal"]["prevents"], serde_json::Value::Null);
     }
 }

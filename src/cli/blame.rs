@@ -25,6 +25,7 @@ was violated holds then, and nothing that held is violated instead. The failure 
                   beforehand, so that others may prevent it all the same
   preventable     if one of them does
   induced         if `cruise` does, which never brakes for others: without braking it would not have happened
+  unknown         if none is known to prevent it, and a run with one of them broke or could not be built
 
 Into DIR go blame.json and blame.csv, and blame-map.svg and .png where two continuous parameters are open.";
 
@@ -123,8 +124,12 @@ impl Options {
         }
         table.heading(&format!("{title}: {} of {} fail", failures.len(), plural(*tests, "test")));
         let share = |count: usize| percent(count as f64 / failures.len() as f64);
+        // What is not judged is no kind of fault: there is a line of it only if there is any.
         for fault in Fault::ALL {
             let count = blame.count(fault);
+            if fault == Fault::Unknown && count == 0 {
+                continue;
+            }
             let meaning = meaning(fault, references);
             table.row(&fault.to_string(), &format!("{count:<6}{:>7}  {meaning}", share(count)));
         }
@@ -151,7 +156,8 @@ fn meaning(fault: Fault, references: &[String]) -> String {
         Fault::Induced if references.iter().any(|name| name == "cruise") => {
             "cruise does, which never brakes for others".to_owned()
         }
-        Fault::Induced => "unknown: cruise was not asked".to_owned(),
+        Fault::Induced => "cruise, which would tell, was not asked".to_owned(),
+        Fault::Unknown => "not judged: a run with one of them broke or could not be built".to_owned(),
     }
 }
 

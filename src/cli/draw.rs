@@ -70,6 +70,7 @@ impl Target {
         let contents = drawn(self.kind).map_err(picture)?;
         is_new(&self.path, "a picture")?;
         write_whole(&self.path, &contents)?;
-        Ok(format!("picture of {} kB written to {}", contents.len().div_ceil(1000), self.path.display()))
+        let what = if self.kind == Kind::Csv { "table" } else { "picture" };
+        Ok(format!("{what} of {} kB written to {}", contents.len().div_ceil(1000), self.path.display()))
     }
 }

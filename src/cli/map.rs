@@ -61,12 +61,22 @@ impl Options {
                 let mut table = Table::default();
                 table.heading(&format!("{}: {}", map.title, map.note));
                 table.row("axes", &format!("{} and {}", map.x.label, map.y.label));
-                table.row("failing", &estimate.map_or("unknown".into(), |estimate| percent(estimate.mean())));
-                table.row("decided", &estimate.map_or("nothing".into(), |estimate| percent(estimate.decided())));
+                match estimate {
+                    None => table.row("estimated failing", "unknown: that takes a test that fails and one that passes"),
+                    Some(estimate) => {
+                        table.row("estimated failing", &percent(estimate.mean()));
+                        if estimate.invalid() > 0.0 {
+                            table.row("estimated invalid", &format!("{} of the map", percent(estimate.invalid())));
+                        }
+                        let decided = percent(estimate.decided());
+                        table.row("decided", &format!("{decided} of the map, by this estimate"));
+                    }
+                }
                 table.finish()
             }
             Format::Json => json(&json!({"tests": trials.len(), "x": x, "y": y, "others": map.others,
                 "failing": estimate.map(crate::FailureEstimate::mean),
+                "invalid": estimate.map(crate::FailureEstimate::invalid),
                 "decided": estimate.map(crate::FailureEstimate::decided)})),
         })?;
         Ok(Found::Nothing)

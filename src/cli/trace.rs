@@ -10,7 +10,7 @@ use std::path::PathBuf;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz trace paracosm-out
-  paracosm-fuzz trace paracosm-out --csv matrix.csv
+  paracosm-fuzz trace paracosm-out --csv matrix.csv     a row for each requirement, a column for each test
 
 A requirement passed in a test if it holds and the test came to the situation that it is about; otherwise it was not
 reached. It is undecided where the test ended too early. Untested is what no test of the campaign has tried: requirements
@@ -46,6 +46,9 @@ impl Options {
     }
 }
 
+/// How many tests are named in a line.
+const PER_LINE: usize = 20;
+
 const HEADER: [&str; 8] =
     ["requirement", "passed", "failed", "undecided", "not reached", "worst", "severity", "source"];
 
@@ -61,6 +64,14 @@ fn table(study: &Study, traceability: &Traceability) -> String {
     for row in &rows {
         let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
         table.line(cells.join("  ").trim_end());
+    }
+    if requirements.iter().any(|traced| traced.failed > 0) {
+        table.heading("failed in these tests");
+    }
+    for traced in requirements.iter().filter(|traced| traced.failed > 0) {
+        for (i, line) in indices(&traced.violated_in).into_iter().enumerate() {
+            table.row(if i == 0 { &traced.id } else { "" }, &line);
+        }
     }
     table.heading("what they ask");
     for Traced { id, text, .. } in requirements {
@@ -78,6 +89,12 @@ fn table(study: &Study, traceability: &Traceability) -> String {
         table.row(&name, &words);
     }
     table.finish()
+}
+
+/// Indices of tests, some in each line.
+fn indices(all: &[usize]) -> Vec<String> {
+    let line = |some: &[usize]| some.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
+    all.chunks(PER_LINE).map(line).collect()
 }
 
 fn row(traced: &Traced) -> [String; 8] {

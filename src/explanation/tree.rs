@@ -3,8 +3,11 @@
 //! CART (Breiman, Friedman, Olshen and Stone 1984): every split is the one that lessens Gini's impurity most, over all
 //! columns and all places between two different numbers. Levels without an order are sorted by their share of failures
 //! first; for two classes no division of them is better than the best in this order (their theorem 4.5; sides of too few
-//! tests are passed over). The leaf with
-//! the most to gain is split next, so the tree of fewer leaves is always the beginning of the tree of more.
+//! tests are passed over). The leaf with the most to gain is split next, so the tree of fewer leaves is always the beginning
+//! of the tree of more.
+//!
+//! Failing and passing tests weigh the same in all (CART's priors of one half each), however rare failures are: a leaf is
+//! said to fail where a larger share of its tests fails than of all, which is what tells both verdicts best.
 
 /// One column of the table that a tree explains: a value for each test.
 #[derive(Debug, Clone)]
@@ -46,17 +49,10 @@ pub(crate) struct Node {
     pub split: Option<(Test, [usize; 2])>,
 }
 
-impl Node {
-    /// Whether most of its tests failed.
-    pub(crate) fn fails(&self) -> bool {
-        2 * self.failures > self.tests
-    }
-}
-
 /// A split of some tests.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Split {
-    /// How much impurity it takes away, counted in tests.
+    /// How much impurity it takes away, counted in tests of the weights that it was found with.
     pub gain: f64,
     pub test: Test,
 }
@@ -74,10 +70,11 @@ impl Table {
     }
 
     /// The best split of these rows with at least `least` of them on either side; the first of equals.
-    pub(crate) fn best_split(&self, rows: &[usize], least: usize) -> Option<Split> {
+    pub(crate) fn best_split(&self, rows: &[usize], weights: Weights, least: usize) -> Option<Split> {
+        let cutting = Cutting { weights, least };
         let splits = (0..self.columns.len()).filter_map(|column| match &self.columns[column] {
-            Column::Numbers(values) => self.split_numbers(rows, column, values, least),
-            Column::Levels(values, levels) => self.split_levels(rows, column, values, *levels, least),
+            Column::Numbers(values) => self.split_numbers(rows, column, values, cutting),
+            Column::Levels(values, levels) => self.split_levels(rows, column, values, *levels, cutting),
         });
         splits.fold(None, |best: Option<Split>, split| match best {
             Some(best) if best.gain >= split.gain => Some(best),
@@ -85,12 +82,12 @@ impl Table {
         })
     }
 
-    fn split_numbers(&self, rows: &[usize], column: usize, values: &[f64], least: usize) -> Option<Split> {
+    fn split_numbers(&self, rows: &[usize], column: usize, values: &[f64], cutting: Cutting) -> Option<Split> {
         let mut rows = rows.to_vec();
         rows.sort_by(|&a, &b| values[a].total_cmp(&values[b]).then(a.cmp(&b)));
         let counts: Vec<[usize; 2]> = rows.iter().map(|&row| [1, usize::from(self.failed[row])]).collect();
         let apart = |i: usize| values[rows[i - 1]] < values[rows[i]];
-        let (gain, at) = best_cut(&counts, apart, least)?;
+        let (gain, at) = cutting.best(&counts, apart)?;
         Some(Split { gain, test: Test::Below(column, round_between(values[rows[at - 1]], values[rows[at]])) })
     }
 
@@ -100,7 +97,7 @@ impl Table {
         column: usize,
         values: &[usize],
         levels: usize,
-        least: usize,
+        cutting: Cutting,
     ) -> Option<Split> {
         let mut counts = vec![[0, 0]; levels];
         for &row in rows {
@@ -111,37 +108,63 @@ impl Table {
         let share = |level: usize| counts[level][1] as f64 / counts[level][0] as f64;
         order.sort_by(|&a, &b| share(b).total_cmp(&share(a)).then(a.cmp(&b)));
         let sorted: Vec<[usize; 2]> = order.iter().map(|&level| counts[level]).collect();
-        let (gain, at) = best_cut(&sorted, |_| true, least)?;
+        let (gain, at) = cutting.best(&sorted, |_| true)?;
         let mut among = vec![false; levels];
         order[..at].iter().for_each(|&level| among[level] = true);
         Some(Split { gain, test: Test::Among(column, among) })
     }
 }
 
-/// Where to cut a row of (tests, failures), and how much impurity that takes away; only where `apart` says so, and with at
-/// least so many tests on either side.
-fn best_cut(counts: &[[usize; 2]], apart: impl Fn(usize) -> bool, least: usize) -> Option<(f64, usize)> {
-    let all = counts.iter().fold([0, 0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
-    let mut left = [0, 0];
-    let mut best: Option<(f64, usize)> = None;
-    for cut in 1..counts.len() {
-        left = [left[0] + counts[cut - 1][0], left[1] + counts[cut - 1][1]];
-        let right = [all[0] - left[0], all[1] - left[1]];
-        if !apart(cut) || left[0] < least || right[0] < least {
-            continue;
-        }
-        let gain = impurity(all) - impurity(left) - impurity(right);
-        // What rounding leaves is no gain.
-        if gain > 1e-9 && best.is_none_or(|(other, _)| gain > other) {
-            best = Some((gain, cut));
-        }
-    }
-    best
+/// What one passing and one failing test weigh.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Weights {
+    pass: f64,
+    fail: f64,
 }
 
-/// Gini's impurity times the number of tests: `2 p (1 - p) n`.
-pub(crate) fn impurity([tests, failures]: [usize; 2]) -> f64 {
-    2.0 * failures as f64 * (tests - failures) as f64 / tests.max(1) as f64
+impl Weights {
+    /// Those by which both verdicts weigh half of all the tests, of which so many failed.
+    pub(crate) fn balanced(tests: usize, failures: usize) -> Self {
+        let each = |of: usize| 0.5 * tests as f64 / of.max(1) as f64;
+        Self { pass: each(tests - failures), fail: each(failures) }
+    }
+
+    /// Gini's impurity times the weight of the tests: `2 p (1 - p) w`.
+    fn impurity(self, [tests, failures]: [usize; 2]) -> f64 {
+        let (pass, fail) = (self.pass * (tests - failures) as f64, self.fail * failures as f64);
+        if tests == 0 { 0.0 } else { 2.0 * fail * pass / (fail + pass) }
+    }
+}
+
+/// How rows are cut in two.
+#[derive(Debug, Clone, Copy)]
+struct Cutting {
+    weights: Weights,
+    /// How many tests either side has at least.
+    least: usize,
+}
+
+impl Cutting {
+    /// Where to cut a row of (tests, failures), and how much impurity that takes away; only where `apart` says so.
+    fn best(self, counts: &[[usize; 2]], apart: impl Fn(usize) -> bool) -> Option<(f64, usize)> {
+        let all = counts.iter().fold([0, 0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
+        let mut left = [0, 0];
+        let mut best: Option<(f64, usize)> = None;
+        for cut in 1..counts.len() {
+            left = [left[0] + counts[cut - 1][0], left[1] + counts[cut - 1][1]];
+            let right = [all[0] - left[0], all[1] - left[1]];
+            if !apart(cut) || left[0] < self.least || right[0] < self.least {
+                continue;
+            }
+            let impurity = |side| self.weights.impurity(side);
+            let gain = impurity(all) - impurity(left) - impurity(right);
+            // What rounding leaves is no gain.
+            if gain > 1e-9 && best.is_none_or(|(other, _)| gain > other) {
+                best = Some((gain, cut));
+            }
+        }
+        best
+    }
 }
 
 /// A number between two others with as few digits as there are in the middle half of what lies between them.
@@ -166,7 +189,8 @@ impl Tree {
     pub(crate) fn grow(table: &Table, rows: &[usize], leaves: usize, least: usize) -> Self {
         let leaf = |rows: &[usize]| Node { tests: rows.len(), failures: table.failures(rows), split: None };
         let mut tree = Self { nodes: vec![leaf(rows)] };
-        let mut open = vec![(0, rows.to_vec(), table.best_split(rows, least))];
+        let weights = Weights::balanced(rows.len(), tree.nodes[0].failures);
+        let mut open = vec![(0, rows.to_vec(), table.best_split(rows, weights, least))];
         for _ in 1..leaves {
             let gain = |split: &Option<Split>| split.as_ref().map_or(0.0, |split| split.gain);
             let best = (0..open.len()).rev().max_by(|&a, &b| gain(&open[a].2).total_cmp(&gain(&open[b].2)));
@@ -176,7 +200,7 @@ impl Tree {
             let children = [tree.nodes.len(), tree.nodes.len() + 1];
             for (child, rows) in children.into_iter().zip([sides.0, sides.1]) {
                 tree.nodes.push(leaf(&rows));
-                let split = table.best_split(&rows, least);
+                let split = table.best_split(&rows, weights, least);
                 open.push((child, rows, split));
             }
             tree.nodes[node].split = Some((test, children));
@@ -194,13 +218,18 @@ impl Tree {
         Self { nodes }
     }
 
+    /// Whether a node's tests are said to fail: a larger share of them did than of all.
+    fn says_fail(&self, node: &Node) -> bool {
+        node.failures * self.nodes[0].tests > self.nodes[0].failures * node.tests
+    }
+
     /// Whether a test is said to fail.
     pub(crate) fn fails(&self, table: &Table, row: usize) -> bool {
         let mut at = &self.nodes[0];
         while let Some((test, [yes, no])) = &at.split {
             at = &self.nodes[if table.is_yes(test, row) { *yes } else { *no }];
         }
-        at.fails()
+        self.says_fail(at)
     }
 
     /// Takes back the splits of which both sides say the same.
@@ -210,7 +239,7 @@ impl Tree {
         for index in (0..tree.nodes.len()).rev() {
             let Some((_, [yes, no])) = &tree.nodes[index].split else { continue };
             let (yes, no) = (&tree.nodes[*yes], &tree.nodes[*no]);
-            if yes.split.is_none() && no.split.is_none() && yes.fails() == no.fails() {
+            if yes.split.is_none() && no.split.is_none() && tree.says_fail(yes) == tree.says_fail(no) {
                 tree.nodes[index].split = None;
             }
         }
@@ -224,7 +253,7 @@ impl Tree {
         while let Some((index, path)) = open.pop() {
             let node = &self.nodes[index];
             match &node.split {
-                None if node.fails() => failing.push((path, node)),
+                None if self.says_fail(node) => failing.push((path, node)),
                 None => {}
                 Some((test, children)) => {
                     for (child, answer) in children.iter().zip([true, false]).rev() {
@@ -254,9 +283,18 @@ mod tests {
         })
     }
 
+    /// `2 p (1 - p) w`, where p is the failing tests' share of the weight w, and all that fail weigh as much as all that pass.
+    fn gini([tests, failures]: [usize; 2], [all, failing]: [usize; 2]) -> f64 {
+        let share = |part: usize, of: usize| if part == 0 { 0.0 } else { part as f64 / of as f64 };
+        let (fail, pass) = (share(failures, failing), share(tests - failures, all - failing));
+        let p = if tests == 0 { 0.0 } else { fail / (fail + pass) };
+        2.0 * p * (1.0 - p) * (fail + pass) * all as f64 / 2.0
+    }
+
     /// The greatest gain of all divisions that one question can make: every threshold, and every set of levels.
     fn naive(table: &Table, least: usize) -> f64 {
         let n = table.failed.len();
+        let of = [n, table.failed.iter().filter(|failed| **failed).count()];
         let gain = |yes: &dyn Fn(usize) -> bool| {
             let count = |side: bool| {
                 let rows: Vec<usize> = (0..n).filter(|&row| yes(row) == side).collect();
@@ -266,7 +304,7 @@ mod tests {
             if yes[0].min(no[0]) < least {
                 return 0.0;
             }
-            impurity([n, yes[1] + no[1]]) - impurity(yes) - impurity(no)
+            gini([n, yes[1] + no[1]], of) - gini(yes, of) - gini(no, of)
         };
         let mut best = 0.0_f64;
         for column in &table.columns {
@@ -293,7 +331,8 @@ mod tests {
             let mut table = table;
             table.columns.truncate(if least == 1 { 3 } else { 2 });
             let rows: Vec<usize> = (0..table.failed.len()).collect();
-            let found = table.best_split(&rows, least);
+            let of = [rows.len(), table.failures(&rows)];
+            let found = table.best_split(&rows, Weights::balanced(of[0], of[1]), least);
             let gain = naive(&table, least);
             prop_assert!((found.as_ref().map_or(0.0, |split| split.gain) - gain).abs() < 1e-8, "{found:?} {gain}");
             if let Some(Split { gain, test }) = found {
@@ -302,8 +341,7 @@ mod tests {
                     [rows.clone().count(), rows.filter(|&&row| table.failed[row]).count()]
                 };
                 let (yes, no) = (count(true), count(false));
-                let all = impurity([yes[0] + no[0], yes[1] + no[1]]);
-                prop_assert!((all - impurity(yes) - impurity(no) - gain).abs() < 1e-8);
+                prop_assert!((gini(of, of) - gini(yes, of) - gini(no, of) - gain).abs() < 1e-8);
             }
         }
 

@@ -1,7 +1,7 @@
 //! The rules of a tree in words.
 
 use super::tree::Test;
-use super::{Accuracy, Explanation, FOLDS, MOST_LEAVES, Rule};
+use super::{Explanation, FOLDS, MOST_LEAVES, Rule};
 use paracosm_coverage::{Coordinate, Space, Value};
 
 /// What the columns of a tree are called.
@@ -82,33 +82,26 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// How much of the tests is told right by saying the same of all.
-fn saying_the_same(explanation: &Explanation) -> String {
-    let verdict = if 2 * explanation.failures > explanation.tests { "fail" } else { "pass" };
-    format!("always saying {verdict} is right of {}", percent(explanation.always))
-}
-
 /// When tests fail: a line for each rule.
 pub(super) fn rules(explanation: &Explanation) -> Vec<String> {
-    let line = |(i, rule): (usize, &Rule)| {
-        let conditions = if rule.conditions.is_empty() { "always".to_owned() } else { rule.conditions.join(" and ") };
-        let opening = if i == 0 { "fails when" } else { "or when" };
-        format!("{opening} {conditions} ({} of {} tests)", rule.failures, rule.tests)
+    let line = |(i, Rule { conditions, tests, failures }): (usize, &Rule)| {
+        let opening = if i == 0 { "fails in" } else { "and in" };
+        format!("{opening} {failures} of {tests} tests where {}", conditions.join(" and "))
     };
     explanation.rules.iter().enumerate().map(line).collect()
 }
 
 /// How far the rules can be trusted, or that there are none.
 pub(super) fn trust(explanation: &Explanation) -> String {
-    let same = saying_the_same(explanation);
+    let Explanation { tests, failures, cross_validated, .. } = explanation;
     if explanation.rules.is_empty() {
-        return format!("none: no tree of at most {MOST_LEAVES} leaves finds failing tests better than chance; {same}");
+        let all = format!("{failures} of {tests} tests fail");
+        return format!("none: no tree of at most {MOST_LEAVES} leaves finds failing tests better than chance; {all}");
     }
-    let Accuracy { accuracy, recall, .. } = explanation.cross_validated;
     format!(
-        "{} of the failing tests and {} of all are told right, by {FOLDS}-fold cross-validation; {same}",
-        percent(recall),
-        percent(accuracy),
+        "finds {} of the failing tests, and takes {} of the passing ones for failing, by {FOLDS}-fold cross-validation",
+        percent(cross_validated.recall),
+        percent(cross_validated.false_alarms()),
     )
 }
 

@@ -5,6 +5,7 @@ pub(super) type Place = (f64, f64);
 
 /// The pieces of the line `field == level`, joined as far as they meet; `field` is asked at `columns` times `rows` nodes.
 ///
+/// Where the field is no number at a corner of a cell, there is no line in it.
 /// Where the line crosses itself in a cell, the mean of its corners says which of them belong together.
 pub(super) fn contour(columns: usize, rows: usize, level: f64, field: impl Fn(usize, usize) -> f64) -> Vec<Vec<Place>> {
     let above = |i: usize, j: usize| field(i, j) > level;
@@ -20,6 +21,9 @@ pub(super) fn contour(columns: usize, rows: usize, level: f64, field: impl Fn(us
         for i in 0..columns.saturating_sub(1) {
             // Around the cell; edge k goes from corner k to the next.
             let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+            if corners.iter().any(|&(i, j)| field(i, j).is_nan()) {
+                continue;
+            }
             let is_above = corners.map(|(i, j)| above(i, j));
             let next = |k: usize| (k + 1) % 4;
             let crossed: Vec<usize> = (0..4).filter(|&k| is_above[k] != is_above[next(k)]).collect();

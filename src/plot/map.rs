@@ -209,7 +209,10 @@ impl FailureMap {
             area.draw(&Text::new(label, (at, line), style))?;
             at += width as i32 + (1.8 * text) as i32;
         }
-        if self.estimate.is_some() { shade::draw_key(area, (at, line), text, scale) } else { Ok(()) }
+        match &self.estimate {
+            Some(estimate) => shade::draw_key(area, estimate, (at, line), text, scale),
+            None => Ok(()),
+        }
     }
 }
 

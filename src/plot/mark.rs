@@ -25,12 +25,13 @@ pub enum Mark {
 }
 
 /// In the order in which they are drawn and listed: what matters most is drawn last, over all else.
-pub(super) const ORDER: [Mark; 8] = [
+pub(super) const ORDER: [Mark; 9] = [
     Mark::Verdict(Verdict::Pass),
     Mark::Verdict(Verdict::Inconclusive),
     Mark::Verdict(Verdict::Invalid),
     Mark::Verdict(Verdict::Error),
     Mark::Verdict(Verdict::Fail),
+    Mark::Fault(Fault::Unknown),
     Mark::Fault(Fault::Unpreventable),
     Mark::Fault(Fault::Preventable),
     Mark::Fault(Fault::Induced),
@@ -42,7 +43,7 @@ impl Mark {
         match self {
             Self::Verdict(Verdict::Pass) => true,
             Self::Verdict(Verdict::Fail) => !of_faults,
-            Self::Verdict(_) => false,
+            Self::Verdict(_) | Self::Fault(Fault::Unknown) => false,
             Self::Fault(_) => of_faults,
         }
     }
@@ -97,6 +98,11 @@ impl<B: DrawingBackend> Drawable<B> for Drawn {
             Mark::Verdict(Verdict::Error) => {
                 let corners = [(x - side, y + side), (x + side, y + side), (x, y - side)];
                 backend.fill_polygon(corners, &ORANGE)
+            }
+            Mark::Fault(Fault::Unknown) => {
+                let grey = GREY.stroke_width(stroke);
+                backend.draw_line((x - side, y - side), (x + side, y + side), &grey)?;
+                backend.draw_line((x - side, y + side), (x + side, y - side), &grey)
             }
             Mark::Fault(Fault::Unpreventable) => {
                 backend.draw_rect((x - side, y - side), (x + side, y + side), &INK, true)

@@ -1,11 +1,12 @@
 //! The probability of failure behind the marks of a failure map: a shade, the line at one half, a hatch where it is not sure
-//! on which side of it a place is, and what these mean.
+//! on which side of it a place is, grey where tests cannot be built, and what these mean.
 
 use super::bar::Bar;
 use super::contour::contour;
 use super::map::Result;
 use super::{HPos, INK, level};
 use crate::failure_estimate::{FailureEstimate, decided};
+use paracosm_generators::FailingShare;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -17,6 +18,9 @@ const PASSING: [f64; 3] = [171.0, 206.0, 230.0];
 const FAILING: [f64; 3] = [250.0, 178.0, 140.0];
 
 const HATCH: RGBColor = RGBColor(0xa8, 0xa8, 0xa8);
+
+/// Where most tests cannot be built.
+const INVALID: RGBColor = RGBColor(0xd4, 0xd4, 0xd4);
 
 /// The colour of a probability.
 fn colour(probability: f64) -> RGBColor {
@@ -54,15 +58,22 @@ impl<'a> Cells<'a> {
         (x.round() as i32, y.round() as i32)
     }
 
-    /// The mean probability at a cell's corners.
-    fn probability(&self, i: usize, j: usize) -> f64 {
-        [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].iter().map(|&(i, j)| self.estimate.at(i, j).mean).sum::<f64>()
-            / 4.0
+    /// What is known at a cell's corners; `None` where at most one of them is valid.
+    fn corners(&self, i: usize, j: usize) -> Option<Vec<&FailingShare>> {
+        let corners = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
+        let known: Vec<_> = corners.iter().filter_map(|&(i, j)| self.estimate.at(i, j)).collect();
+        (known.len() > 1).then_some(known)
+    }
+
+    /// The colour of the mean probability at a cell's corners.
+    fn colour(&self, i: usize, j: usize) -> RGBColor {
+        let mean = |known: Vec<&FailingShare>| known.iter().map(|share| share.mean).sum::<f64>() / known.len() as f64;
+        self.corners(i, j).map_or(INVALID, |known| colour(mean(known)))
     }
 
     /// Whether any corner of a cell is not decided.
     fn is_open(&self, i: usize, j: usize) -> bool {
-        [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)].iter().any(|&(i, j)| decided(self.estimate.at(i, j)).is_none())
+        self.corners(i, j).is_some_and(|known| known.iter().any(|share| decided(share).is_none()))
     }
 }
 
@@ -71,7 +82,7 @@ pub(super) fn draw_shades<B: DrawingBackend>(area: &DrawingArea<B, Shift>, estim
     let cells = Cells::over(area, estimate);
     let at = |i: usize, j: usize| cells.pixel((i as f64, j as f64));
     for j in 0..cells.rows() {
-        for (i, end, shade) in runs(cells.columns(), |i| Some(colour(cells.probability(i, j)))) {
+        for (i, end, shade) in runs(cells.columns(), |i| Some(cells.colour(i, j))) {
             area.draw(&Rectangle::new([at(i, j + 1), at(end, j)], shade.filled()))?;
         }
     }
@@ -86,8 +97,9 @@ pub(super) fn draw_lines<B: DrawingBackend>(
 ) -> Result<B> {
     let cells = Cells::over(area, estimate);
     let at = |i: usize, j: usize| cells.pixel((i as f64, j as f64));
-    // Along each diagonal, every other one: a run of open cells is one stroke.
-    for diagonal in (1 - cells.rows() as isize..cells.columns() as isize).step_by(2) {
+    // Along each diagonal, on a fine grid every other one: a run of open cells is one stroke.
+    let every = cells.columns().div_ceil(30);
+    for diagonal in (1 - cells.rows() as isize..cells.columns() as isize).step_by(every) {
         let begin = (-diagonal).max(0) as usize;
         let column = |step: usize| (begin + step).wrapping_add_signed(diagonal);
         let steps = (cells.rows() - begin).min(cells.columns() - column(0));
@@ -97,7 +109,8 @@ pub(super) fn draw_lines<B: DrawingBackend>(
             area.draw(&PathElement::new(ends, HATCH.stroke_width(scale.round() as u32)))?;
         }
     }
-    for line in contour(estimate.x.len(), estimate.y.len(), 0.5, |i, j| estimate.at(i, j).mean) {
+    let probability = |i, j| estimate.at(i, j).map_or(f64::NAN, |share| share.mean);
+    for line in contour(estimate.x.len(), estimate.y.len(), 0.5, probability) {
         let pixels: Vec<(i32, i32)> = line.into_iter().map(|place| cells.pixel(place)).collect();
         area.draw(&PathElement::new(pixels, INK.stroke_width((2.0 * scale).round() as u32)))?;
     }
@@ -123,23 +136,35 @@ pub(super) fn draw_bar<B: DrawingBackend>(area: &DrawingArea<B, Shift>, along: (
     Bar { label: "probability of failure", steps: SHADES, ticks: ticks.into() }.draw(area, along, colour, text)
 }
 
-/// Draws what the line and the hatch mean, from a place on.
+/// What a key of the legend is a sample of.
+#[derive(PartialEq)]
+enum Key {
+    Line,
+    Hatch,
+    Grey,
+}
+
+/// Draws what the line, the hatch and, if there is any, the grey mean, from a place on.
 pub(super) fn draw_key<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
+    estimate: &FailureEstimate,
     (mut x, y): (i32, i32),
     text: f64,
     scale: f64,
 ) -> Result<B> {
     let (side, stroke) = ((0.4 * text).round() as i32, scale.round() as u32);
     let style = level(0.9 * text, HPos::Left);
-    for (label, is_line) in [("50 % fail", true), ("undecided", false)] {
-        if is_line {
-            area.draw(&PathElement::new([(x, y), (x + 3 * side, y)], INK.stroke_width(2 * stroke)))?;
-        } else {
-            for step in 0..3 {
-                let left = x + step * side;
-                area.draw(&PathElement::new([(left, y + side), (left + side, y - side)], HATCH.stroke_width(stroke)))?;
+    let keys = [("50 % fail", Key::Line), ("undecided", Key::Hatch), ("invalid", Key::Grey)];
+    for (label, key) in keys.into_iter().filter(|(_, key)| *key != Key::Grey || estimate.invalid() > 0.0) {
+        match key {
+            Key::Line => area.draw(&PathElement::new([(x, y), (x + 3 * side, y)], INK.stroke_width(2 * stroke)))?,
+            Key::Hatch => {
+                for left in (0..3).map(|step| x + step * side) {
+                    let ends = [(left, y + side), (left + side, y - side)];
+                    area.draw(&PathElement::new(ends, HATCH.stroke_width(stroke)))?;
+                }
             }
+            Key::Grey => area.draw(&Rectangle::new([(x, y - side), (x + 3 * side, y + side)], INVALID.filled()))?,
         }
         x += 4 * side;
         let (width, _) = area.estimate_text_size(label, &style)?;

@@ -19,12 +19,15 @@ use paracosm_coverage::Values;
 use paracosm_engine::Metric;
 use paracosm_oracles::Verdict;
 use serde::Serialize;
+use std::fmt;
 
 /// What the tests of a campaign say of its requirements, and what they leave untested.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Traceability {
     /// How many tests there are.
     pub tests: usize,
+    /// Their indices, in order.
+    pub indices: Vec<usize>,
     /// How many of them broke or could not be built.
     pub broken: usize,
     /// The requirements in the order in which they are stated, then those that only the system knows.
@@ -38,6 +41,34 @@ pub struct Traceability {
     pub odd: Option<Odd>,
     /// What is untested.
     pub untested: Vec<Gap>,
+}
+
+/// What became of a requirement in a test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Became {
+    /// It holds, and the test came to the situation that it is about.
+    Passed,
+    /// It is violated.
+    Failed,
+    /// The test ended too early.
+    Undecided,
+    /// It holds, but the test never came to the situation that it is about.
+    NotReached,
+    /// The test broke, could not be built, or said nothing of it.
+    NotJudged,
+}
+
+impl fmt::Display for Became {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Passed => "passed",
+            Self::Failed => "failed",
+            Self::Undecided => "undecided",
+            Self::NotReached => "not reached",
+            Self::NotJudged => "not judged",
+        })
+    }
 }
 
 /// A requirement with what became of it.
@@ -66,6 +97,8 @@ pub struct Traced {
     worst: Option<Least>,
     /// The indices of the tests that violate it.
     pub violated_in: Vec<usize>,
+    /// What became of it in each test, in the order of the tests.
+    pub by_test: Vec<Became>,
 }
 
 /// The least robustness with the index of the first test that has it.
@@ -90,7 +123,8 @@ impl Traced {
         self.worst.and_then(|Least { index, robustness }| Some((robustness.0?, index)))
     }
 
-    fn new(study: &Study, id: &str) -> Self {
+    /// A requirement of which none of so many tests has said anything yet.
+    fn new(study: &Study, id: &str, tests: usize) -> Self {
         let stated = study.requirement(id);
         let text = |text: fn(&crate::RequirementText) -> &str| stated.map_or(String::new(), |r| text(r).to_owned());
         Self {
@@ -106,22 +140,25 @@ impl Traced {
             not_reached: 0,
             worst: None,
             violated_in: Vec::new(),
+            by_test: vec![Became::NotJudged; tests],
         }
     }
 
-    fn add(&mut self, trial: &Trial, reached: bool) {
-        let Some(worth) = trial.robustness(&self.id) else {
-            self.undecided += 1;
-            return;
+    /// Adds what the test at a position says.
+    fn add(&mut self, position: usize, trial: &Trial, reached: bool) {
+        let worth = trial.robustness(&self.id);
+        let (became, count) = match worth {
+            None => (Became::Undecided, &mut self.undecided),
+            Some(_) if trial.violates(&self.id) => (Became::Failed, &mut self.failed),
+            Some(_) if reached => (Became::Passed, &mut self.passed),
+            Some(_) => (Became::NotReached, &mut self.not_reached),
         };
-        if trial.violates(&self.id) {
-            self.failed += 1;
+        *count += 1;
+        self.by_test[position] = became;
+        if became == Became::Failed {
             self.violated_in.push(trial.index);
-        } else if reached {
-            self.passed += 1;
-        } else {
-            self.not_reached += 1;
         }
+        let Some(worth) = worth else { return };
         if self.worst().is_none_or(|(worst, _)| worth < worst) {
             self.worst = Some(Least { index: trial.index, robustness: Number(Some(worth)) });
         }
@@ -159,16 +196,17 @@ impl Traceability {
     /// # Errors
     /// A trial is none of the study's space.
     pub fn of(study: &Study, trials: &[Trial]) -> Result<Self, crate::Error> {
-        let judging: Vec<&Trial> = trials.iter().filter(|trial| trial.covers()).collect();
-        let mut requirements: Vec<Traced> =
-            study.requirements.iter().map(|requirement| Traced::new(study, &requirement.id)).collect();
-        for (trial, reached) in judging.iter().zip(reached(&judging)) {
+        let (positions, judging): (Vec<usize>, Vec<&Trial>) =
+            trials.iter().enumerate().filter(|(_, trial)| trial.covers()).unzip();
+        let new = |id: &str| Traced::new(study, id, trials.len());
+        let mut requirements: Vec<Traced> = study.requirements.iter().map(|requirement| new(&requirement.id)).collect();
+        for ((at, trial), reached) in positions.into_iter().zip(&judging).zip(reached(&judging)) {
             for id in trial.requirements() {
                 let position = requirements.iter().position(|traced| traced.id == id).unwrap_or_else(|| {
-                    requirements.push(Traced::new(study, id));
+                    requirements.push(new(id));
                     requirements.len() - 1
                 });
-                requirements[position].add(trial, reached);
+                requirements[position].add(at, trial, reached);
             }
         }
         let parameters = Tried::of(study, &judging)?;
@@ -186,6 +224,7 @@ impl Traceability {
         let untested = of_requirements.chain(of_parameters).chain(of_fixed).chain(excluded).collect();
         Ok(Self {
             tests: trials.len(),
+            indices: trials.iter().map(|trial| trial.index).collect(),
             broken: trials.len() - judging.len(),
             parameters,
             fixed: study.subject.fixed().clone(),

@@ -41,6 +41,24 @@ fn a_requirement_is_counted_by_what_became_of_it_and_whether_the_situation_came_
 }
 
 #[test]
+fn the_matrix_says_of_every_test_what_became_of_every_requirement() {
+    let trials = [
+        trial(0, 1.0, Verdict::Pass, [Some(1.0), Some(2.0)], Some(true)),
+        trial(1, 3.0, Verdict::Fail, [Some(-1.0), None], Some(true)),
+        trial(2, 5.0, Verdict::Inconclusive, [Some(0.5), Some(0.2)], Some(false)),
+        Trial::new(7, Values::default(), Outcome::broken(Verdict::Error, "it broke"), None),
+    ];
+    let csv = Traceability::of(&study(), &trials).unwrap().csv();
+    let mut rows = csv::Reader::from_reader(&csv[..]);
+    let tests = ["test.0", "test.1", "test.2", "test.7"];
+    assert_eq!(rows.headers().unwrap().iter().skip(14).collect::<Vec<_>>(), tests);
+    let rows: Vec<Vec<String>> =
+        rows.records().map(|row| row.unwrap().iter().skip(14).map(str::to_owned).collect()).collect();
+    assert_eq!(rows[0], ["passed", "failed", "not reached", "not judged"]);
+    assert_eq!(rows[1], ["passed", "undecided", "not reached", "not judged"]);
+}
+
+#[test]
 fn without_a_premise_what_is_open_elsewhere_takes_nothing_from_a_requirement_that_holds() {
     let trials = [trial(0, 1.0, Verdict::Inconclusive, [Some(1.0), None], Some(false))];
     assert_eq!(counts(&trials, 0), [1, 0, 0, 0]);

@@ -3,7 +3,7 @@
 use crate::common::{fuzz, refused, stderr, stdout, succeeds};
 use paracosm::coverage::Point;
 use paracosm::generators::FailureModel;
-use paracosm::{Campaign, Study};
+use paracosm::{Campaign, FailureMap, Picture, Study, Trial};
 use std::fs;
 use std::path::Path;
 
@@ -115,6 +115,56 @@ fn a_campaign_says_in_words_when_tests_fail_and_how_far_that_can_be_trusted() {
         assert_eq!(rule["tests"], inside.clone().count(), "{text}");
         assert_eq!(rule["failures"], inside.filter(|test| test.2).count(), "{text}");
     }
+}
+
+/// A campaign in so many open parameters more than the scenario's own, and its tests.
+fn run(scenario: &str, open: &[&str], budget: usize) -> (Study, Vec<Trial>) {
+    let study = Study::of(scenario).unwrap().budget(budget).unwrap();
+    let study = open.iter().fold(study, |study, name| study.open(name, None).unwrap());
+    let mut trials = Vec::new();
+    let campaign = Campaign::new(&study).unwrap();
+    campaign
+        .run(|trial| {
+            trials.push(trial.clone());
+            Ok(())
+        })
+        .unwrap();
+    (study, trials)
+}
+
+#[test]
+fn over_whichever_parameters_a_map_is_drawn_as_many_tests_fail_in_all_as_were_counted() {
+    let (study, trials) = run("pedestrian-crossing", &["friction", "fog", "light", "lanes"], 500);
+    let counted = trials.iter().filter(|trial| trial.is_failure()).count() as f64 / 500.0;
+    // Two standard errors of the count.
+    let error = 2.0 * (counted * (1.0 - counted) / 500.0).sqrt();
+    for pair in [["speed", "distance"], ["friction", "light"], ["fog", "friction"], ["fog", "light"]] {
+        let estimate = FailureMap::over(&study, &trials, pair).unwrap().estimate.unwrap();
+        assert!((estimate.mean() - counted).abs() < error, "{pair:?}: {}, counted {counted}", estimate.mean());
+    }
+}
+
+#[test]
+fn where_tests_cannot_be_built_the_map_is_invalid_and_failing_is_counted_among_the_others() {
+    let (study, trials) = run("cut-in", &[], 300);
+    let map = FailureMap::over(&study, &trials, ["ego_speed", "relative_speed"]).unwrap();
+    let estimate = map.estimate.as_ref().unwrap();
+    let csv = String::from_utf8(estimate.csv()).unwrap();
+    let (mut right, mut places) = (0, 0);
+    for line in csv.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let [ego, relative] = [0, 1].map(|i| fields[i].parse::<f64>().unwrap());
+        // The other car would drive backwards.
+        right += usize::from((ego + relative < 0.0) == (fields[4] == "invalid"));
+        assert_eq!(fields[2].is_empty(), fields[4] == "invalid", "{line}");
+        places += 1;
+    }
+    assert!(right as f64 > 0.95 * f64::from(places), "{right} of {places} places");
+    let failing = trials.iter().filter(|trial| trial.is_failure()).count() as f64;
+    let counted = failing / trials.iter().filter(|trial| trial.covers()).count() as f64;
+    assert!((estimate.mean() - counted).abs() < 0.05, "{}, counted {counted}", estimate.mean());
+    let picture = Picture::of(map).svg().unwrap();
+    assert!(picture.contains("invalid"));
 }
 
 /// The tests of a campaign in three parameters, with their robustness.

@@ -139,6 +139,15 @@ fn trace_shows_requirement_by_test_and_what_is_untested() {
     let rows = fs::read_to_string(dir.path().join("matrix.csv")).unwrap();
     assert!(rows.starts_with("requirement,text,source,severity,formula,unit,tests,passed,failed,"), "{rows}");
     assert_eq!(rows.lines().count(), 5);
+    // A column for each test, in which the requirements that it violates have failed.
+    let mut matrix = csv::Reader::from_reader(rows.as_bytes());
+    let tests: Vec<String> = matrix.headers().unwrap().iter().skip(14).map(str::to_owned).collect();
+    assert_eq!(tests, (0..20).map(|i| format!("test.{i}")).collect::<Vec<_>>());
+    for (row, traced) in matrix.records().zip(told["requirements"].as_array().unwrap()) {
+        let row = row.unwrap();
+        let failed: Vec<usize> = (0..20).filter(|i| &row[14 + i] == "failed").collect();
+        assert_eq!(json!(failed), traced["violated_in"], "{row:?}");
+    }
     refused(&fuzz(dir.path(), &["trace", "out", "--csv", "matrix.csv"]), &["matrix.csv exists"]);
     refused(&fuzz(dir.path(), &["trace", "out", "--csv", "matrix.txt"]), &["matrix.txt", ".csv"]);
     refused(&fuzz(dir.path(), &["trace", "nowhere"]), &["nowhere"]);

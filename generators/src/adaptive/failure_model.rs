@@ -5,6 +5,7 @@
 use super::bend::is_failure;
 use super::cube::{Axis, axes, place};
 use super::fit::prior;
+use super::process::Posterior;
 use super::telling::telling;
 use super::verdicts::{Fitter, Verdicts};
 use super::{MOST_ROBUSTNESS, normal};
@@ -13,6 +14,9 @@ use paracosm_coverage::{Point, Space};
 
 /// So many tests the model sees.
 const MOST_TESTS: usize = 400;
+
+/// By at most so many other tests, evenly chosen, the model is calibrated.
+const MOST_OTHERS: usize = 2048;
 
 /// So many times uncertain shares are drawn.
 const DRAWS: usize = 128;
@@ -24,7 +28,8 @@ const TOGETHER: usize = 1024;
 ///
 /// It is a probabilistic least-squares classification (Rasmussen and Williams, "Gaussian Processes for Machine Learning",
 /// 2006, section 6.5) of the robustness, which is bent in one of three ways, whichever tells left-out tests best. Of more
-/// than 400 tests it sees 400, half of them where passing turns into failing and half spread over the space.
+/// than 400 tests it sees 400, half of them where passing turns into failing and half spread over the space; how often tests
+/// fail of which it knows little, the others tell.
 pub struct FailureModel {
     axes: Vec<Axis>,
     verdicts: Verdicts,
@@ -58,9 +63,14 @@ impl FailureModel {
         let views: Vec<&[f64]> = places.iter().map(Vec::as_slice).collect();
         let failed: Vec<bool> = robustness.iter().map(|&robustness| is_failure(robustness)).collect();
         let chosen = telling(&prior(&axes), &views, &failed, MOST_TESTS);
-        let places: Vec<Vec<f64>> = chosen.iter().map(|&i| places[i].clone()).collect();
-        let robustness: Vec<f64> = chosen.iter().map(|&i| robustness[i]).collect();
-        let verdicts = Fitter::new(&axes).fit(&places, &robustness)?;
+        let seen: Vec<Vec<f64>> = chosen.iter().map(|&i| places[i].clone()).collect();
+        let told: Vec<f64> = chosen.iter().map(|&i| robustness[i]).collect();
+        let verdicts = Fitter::new(&axes).fit(&seen, &told)?;
+        let others = thinned((0..places.len()).filter(|i| !chosen.contains(i)).collect());
+        let all = || chosen.iter().chain(&others);
+        let (places, robustness): (Vec<Vec<f64>>, Vec<f64>) =
+            all().map(|&i| (places[i].clone(), robustness[i])).unzip();
+        let verdicts = verdicts.calibrated(&places, &robustness, chosen.len());
         Some(Self { axes, verdicts })
     }
 
@@ -77,35 +87,72 @@ impl FailureModel {
     }
 
     /// What is known of the share of failures in each of some groups of tests of one size; nothing of groups without tests.
+    /// Every test has a weight, how much it counts.
+    ///
+    /// A group may consist of several samples of one size, one after the other, of the tests that it stands for. How much
+    /// their shares differ is the error of having taken samples (Owen, "Monte Carlo theory, methods and examples", section
+    /// 17.2), which is in the deviation too. With one sample the tests are all that there are.
     ///
     /// The mean is exact; the deviation and what is above one half are of 128 draws of the process, always by the same
     /// chance.
-    pub fn shares(&self, groups: &[Vec<Point>]) -> Vec<FailingShare> {
-        let size = groups.first().map_or(0, Vec::len);
-        if size == 0 {
+    pub fn shares(&self, groups: &[Vec<(Point, f64)>], samples: usize) -> Vec<FailingShare> {
+        let all = groups.first().map_or(0, Vec::len);
+        if samples == 0 || all < samples {
             return Vec::new();
         }
         let mut rng = seeded(0, Purpose::Draws, 0);
-        let draws: Vec<Vec<f64>> = (0..DRAWS).map(|_| (0..size).map(|_| normal(&mut rng)).collect()).collect();
+        let mut draws = |size: usize| -> Vec<f64> { (0..size).map(|_| normal(&mut rng)).collect() };
+        let of_sample = DRAWS.div_ceil(samples);
+        let draws: Vec<Vec<Vec<f64>>> =
+            (0..samples).map(|_| (0..of_sample).map(|_| draws(all / samples + 1)).collect()).collect();
         let mut shares = Vec::with_capacity(groups.len());
-        for groups in groups.chunks((TOGETHER / size).max(1)) {
-            let places = groups.iter().flatten().map(|test| place(&self.axes, test)).collect();
+        for groups in groups.chunks((TOGETHER / all).max(1)) {
+            let places = groups.iter().flatten().map(|(test, _)| place(&self.axes, test)).collect();
             let posterior = self.verdicts.process.posterior(places);
-            for group in 0..groups.len() {
-                let members: Vec<usize> = (group * size..(group + 1) * size).collect();
-                let failure = |&index: &usize| self.verdicts.failure(posterior.mean(index), posterior.deviation(index));
-                let mean = members.iter().map(failure).sum::<f64>() / size as f64;
-                let share = |values: Vec<f64>| {
-                    values.into_iter().map(|value| self.verdicts.of_value(value)).sum::<f64>() / size as f64
-                };
-                let drawn: Vec<f64> = posterior.draws(&members, &draws).into_iter().map(share).collect();
-                let square = drawn.iter().map(|share| (share - mean) * (share - mean)).sum::<f64>() / DRAWS as f64;
-                let above_half = drawn.iter().filter(|share| **share > 0.5).count() as f64 / DRAWS as f64;
-                shares.push(FailingShare { mean, deviation: square.sqrt(), above_half });
+            for (group, tests) in groups.iter().enumerate() {
+                let weights: Vec<f64> = tests.iter().map(|(_, weight)| *weight).collect();
+                shares.push(self.share(&posterior, group * all, &weights, &draws));
             }
         }
         shares
     }
+
+    /// What is known of the share among the places from `first` on with these weights; of each sample there are draws, with a
+    /// number more in each than the sample has tests.
+    fn share(&self, posterior: &Posterior, first: usize, weights: &[f64], draws: &[Vec<Vec<f64>>]) -> FailingShare {
+        let failure = |i| self.verdicts.failure(posterior.mean(first + i), posterior.deviation(first + i));
+        let failures: Vec<f64> = (0..weights.len()).map(failure).collect();
+        let samples = draws.len();
+        let size = weights.len() / samples;
+        let weight = weights.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        let mean = weights.iter().zip(&failures).map(|(weight, failure)| weight * failure).sum::<f64>() / weight;
+        let of = |sample: usize| sample * size..(sample + 1) * size;
+        let off = |sample: usize, value: &dyn Fn(usize) -> f64| {
+            of(sample).map(|i| weights[i] * value(i)).sum::<f64>() / weight * samples as f64
+        };
+        let error = |sample: usize| off(sample, &|i| failures[i] - mean);
+        let square = (0..samples).map(|sample| error(sample) * error(sample)).sum::<f64>();
+        let sampling = if samples > 1 { square / (samples * (samples - 1)) as f64 } else { 0.0 };
+        let (mut square, mut above, mut count) = (0.0, 0, 0);
+        for (sample, draws) in draws.iter().enumerate() {
+            let members: Vec<usize> = of(sample).map(|i| first + i).collect();
+            for (values, draw) in posterior.draws(&members, draws).into_iter().zip(draws) {
+                let begin = of(sample).start;
+                let step = off(sample, &|i| self.verdicts.of_value(values[i - begin]) - failures[i]);
+                square += step * step;
+                above += usize::from(mean + step + sampling.sqrt() * draw[size] > 0.5);
+                count += 1;
+            }
+        }
+        let deviation = (square / f64::from(count) + sampling).sqrt();
+        FailingShare { mean, deviation, above_half: above as f64 / f64::from(count) }
+    }
+}
+
+/// Evenly chosen ones of many.
+fn thinned(all: Vec<usize>) -> Vec<usize> {
+    let kept = all.len().min(MOST_OTHERS);
+    (0..kept).map(|i| all[i * all.len() / kept]).collect()
 }
 
 #[cfg(test)]
@@ -172,8 +219,8 @@ mod tests {
         let fails = |at: &Point| 0.6 - at.continuous[0];
         let model = FailureModel::fit(&space, &known, &known.iter().map(fails).collect::<Vec<_>>()).unwrap();
         let at = |x: f64, y: f64| Point { continuous: vec![x, y], discrete: Vec::new() };
-        let group = |x: [f64; 4]| x.map(|x| at(x, 0.5)).to_vec();
-        let found = model.shares(&[group([0.1, 0.2, 0.3, 0.4]), group([0.2, 0.3, 0.4, 0.9]), group([0.9; 4])]);
+        let group = |x: [f64; 4]| x.map(|x| (at(x, 0.5), 1.0)).to_vec();
+        let found = model.shares(&[group([0.1, 0.2, 0.3, 0.4]), group([0.2, 0.3, 0.4, 0.9]), group([0.9; 4])], 1);
         let expected = [(0.0, 0.0), (0.25, 0.0), (1.0, 1.0)];
         for (found, (mean, above)) in found.iter().zip(expected) {
             assert!(
@@ -190,10 +237,42 @@ mod tests {
             if fails(test) < 0.0 { first = first.min(x) } else { last = last.max(x) }
         }
         let edge = [at(0.5 * (last + first), 0.5), at(0.5 * (last + first) + 1e-4, 0.5)];
-        let unsure = model.shares(&[edge.to_vec()])[0];
+        let unsure = model.shares(&[edge.clone().map(|test| (test, 1.0)).to_vec()], 1)[0];
         assert!(unsure.deviation > 0.1 && (0.05..0.95).contains(&unsure.above_half), "{unsure:?}");
         let mean = model.probabilities(&edge).iter().sum::<f64>() / 2.0;
         assert!((unsure.mean - mean).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_error_of_taking_samples_is_in_the_deviation_and_weights_count() {
+        let space = Space::unit_cube(2);
+        let known = tests(&space, 100);
+        let fails = |at: &Point| 0.6 - at.continuous[0];
+        let model = FailureModel::fit(&space, &known, &known.iter().map(fails).collect::<Vec<_>>()).unwrap();
+        let group = |tests: [(f64, f64); 4]| {
+            vec![tests.map(|(x, weight)| (Point { continuous: vec![x, 0.5], discrete: Vec::new() }, weight)).to_vec()]
+        };
+        // Two samples, one of which fails whole: the share is one half, give or take one half.
+        let apart = model.shares(&group([(0.1, 1.0), (0.2, 1.0), (0.8, 1.0), (0.9, 1.0)]), 2)[0];
+        assert!((apart.mean - 0.5).abs() < 0.02 && (apart.deviation - 0.5).abs() < 0.02, "{apart:?}");
+        let alike = model.shares(&group([(0.1, 1.0), (0.9, 1.0), (0.2, 1.0), (0.8, 1.0)]), 2)[0];
+        assert!((alike.mean - 0.5).abs() < 0.02 && alike.deviation < 0.05, "{alike:?}");
+        let weighed = model.shares(&group([(0.1, 1.0), (0.9, 3.0), (0.2, 1.0), (0.8, 0.0)]), 1)[0];
+        assert!((weighed.mean - 0.6).abs() < 0.02, "{weighed:?}");
+    }
+
+    #[test]
+    fn where_little_can_be_told_as_many_are_said_to_fail_as_do() {
+        // Of tests in six parameters one in eight fails, and hardly any parameter says which. The model sees 400 of them, but
+        // all that fail.
+        let space = Space::unit_cube(6);
+        let known = tests(&space, 600);
+        let told: Vec<f64> = (0..600_u64).map(|i| if crate::seeded::mix(i) % 8 == 0 { -3.0 } else { 1.0 }).collect();
+        let counted = told.iter().filter(|told| **told < 0.0).count() as f64 / 600.0;
+        let model = FailureModel::fit(&space, &known, &told).unwrap();
+        let others = Strategy::Random.build(&Request::new(&space, 2000)).unwrap().ask(2000);
+        let mean = model.probabilities(&others).iter().sum::<f64>() / 2000.0;
+        assert!((mean - counted).abs() < 0.02, "{mean}, counted {counted}");
     }
 
     #[test]

@@ -111,6 +111,11 @@ impl Process {
         })
     }
 
+    /// How alike it takes places to be.
+    pub(super) fn kernel(&self) -> &Kernel {
+        &self.kernel
+    }
+
     /// Mean and deviation at each place if the value there were not known, but mean, variance and kernel were (Rasmussen
     /// and Williams, equation 5.12).
     pub(super) fn leave_one_out(&self, values: &[f64]) -> Vec<(f64, f64)> {

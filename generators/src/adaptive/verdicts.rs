@@ -1,8 +1,9 @@
 //! A model of which tests fail: which side of 0 the robustness is on, and how sure that is.
 //!
 //! Probabilistic least-squares classification (Rasmussen and Williams 2006, section 6.5): a Gaussian process goes through
-//! the robustness as it is bent, and the probability of a failure is `Phi(-slope m / sqrt(1 + slope^2 v))` for its mean m
-//! and variance v, where the slope makes the verdicts of left-out tests most likely.
+//! the robustness as it is bent, and the probability of a failure is `Phi(-(slope m + offset) / sqrt(1 + slope^2 v))` for its
+//! mean m and variance v (their equation 6.41), where slope and offset make the verdicts of left-out tests most likely. Which
+//! model is believed is told without the offset; it matters to who asks how many tests fail ([`Verdicts::calibrated`]).
 //!
 //! How to bend depends on the system under test. Where the robustness goes steadily through 0 it tells more than the
 //! verdict does; where it jumps there, from some centimetres of clearance to metres of missing braking distance, say,
@@ -26,12 +27,19 @@ use crate::seeded::{Purpose, seeded};
 const LEAST_SLOPE: f64 = -2.0;
 const SLOPES: usize = 21;
 
+/// So many places are looked at together.
+const TOGETHER: usize = 1024;
+
 /// By so many random places it is told how much of the space a test stands for.
 const PLACES: usize = 1024;
 
 /// How many steps the first fit takes, and those after it.
 const FIRST_FIT: usize = 40;
 const LATER_FIT: usize = 8;
+
+/// Where the offset is looked for, on both sides of 0, and how often what remains is cut to two thirds.
+const MOST_OFFSET: f64 = 4.0;
+const CUTS: usize = 18;
 
 /// No verdict is less probable than this: one surprise is no end of the world.
 const LEAST_PROBABLE: f64 = 1e-6;
@@ -46,7 +54,14 @@ pub(super) struct Fitter {
 pub(super) struct Verdicts {
     pub bend: Bend,
     pub process: Process,
+    link: Link,
+}
+
+/// How a value of the process becomes a probability.
+#[derive(Debug, Clone, Copy)]
+struct Link {
     slope: f64,
+    offset: f64,
 }
 
 impl Fitter {
@@ -68,9 +83,10 @@ impl Fitter {
             let values: Vec<f64> = robustness.iter().map(|&value| bend.apply(value)).collect();
             *kernel = fit(kernel, places, &values, steps);
             let Some(process) = Process::with_noise(kernel, places, &values) else { continue };
-            let (likelihood, slope) = best_slope(&process, &values, &weights);
+            let left_out = process.leave_one_out(&values);
+            let (likelihood, link) = best_link(&values, &left_out, &weights, |_| 0.0);
             if best.as_ref().is_none_or(|(other, _)| likelihood > *other) {
-                best = Some((likelihood, Verdicts { bend, process, slope }));
+                best = Some((likelihood, Verdicts { bend, process, link }));
             }
         }
         best.map(|(_, verdicts)| verdicts)
@@ -80,18 +96,38 @@ impl Fitter {
 impl Verdicts {
     /// The probability that a test fails whose robustness, bent, is this.
     pub(super) fn of_value(&self, value: f64) -> f64 {
-        normal_below(-self.slope * value)
+        normal_below(-self.link.of(value, 0.0))
     }
 
     /// The probability that a test fails whose robustness, bent, has this mean and deviation.
     pub(super) fn failure(&self, mean: f64, deviation: f64) -> f64 {
-        normal_below(-link(self.slope, mean, deviation))
+        normal_below(-self.link.of(mean, deviation))
+    }
+
+    /// The same with the link that makes the verdicts of all these tests most likely, each left out of what the process has
+    /// seen: the first `seen` of them.
+    ///
+    /// The process sees the tests that tell most, which are more often at the boundary, and fail more often, than tests do;
+    /// so the others have to say how many fail.
+    pub(super) fn calibrated(mut self, places: &[Vec<f64>], robustness: &[f64], seen: usize) -> Self {
+        let values: Vec<f64> = robustness.iter().map(|&value| self.bend.apply(value)).collect();
+        let mut left_out = self.process.leave_one_out(&values[..seen]);
+        for others in places[seen..].chunks(TOGETHER) {
+            let posterior = self.process.posterior(others.to_vec());
+            left_out.extend((0..others.len()).map(|at| (posterior.mean(at), posterior.deviation(at))));
+        }
+        let weights = weights(&self.process.kernel().axes, places);
+        self.link = best_link(&values, &left_out, &weights, best_offset).1;
+        self
     }
 }
 
-fn link(slope: f64, mean: f64, deviation: f64) -> f64 {
-    let spread = slope * deviation;
-    slope * mean / (1.0 + spread * spread).sqrt()
+impl Link {
+    /// What is below 0 is rather a failure: the mean and deviation of a value, in standard deviations of what is to be known.
+    fn of(self, mean: f64, deviation: f64) -> f64 {
+        let spread = self.slope * deviation;
+        (self.slope * mean + self.offset) / (1.0 + spread * spread).sqrt()
+    }
 }
 
 /// How much of the space each of the places stands for: how many random ones are nearest to it, and half a one more.
@@ -108,18 +144,36 @@ fn weights(axes: &[Axis], places: &[Vec<f64>]) -> Vec<f64> {
     weights
 }
 
-/// By which slope the verdicts of left-out tests are most likely, and how likely: the logarithm.
-fn best_slope(process: &Process, values: &[f64], weights: &[f64]) -> (f64, f64) {
-    let left_out = process.leave_one_out(values);
-    let likelihood = |slope: f64| -> f64 {
+/// By which link the verdicts of left-out tests are most likely, and how likely: the logarithm. For each slope `offset` finds
+/// the offset, given the likelihood of one.
+fn best_link(
+    values: &[f64],
+    left_out: &[(f64, f64)],
+    weights: &[f64],
+    offset: impl Fn(&dyn Fn(f64) -> f64) -> f64,
+) -> (f64, Link) {
+    let likelihood = |link: Link| -> f64 {
         let one = |(&value, &(mean, deviation)): (&f64, &(f64, f64))| {
-            let right = normal_below(1.0_f64.copysign(value) * link(slope, mean, deviation));
+            let right = normal_below(1.0_f64.copysign(value) * link.of(mean, deviation));
             libm::log(right.max(LEAST_PROBABLE))
         };
-        values.iter().zip(&left_out).map(one).zip(weights).map(|(log, weight)| weight * log).sum()
+        values.iter().zip(left_out).map(one).zip(weights).map(|(log, weight)| weight * log).sum()
     };
     let slopes = (0..SLOPES).map(|i| libm::exp(LEAST_SLOPE + 0.5 * i as f64));
-    slopes.map(|slope| (likelihood(slope), slope)).max_by(|a, b| a.0.total_cmp(&b.0)).expect("there are slopes")
+    let links = slopes.map(|slope| Link { slope, offset: offset(&|offset| likelihood(Link { slope, offset })) });
+    links.map(|link| (likelihood(link), link)).max_by(|a, b| a.0.total_cmp(&b.0)).expect("there are slopes")
+}
+
+/// The most probable offset for this logarithm of a likelihood, which has one peak, with a standard normal prior: where the
+/// verdicts are told apart anyhow it stays near 0.
+fn best_offset(likelihood: &dyn Fn(f64) -> f64) -> f64 {
+    let posterior = |offset: f64| likelihood(offset) - 0.5 * offset * offset;
+    let (mut low, mut high) = (-MOST_OFFSET, MOST_OFFSET);
+    for _ in 0..CUTS {
+        let third = (high - low) / 3.0;
+        if posterior(low + third) < posterior(high - third) { low += third } else { high -= third }
+    }
+    0.5 * (low + high)
 }
 
 #[cfg(test)]
