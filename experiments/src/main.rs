@@ -12,6 +12,8 @@ mod fig10a;
 #[cfg(feature = "neural")]
 mod fig10c;
 mod fig9;
+#[cfg(feature = "neural")]
+mod fig9_cnn;
 mod recovery;
 mod samplers;
 mod sampling;
@@ -79,6 +81,20 @@ const STUDIES: &[Study] = &[
     },
     #[cfg(feature = "neural")]
     Study {
+        name: "fig9-cnn",
+        about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, with a cloned driver",
+        time: "4 min",
+        run: fig9_cnn::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig9-cnn-reference",
+        about: "the reference map of fig9-cnn: 2,500 tests on a grid",
+        time: "6 min",
+        run: fig9_cnn::reference,
+    },
+    #[cfg(feature = "neural")]
+    Study {
         name: "fig10a",
         about: "the paper's Figure 10a: a cloned driver behind a slow leader, over fog and light",
         time: "2 min",
@@ -95,7 +111,7 @@ const STUDIES: &[Study] = &[
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 4] = ["train-follow", "train-stop", "fig10a", "fig10c"];
+const NEURAL: [&str; 6] = ["train-follow", "train-stop", "fig9-cnn", "fig9-cnn-reference", "fig10a", "fig10c"];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 

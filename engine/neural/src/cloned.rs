@@ -13,8 +13,15 @@ pub struct Cloned {
 }
 
 /// All of them.
-pub const CLONED: &[Cloned] = &[Cloned {
-    name: "follow",
-    scenarios: &["follow-leader", "oncoming-distractor"],
-    contents: include_bytes!("../weights/follow.onnx"),
-}];
+pub const CLONED: &[Cloned] = &[
+    Cloned {
+        name: "follow",
+        scenarios: &["follow-leader", "oncoming-distractor"],
+        contents: include_bytes!("../weights/follow.onnx"),
+    },
+    Cloned {
+        name: "stop",
+        scenarios: &["pedestrian-crossing"],
+        contents: include_bytes!("../weights/stop.onnx"),
+    },
+];
