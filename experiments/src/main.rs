@@ -14,6 +14,8 @@ mod fig10b;
 #[cfg(feature = "neural")]
 mod fig10c;
 mod fig9;
+#[cfg(feature = "neural")]
+mod fig9_cnn;
 mod recovery;
 #[cfg(feature = "neural")]
 mod saliency;
@@ -90,6 +92,20 @@ const STUDIES: &[Study] = &[
     },
     #[cfg(feature = "neural")]
     Study {
+        name: "fig9-cnn",
+        about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, with a cloned driver",
+        time: "4 min",
+        run: fig9_cnn::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
+        name: "fig9-cnn-reference",
+        about: "the reference map of fig9-cnn: 2,500 tests on a grid",
+        time: "6 min",
+        run: fig9_cnn::reference,
+    },
+    #[cfg(feature = "neural")]
+    Study {
         name: "fig10a",
         about: "the paper's Figure 10a: a cloned driver behind a slow leader, over fog and light",
         time: "2 min",
@@ -120,7 +136,17 @@ const STUDIES: &[Study] = &[
 
 /// The studies of networks, which are there only where networks are built.
 #[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 7] = ["train-follow", "train-stop", "train-loop", "fig10a", "fig10b", "fig10c", "saliency"];
+const NEURAL: [&str; 9] = [
+    "train-follow",
+    "train-stop",
+    "train-loop",
+    "fig9-cnn",
+    "fig9-cnn-reference",
+    "fig10a",
+    "fig10b",
+    "fig10c",
+    "saliency",
+];
 #[cfg(feature = "neural")]
 const NEURAL: [&str; 0] = [];
 

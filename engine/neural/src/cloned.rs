@@ -20,4 +20,5 @@ pub const CLONED: &[Cloned] = &[
         contents: include_bytes!("../weights/follow.onnx"),
     },
     Cloned { name: "loop", scenarios: &["t-loop"], contents: include_bytes!("../weights/loop.onnx") },
+    Cloned { name: "stop", scenarios: &["pedestrian-crossing"], contents: include_bytes!("../weights/stop.onnx") },
 ];
