@@ -90,7 +90,7 @@ impl Studio {
         let mut seen = Vec::new();
         self.projector.show(&self.film, 0, |drawn| {
             seen.extend(drawn.into_iter().filter_map(|(_, picture)| {
-                let frame = picture.frame;
+                let frame = picture.ok()?.frame;
                 let (width, height) = (frame.width(), frame.height());
                 let image = Image { camera: 0, number: 0, time: 0.0, width, height, rgb: frame.rgb? };
                 Some(Seen { image, leader: frame.instance?.iter().map(|id| *id == LEADERS_ID).collect() })
