@@ -267,7 +267,8 @@ mod tests {
         // all that fail.
         let space = Space::unit_cube(6);
         let known = tests(&space, 600);
-        let told: Vec<f64> = (0..600_u64).map(|i| if crate::seeded::mix(i) % 8 == 0 { -3.0 } else { 1.0 }).collect();
+        let told: Vec<f64> =
+            (0..600_u64).map(|i| if crate::seeded::mix(i).is_multiple_of(8) { -3.0 } else { 1.0 }).collect();
         let counted = told.iter().filter(|told| **told < 0.0).count() as f64 / 600.0;
         let model = FailureModel::fit(&space, &known, &told).unwrap();
         let others = Strategy::Random.build(&Request::new(&space, 2000)).unwrap().ask(2000);
