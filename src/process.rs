@@ -69,7 +69,7 @@ impl Process {
     }
 
     /// What happened to it, with its last words. It is ended if it has not ended yet.
-    pub fn obituary(&mut self, how: String) -> String {
+    pub fn post_mortem(&mut self, how: String) -> String {
         self.end();
         wait_until(ARRIVAL, || self.listeners.iter().all(JoinHandle::is_finished));
         let complaints = self.complaints.lock().unwrap_or_else(PoisonError::into_inner);

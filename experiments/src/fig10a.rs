@@ -4,12 +4,12 @@
 //! violates any requirement, and the table says which. The leader is slow and steady, so that what differs between tests is
 //! what the network sees.
 
+use crate::cloning::exam::{self, EXAMINED};
 use crate::cloning::{FOLLOW, trials};
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
 use paracosm::coverage::Value;
 use paracosm::engine::Metric;
-use paracosm::oracles::Verdict;
 use paracosm::{FailureMap, Picture, Study, Tints, Trial};
 use std::path::Path;
 
@@ -17,14 +17,10 @@ use std::path::Path;
 const TESTS: usize = 200;
 /// The speed of the leader in m/s.
 const LEADER: f64 = 6.0;
-/// How many tests of its training conditions.
-const TRAINING: usize = 100;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let nominal = FOLLOW.drives(FOLLOW.study(1000, TRAINING)?)?;
-    let training = trials(&nominal, bar)?;
-    let passed = training.iter().filter(|trial| trial.verdict == Verdict::Pass).count();
+    let passed = exam::passing(&trials(&FOLLOW.drives(exam::tests(&FOLLOW)?)?, bar)?);
 
     let study = FOLLOW.drives(Study::of("follow-leader")?)?.open("fog", None)?.open("light", None)?;
     let study = study.set("leader_speed", Value::Number(LEADER))?.budget(TESTS)?;
@@ -36,7 +32,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let mut map = FailureMap::of(&study, &trials).expect("fog and light are open");
     map.title = "Figure 10a: a cloned driver behind a slow leader".to_owned();
     map.note = format!(
-        "{TESTS} Halton tests of 15 s; trained at light 1 without fog, where {passed} of {TRAINING} tests pass"
+        "{TESTS} Halton tests of 15 s; trained at light 1 without fog, where {passed} of {EXAMINED} tests pass"
     );
     let (least, most) = covered.iter().fold((f64::INFINITY, 0.0_f64), |(lo, hi), &d| (lo.min(d), hi.max(d)));
     let range = (10.0 * (0.1 * least).floor(), 10.0 * (0.1 * most).ceil());
@@ -52,14 +48,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         rows.push(format!("{fog},{light},{covered},{collided},{},{}", trial.verdict, violated.join(" ")));
     }
     write(&out.join("fig10a.csv"), rows.join("\n") + "\n")?;
-    let mut rows = vec!["index,verdict,travelled,no_collision,lane_keeping".to_owned()];
-    rows.extend(training.iter().map(|trial| {
-        let [clear, lane] = ["no-collision", "lane-keeping"].map(|id| trial.robustness(id).unwrap_or(f64::NAN));
-        format!("{},{},{},{clear},{lane}", trial.index, trial.verdict, travelled(trial))
-    }));
-    write(&out.join("training.csv"), rows.join("\n") + "\n")?;
-
-    let mut text = format!("training conditions: {passed} of {TRAINING} pass\n");
+    let mut text = format!("training conditions: {passed} of {EXAMINED} pass\n");
     text += &format!("{:<26}{:>6}{:>12}{:>16}\n", "tests", "", "collisions", "mean distance");
     for (name, of) in REGIONS {
         let within: Vec<usize> =

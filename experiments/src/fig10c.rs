@@ -44,7 +44,7 @@ fn build(s: &mut Scenario) {
 /// What the figure shows: a name, the leader's colour, and who comes.
 const CASES: [(&str, &str, &str); 3] = [
     ("red leader", "red", "nobody"),
-    ("red leader, red car coming", "red", "red car"),
+    ("red leader and a red car coming", "red", "red car"),
     ("white leader", "white", "nobody"),
 ];
 

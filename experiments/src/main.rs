@@ -8,6 +8,8 @@ mod boundary;
 #[cfg(feature = "neural")]
 mod cloning;
 #[cfg(feature = "neural")]
+mod crossing;
+#[cfg(feature = "neural")]
 mod fig10a;
 #[cfg(feature = "neural")]
 mod fig10b;
@@ -92,6 +94,13 @@ const STUDIES: &[Study] = &[
     },
     #[cfg(feature = "neural")]
     Study {
+        name: "exams",
+        about: "each network in 100 tests of what it was trained in, beside the expert who taught it and one who never brakes",
+        time: "4 min",
+        run: cloning::exam::run,
+    },
+    #[cfg(feature = "neural")]
+    Study {
         name: "fig9-cnn",
         about: "the paper's Figure 9: random against Halton sampling of the pedestrian study, with a cloned driver",
         time: "4 min",
@@ -133,22 +142,6 @@ const STUDIES: &[Study] = &[
         run: saliency::run,
     },
 ];
-
-/// The studies of networks, which are there only where networks are built.
-#[cfg(not(feature = "neural"))]
-const NEURAL: [&str; 9] = [
-    "train-follow",
-    "train-stop",
-    "train-loop",
-    "fig9-cnn",
-    "fig9-cnn-reference",
-    "fig10a",
-    "fig10b",
-    "fig10c",
-    "saliency",
-];
-#[cfg(feature = "neural")]
-const NEURAL: [&str; 0] = [];
 
 /// Runs a study of the paper or of ours.
 #[derive(Debug, Parser)]
@@ -197,17 +190,12 @@ fn run(arguments: &Arguments) -> Done {
         let line = |Study { name, about, time, .. }: &Study| format!("{name:<24}{time:<8}{about}\n");
         return print(&STUDIES.iter().map(line).collect::<String>());
     }
-    if NEURAL.contains(&arguments.name.as_str()) {
-        let name = &arguments.name;
-        let how = "cargo run --release -p paracosm-experiments --features neural --";
-        return Err(
-            format!("the study `{name}` is of networks that drive, which take long to build: {how} {name}").into()
-        );
-    }
     let Some(study) = STUDIES.iter().find(|study| study.name == arguments.name) else {
         let names = STUDIES.iter().map(|study| study.name);
         let hint = did_you_mean(&nearest(&arguments.name, names));
-        return Err(format!("no study is called `{}`{hint}; `list` shows them all", arguments.name).into());
+        let without =
+            if cfg!(feature = "neural") { "" } else { ", and this program was built without those of networks" };
+        return Err(format!("no study is called `{}`{hint}; `list` shows them all{without}", arguments.name).into());
     };
     let default = || Path::new("experiments/out").join(study.name);
     let out = arguments.out.clone().unwrap_or_else(default);

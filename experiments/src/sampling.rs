@@ -130,9 +130,8 @@ impl Comparison<'_> {
     }
 }
 
-/// Runs the tests in the middle of every cell of a grid with so many on each side, draws them and writes them as
-/// `reference-map`, in rows of equal distance.
-pub fn reference_map(study: &Study, side: usize, out: &Path, bar: &ProgressBar) -> Result<Vec<Trial>, Failure> {
+/// Runs the tests in the middle of every cell of a grid with so many on each side, in rows of equal distance.
+pub fn grid(study: &Study, side: usize, bar: &ProgressBar) -> Result<Vec<Trial>, Error> {
     let middle = |i: usize| (i as f64 + 0.5) / side as f64;
     let cells = (0..side * side).map(|i| vec![middle(i % side), middle(i / side)]);
     let tests: Vec<Values> =
@@ -143,6 +142,12 @@ pub fn reference_map(study: &Study, side: usize, out: &Path, bar: &ProgressBar) 
         trials.push(trial.clone());
         Ok(())
     })?;
+    Ok(trials)
+}
+
+/// Runs the tests of a grid, draws them and writes them as `reference-map`.
+pub fn reference_map(study: &Study, side: usize, out: &Path, bar: &ProgressBar) -> Result<Vec<Trial>, Failure> {
+    let trials = grid(study, side, bar)?;
     let mut map = failure_map(study, &trials)?;
     map.title = format!("Reference map: {side} x {side} tests");
     map.note = "the middle of every cell of a grid".into();

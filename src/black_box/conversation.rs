@@ -60,7 +60,7 @@ impl Process {
             let left = timeout.saturating_sub(asked.elapsed());
             match self.heard.recv_timeout(left.min(PATIENCE)) {
                 Ok(heard) => return self.take(heard),
-                Err(RecvTimeoutError::Disconnected) => return Err(self.obituary()),
+                Err(RecvTimeoutError::Disconnected) => return Err(self.post_mortem()),
                 Err(RecvTimeoutError::Timeout) => {}
             }
             if stop.load(Ordering::Relaxed) {
@@ -73,7 +73,7 @@ impl Process {
             if self.status().is_some() {
                 return match self.heard.recv_timeout(ARRIVAL) {
                     Ok(heard) => self.take(heard),
-                    Err(_) => Err(self.obituary()),
+                    Err(_) => Err(self.post_mortem()),
                 };
             }
         }
@@ -94,12 +94,12 @@ impl Process {
     }
 
     /// How it ended without an answer.
-    fn obituary(&mut self) -> String {
+    fn post_mortem(&mut self) -> String {
         let how = match self.process.ended() {
             Some(status) => format!("the system ended without an answer ({status})"),
             None => "the system closed its output without an answer".to_owned(),
         };
-        self.process.obituary(how)
+        self.process.post_mortem(how)
     }
 
     /// Ends it and all that it started, at once.

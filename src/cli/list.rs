@@ -72,11 +72,15 @@ fn table() -> Result<String, Failure> {
     }
     for (name, about) in NETWORKS {
         writeln!(text, "  {name:<22}{about}")?;
+        writeln!(text, "    {:<21}{:<14}{}", "latency", "0 s", LATENCY)?;
     }
     text.push_str(EXTERNAL);
     text.push_str("\nParameters: --open NAME[=LO..HI], --set NAME=VALUE. Settings: --set driver.NAME=VALUE.\n");
     Ok(text)
 }
+
+/// What there is to say of the latency of a driver that has none of its own.
+const LATENCY: &str = "from when it is asked to when its answer takes effect";
 
 /// Drivers that are networks, which a program has only if it was built with them.
 const NETWORKS: [(&str, &str); 2] = [
@@ -95,7 +99,7 @@ fn as_json() -> Result<serde_json::Value, Failure> {
         programs.push(json!({"name": program.name, "about": program.about, "parameters": parameters}));
     }
     let strategies = Strategy::ALL.map(|strategy| json!({"name": strategy.name(), "about": strategy.about()}));
-    let drivers = driver::ALL.map(|kind| {
+    let own = driver::ALL.into_iter().map(|kind| {
         let settings: Vec<_> = kind
             .settings
             .iter()
@@ -106,5 +110,10 @@ fn as_json() -> Result<serde_json::Value, Failure> {
             .collect();
         json!({"name": kind.name, "about": kind.about, "settings": settings})
     });
+    let networks = NETWORKS.into_iter().map(|(name, about)| {
+        let latency = json!({"name": "latency", "default": 0.0, "unit": "s", "range": [0.0, 100.0], "about": LATENCY});
+        json!({"name": name, "about": about, "settings": [latency]})
+    });
+    let drivers: Vec<_> = own.chain(networks).collect();
     Ok(json!({"scenarios": programs, "strategies": strategies, "drivers": drivers}))
 }

@@ -21,8 +21,9 @@ pub(super) struct Subject {
     /// Fix a parameter, a signal at one value or at A,B,C; or change a setting of the driver with driver.NAME=VALUE
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The system under test; `grpc://HOST:PORT` is one that listens there [default: aeb]
-    #[arg(long, value_name = "NAME|grpc://HOST:PORT")]
+    /// The system under test: one of `paracosm-fuzz list`; `grpc://HOST:PORT`, one that listens there; a network, if the
+    /// program was built with them: `cnn`, one that comes with it, or MODEL.onnx [default: aeb]
+    #[arg(long, value_name = "NAME|grpc://HOST:PORT|MODEL.onnx")]
     driver: Option<String>,
     /// Test a driver of your own: a command that starts one, once for each worker, which listens over gRPC at the address
     /// in PARACOSM_ADDRESS

@@ -17,7 +17,8 @@ pub(super) struct System {
     /// The parameters of the system's tests, or a model file of PICT
     #[arg(long, value_name = "SPACE.toml", requires = "system")]
     space: Option<PathBuf>,
-    /// How long the system, or a driver in a process of its own, may take for an answer [default: 60]
+    /// How long the system, or a driver in a process of its own, may take for an answer; a driver that is started here, ten
+    /// times as long until it listens [default: 60]
     #[arg(long, value_name = "SECONDS")]
     timeout: Option<f64>,
 }

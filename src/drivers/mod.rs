@@ -6,16 +6,17 @@
 //! the test alone gives the same trials for any number of workers. A server that somebody else has started cannot be
 //! started again, and what its end does to others is outside of that.
 
+mod late;
 mod process;
 
 use crate::Error;
 use crate::study::{DriverChoice, Origin};
-use paracosm_engine::driver::{Driver, Equipment, Fault};
-use paracosm_engine::sensor::{Image, Rig};
-use paracosm_engine::{Briefing, Control, Observation, Outcome};
+use late::Late;
+use paracosm_engine::Outcome;
+use paracosm_engine::driver::Driver;
 use paracosm_oracles::Verdict;
 use paracosm_rpc::Session;
-use process::Garage;
+use process::Launcher;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -33,7 +34,7 @@ pub(crate) struct Drivers<'a> {
 enum Source<'a> {
     /// Each is made, or asked for at an address.
     Made(Box<Make<'a>>),
-    Process(Box<Garage>),
+    Process(Box<Launcher>),
 }
 
 /// Makes a driver.
@@ -48,7 +49,7 @@ impl<'a> Drivers<'a> {
         let (latency, ended) = (choice.latency(), stop.clone());
         let source = match choice.origin()? {
             Origin::Here => {
-                let mut drivers = Self::made_by(|| choice.build());
+                let mut drivers = Self::made_by(move || Ok(Box::new(Late { driver: choice.build()?, latency })));
                 let first = drivers.hire()?;
                 drivers.dismiss(Some(first));
                 return Ok(drivers);
@@ -56,9 +57,9 @@ impl<'a> Drivers<'a> {
             Origin::Server(address, terms) => Source::Made(Box::new(move || {
                 let session = Session::open(&address, &terms, ended.clone());
                 let session = session.map_err(|error| Error::Usage(format!("driver {address}: {error}")))?;
-                Ok(Box::new(Late { driver: session, latency }))
+                Ok(Box::new(Late { driver: Box::new(session), latency }))
             })),
-            Origin::Process(words, terms) => Source::Process(Box::new(Garage::new(words, terms, latency, ended))),
+            Origin::Process(words, terms) => Source::Process(Box::new(Launcher::new(words, terms, latency, ended))),
         };
         Ok(Self { source, external: true, idle: Vec::new(), stop })
     }
@@ -81,7 +82,7 @@ impl<'a> Drivers<'a> {
         match (self.idle.pop(), &mut self.source) {
             (Some(driver), _) => Ok(driver),
             (None, Source::Made(make)) => make(),
-            (None, Source::Process(garage)) => garage.driver(),
+            (None, Source::Process(launcher)) => launcher.driver(),
         }
     }
 
@@ -101,37 +102,5 @@ impl<'a> Drivers<'a> {
     pub fn doubts(&self, outcome: &Outcome) -> bool {
         let stopped = self.stop.load(Ordering::Relaxed);
         outcome.verdict == Verdict::Error && self.external && !stopped
-    }
-}
-
-/// A driver whose answers take effect later.
-struct Late<D> {
-    driver: D,
-    latency: f64,
-}
-
-impl<D: Driver> Driver for Late<D> {
-    fn period(&self) -> f64 {
-        self.driver.period()
-    }
-
-    fn equipment(&mut self) -> Equipment {
-        self.driver.equipment()
-    }
-
-    fn latency(&self) -> f64 {
-        self.latency
-    }
-
-    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
-        self.driver.reset(briefing)
-    }
-
-    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
-        self.driver.perceive(rig, images)
-    }
-
-    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
-        self.driver.step(observation)
     }
 }

@@ -21,11 +21,15 @@ const ADDRESS: &str = "PARACOSM_ADDRESS";
 /// The ports that processes are told to listen at.
 const PORTS: Range<u16> = 20_000..32_000;
 
+/// How many times as long as for an answer a process may take to start: an interpreter that loads its packages, or a network,
+/// takes longer than to answer, the more so on a loaded machine.
+const STARTING: u32 = 10;
+
 /// How often it is looked whether a process listens by now.
 const PATIENCE: Duration = Duration::from_millis(10);
 
 /// A command, and the process that it has started.
-pub(super) struct Garage {
+pub(super) struct Launcher {
     words: Vec<String>,
     terms: Terms,
     latency: f64,
@@ -40,7 +44,7 @@ struct Running {
     address: SocketAddr,
 }
 
-impl Garage {
+impl Launcher {
     pub fn new(words: Vec<String>, terms: Terms, latency: f64, stop: Arc<AtomicBool>) -> Self {
         Self { words, terms, latency, stop, running: None }
     }
@@ -58,7 +62,7 @@ impl Garage {
         // What cannot be talked to is ended.
         let session = running.session(&self.terms, &self.stop).map_err(wrong)?;
         self.running = Some(running.clone());
-        Ok(Box::new(Late { driver: Passenger { session, running }, latency: self.latency }))
+        Ok(Box::new(Late { driver: Box::new(ProcessDriver { session, running }), latency: self.latency }))
     }
 }
 
@@ -83,18 +87,18 @@ impl Running {
 
     /// A session, as soon as the process listens.
     fn session(&self, terms: &Terms, stop: &Arc<AtomicBool>) -> Result<Session, String> {
-        let begun = Instant::now();
+        let (begun, limit) = (Instant::now(), terms.timeout.saturating_mul(STARTING));
         loop {
             match Session::open(&Address::from(self.address), terms, stop.clone()) {
                 Ok(session) => return Ok(session),
                 Err(OpenError::Unreachable) if !self.is_alive() => {
-                    return Err(self.obituary("before it listened at PARACOSM_ADDRESS", ""));
+                    return Err(self.post_mortem("before it listened at PARACOSM_ADDRESS", ""));
                 }
                 Err(OpenError::Unreachable) if stop.load(Ordering::Relaxed) => return Err("interrupted".into()),
-                Err(OpenError::Unreachable) if begun.elapsed() < terms.timeout => thread::sleep(PATIENCE),
+                Err(OpenError::Unreachable) if begun.elapsed() < limit => thread::sleep(PATIENCE),
                 Err(OpenError::Unreachable) => {
-                    let within = terms.timeout.as_secs_f64();
-                    return Err(self.obituary("", &format!("it does not listen at {ADDRESS} within {within} s")));
+                    let within = limit.as_secs_f64();
+                    return Err(self.post_mortem("", &format!("it does not listen at {ADDRESS} within {within} s")));
                 }
                 Err(error) => return Err(error.to_string()),
             }
@@ -102,13 +106,13 @@ impl Running {
     }
 
     /// What happened to the process: it ended at some time, or, if it has not, something else. It is ended then.
-    fn obituary(&self, when: &str, otherwise: &str) -> String {
+    fn post_mortem(&self, when: &str, otherwise: &str) -> String {
         self.with(|process| {
             let how = match process.ended() {
                 Some(status) => format!("it ended {when} ({status})"),
                 None => otherwise.to_owned(),
             };
-            process.obituary(how)
+            process.post_mortem(how)
         })
     }
 }
@@ -132,22 +136,22 @@ fn free_address() -> io::Result<SocketAddr> {
 }
 
 /// A driver in a process that was started for it.
-struct Passenger {
+struct ProcessDriver {
     session: Session,
     running: Running,
 }
 
-impl Passenger {
+impl ProcessDriver {
     /// Says what became of the process, if its end is why there is no answer. One that does not answer is ended.
     fn ask<T>(&mut self, question: impl FnOnce(&mut Session) -> Result<T, Fault>) -> Result<T, Fault> {
         question(&mut self.session).map_err(|fault| match self.session.is_lost() {
-            true => Fault(self.running.obituary("without an answer", &fault.0)),
+            true => Fault(self.running.post_mortem("without an answer", &fault.0)),
             false => fault,
         })
     }
 }
 
-impl Driver for Passenger {
+impl Driver for ProcessDriver {
     fn period(&self) -> f64 {
         self.session.period()
     }

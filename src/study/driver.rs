@@ -1,18 +1,19 @@
 //! Who drives: a driver that comes with the engine, a network, one in a process of its own, or one that the program brings.
 
 use super::Study;
-use super::network::{Network, is_network};
+use super::network::{CLONED, Network, is_network};
 use crate::black_box::checked_timeout;
 use crate::{Error, process};
-use paracosm_coverage::Record;
-use paracosm_engine::driver::{self, Driver};
+use paracosm_coverage::{Record, nearest};
+use paracosm_engine::driver::{self, Driver, DriverError, Kind};
 use paracosm_rpc::{Address, Terms};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// The settings that every driver in a process of its own has, which are not passed on to it as others are.
+/// The settings that every driver in a process of its own has, which are not passed on to it as others are. Networks have the
+/// first of them.
 const LATENCY: &str = "latency";
 const SEED: &str = "seed";
 
@@ -68,6 +69,17 @@ enum By {
     Command,
 }
 
+/// The driver of that name that comes with the engine.
+fn found(name: &str) -> Result<&'static Kind, DriverError> {
+    driver::find(name).map_err(|error| match error {
+        DriverError::Unknown { name, nearest: None } => {
+            let nearest = nearest(&name, [CLONED]);
+            DriverError::Unknown { name, nearest }
+        }
+        error => error,
+    })
+}
+
 /// Where drivers come from.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Origin {
@@ -93,15 +105,15 @@ impl DriverChoice {
             return Self::external(name, By::Address, changes);
         }
         if is_network(name) {
-            let network = Some(Box::new(Network::of(name, scenario)?));
-            return match changes.first() {
-                None => Ok(Self { network, ..Self::named(name) }),
-                Some((setting, _)) => {
-                    Err(Error::Usage(format!("driver `{name}` is a network and has no setting `{setting}`")))
-                }
-            };
+            if let Some((setting, _)) = changes.iter().find(|(setting, _)| setting != LATENCY) {
+                let message = format!("driver `{name}` is a network and has no setting `{setting}`, only `{LATENCY}`");
+                return Err(Error::Usage(message));
+            }
+            let (network, settings) = (Network::of(name, scenario)?, changes.iter().cloned().collect());
+            let choice = Self { settings, network: Some(Box::new(network)), ..Self::named(name) };
+            return choice.origin().map(|_| choice);
         }
-        let settings = driver::find(name)?.settings(changes)?;
+        let settings = found(name)?.settings(changes)?;
         let settings = settings.iter().map(|(name, value)| (name.to_owned(), value)).collect();
         Ok(Self { settings, ..Self::named(name) })
     }
@@ -134,7 +146,8 @@ impl DriverChoice {
 
     /// Seconds from when it is asked to when its answer takes effect, beside what the driver itself makes of time.
     pub fn latency(&self) -> f64 {
-        self.settings.get(LATENCY).copied().filter(|_| self.is_external()).unwrap_or(0.0)
+        let modelled = self.is_external() || self.network.is_some();
+        self.settings.get(LATENCY).copied().filter(|_| modelled).unwrap_or(0.0)
     }
 
     /// Where it comes from.
@@ -142,10 +155,10 @@ impl DriverChoice {
     /// # Errors
     /// It was read from a file and is no address or command, or has a setting out of range.
     pub(crate) fn origin(&self) -> Result<Origin, Error> {
+        self.within(LATENCY, (0.0, LONGEST_LATENCY), false)?;
         let Some(External { by, timeout }) = self.external else {
             return Ok(Origin::Here);
         };
-        self.within(LATENCY, (0.0, LONGEST_LATENCY), false)?;
         self.within(SEED, (0.0, GREATEST_SEED), true)?;
         if let Some((name, value)) = self.settings.iter().find(|(_, value)| !value.is_finite()) {
             return Err(Error::Usage(format!("driver.{name} is {value}, expected a finite number")));
@@ -215,7 +228,8 @@ impl Study {
         Ok(self)
     }
 
-    /// Lets a driver in a process of its own take this many seconds for an answer, or to start; without it, 60.
+    /// Lets a driver in a process of its own take this many seconds for an answer, and ten times as long to start; without it,
+    /// 60.
     ///
     /// # Errors
     /// It is no positive number of seconds, or the driver is in no process of its own.

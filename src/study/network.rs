@@ -5,7 +5,7 @@ use paracosm_engine::driver::Driver;
 use serde::{Deserialize, Serialize};
 
 /// The name of the networks that come with the software, each for its scenarios.
-const CLONED: &str = "cnn";
+pub(super) const CLONED: &str = "cnn";
 /// What the names of files with networks end in.
 const ENDING: &str = ".onnx";
 

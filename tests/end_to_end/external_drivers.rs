@@ -3,7 +3,7 @@
 use crate::common::{fuzz, refused, stdout, succeeds};
 use paracosm::engine::driver::{Driver, Fault, find};
 use paracosm::engine::{Briefing, Control, Observation};
-use paracosm::rpc::{Wishes, serve};
+use paracosm::rpc::{SessionOptions, serve};
 use serde_json::{Value, json};
 use std::fs;
 use std::net::TcpListener;
@@ -15,12 +15,12 @@ use std::time::Duration;
 /// The driver `aeb`, which goes wrong in a way of its own when it sees somebody run.
 struct Served {
     aeb: Box<dyn Driver>,
-    wishes: Wishes,
+    options: SessionOptions,
 }
 
 impl Served {
     fn wish(&self, name: &str) -> f64 {
-        self.wishes.settings.get(name).copied().unwrap_or(f64::INFINITY)
+        self.options.settings.get(name).copied().unwrap_or(f64::INFINITY)
     }
 }
 
@@ -37,7 +37,7 @@ impl Driver for Served {
             std::process::exit(9);
         }
         if tests.is_finite() {
-            self.wishes.settings.insert("lives".into(), tests);
+            self.options.settings.insert("lives".into(), tests);
         }
         self.aeb.reset(briefing)
     }
@@ -71,11 +71,11 @@ fn served_to_others() {
         let _ = std::io::copy(&mut std::io::stdin(), &mut std::io::sink());
         std::process::exit(0);
     });
-    let make = |wishes: &Wishes| -> Result<Box<dyn Driver>, Fault> {
-        if wishes.settings.contains_key("gain") {
+    let make = |options: &SessionOptions| -> Result<Box<dyn Driver>, Fault> {
+        if options.settings.contains_key("gain") {
             return Err(Fault("no setting `gain`".into()));
         }
-        Ok(Box::new(Served { aeb: find("aeb").unwrap().build(&[]).unwrap(), wishes: wishes.clone() }))
+        Ok(Box::new(Served { aeb: find("aeb").unwrap().build(&[]).unwrap(), options: options.clone() }))
     };
     serve(TcpListener::bind(address).unwrap(), "served", make).unwrap();
 }
@@ -249,10 +249,7 @@ fn what_is_no_driver_is_refused_before_the_first_test() {
             &["--driver-command", exits],
             &["it ended before it listened at PARACOSM_ADDRESS (exit status: 4)", "no licence"],
         ),
-        (
-            &["--driver-command", "sleep 1000", "--timeout", "0.3"],
-            &["does not listen at PARACOSM_ADDRESS within 0.3 s"],
-        ),
+        (&["--driver-command", "sleep 1000", "--timeout", "0.3"], &["does not listen at PARACOSM_ADDRESS within 3 s"]),
         (&["--driver-command", &served, "--set", "driver.gain=1"], &["no setting `gain`"]),
         (
             &["--driver-command", &served, "--set", "driver.latency=-1"],

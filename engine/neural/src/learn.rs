@@ -1,6 +1,7 @@
 //! Behavioural cloning: a network learns to answer as an expert did, image by image.
 //!
-//! All chance, that of the first weights and that of the order of the lessons, comes from the recipe's seed.
+//! All chance, that of the first weights and that of the order of the lessons, comes from the recipe's seed. It learns on
+//! the processor: what it comes to is then the same, bit for bit, in every run on a machine, which no graphics card promises.
 
 use crate::export::onnx;
 use crate::model::planes;
@@ -39,8 +40,8 @@ pub struct Recipe {
     pub rates: [f64; 2],
     /// How much an error of the steering and one of the throttle count, squared.
     pub weights: [f32; 2],
-    /// Every so-many-th run is held out.
-    pub held_out: usize,
+    /// Every so-many-th run is held out, if any is.
+    pub held_out: Option<usize>,
 }
 
 /// How far a network has come.
@@ -50,8 +51,8 @@ pub struct Progress {
     pub epoch: usize,
     /// The weighted mean square error while it learnt.
     pub loss: f64,
-    /// The root mean square error of steering and throttle on the runs that are held out; `NaN` where there are none.
-    pub held_out: [f64; 2],
+    /// The root mean square error of steering and throttle on the runs that are held out.
+    pub held_out: Option<[f64; 2]>,
 }
 
 /// A network and what it learns with.
@@ -73,7 +74,7 @@ impl Learner {
             recipe.resolution.iter().zip(SMALLEST).all(|(size, least)| *size >= least),
             "images of 33 x 33 or more"
         );
-        assert!(recipe.held_out > 0 && recipe.batch > 0, "a recipe needs whole numbers from 1 on");
+        assert!(recipe.held_out != Some(0) && recipe.batch > 0, "a recipe needs whole numbers from 1 on");
         let device = Device::flex().autodiff();
         let mut chance = Pcg64::seed_from_u64(recipe.seed);
         let network = Network::new(recipe.resolution, &mut chance, &device);
@@ -85,8 +86,9 @@ impl Learner {
     /// # Panics
     /// There is no lesson to learn from, or an image has another size than the recipe says.
     pub fn learn(&mut self, lessons: &[Lesson], epochs: usize, mut show: impl FnMut(Progress)) {
-        let (examined, learnt): (Vec<&Lesson>, Vec<&Lesson>) =
-            lessons.iter().partition(|lesson| lesson.run % self.recipe.held_out == self.recipe.held_out - 1);
+        let (examined, learnt): (Vec<&Lesson>, Vec<&Lesson>) = lessons
+            .iter()
+            .partition(|lesson| self.recipe.held_out.is_some_and(|every| lesson.run % every == every - 1));
         assert!(!learnt.is_empty(), "there are no lessons");
         let mut order = learnt;
         let batches = order.len().div_ceil(self.recipe.batch);
@@ -115,7 +117,7 @@ impl Learner {
     }
 
     /// The root mean square errors on some lessons.
-    fn examine(&self, lessons: &[&Lesson]) -> [f64; 2] {
+    fn examine(&self, lessons: &[&Lesson]) -> Option<[f64; 2]> {
         let network = self.network.valid();
         let device = Device::flex();
         let mut squares = [0.0; 2];
@@ -125,7 +127,7 @@ impl Learner {
             let errors = errors.as_slice::<f32>().expect("they are floats");
             squares = [0, 1].map(|i| squares[i] + f64::from(errors[i]));
         }
-        squares.map(|sum| (sum / lessons.len() as f64).sqrt())
+        (!lessons.is_empty()).then(|| squares.map(|sum| (sum / lessons.len() as f64).sqrt()))
     }
 
     /// What it has learnt, as the contents of an ONNX file that [`Model`](crate::Model) reads. `story` says where it comes

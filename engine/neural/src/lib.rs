@@ -1,7 +1,7 @@
 //! Drivers that learn: networks that drive by a camera, and how they are taught.
 //!
 //! Whatever drives is a file in the ONNX format, whoever made it: `Model` reads it, `Pilot` puts it at the wheel
-//! (feature `onnx`), and what `learn::learn` teaches a network (feature `train`) is written as such a file, too, so
+//! (feature `onnx`), and what `learn::Learner` teaches a network (feature `train`) is written as such a file, too, so
 //! that there is one way to drive by a network. Without the features there is nothing but this page, and none of the heavy
 //! dependencies is built.
 //!

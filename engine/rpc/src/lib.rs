@@ -13,7 +13,7 @@ mod session;
 mod wire;
 
 pub use address::{Address, AddressError};
-pub use serve::{Wishes, serve};
+pub use serve::{SessionOptions, serve};
 pub use session::{OpenError, Session, Terms};
 
 /// The version of the protocol.

@@ -20,9 +20,9 @@ use wire::driver_server::{Driver as Service, DriverServer};
 /// How much may be on its way before it is read, in bytes: an image or two.
 const WINDOW: u32 = 1 << 24;
 
-/// What is wished of a driver.
+/// What the driver of a session is asked to be.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Wishes {
+pub struct SessionOptions {
     /// Where all its chance is to come from.
     pub seed: u64,
     /// What it is to be set to.
@@ -30,7 +30,7 @@ pub struct Wishes {
 }
 
 /// Makes a driver for each session.
-type Make = dyn Fn(&Wishes) -> Result<Box<dyn Driver>, Fault> + Send + Sync;
+type Make = dyn Fn(&SessionOptions) -> Result<Box<dyn Driver>, Fault> + Send + Sync;
 
 /// Serves drivers to whoever connects, one for each session, until the process ends.
 ///
@@ -52,13 +52,13 @@ type Make = dyn Fn(&Wishes) -> Result<Box<dyn Driver>, Fault> + Send + Sync;
 pub fn serve(
     listener: TcpListener,
     name: &str,
-    make: impl Fn(&Wishes) -> Result<Box<dyn Driver>, Fault> + Send + Sync + 'static,
+    make: impl Fn(&SessionOptions) -> Result<Box<dyn Driver>, Fault> + Send + Sync + 'static,
 ) -> io::Result<()> {
     listener.set_nonblocking(true)?;
-    let garage = Garage { name: name.into(), make: Arc::new(make) };
+    let drivers = DriverService { name: name.into(), make: Arc::new(make) };
     tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(async {
         let incoming = TcpListenerStream::new(tokio::net::TcpListener::from_std(listener)?);
-        let service = DriverServer::new(garage).max_decoding_message_size(usize::MAX);
+        let service = DriverServer::new(drivers).max_decoding_message_size(usize::MAX);
         let server = Server::builder().tcp_nodelay(true);
         let mut server = server.initial_stream_window_size(WINDOW).initial_connection_window_size(WINDOW);
         server.add_service(service).serve_with_incoming(incoming).await.map_err(io::Error::other)
@@ -66,13 +66,13 @@ pub fn serve(
 }
 
 /// Has a driver for everyone.
-struct Garage {
+struct DriverService {
     name: Arc<str>,
     make: Arc<Make>,
 }
 
 #[tonic::async_trait]
-impl Service for Garage {
+impl Service for DriverService {
     type DriveStream = UnboundedReceiverStream<Result<wire::Answer, Status>>;
 
     async fn drive(
@@ -93,10 +93,10 @@ async fn attend(
     name: Arc<str>,
     make: Arc<Make>,
 ) {
-    let mut seat = None;
+    let mut state = None;
     while let Ok(Some(request)) = requests.message().await {
         let answer = tokio::task::block_in_place(|| {
-            catch_unwind(AssertUnwindSafe(|| answer(&mut seat, request.kind, &name, &*make)))
+            catch_unwind(AssertUnwindSafe(|| answer(&mut state, request.kind, &name, &*make)))
                 .unwrap_or_else(|panic| Err(Fault(format!("the driver panicked: {}", words(&*panic)))))
         });
         let gave_up = answer.is_err();
@@ -114,21 +114,22 @@ fn words(panic: &(dyn Any + Send)) -> &str {
 }
 
 /// A driver at work.
-struct Seat {
+struct SessionState {
     driver: Box<dyn Driver>,
     cameras: Cameras,
     observation: Observation,
 }
 
 fn answer(
-    seat: &mut Option<Seat>,
+    state: &mut Option<SessionState>,
     request: Option<request::Kind>,
     name: &str,
     make: &Make,
 ) -> Result<answer::Kind, Fault> {
-    match (request, seat) {
-        (Some(request::Kind::Hello(hello)), seat @ None) => {
-            let mut driver = make(&Wishes { seed: hello.seed, settings: hello.settings.into_iter().collect() })?;
+    match (request, state) {
+        (Some(request::Kind::Hello(hello)), state @ None) => {
+            let mut driver =
+                make(&SessionOptions { seed: hello.seed, settings: hello.settings.into_iter().collect() })?;
             let equipment = driver.equipment();
             if !equipment.rig.is_empty() {
                 return Err(Fault("a driver with a rig cannot be served, only one with cameras".into()));
@@ -142,22 +143,22 @@ fn answer(
                 cameras: cameras.all.iter().map(wire::Camera::from).collect(),
                 ..wire::Welcome::default()
             };
-            *seat = Some(Seat { driver, cameras, observation: Observation::default() });
+            *state = Some(SessionState { driver, cameras, observation: Observation::default() });
             Ok(answer::Kind::Welcome(welcome))
         }
-        (Some(request::Kind::Reset(reset)), Some(seat)) => {
-            seat.driver.reset(&Briefing::from(&reset))?;
+        (Some(request::Kind::Reset(reset)), Some(state)) => {
+            state.driver.reset(&Briefing::from(&reset))?;
             Ok(answer::Kind::Ready(wire::Ready {}))
         }
-        (Some(request::Kind::Step(step)), Some(seat)) => {
-            let Control { throttle, steering } = seat.step(step)?;
+        (Some(request::Kind::Step(step)), Some(state)) => {
+            let Control { throttle, steering } = state.step(step)?;
             Ok(answer::Kind::Control(wire::Control { throttle, steering }))
         }
         _ => Err(Fault("found an unexpected request, expected one hello, then resets and steps".into())),
     }
 }
 
-impl Seat {
+impl SessionState {
     fn step(&mut self, step: wire::Step) -> Result<Control, Fault> {
         wire::read(&step, &mut self.observation);
         let names: Vec<&String> = self.cameras.all.keys().collect();

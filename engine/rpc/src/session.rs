@@ -1,6 +1,6 @@
 //! A driver that answers from another process.
 
-use crate::wire::{self, Kit, answer, request};
+use crate::wire::{self, Described, answer, request};
 use crate::{Address, PROTOCOL};
 use paracosm_engine::driver::{Driver, Equipment, Fault};
 use paracosm_engine::sensor::{Image, Rig};
@@ -68,7 +68,7 @@ pub struct Session {
     answers: Streaming<wire::Answer>,
     runtime: Runtime,
     watch: Watch,
-    kit: Kit,
+    described: Described,
     lost: bool,
     next: wire::Step,
 }
@@ -110,13 +110,13 @@ impl Session {
         if welcome.protocol != PROTOCOL {
             return Err(OpenError::Protocol { found: welcome.protocol });
         }
-        let kit = Kit::new(welcome, terms.seed)?;
-        Ok(Self { requests, answers, runtime, watch, kit, lost: false, next: wire::Step::default() })
+        let described = Described::new(welcome, terms.seed)?;
+        Ok(Self { requests, answers, runtime, watch, described, lost: false, next: wire::Step::default() })
     }
 
     /// What the driver calls itself.
     pub fn name(&self) -> &str {
-        &self.kit.name
+        &self.described.name
     }
 
     /// Whether its server is gone or does not answer, rather than having said what is wrong.
@@ -139,11 +139,11 @@ impl Session {
 
 impl Driver for Session {
     fn period(&self) -> f64 {
-        self.kit.period
+        self.described.period
     }
 
     fn equipment(&mut self) -> Equipment {
-        self.kit.equipment()
+        self.described.equipment()
     }
 
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
@@ -155,13 +155,13 @@ impl Driver for Session {
     }
 
     fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
-        self.kit.write(rig, images, &mut self.next);
+        self.described.write(rig, images, &mut self.next);
         Ok(())
     }
 
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         let mut step = std::mem::take(&mut self.next);
-        wire::write(observation, self.kit.others, &mut step);
+        wire::write(observation, self.described.others, &mut step);
         match self.ask(request::Kind::Step(step))? {
             Some(answer::Kind::Control(wire::Control { throttle, steering })) => Ok(Control { throttle, steering }),
             other => Err(unexpected("a control", other.as_ref())),

@@ -22,8 +22,8 @@ pub struct Course {
     pub disturbance: [f64; 2],
     /// How much an error of the steering and one of the throttle count, squared.
     pub weights: [f32; 2],
-    /// Every so-many-th run nothing is learnt from.
-    pub held_out: usize,
+    /// Every so-many-th run nothing is learnt from, if there is one to be spared.
+    pub held_out: Option<usize>,
     /// In the first one the expert drives, then the network.
     pub rounds: &'static [Round],
     /// The conditions that it is trained in.
@@ -36,7 +36,7 @@ pub const FOLLOW: Course = Course {
     resolution: [100, 33],
     disturbance: [0.01, 0.15],
     weights: [10.0, 1.0],
-    held_out: 8,
+    held_out: Some(8),
     rounds: &[
         Round { tests: 16, epochs: 8 },
         Round { tests: 12, epochs: 4 },
@@ -55,7 +55,7 @@ pub const STOP: Course = Course {
     resolution: [120, 40],
     disturbance: [0.01, 0.15],
     weights: [10.0, 1.0],
-    held_out: 8,
+    held_out: Some(8),
     rounds: &[
         Round { tests: 20, epochs: 4 },
         Round { tests: 14, epochs: 3 },
@@ -63,7 +63,7 @@ pub const STOP: Course = Course {
         Round { tests: 14, epochs: 3 },
         Round { tests: 14, epochs: 8 },
     ],
-    conditions: || Study::of("pedestrian-crossing")?.set("speed", Value::Number(1.0)),
+    conditions: || Study::new(crate::crossing::PROGRAM)?.set("speed", Value::Number(1.0)),
 };
 
 /// Figure 10b: round the loop, always right, without fog.
@@ -73,7 +73,7 @@ pub const LOOP: Course = Course {
     disturbance: [0.08, 0.1],
     weights: [4.0, 1.0],
     // Of so few runs none can be spared.
-    held_out: usize::MAX,
+    held_out: None,
     rounds: &[
         Round { tests: 1, epochs: 24 },
         Round { tests: 1, epochs: 12 },

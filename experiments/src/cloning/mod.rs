@@ -5,6 +5,7 @@
 //! and the order of the lessons.
 
 mod courses;
+pub mod exam;
 mod teacher;
 
 pub use courses::{Course, FOLLOW, LOOP, STOP};
@@ -21,9 +22,6 @@ use teacher::{Notes, Teacher};
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// How many tests of its own conditions a network is examined on at the end.
-const EXAMINED: usize = 100;
-
 /// Teaches a network and writes it to a folder.
 pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
     let began = Instant::now();
@@ -38,11 +36,13 @@ pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
         lessons.extend(taught(course, round, pupil.take(), lessons.last().map_or(0, |last| last.run + 1), bar)?);
         said(format!("round {}: {} lessons, {} epochs", round + 1, lessons.len(), plan.epochs));
         learner.learn(&lessons, plan.epochs, |progress| {
-            let [steering, throttle] = progress.held_out;
             let (epoch, loss) = (progress.epoch, progress.loss);
-            said(format!(
-                "  epoch {epoch:>2}: loss {loss:.5}; held out: steering {steering:.4}, throttle {throttle:.4}"
-            ));
+            let error = progress.held_out.map_or(String::new(), |[steering, throttle]| {
+                format!("; held out: steering {steering:.4}, throttle {throttle:.4}")
+            });
+            said(format!("  epoch {epoch:>2}: loss {loss:.5}{error}"));
+            let [steering, throttle] =
+                [0, 1].map(|i| progress.held_out.map_or(String::new(), |error| error[i].to_string()));
             table.push(format!("{},{epoch},{},{loss},{steering},{throttle}", round + 1, lessons.len()));
         });
         let contents = learner.onnx(&course.story());
@@ -50,9 +50,11 @@ pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
         write(&out.join(format!("{}.onnx", course.name)), &contents)?;
         write(&out.join("learning.csv"), table.join("\n") + "\n")?;
     }
-    let passed = examined(course, pupil.expect("there is a round"), bar)?;
-    let minutes = began.elapsed().as_secs_f64() / 60.0;
-    print(&format!("{}: {passed} of {EXAMINED} tests of its training conditions pass; {minutes:.1} min\n", course.name))
+    let pupil = pupil.expect("there is a round");
+    let study = exam::tests(course)?.own_driver("cnn", move || Box::new(pupil.clone()))?;
+    let passed = exam::passing(&trials(&study, bar)?);
+    let (name, of, minutes) = (course.name, exam::EXAMINED, began.elapsed().as_secs_f64() / 60.0);
+    print(&format!("{name}: {passed} of {of} tests of its training conditions pass; {minutes:.1} min\n"))
 }
 
 /// What is noted in a round of a course, its runs numbered from `first` on.
@@ -82,12 +84,6 @@ fn taught(
     runs.sort_by_cached_key(key);
     let numbered = runs.into_iter().zip(first..);
     Ok(numbered.flat_map(|(run, number)| run.into_iter().map(move |lesson| Lesson { run: number, ..lesson })).collect())
-}
-
-/// How many of the tests of a course a network passes that it has not seen.
-fn examined(course: &Course, pupil: Pilot, bar: &ProgressBar) -> Result<usize, Failure> {
-    let study = course.study(1000, EXAMINED)?.own_driver("cnn", move || Box::new(pupil.clone()))?;
-    Ok(trials(&study, bar)?.iter().filter(|trial| trial.verdict == paracosm::oracles::Verdict::Pass).count())
 }
 
 /// Runs the tests of a study.

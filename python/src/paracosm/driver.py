@@ -114,7 +114,8 @@ def _session(make, requests):
                     answer.control.steering = float(control.steering)
                 case other:
                     raise ValueError(f"found an unknown request: {other}; update the package")
-        except Exception as error:
+        # `sys.exit()` in a driver would otherwise end this thread without a word.
+        except (Exception, SystemExit) as error:
             traceback.print_exc()
             yield protocol.Answer(fault={"message": _words(error)})
             return

@@ -9,7 +9,7 @@ use paracosm_engine::sensor::{
 };
 
 /// What a driver has said of itself.
-pub struct Kit {
+pub struct Described {
     pub name: String,
     pub period: f64,
     pub others: bool,
@@ -28,7 +28,7 @@ struct Fitting<S> {
     handle: Option<Handle<S>>,
 }
 
-impl Kit {
+impl Described {
     /// What a driver says, if it can be so.
     pub fn new(welcome: Welcome, seed: u64) -> Result<Self, Fault> {
         let Welcome { name, period, others, .. } = welcome;
@@ -54,7 +54,7 @@ impl Kit {
             let made = Imu::new(imu.into())?;
             Ok(Fitting::new(&imu.name, made, imu.delivery.as_ref()))
         });
-        let mut kit = Self {
+        let mut described = Self {
             name,
             period,
             others,
@@ -64,8 +64,8 @@ impl Kit {
             gnss: gnss.collect::<Result<_, _>>().map_err(sensor)?,
             imus: imus.collect::<Result<_, _>>().map_err(sensor)?,
         };
-        kit.rig().map_err(sensor)?;
-        Ok(kit)
+        described.rig().map_err(sensor)?;
+        Ok(described)
     }
 
     /// It, made anew.

@@ -8,7 +8,7 @@ mod generated {
     tonic::include_proto!("paracosm.driver.v1");
 }
 
-pub use equipment::Kit;
+pub use equipment::Described;
 pub use generated::*;
 pub use observation::{read, write};
 

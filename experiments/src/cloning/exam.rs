@@ -1,0 +1,61 @@
+//! Examinations: what networks do in tests of the conditions that they were trained in, none of which a lesson was from.
+//!
+//! Beside each stands the expert who taught it, and `cruise`, who keeps its lane, told the truth about it, and brakes for
+//! nobody: where the latter passes as well, passing proves nothing of a network's brakes.
+
+use super::{Course, FOLLOW, Failure, LOOP, STOP, trials};
+use crate::{Done, print, write};
+use indicatif::ProgressBar;
+use paracosm::oracles::Verdict;
+use paracosm::{Study, Trial};
+use std::path::Path;
+
+/// How many tests a network is examined on.
+pub const EXAMINED: usize = 100;
+
+/// Where their tests begin in the sequence: no round of any course does so.
+const SEED: u64 = 1000;
+
+/// The drivers beside the network.
+const OTHERS: [&str; 2] = ["expert", "cruise"];
+
+/// The tests of a course's examination.
+pub fn tests(course: &Course) -> Result<Study, paracosm::Error> {
+    course.study(SEED, EXAMINED)
+}
+
+/// How many of the tests pass.
+pub fn passing(trials: &[Trial]) -> usize {
+    trials.iter().filter(|trial| trial.verdict == Verdict::Pass).count()
+}
+
+/// Examines the networks that come with the software, and writes a table of each to a folder.
+pub fn run(out: &Path, bar: &ProgressBar) -> Done {
+    let mut text = format!("{:<12}{:>8}{:>8}{:>8}  of {EXAMINED} tests\n", "network", "passes", OTHERS[0], OTHERS[1]);
+    for course in [&FOLLOW, &STOP, &LOOP] {
+        let mut driven = vec![("cnn", trials(&course.drives(tests(course)?)?, bar)?)];
+        for name in OTHERS {
+            driven.push((name, trials(&tests(course)?.driver(name, &[])?, bar)?));
+        }
+        table(&out.join(format!("exam-{}.csv", course.name)), &driven)?;
+        let counts: String = driven.iter().map(|(_, trials)| format!("{:>8}", passing(trials))).collect();
+        text += &format!("{:<12}{counts}\n", course.name);
+    }
+    bar.finish_and_clear();
+    print(&text)
+}
+
+/// A row for each test of each driver.
+fn table(path: &Path, driven: &[(&str, Vec<Trial>)]) -> Result<(), Failure> {
+    let parameters: Vec<&str> = driven[0].1[0].test.iter().map(|(name, _)| name).collect();
+    let mut rows = vec![format!("{},driver,verdict,violated,travelled", parameters.join(","))];
+    for (driver, trials) in driven {
+        rows.extend(trials.iter().map(|trial| {
+            let values: String = trial.test.iter().map(|(_, value)| format!("{value},")).collect();
+            let violated: Vec<&str> = trial.violated().collect();
+            let travelled = trial.metric("travelled").map(ToString::to_string).unwrap_or_default();
+            format!("{values}{driver},{},{},{travelled}", trial.verdict, violated.join(" "))
+        }));
+    }
+    write(path, rows.join("\n") + "\n")
+}
