@@ -6,6 +6,7 @@
 //! before the impact.
 
 use crate::middles;
+use crate::surroundings::later_weather;
 use paracosm_engine::object::Body;
 use paracosm_engine::road::Path;
 use paracosm_engine::vehicle::Vehicle;
@@ -71,9 +72,11 @@ impl Crossing {
 /// A straight road with the car on it, 6 s at its speed before the pedestrian.
 fn approach(s: &mut Scenario, crossing: &Crossing, speed: &Param<f64>) -> (Road, Car) {
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
     s.tick(0.002);
     let v = speed.value() / 3.6;
-    let road = s.place(RoadSegment::new(250.0).friction(friction));
+    s.place(weather.friction(friction));
+    let road = s.place(RoadSegment::new(250.0));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(v));
     let radius = crossing.body.outline.half_extent().x;
     let lane = road.on_lane(1, START + v * TIME + 0.5 * Vehicle::BMW_320I.length + radius);
@@ -124,8 +127,10 @@ fn ccr(s: &mut Scenario) {
     let gap = s.nominal_choice("gap", [12, 40], 40).unit("m");
     let brake = s.nominal_choice("deceleration", [2, 6], 6).unit("m/s²");
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
 
-    let road = s.place(RoadSegment::new(600.0).friction(friction));
+    s.place(weather.friction(friction));
+    let road = s.place(RoadSegment::new(600.0));
     let v = speed.value() / 3.6;
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(v));
     let slow = 20.0 / 3.6;

@@ -8,9 +8,8 @@
 //! Light and fog are what the world is like to a camera; a driver that does not see by one drives as in broad daylight. Rain
 //! makes the road slippery besides.
 
-use paracosm_engine::{
-    AutonomousVehicle, Environment, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never,
-};
+use crate::surroundings::weather;
+use paracosm_engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never};
 
 pub(crate) const PROGRAM: Program = Program {
     name: "pedestrian-crossing",
@@ -24,11 +23,9 @@ fn pedestrian_crossing(s: &mut Scenario) {
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
     let approach = s.nominal("approach_speed", 5.0..=30.0, 60.0 / 3.6).unit("m/s");
     let lanes = s.nominal_choice("lanes", [2, 4, 6], 2);
-    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
-    let light = s.nominal("light", 0.0..=1.0, 1.0);
-    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
+    let weather = weather(s);
 
-    s.place(Environment::new().light(light).fog(fog).rain(rain));
+    s.place(weather);
     let road = s.place(RoadSegment::new(800.0).lanes(lanes.value()).friction(friction));
     let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(approach.value()));
     let walker = s.place(Pedestrian::at(road.on_sidewalk(Side::Left, 100.0)));

@@ -123,7 +123,7 @@ impl Run {
             }
             requirements.push(stated.requirement);
         }
-        let ticks = ticks(scenario.duration, dt);
+        let (ticks, key) = (ticks(scenario.duration, dt), scenario.key.get());
         let beginning = scenario.beginning();
         let mut scene = Scene::new(scenario, &graph, setup.model);
         let begun = scene.begin(beginning, Clock { tick: 0, ticks, dt });
@@ -150,7 +150,7 @@ impl Run {
             columns,
             trace,
             observation: Observation::default(),
-            sensing: Sensing::in_test(test.key()),
+            sensing: Sensing::in_test(key),
             unable: overlap.or(fault),
             scene,
         })
