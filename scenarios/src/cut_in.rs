@@ -4,7 +4,7 @@
 //! bumper to bumper at that moment. A combination in which the other car would drive backwards is no world.
 
 use crate::LANE;
-use crate::surroundings::later_weather;
+use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario, Stream};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -32,6 +32,7 @@ fn cut_in(s: &mut Scenario) {
     let start = 10.0 + crate::middles(gap.value());
     let other = Mover::car(road.path(1)).starting(start).speed(other_speed.max(0.0)).offset(-aside);
     let other = s.place(other);
+    roadside(s);
 
     s.duration(20.0);
     s.premise(&other.position().y().at_most(-LANE));

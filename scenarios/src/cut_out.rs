@@ -3,7 +3,7 @@
 //!
 //! The leader keeps the same speed at a time headway, and changes lanes when it is `gap` metres before the standing car.
 
-use crate::surroundings::later_weather;
+use crate::surroundings::{later_weather, roadside};
 use crate::{LANE, middles};
 use paracosm_engine::object::Body;
 use paracosm_engine::{AutonomousVehicle, Fixture, Monitor, Mover, Program, RoadSegment, Scenario, Stream};
@@ -32,6 +32,7 @@ fn cut_out(s: &mut Scenario) {
     let aside = ((Stream::time() - 3.0).max(0.0) * lateral.value()).min(LANE);
     s.place(Mover::car(road.path(2)).named("leader").starting(lead).speed(v).offset(aside));
     s.place(Fixture::parked_car(road.on_lane(2, stands)));
+    roadside(s);
 
     s.duration(20.0);
     s.premise(&car.time_to_collision().below(5.0));

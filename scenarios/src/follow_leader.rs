@@ -4,7 +4,7 @@
 //! brakes. Fog and light are there for drivers that see.
 
 use crate::oncoming_distractor::RED;
-use crate::surroundings::weather;
+use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::Body;
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario, Shape};
 
@@ -28,6 +28,7 @@ fn follow_leader(s: &mut Scenario) {
     let leader = 10.0 + crate::middles(gap.value());
     let red = Body::car().coloured(RED);
     s.place(Mover::new("leader", red, road.path(1)).starting(leader).speed(leader_speed));
+    roadside(s);
 
     s.duration(15.0);
     s.monitor(Monitor::no_collision(&car));

@@ -1,7 +1,7 @@
 //! A city of 6 by 6 junctions full of cars that follow each other, yield at crossings and turn as chance has it. The car
 //! drives along a long way through it; it has to cope with junctions at which others may have the right of way.
 
-use crate::surroundings::later_weather;
+use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::road::{Network, grid_city};
 use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario};
 use std::sync::{Arc, LazyLock};
@@ -27,6 +27,7 @@ fn grid_traffic(s: &mut Scenario) {
     let start = streets.on_lane("street 2,0 east", 1, 10.0).position;
     let others = EnvironmentCars::scattered(&streets, cars.value() as usize, seed.value() as u64);
     s.place(others.away_from(start, 15.0));
+    roadside(s);
 
     s.duration(60.0);
     s.monitor(Monitor::no_collision(&car));

@@ -4,7 +4,7 @@
 //! Cars, vans and lorries of different sizes and tempers drive both ways beside the car; who can changes lanes, also to
 //! that of the car. Lorries keep to the middle lanes, which lead straight on.
 
-use crate::surroundings::weather;
+use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::Colour;
 use paracosm_engine::road::{CrossIntersection, Network, RoadSegment};
 use paracosm_engine::traffic::TrafficCar;
@@ -67,6 +67,7 @@ fn highway_traffic(s: &mut Scenario) {
     let fleet = s.place(EnvironmentCars::on(&streets, all).seed(seed));
     let start = Stream::time().at_least(delay);
     fleet.drive(0, Stream::from(truck_speed).skip_until(&start).hold(0.0));
+    roadside(s);
 
     s.duration(25.0);
     s.monitor(Monitor::no_collision(&car));

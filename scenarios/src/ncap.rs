@@ -6,7 +6,7 @@
 //! before the impact.
 
 use crate::middles;
-use crate::surroundings::later_weather;
+use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::object::Body;
 use paracosm_engine::road::Path;
 use paracosm_engine::vehicle::Vehicle;
@@ -95,6 +95,7 @@ fn cpna(s: &mut Scenario) {
     let body = Body::adult();
     let crossing = Crossing { body, name: "adult", side: -1.0, from: 4.0, run_up: 1.0, speed: 5.0 / 3.6, impact };
     approach(s, &crossing, &speed);
+    roadside(s);
 }
 
 fn cpfa(s: &mut Scenario) {
@@ -102,6 +103,7 @@ fn cpfa(s: &mut Scenario) {
     let body = Body::adult();
     let crossing = Crossing { body, name: "adult", side: 1.0, from: 6.0, run_up: 1.5, speed: 8.0 / 3.6, impact: 0.5 };
     approach(s, &crossing, &speed);
+    roadside(s);
 }
 
 fn cpnco(s: &mut Scenario) {
@@ -117,6 +119,7 @@ fn cpnco(s: &mut Scenario) {
         let position = lane.position - lane.left() * (0.5 * Vehicle::BMW_320I.width + 1.0 + 0.5 * 1.8);
         s.place(Fixture::parked_car(Pose { position, ..lane }));
     }
+    roadside(s);
 }
 
 fn ccr(s: &mut Scenario) {
@@ -147,6 +150,7 @@ fn ccr(s: &mut Scenario) {
     let shifted = road.path(1).shifted(aside);
     let start = START + middles(ahead.max(0.0));
     s.place(Mover::car(shifted).named("target").starting(start).speed(driven));
+    roadside(s);
 
     s.duration(15.0);
     s.premise(&car.time_to_collision().below(TIME));

@@ -1,7 +1,7 @@
 //! The car follows a leader of constant speed while another car, of the same colour, comes the other way: a driver that
 //! follows what it sees must not take the one for the other (section 4.2.2 of the paper).
 
-use crate::surroundings::weather;
+use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::{Body, Colour};
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario};
 
@@ -29,6 +29,7 @@ fn oncoming_distractor(s: &mut Scenario) {
     s.place(Mover::new("leader", red, road.path(1)).starting(leader).speed(leader_speed));
     let oncoming = Mover::new("oncoming", red, road.path(-1));
     s.place(oncoming.starting(500.0 - 10.0 - distance.value()).speed(oncoming_speed));
+    roadside(s);
 
     s.duration(15.0);
     s.monitor(Monitor::no_collision(&car));

@@ -3,7 +3,7 @@
 //! The other car goes round from the arm at the left to the arm opposite, past the entry of the car under test. `lead` is
 //! by how many seconds it would be there before the car if neither changed its speed; it slows down only for who is in its way.
 
-use crate::surroundings::later_weather;
+use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::road::{Network, RoadSegment, Roundabout};
 use paracosm_engine::traffic::TrafficCar;
 use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario};
@@ -51,6 +51,7 @@ fn roundabout_entry(s: &mut Scenario) {
     }
     let other = TrafficCar::following(&ROUNDABOUT.rest_of(&other, start));
     s.place(EnvironmentCars::on(&streets, vec![other])).drive(0, other_speed);
+    roadside(s);
 
     s.duration(45.0);
     s.monitor(Monitor::no_collision(&car));

@@ -1,6 +1,7 @@
-//! What every scenario has around it, closed until a study opens it: light, fog, rain and the sun.
+//! What every scenario has around it, closed until a study opens it: light, fog, rain, the sun, and what stands
+//! beside the road.
 
-use paracosm_engine::{Environment, Param, Scenario, Stream, Weather};
+use paracosm_engine::{Environment, Param, Roadside, Scenario, Stream, Weather};
 use std::f64::consts::PI;
 
 /// The weather of a scenario that has asked for light, fog and rain from the beginning.
@@ -22,4 +23,10 @@ fn asked(s: &mut Scenario, mark: fn(Param<f64>) -> Param<f64>) -> Environment {
     let [elevation, azimuth] =
         [elevation, azimuth].map(|degrees| Stream::from(degrees.unit("deg").incidental()) * (PI / 180.0));
     Environment::new().light(light).fog(fog).rain(rain).sun(elevation, azimuth)
+}
+
+/// What stands beside the road, once all else is placed.
+pub(crate) fn roadside(s: &mut Scenario) {
+    let fullness = s.nominal("roadside", 0.0..=1.0, 0.0).incidental();
+    s.place(Roadside::new(fullness.value()));
 }

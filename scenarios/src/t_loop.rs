@@ -3,7 +3,7 @@
 //! At a T the car could also go straight on, into a road that ends: who misses the turn leaves its way, and who leaves the
 //! road runs into the houses around it. The run takes 200 s, some twenty turns.
 
-use crate::surroundings::weather;
+use crate::surroundings::{roadside, weather};
 use paracosm_engine::road::{Composite, Network, Path, RoadSegment, TIntersection};
 use paracosm_engine::{AutonomousVehicle, Fixture, Monitor, Pose, Program, Scenario, Side};
 use std::sync::{Arc, LazyLock};
@@ -53,6 +53,7 @@ fn t_loop(s: &mut Scenario) {
         }
     }
     let car = s.place(AutonomousVehicle::along(way()).starting(5.0).speed(speed.value()));
+    roadside(s);
 
     s.duration(200.0);
     s.monitor(Monitor::no_collision(&car));

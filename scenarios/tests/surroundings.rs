@@ -38,7 +38,8 @@ fn light_fog_rain_and_the_place_of_the_sun_vary_over_time_in_every_scenario() {
         ("sun_azimuth", -180.0, 180.0),
     ];
     for program in ALL {
-        let changes = ranges.map(|(name, from, to)| (name, Value::List(vec![from.into(), to.into()])));
+        let changes =
+            ranges.map(|(name, from, to)| (name, Value::List(Box::new([Value::Number(from), Value::Number(to)]))));
         let opened = ranges.map(|(name, ..)| {
             let mut parameter = parameter(program, name);
             parameter.signal = Some(Shape::PiecewiseLinear { pieces: 1 });

@@ -47,6 +47,8 @@ pub struct Scenario {
     pub(crate) networks: Vec<Option<Arc<Network>>>,
     pub(crate) cars: Vec<EgoSetup>,
     pub(crate) objects: Vec<ObjectSetup>,
+    /// What is there for sensors alone.
+    pub(crate) scenery: Vec<ObjectSetup>,
     pub(crate) wiring: Wiring,
     /// The outputs that every trace records, by name.
     pub(crate) signals: Vec<(String, Source)>,
@@ -105,6 +107,7 @@ impl Scenario {
             networks: Vec::new(),
             cars: Vec::new(),
             objects: Vec::new(),
+            scenery: Vec::new(),
             wiring: Wiring::default(),
             signals: Vec::new(),
             conditions: Conditions::default(),
