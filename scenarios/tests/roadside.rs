@@ -5,7 +5,11 @@ use paracosm_coverage::{Domain, Value, Values};
 use paracosm_engine::object::{BodyState, Class};
 use paracosm_engine::road::{Network, Strip, Surface};
 use paracosm_engine::vehicle::Model;
-use paracosm_engine::{Outcome, Program, Run, Setup, driver, simulate, watch};
+use paracosm_engine::{
+    AutonomousVehicle, Outcome, Place, Program, Road, RoadSegment, Roadside, Run, Scenario, Setup, driver, simulate,
+    watch,
+};
+use paracosm_oracles::Trace;
 use paracosm_scenarios::{ALL, find};
 
 /// The test with nominal values, but for these.
@@ -68,6 +72,28 @@ fn things_stand_beside_the_roads_of_every_scenario_and_never_on_them() {
         }
         let half = beginning(program, 0.5).1.len() - before;
         assert!((things.len() / 4..3 * things.len() / 4).contains(&half), "{half} of {}", things.len());
+    }
+}
+
+fn built(s: &mut Scenario, network: impl Place<Handle = Road>) {
+    let road = s.place(network);
+    s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(5.0));
+    s.place(Roadside::new(1.0));
+}
+
+#[test]
+fn a_road_without_sidewalks_and_one_that_bends_have_room_for_things() {
+    let roads: [fn(&mut Scenario); 3] = [
+        |s| built(s, RoadSegment::new(200.0).sidewalk(0.0)),
+        |s| built(s, RoadSegment::arc(60.0, 2.5).sidewalk(0.0)),
+        |s| built(s, RoadSegment::arc(40.0, -3.0).lanes(4)),
+    ];
+    for (number, build) in roads.into_iter().enumerate() {
+        let program = Program { name: "road", about: "a road", build };
+        let run = Run::new(&program, &Values::default(), Setup::asking_every(0.1)).unwrap();
+        let things = &run.bodies()[1..];
+        assert!(things.len() > 10, "road {number}: {} things", things.len());
+        assert!(things.iter().all(|thing| !on_roads(run.network(), thing)), "road {number}");
     }
 }
 
@@ -136,7 +162,7 @@ fn for_a_driver_that_does_not_see_by_cameras_the_test_is_the_same() {
     for program in ALL {
         for driver in ["aeb", "expert"] {
             let [bare, full] = [0.0, 1.0].map(|fullness| driven(program, driver, &[("roadside", fullness)]));
-            let hash = |outcome: &Outcome| outcome.trace.as_ref().map(|trace| trace.hash());
+            let hash = |outcome: &Outcome| outcome.trace.as_ref().map(Trace::hash);
             assert!(hash(&bare).is_some(), "{} with {driver}: {:?}", program.name, bare.error);
             assert_eq!((bare.verdict, hash(&bare)), (full.verdict, hash(&full)), "{} with {driver}", program.name);
         }

@@ -54,7 +54,7 @@ const KINDS: [Kind; 8] = [
     Kind { name: "sign", share: 0.1, body: sign, back: 0.1, faces: TO_TRAFFIC },
     Kind { name: "parked-bicycle", share: 0.08, body: bicycle, back: 0.1, faces: 0.2 },
     Kind { name: "bystander", share: 0.08, body: bystander, back: 0.2, faces: TO_ROAD },
-    Kind { name: "bin", share: 0.04, body: bin, back: 0.1, faces: TO_ROAD },
+    Kind { name: "barrel", share: 0.04, body: barrel, back: 0.1, faces: TO_ROAD },
     Kind { name: "parked-car", share: 0.04, body: car, back: 0.4, faces: TO_ROAD },
 ];
 
@@ -87,8 +87,8 @@ fn bystander(chance: &mut Chance) -> Body {
     body.coloured(painted(chance))
 }
 
-fn bin(_: &mut Chance) -> Body {
-    Body::disc(Class::Prop, 0.3, 1.25).coloured([60, 80, 60])
+fn barrel(_: &mut Chance) -> Body {
+    Body::disc(Class::Prop, 0.3, 1.25)
 }
 
 fn car(chance: &mut Chance) -> Body {
