@@ -5,7 +5,7 @@
 //! not begun anew. A line without its end is what a kill leaves behind; it is dropped when the campaign is
 //! resumed, and its test run again.
 
-use crate::{Error, Study, Trial};
+use crate::{Error, Study, Trial, older};
 use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
@@ -95,9 +95,10 @@ impl Folder {
     pub fn read(path: &Path) -> Result<(Study, Vec<Trial>), Error> {
         let file = path.join(STUDY);
         let text = fs::read_to_string(&file).map_err(Error::file("read", &file))?;
-        let study: Study =
+        let mut study: Study =
             serde_json::from_str(&text).map_err(|error| Error::content(&file, error.line(), error.to_string()))?;
         study.check_format().map_err(|message| Error::content(&file, None, message))?;
+        older::complete(&mut study);
         let log = path.join(TRIALS);
         let text = fs::read_to_string(&log).map_err(Error::file("read", &log))?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);

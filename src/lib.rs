@@ -44,6 +44,7 @@ pub mod junit;
 pub mod likelihood;
 mod live;
 mod modes;
+mod older;
 mod plan;
 mod plot;
 mod process;

@@ -5,7 +5,7 @@
 //! watches that it stays mended.
 
 use crate::folder::{is_new, write_whole};
-use crate::{Campaign, Error, Folder, RequirementText, Study, Trial};
+use crate::{Campaign, Error, Folder, RequirementText, Study, Trial, older};
 use paracosm_coverage::Values;
 use paracosm_oracles::Verdict;
 use serde::{Deserialize, Serialize};
@@ -70,8 +70,9 @@ impl Regression {
     /// It cannot be read, is no such file, or its test is none of its study.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = fs::read_to_string(path).map_err(Error::file("read", path))?;
-        let regression: Self = serde_json::from_str(&text)
+        let mut regression: Self = serde_json::from_str(&text)
             .map_err(|error| Error::content(path, error.line(), format!("no regression test: {error}")))?;
+        older::complete(&mut regression.study);
         let Self { study, test, violates, .. } = &regression;
         study.check_format().map_err(|message| Error::content(path, None, message))?;
         study.space.encode(test).map_err(|error| Error::content(path, None, format!("`test`: {error}")))?;

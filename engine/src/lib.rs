@@ -46,7 +46,9 @@ pub mod traffic;
 pub mod vehicle;
 mod world;
 
-pub use actor::{Actor, AutonomousVehicle, Car, EnvironmentCars, Fixture, Fleet, Mover, Pedestrian, Walk, Walker};
+pub use actor::{
+    Actor, AutonomousVehicle, Car, EnvironmentCars, Fixture, Fleet, Mover, Pedestrian, Roadside, Walk, Walker,
+};
 pub use monitor::Monitor;
 pub use observation::{Ahead, Briefing, Control, Observation, Other, Way};
 pub use outcome::{Metric, Outcome};

@@ -51,7 +51,8 @@ pub struct Observation {
     pub odometry: Pose,
     /// The way that it is to go.
     pub way: Way,
-    /// The other bodies in the order of their ids: those that are in the world.
+    /// The other bodies in the order of their ids: those that are in the world, without what stands on the
+    /// [`Roadside`](crate::Roadside).
     pub others: Vec<Other>,
 }
 

@@ -67,12 +67,7 @@ impl<'a> Test<'a> {
 
     /// A number that another test hardly has: a hash of the values by their names, whatever their order.
     pub(crate) fn key(&self) -> u64 {
-        let scalar = |hash: u64, value: &Value| {
-            let bits = value.number().map_or_else(|| hashed(&value.to_string()), f64::to_bits);
-            mixed(hash ^ bits)
-        };
-        let entry = |(name, value): (&str, &Value)| value.scalars().iter().fold(hashed(name), scalar);
-        self.values.iter().map(entry).fold(0, u64::wrapping_add)
+        self.values.iter().map(|(name, value)| entry(name, value)).fold(0, u64::wrapping_add)
     }
 
     /// How a parameter varies, if the test says so.
@@ -85,6 +80,15 @@ impl<'a> From<&'a Values> for Test<'a> {
     fn from(values: &'a Values) -> Self {
         Self { values, space: None }
     }
+}
+
+/// What a value adds to the key of its test.
+pub(crate) fn entry(name: &str, value: &Value) -> u64 {
+    let scalar = |hash: u64, value: &Value| {
+        let bits = value.number().map_or_else(|| hashed(&value.to_string()), f64::to_bits);
+        mixed(hash ^ bits)
+    };
+    value.scalars().iter().fold(hashed(name), scalar)
 }
 
 impl Declaration {

@@ -157,3 +157,29 @@ fn a_driver_that_cannot_drive_says_why() {
     let tired = told(Equipped { until: 1.0, ..driver(Cameras::default(), true) });
     assert!(tired.contains("gave up at 1.000 s: it is enough"), "{tired}");
 }
+
+/// The road with a parameter that is asked for later than the speed.
+fn later_road(s: &mut Scenario) {
+    s.nominal("wind", 0.0..=1.0, 0.5).incidental();
+    empty_road(s);
+}
+
+/// The seed of cameras in a test of a program.
+fn seed(program: &Program, changes: &[(&str, f64)]) -> u64 {
+    let mut test = program.declare().unwrap().nominal();
+    changes.iter().for_each(|(name, value)| test.set(*name, *value));
+    let mut run = Run::new(program, &test, Setup::asking_every(0.1)).unwrap();
+    run.film(Shutters::of(cameras(&[])).unwrap());
+    run.filmed().cameras().seed
+}
+
+#[test]
+fn what_is_asked_for_later_leaves_the_noise_of_tests_in_which_it_is_nominal_alone() {
+    let later = Program { build: later_road, ..PROGRAM };
+    for speed in [("speed", 10.0), ("speed", 7.0)] {
+        assert_eq!(seed(&later, &[speed]), seed(&PROGRAM, &[speed]));
+        assert_ne!(seed(&later, &[speed, ("wind", 0.25)]), seed(&PROGRAM, &[speed]));
+    }
+    assert_ne!(seed(&PROGRAM, &[("speed", 10.0)]), seed(&PROGRAM, &[("speed", 7.0)]));
+    assert_ne!(seed(&later, &[("wind", 0.25)]), seed(&later, &[("wind", 0.75)]));
+}

@@ -4,6 +4,7 @@
 //! bumper to bumper at that moment. A combination in which the other car would drive backwards is no world.
 
 use crate::LANE;
+use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario, Stream};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -18,8 +19,10 @@ fn cut_in(s: &mut Scenario) {
     let gap = s.interval("gap", 0.0..=60.0).unit("m").default(20.0);
     let lateral = s.interval("lateral_speed", 0.5..=3.0).unit("m/s").default(1.0);
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
 
-    let road = s.place(RoadSegment::new(800.0).lanes(4).lane_width(LANE).friction(friction));
+    s.place(weather.friction(friction));
+    let road = s.place(RoadSegment::new(800.0).lanes(4).lane_width(LANE));
     let car = s.place(AutonomousVehicle::along(road.path(2)).starting(10.0).speed(speed.value() / 3.6));
     let other_speed = (speed.value() + relative.value()) / 3.6;
     if other_speed < 0.0 {
@@ -29,6 +32,7 @@ fn cut_in(s: &mut Scenario) {
     let start = 10.0 + crate::middles(gap.value());
     let other = Mover::car(road.path(1)).starting(start).speed(other_speed.max(0.0)).offset(-aside);
     let other = s.place(other);
+    roadside(s);
 
     s.duration(20.0);
     s.premise(&other.position().y().at_most(-LANE));

@@ -3,6 +3,7 @@
 //!
 //! The leader keeps the same speed at a time headway, and changes lanes when it is `gap` metres before the standing car.
 
+use crate::surroundings::{later_weather, roadside};
 use crate::{LANE, middles};
 use paracosm_engine::object::Body;
 use paracosm_engine::{AutonomousVehicle, Fixture, Monitor, Mover, Program, RoadSegment, Scenario, Stream};
@@ -19,8 +20,10 @@ fn cut_out(s: &mut Scenario) {
     let gap = s.interval("gap", 10.0..=60.0).unit("m").default(30.0);
     let lateral = s.interval("lateral_speed", 0.5..=3.0).unit("m/s").default(2.0);
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
 
-    let road = s.place(RoadSegment::new(800.0).lanes(4).lane_width(LANE).friction(friction));
+    s.place(weather.friction(friction));
+    let road = s.place(RoadSegment::new(800.0).lanes(4).lane_width(LANE));
     let v = speed.value() / 3.6;
     let car = s.place(AutonomousVehicle::along(road.path(2)).starting(10.0).speed(v));
     let lead = 10.0 + middles(v * headway.value());
@@ -29,6 +32,7 @@ fn cut_out(s: &mut Scenario) {
     let aside = ((Stream::time() - 3.0).max(0.0) * lateral.value()).min(LANE);
     s.place(Mover::car(road.path(2)).named("leader").starting(lead).speed(v).offset(aside));
     s.place(Fixture::parked_car(road.on_lane(2, stands)));
+    roadside(s);
 
     s.duration(20.0);
     s.premise(&car.time_to_collision().below(5.0));

@@ -4,8 +4,9 @@
 //! brakes. Fog and light are there for drivers that see.
 
 use crate::oncoming_distractor::RED;
+use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::Body;
-use paracosm_engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario, Shape};
+use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario, Shape};
 
 pub(crate) const PROGRAM: Program = Program {
     name: "follow-leader",
@@ -19,16 +20,15 @@ fn follow_leader(s: &mut Scenario) {
     let gap = s.nominal("gap", 10.0..=60.0, 25.0).unit("m");
     let speed = s.nominal("approach_speed", 5.0..=30.0, 15.0).unit("m/s");
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
-    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
-    let light = s.nominal("light", 0.0..=1.0, 1.0);
-    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
+    let weather = weather(s);
 
     let road = s.place(RoadSegment::new(1000.0));
-    s.place(Environment::new().light(light).fog(fog).rain(rain).friction(friction));
+    s.place(weather.friction(friction));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(10.0).speed(speed.value()));
     let leader = 10.0 + crate::middles(gap.value());
     let red = Body::car().coloured(RED);
     s.place(Mover::new("leader", red, road.path(1)).starting(leader).speed(leader_speed));
+    roadside(s);
 
     s.duration(15.0);
     s.monitor(Monitor::no_collision(&car));

@@ -1,8 +1,9 @@
 //! A city of 6 by 6 junctions full of cars that follow each other, yield at crossings and turn as chance has it. The car
 //! drives along a long way through it; it has to cope with junctions at which others may have the right of way.
 
+use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::road::{Network, grid_city};
-use paracosm_engine::{AutonomousVehicle, Environment, EnvironmentCars, Monitor, Program, Scenario};
+use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program =
@@ -16,15 +17,17 @@ fn grid_traffic(s: &mut Scenario) {
     let speed = s.interval("speed", 5.0..=14.0).unit("m/s").default(9.0);
     let cars = s.nominal_choice("cars", [10, 30, 100], 100);
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
 
     s.tick(0.02);
     let streets = s.place(CITY.clone());
-    s.place(Environment::new().friction(friction));
+    s.place(weather.friction(friction));
     let way = streets.way(("street 2,0 east", 1, 10.0), ("street 4,5 south", 1, 40.0));
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
     let start = streets.on_lane("street 2,0 east", 1, 10.0).position;
     let others = EnvironmentCars::scattered(&streets, cars.value() as usize, seed.value() as u64);
     s.place(others.away_from(start, 15.0));
+    roadside(s);
 
     s.duration(60.0);
     s.monitor(Monitor::no_collision(&car));

@@ -4,10 +4,11 @@
 //! Cars, vans and lorries of different sizes and tempers drive both ways beside the car; who can changes lanes, also to
 //! that of the car. Lorries keep to the middle lanes, which lead straight on.
 
+use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::Colour;
 use paracosm_engine::road::{CrossIntersection, Network, RoadSegment};
 use paracosm_engine::traffic::TrafficCar;
-use paracosm_engine::{AutonomousVehicle, Environment, EnvironmentCars, Monitor, Program, Scenario, Stream};
+use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario, Stream};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -37,12 +38,10 @@ fn highway_traffic(s: &mut Scenario) {
     let truck_speed = s.interval("truck_speed", 3.0..=15.0).unit("m/s").default(8.0);
     let speed = s.nominal("ego_speed", 8.0..=25.0, 14.0).unit("m/s");
     let seed = s.nominal_choice("traffic_seed", [1, 2, 3, 4], 1);
-    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
-    let light = s.nominal("light", 0.0..=1.0, 1.0);
-    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
+    let weather = weather(s);
 
     let streets = s.place(ROADS.clone());
-    s.place(Environment::new().light(light).fog(fog).rain(rain));
+    s.place(weather);
     let way = streets.way(("west", -1, 240.0), ("east", 1, 140.0));
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
     // From the left of the car, which drives east, to its right. It minds the traffic, but not the car.
@@ -68,6 +67,7 @@ fn highway_traffic(s: &mut Scenario) {
     let fleet = s.place(EnvironmentCars::on(&streets, all).seed(seed));
     let start = Stream::time().at_least(delay);
     fleet.drive(0, Stream::from(truck_speed).skip_until(&start).hold(0.0));
+    roadside(s);
 
     s.duration(25.0);
     s.monitor(Monitor::no_collision(&car));

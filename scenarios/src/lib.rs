@@ -9,6 +9,7 @@ mod ncap;
 mod oncoming_distractor;
 mod pedestrian_crossing;
 mod roundabout_entry;
+mod surroundings;
 mod t_loop;
 
 use paracosm_coverage::{did_you_mean, nearest};

@@ -6,6 +6,7 @@
 //! before the impact.
 
 use crate::middles;
+use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::object::Body;
 use paracosm_engine::road::Path;
 use paracosm_engine::vehicle::Vehicle;
@@ -71,9 +72,11 @@ impl Crossing {
 /// A straight road with the car on it, 6 s at its speed before the pedestrian.
 fn approach(s: &mut Scenario, crossing: &Crossing, speed: &Param<f64>) -> (Road, Car) {
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
     s.tick(0.002);
     let v = speed.value() / 3.6;
-    let road = s.place(RoadSegment::new(250.0).friction(friction));
+    s.place(weather.friction(friction));
+    let road = s.place(RoadSegment::new(250.0));
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(v));
     let radius = crossing.body.outline.half_extent().x;
     let lane = road.on_lane(1, START + v * TIME + 0.5 * Vehicle::BMW_320I.length + radius);
@@ -92,6 +95,7 @@ fn cpna(s: &mut Scenario) {
     let body = Body::adult();
     let crossing = Crossing { body, name: "adult", side: -1.0, from: 4.0, run_up: 1.0, speed: 5.0 / 3.6, impact };
     approach(s, &crossing, &speed);
+    roadside(s);
 }
 
 fn cpfa(s: &mut Scenario) {
@@ -99,6 +103,7 @@ fn cpfa(s: &mut Scenario) {
     let body = Body::adult();
     let crossing = Crossing { body, name: "adult", side: 1.0, from: 6.0, run_up: 1.5, speed: 8.0 / 3.6, impact: 0.5 };
     approach(s, &crossing, &speed);
+    roadside(s);
 }
 
 fn cpnco(s: &mut Scenario) {
@@ -114,6 +119,7 @@ fn cpnco(s: &mut Scenario) {
         let position = lane.position - lane.left() * (0.5 * Vehicle::BMW_320I.width + 1.0 + 0.5 * 1.8);
         s.place(Fixture::parked_car(Pose { position, ..lane }));
     }
+    roadside(s);
 }
 
 fn ccr(s: &mut Scenario) {
@@ -124,8 +130,10 @@ fn ccr(s: &mut Scenario) {
     let gap = s.nominal_choice("gap", [12, 40], 40).unit("m");
     let brake = s.nominal_choice("deceleration", [2, 6], 6).unit("m/s²");
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
 
-    let road = s.place(RoadSegment::new(600.0).friction(friction));
+    s.place(weather.friction(friction));
+    let road = s.place(RoadSegment::new(600.0));
     let v = speed.value() / 3.6;
     let car = s.place(AutonomousVehicle::along(road.path(1)).starting(START).speed(v));
     let slow = 20.0 / 3.6;
@@ -142,6 +150,7 @@ fn ccr(s: &mut Scenario) {
     let shifted = road.path(1).shifted(aside);
     let start = START + middles(ahead.max(0.0));
     s.place(Mover::car(shifted).named("target").starting(start).speed(driven));
+    roadside(s);
 
     s.duration(15.0);
     s.premise(&car.time_to_collision().below(TIME));

@@ -6,11 +6,10 @@
 //! slow walker can be as dangerous as a quick one. The run lasts 25 s: enough to stop, wait and go on.
 //!
 //! Light and fog are what the world is like to a camera; a driver that does not see by one drives as in broad daylight. Rain
-//! makes the road slippery besides.
+//! makes the road slippery besides. What should not matter, beside the road and on it, can be added: `roadside`, `zebra`.
 
-use paracosm_engine::{
-    AutonomousVehicle, Environment, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never,
-};
+use crate::surroundings::{roadside, weather};
+use paracosm_engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never};
 
 pub(crate) const PROGRAM: Program = Program {
     name: "pedestrian-crossing",
@@ -24,17 +23,19 @@ fn pedestrian_crossing(s: &mut Scenario) {
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
     let approach = s.nominal("approach_speed", 5.0..=30.0, 60.0 / 3.6).unit("m/s");
     let lanes = s.nominal_choice("lanes", [2, 4, 6], 2);
-    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
-    let light = s.nominal("light", 0.0..=1.0, 1.0);
-    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
+    let weather = weather(s);
+    let zebra = s.nominal_choice("zebra", [0, 1], 0).incidental();
 
-    s.place(Environment::new().light(light).fog(fog).rain(rain));
-    let road = s.place(RoadSegment::new(800.0).lanes(lanes.value()).friction(friction));
+    s.place(weather);
+    let road = RoadSegment::new(800.0).lanes(lanes.value());
+    let road = if zebra.value() == 1 { road.zebra(100.0) } else { road };
+    let road = s.place(road.friction(friction));
     let car = s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(approach.value()));
     let walker = s.place(Pedestrian::at(road.on_sidewalk(Side::Left, 100.0)));
 
     let near = car.gap_along(&road.crossing(100.0)).below(distance);
     walker.walk(road.on_sidewalk(Side::Right, 100.0), speed).skip_until(&near).take_until(&walker.arrived());
+    roadside(s);
 
     s.duration(25.0);
     s.premise(&near);

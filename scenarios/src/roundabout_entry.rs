@@ -3,9 +3,10 @@
 //! The other car goes round from the arm at the left to the arm opposite, past the entry of the car under test. `lead` is
 //! by how many seconds it would be there before the car if neither changed its speed; it slows down only for who is in its way.
 
+use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::road::{Network, RoadSegment, Roundabout};
 use paracosm_engine::traffic::TrafficCar;
-use paracosm_engine::{AutonomousVehicle, Environment, EnvironmentCars, Monitor, Program, Scenario};
+use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program = Program {
@@ -31,9 +32,10 @@ fn roundabout_entry(s: &mut Scenario) {
     let other_speed = s.interval("other_speed", 3.0..=9.0).unit("m/s").default(6.0);
     let lead = s.interval("lead", -4.0..=4.0).unit("s").default(0.5);
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
+    let weather = later_weather(s);
 
     let streets = s.place(ROUNDABOUT.clone());
-    s.place(Environment::new().friction(friction));
+    s.place(weather.friction(friction));
     // Roads lead away from the roundabout, so that lane -1 leads to it. Both cars reach the ring after 60 m.
     let way = streets.way(("south", -1, 60.0), ("north", 1, 100.0));
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
@@ -49,6 +51,7 @@ fn roundabout_entry(s: &mut Scenario) {
     }
     let other = TrafficCar::following(&ROUNDABOUT.rest_of(&other, start));
     s.place(EnvironmentCars::on(&streets, vec![other])).drive(0, other_speed);
+    roadside(s);
 
     s.duration(45.0);
     s.monitor(Monitor::no_collision(&car));

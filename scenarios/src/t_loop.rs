@@ -3,8 +3,9 @@
 //! At a T the car could also go straight on, into a road that ends: who misses the turn leaves its way, and who leaves the
 //! road runs into the houses around it. The run takes 200 s, some twenty turns.
 
+use crate::surroundings::{roadside, weather};
 use paracosm_engine::road::{Composite, Network, Path, RoadSegment, TIntersection};
-use paracosm_engine::{AutonomousVehicle, Environment, Fixture, Monitor, Pose, Program, Scenario, Side};
+use paracosm_engine::{AutonomousVehicle, Fixture, Monitor, Pose, Program, Scenario, Side};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program =
@@ -40,12 +41,10 @@ fn way() -> Path {
 fn t_loop(s: &mut Scenario) {
     let speed = s.interval("speed", 3.0..=12.0).unit("m/s").default(8.0);
     let friction = s.interval("friction", 0.2..=0.8).default(0.8);
-    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
-    let light = s.nominal("light", 0.0..=1.0, 1.0);
-    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
+    let weather = weather(s);
 
     let streets = s.place(LOOP.clone());
-    s.place(Environment::new().light(light).fog(fog).rain(rain).friction(friction));
+    s.place(weather.friction(friction));
     for i in 1..=4 {
         for at in [12.0, 30.0, 48.0] {
             let kerb = streets.on_sidewalk(&format!("side {i}"), Side::Left, at);
@@ -54,6 +53,7 @@ fn t_loop(s: &mut Scenario) {
         }
     }
     let car = s.place(AutonomousVehicle::along(way()).starting(5.0).speed(speed.value()));
+    roadside(s);
 
     s.duration(200.0);
     s.monitor(Monitor::no_collision(&car));

@@ -29,6 +29,10 @@ pub(super) struct Subject {
     /// in PARACOSM_ADDRESS
     #[arg(long, value_name = "COMMAND", conflicts_with = "driver")]
     driver_command: Option<String>,
+    /// Show an actor to cameras as the model in a glTF file, stretched to the actor's size; `car` is the car under test, the
+    /// others are called as in traces; `tree` stands for `tree-2` and so on, too
+    #[arg(long, value_name = "ACTOR=FILE.glb")]
+    model: Vec<String>,
     #[command(flatten)]
     system: System,
     /// Ask what this file says, too: requirements with their sources and severities, and what of the design domain is tested
@@ -106,6 +110,12 @@ impl Subject {
                 return Err(Error::Usage(format!("parameter `{name}` is set and opened, or set twice")));
             }
             study = study.set(name, value.clone())?;
+        }
+        for text in &self.model {
+            let (actor, file) = text
+                .split_once('=')
+                .ok_or_else(|| Error::Usage(format!("--model {text}: expected ACTOR=FILE.glb or ACTOR=FILE.gltf")))?;
+            study = study.show(actor, file)?;
         }
         if let Some(path) = &self.requirements {
             study = study.require(path)?;

@@ -4,7 +4,7 @@ use super::Optics;
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm_engine::sensor::Moment;
 use paracosm_render::lens::Rain;
-use paracosm_render::{Air, Box3, Camera, Frame, Outputs, Scene, Stage, View, boxes_in_space};
+use paracosm_render::{Air, Box3, Camera, Cast, Frame, Outputs, Scene, Stage, View, boxes_in_space};
 
 /// The id of the car under test.
 const OWN: u16 = 1;
@@ -15,6 +15,7 @@ const LAMPS: f64 = 0.6;
 #[derive(Clone, Copy)]
 pub(crate) struct Exposure<'a> {
     pub stage: &'a Stage,
+    pub cast: &'a Cast,
     pub moment: &'a Moment,
     pub optics: &'a Optics,
     /// Which of the camera's images it is.
@@ -37,9 +38,10 @@ impl Exposure<'_> {
     /// What there is to draw to have these outputs. Colours come with shadows.
     pub fn sight(&self, wanted: Outputs) -> Sight {
         let plain = self.optics.are_plain() && self.moment.weather.rain <= 0.0;
-        let car = &self.moment.bodies[0];
+        let Moment { bodies, weather, .. } = self.moment;
+        let car = &bodies[0];
         Sight {
-            scene: self.stage.scene_of(self.moment.bodies.iter().enumerate(), Air::of(&self.moment.weather)),
+            scene: self.stage.scene_with(self.cast, bodies.iter().enumerate(), Air::of(weather)),
             camera: self.optics.camera.clone(),
             pose: self.carrier(),
             head_lamps: Point3::new(car.body.outline.half_extent().x, 0.0, LAMPS),

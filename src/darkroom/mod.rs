@@ -13,9 +13,10 @@ pub(crate) use exposure::{Exposure, Sight};
 pub(crate) use optics::{Optics, camera, check};
 
 use crate::Error;
+use crate::study::Appearances;
 use paracosm_engine::Run;
 use paracosm_engine::sensor::{Cameras, Image, Moment, Sample};
-use paracosm_render::{Frame, Outputs, RenderError, Stage, Stages};
+use paracosm_render::{Cast, Frame, Outputs, RenderError, Stage, Stages};
 use std::mem::take;
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -29,6 +30,7 @@ pub(crate) struct Darkroom {
     orders: Mutex<Vec<Order>>,
     developer: Mutex<Developer>,
     stages: Stages,
+    appearances: Appearances,
 }
 
 /// What somebody wants to see.
@@ -39,21 +41,22 @@ struct Order {
 }
 
 impl Darkroom {
-    /// A darkroom for the cameras that a driver sees through.
+    /// A darkroom for the cameras that a driver sees through, to which actors look so.
     ///
     /// # Errors
     /// There is nothing to draw with, or no such camera.
-    pub fn open(cameras: &Cameras) -> Result<Self, Error> {
+    pub fn open(cameras: &Cameras, appearances: &Appearances) -> Result<Self, Error> {
         Optics::of(cameras).map_err(|error| Error::Usage(format!("the driver sees through cameras: {error}")))?;
         let unusable = |error: RenderError| Error::Usage(format!("the driver sees through cameras, but {error}"));
         let developer = Mutex::new(Developer::new().map_err(unusable)?);
-        Ok(Self { orders: Mutex::default(), developer, stages: Stages::default() })
+        let (stages, appearances) = (Stages::default(), appearances.clone());
+        Ok(Self { orders: Mutex::default(), developer, stages, appearances })
     }
 
     /// What the drivers of these runs see of the moments that have arrived. What keeps an image from being drawn is told
     /// of its run alone.
     pub fn develop(&self, runs: &[&Run]) -> Vec<Result<Vec<Image>, String>> {
-        let seen: Vec<_> = runs.iter().map(|run| Seen::by(run, &self.stages)).collect();
+        let seen: Vec<_> = runs.iter().map(|run| Seen::by(run, self)).collect();
         let colours = Outputs { rgb: true, ..Outputs::default() };
         let exposures = seen.iter().flatten().flat_map(Seen::exposures);
         let mut drawn = self.order(exposures.map(|exposure| exposure.sight(colours)).collect()).into_iter();
@@ -89,20 +92,23 @@ impl Darkroom {
 /// What has arrived from the eyes of a run.
 struct Seen<'a> {
     stage: Arc<Stage>,
+    cast: Cast,
     optics: Vec<Optics>,
     /// Each with the place of its camera.
     moments: Vec<(usize, &'a Sample<Moment>)>,
 }
 
 impl<'a> Seen<'a> {
-    fn by(run: &'a Run, stages: &Stages) -> Result<Self, String> {
+    fn by(run: &'a Run, darkroom: &Darkroom) -> Result<Self, String> {
         let optics = Optics::of(run.eyes().cameras()).map_err(|error| error.to_string())?;
-        Ok(Self { stage: stages.of(run.network()), optics, moments: run.eyes().arrived().collect() })
+        let (stage, cast) = (darkroom.stages.of(run.network()), darkroom.appearances.cast(run)?);
+        Ok(Self { stage, cast, optics, moments: run.eyes().arrived().collect() })
     }
 
     fn exposures(&self) -> impl Iterator<Item = Exposure<'_>> {
         self.moments.iter().map(|(camera, sample)| Exposure {
             stage: &self.stage,
+            cast: &self.cast,
             moment: &sample.reading,
             optics: &self.optics[*camera],
             number: sample.number,

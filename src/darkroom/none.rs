@@ -1,6 +1,7 @@
 //! What stands in for the darkroom in a program that draws nothing.
 
 use crate::Error;
+use crate::study::Appearances;
 use paracosm_engine::Run;
 use paracosm_engine::sensor::{Cameras, Image};
 
@@ -9,7 +10,7 @@ pub(crate) enum Darkroom {}
 
 impl Darkroom {
     /// Says so.
-    pub fn open(cameras: &Cameras) -> Result<Self, Error> {
+    pub fn open(cameras: &Cameras, _: &Appearances) -> Result<Self, Error> {
         let names: Vec<_> = cameras.all.keys().map(String::as_str).collect();
         let message = "this program draws nothing: it was built without the feature `camera`";
         Err(Error::Usage(format!("the driver sees through cameras ({}), and {message}", names.join(", "))))

@@ -1,10 +1,11 @@
 //! A test as its cameras have it: the moments at which they open their shutters, not drawn yet.
 
+use crate::study::Appearances;
 use crate::{Error, Study, Trial, Worker};
 use paracosm_engine::object::Class;
 use paracosm_engine::sensor::{Cameras, Chance, Moment, Sample, Shutters};
 use paracosm_engine::{Control, Run};
-use paracosm_render::{Stage, Stages};
+use paracosm_render::{Cast, Stage, Stages};
 use std::sync::Arc;
 
 /// An image that is to be drawn.
@@ -25,6 +26,8 @@ pub struct Shot {
 pub struct Film {
     /// The roads.
     pub stage: Arc<Stage>,
+    /// Which bodies are shown as models of a user's own.
+    pub cast: Cast,
     /// The shots of each camera, in the order of the cameras' names.
     pub shots: Vec<Vec<Shot>>,
     /// Where the noise of its images comes from: the cameras' seed and the values of the test.
@@ -40,6 +43,8 @@ const SAMPLES: usize = 12;
 #[derive(Default)]
 struct Notes {
     stage: Option<Arc<Stage>>,
+    /// Unless a model cannot be had.
+    cast: Option<Result<Cast, String>>,
     names: Arc<[String]>,
     seed: u64,
     /// What each camera has taken.
@@ -55,9 +60,10 @@ const WHISKER: f64 = 1e-9;
 
 impl Notes {
     /// Takes notes whenever the driver is asked, and at the end.
-    fn take(&mut self, run: &Run, stages: &Stages) {
+    fn take(&mut self, run: &Run, stages: &Stages, appearances: &Appearances) {
         if self.stage.is_none() {
             self.stage = Some(stages.of(run.network()));
+            self.cast = Some(appearances.cast(run));
             self.names = (0..run.bodies().len()).map(|body| run.name_of(body).to_owned()).collect();
             self.seed = run.filmed().cameras().seed;
         }
@@ -87,8 +93,11 @@ impl Film {
             return Err(Error::Usage(message));
         }
         let shutters = Shutters::of(cameras.clone()).map_err(|error| Error::Usage(format!("camera {error}")))?;
+        let appearances = &worker.study().subject.scenario()?.appearances;
         let mut notes = Notes::default();
-        let (again, _) = worker.film(trial.index, &trial.test, Some(shutters), |run| notes.take(run, stages));
+        let see = |run: &Run| notes.take(run, stages, appearances);
+        let (again, _) = worker.film(trial.index, &trial.test, Some(shutters), see);
+        let cast = notes.cast.take().transpose().map_err(Error::Usage)?.unwrap_or_default();
         let taken = std::mem::take(&mut notes.taken);
         let stage = notes.stage.take().filter(|_| again.trace_hash == trial.trace_hash).ok_or_else(|| {
             let message = format!("test {} is not the one that was logged: its trace has another hash", trial.index);
@@ -103,7 +112,7 @@ impl Film {
             };
             taken.into_iter().map(developed).collect()
         });
-        Ok(Self { stage, shots: shots.collect(), seed: notes.seed, names: notes.names.clone() })
+        Ok(Self { stage, cast, shots: shots.collect(), seed: notes.seed, names: notes.names.clone() })
     }
 
     /// The same with only a few shots of each camera, from the first to the last.

@@ -60,7 +60,7 @@ impl Projector {
         let optics = &self.cameras[camera].with_seed(film.seed);
         let exposure = |shot: &'f Shot| {
             let Shot { number, moment, .. } = shot;
-            Exposure { stage: &film.stage, moment, optics, number: *number }
+            Exposure { stage: &film.stage, cast: &film.cast, moment, optics, number: *number }
         };
         let exposures: Vec<_> = shots.iter().map(exposure).collect();
         let mut drawn = Vec::with_capacity(shots.len());

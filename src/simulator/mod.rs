@@ -12,7 +12,7 @@ use crate::Error;
 use crate::darkroom::Darkroom;
 use crate::drivers::Drivers;
 use crate::executor::Desk;
-use crate::study::Simulation;
+use crate::study::{Appearances, Simulation};
 use paracosm_coverage::{Space, Values};
 use paracosm_engine::sensor::{Cameras, Shutters};
 use paracosm_engine::vehicle::Model;
@@ -27,6 +27,7 @@ pub(crate) struct Simulator<'a> {
     program: Program,
     model: Model,
     drivers: Drivers<'a>,
+    appearances: Appearances,
     darkroom: Option<Arc<Darkroom>>,
 }
 
@@ -42,12 +43,13 @@ impl<'a> Simulator<'a> {
         darkroom: Option<Arc<Darkroom>>,
     ) -> Result<Self, Error> {
         let drivers = Drivers::new(&simulation.driver, stop)?;
-        Ok(Self::with(simulation.program()?, simulation.vehicle, drivers, darkroom))
+        let simulator = Self::with(simulation.program()?, simulation.vehicle, drivers, darkroom);
+        Ok(Self { appearances: simulation.appearances.clone(), ..simulator })
     }
 
     /// A simulator of a program, in which these drivers drive a car that this model moves.
     fn with(program: Program, model: Model, drivers: Drivers<'a>, darkroom: Option<Arc<Darkroom>>) -> Self {
-        Self { program, model, drivers, darkroom }
+        Self { program, model, drivers, appearances: Appearances::default(), darkroom }
     }
 
     /// Has a driver at hand, and what draws for it.
@@ -156,7 +158,7 @@ impl<'a> Simulator<'a> {
     fn open(&mut self, cameras: &Cameras) -> Result<&Darkroom, Error> {
         match &mut self.darkroom {
             Some(darkroom) => Ok(darkroom),
-            none => Ok(none.insert(Arc::new(Darkroom::open(cameras)?))),
+            none => Ok(none.insert(Arc::new(Darkroom::open(cameras, &self.appearances)?))),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What is tested, how, and with what: the contents of `campaign.json`, from which any test can be run again.
 
+mod appearance;
 mod driver;
 mod failures;
 mod network;
@@ -9,6 +10,7 @@ mod requirement;
 mod requirements_file;
 mod subject;
 
+pub(crate) use appearance::Appearances;
 pub use driver::DriverChoice;
 pub(crate) use driver::Origin;
 pub use odd::{Attribute, Odd};

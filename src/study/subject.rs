@@ -1,6 +1,6 @@
 //! What the tests of a study are run on: a scenario of ours with a driver, or a system that others wrote.
 
-use super::{DriverChoice, RequirementText, Study};
+use super::{Appearances, DriverChoice, RequirementText, Study};
 use crate::{BlackBox, Error};
 use paracosm_coverage::{Space, Values};
 use paracosm_engine::vehicle::Model;
@@ -33,6 +33,9 @@ pub struct Simulation {
     pub fixed: Values,
     /// The system under test.
     pub driver: DriverChoice,
+    /// What actors look like to cameras.
+    #[serde(rename = "models", skip_serializing_if = "Appearances::is_empty", default)]
+    pub(crate) appearances: Appearances,
     dt: f64,
     duration: f64,
     /// A program that is not in the catalogue.
@@ -94,6 +97,7 @@ impl Simulation {
             vehicle: Model::default(),
             fixed: fixed.collect(),
             driver: DriverChoice::new("aeb", &[], program.name)?,
+            appearances: Appearances::default(),
             dt,
             duration,
             program: Some(program),

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// Whether there is something to draw with; a note where there is not, unless somebody insists.
-fn can_draw() -> bool {
+pub fn can_draw() -> bool {
     match paracosm::render::adapter() {
         Ok(_) => true,
         Err(error) if std::env::var_os("PARACOSM_REQUIRE_ADAPTER").is_none_or(|required| required != "1") => {

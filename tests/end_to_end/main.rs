@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod after_failure;
+mod appearances;
 mod bad_input;
 mod bench;
 mod blame;
@@ -32,5 +33,6 @@ mod requirements;
 mod signals;
 mod spec;
 mod strength;
+mod surroundings;
 mod system;
 mod worked_examples;

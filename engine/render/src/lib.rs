@@ -26,5 +26,5 @@ pub use error::{CameraError, RenderError, ViewError};
 pub use frame::{Extent, Frame};
 pub use mesh::{Mesh, Semantic, Surface, Vertex};
 pub use renderer::{Adapter, Renderer, adapter};
-pub use scene::{Air, Instance, Scene, Stage, Stages};
+pub use scene::{Air, Cast, Instance, Model, Scene, Stage, Stages};
 pub use view::{Outputs, View};

@@ -6,7 +6,7 @@ mod ground;
 mod pavement;
 mod stage;
 
-pub use stage::{Stage, Stages};
+pub use stage::{Cast, Model, Stage, Stages};
 
 use crate::Mesh;
 use nalgebra::Isometry3;

@@ -28,7 +28,13 @@ fn sitters() -> [(Vec<BodyState>, f64); 9] {
     [
         (vec![standing(Body::car().coloured([170, 30, 30]), 0.0, 0.0)], 7.0),
         (vec![standing(Body::truck(), 0.0, 0.0)], 15.0),
-        (vec![standing(Body::bicycle().coloured([20, 120, 60]), 0.0, 4.0)], 3.5),
+        (
+            vec![
+                standing(Body::bicycle().coloured([20, 120, 60]), 0.0, 4.0),
+                standing(Body::parked_bicycle().coloured([150, 60, 20]), -1.0, 0.0),
+            ],
+            4.2,
+        ),
         (vec![standing(Body::adult(), 0.0, 1.4), standing(Body::child(), 1.2, 0.0)], 4.0),
         (vec![block(Class::Building, [10.0, 8.0, 7.0], 0.0)], 22.0),
         (vec![block(Class::Building, [24.0, 14.0, 21.0], 0.0)], 55.0),

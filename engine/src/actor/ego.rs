@@ -47,6 +47,13 @@ struct Shown {
     asked: Rc<Asked>,
 }
 
+impl EgoSetup {
+    /// The middle and the radius in metres of a disc around the car where it starts.
+    pub fn disc(&self) -> (Vector2<f64>, f64) {
+        (self.car.start().position, 0.5 * (self.car.vehicle.length + self.car.vehicle.width))
+    }
+}
+
 /// The placed car: its outputs.
 #[derive(Debug, Clone)]
 pub struct Car {
@@ -168,7 +175,7 @@ impl Car {
         self.shown.travelled.stream()
     }
 
-    /// Metres of free space to the nearest other body. Once it touches one: minus the braking distance that
+    /// Metres of free space to the nearest other body that does not stand on the [`Roadside`](crate::Roadside). Once it touches one: minus the braking distance that
     /// was missing, max(v²/(2 μ g), 0.001) with v the speed of one body relative to the other.
     pub fn clearance(&self) -> Stream<f64> {
         self.shown.clearance.stream()

@@ -156,6 +156,11 @@ impl Body {
         Self::block(Class::Bicycle, 1.8, 0.6, 1.75)
     }
 
+    /// A bicycle that nobody rides: sensors tell it from one with a rider by its height.
+    pub fn parked_bicycle() -> Self {
+        Self::block(Class::Bicycle, 1.8, 0.6, 1.05)
+    }
+
     /// The same in this colour.
     pub fn coloured(self, colour: Colour) -> Self {
         Self { colour, ..self }

@@ -123,7 +123,7 @@ impl Run {
             }
             requirements.push(stated.requirement);
         }
-        let ticks = ticks(scenario.duration, dt);
+        let (ticks, key) = (ticks(scenario.duration, dt), scenario.key.get());
         let beginning = scenario.beginning();
         let mut scene = Scene::new(scenario, &graph, setup.model);
         let begun = scene.begin(beginning, Clock { tick: 0, ticks, dt });
@@ -150,7 +150,7 @@ impl Run {
             columns,
             trace,
             observation: Observation::default(),
-            sensing: Sensing::in_test(test.key()),
+            sensing: Sensing::in_test(key),
             unable: overlap.or(fault),
             scene,
         })
@@ -216,7 +216,8 @@ impl Run {
         self.told
     }
 
-    /// All bodies where they are now, the car under test first, the others in the order in which they were placed.
+    /// All bodies where they are now, the car under test first, the others in the order in which they were placed; what stands
+    /// on the [`Roadside`](crate::Roadside) comes last.
     pub fn bodies(&self) -> &[BodyState] {
         &self.scene.bodies
     }
@@ -283,7 +284,7 @@ impl Run {
     }
 
     fn observe(&mut self) {
-        let (car, others) = self.scene.bodies.split_first().expect("the car is the first body");
+        let (car, others) = self.scene.told().split_first().expect("the car is the first body");
         let present = others.iter().enumerate().filter(|(_, other)| other.present);
         let others = present.map(|(id, other)| Other {
             id,

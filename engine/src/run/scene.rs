@@ -25,8 +25,10 @@ pub(super) struct Scene {
     pub ego: Ego,
     pub network: Arc<Network>,
     objects: Vec<Object>,
-    /// The car's first, then those of the objects.
+    /// The car's first, then those of the objects, and then the scenery.
     pub bodies: Vec<BodyState>,
+    /// How many of them are no scenery: nothing but sensors and the physics knows of the others.
+    told: usize,
     /// What the objects show at this tick.
     pub outputs: Vec<Sample>,
     wiring: Wiring,
@@ -57,7 +59,8 @@ impl Scene {
         let mut bodies = vec![ego.body()];
         let mut masses = Vec::new();
         let mut objects = Vec::new();
-        for ObjectSetup { name, bodies: own, behaviour } in scenario.objects {
+        let told = 1 + scenario.objects.iter().map(|object| object.bodies.len()).sum::<usize>();
+        for ObjectSetup { name, bodies: own, behaviour } in scenario.objects.into_iter().chain(scenario.scenery) {
             let first = bodies.len();
             if let Behaviour::Physical(mass, _) = &behaviour {
                 masses.push((first, *mass));
@@ -68,7 +71,8 @@ impl Scene {
         let mut world = World::new(&bodies, &masses);
         Self {
             contact: world.contact(&bodies),
-            clearance: world.clearance(&bodies),
+            clearance: world.clearance(&bodies[..told]),
+            told,
             world,
             ego,
             network,
@@ -95,8 +99,14 @@ impl Scene {
         let friction = graph.value(friction).unwrap_or(f64::NAN);
         for object in &mut self.objects {
             let (first, end) = object.own;
-            let tick =
-                Tick { dt: clock.dt, friction, graph: &graph, inputs: &inputs, bodies: &self.bodies, own: object.own };
+            let tick = Tick {
+                dt: clock.dt,
+                friction,
+                graph: &graph,
+                inputs: &inputs,
+                bodies: &self.bodies[..self.told],
+                own: object.own,
+            };
             if let Behaviour::Geometric(behaviour) = &mut object.behaviour {
                 self.velocities.clear();
                 self.velocities.resize(end - first, Vector2::zeros());
@@ -111,6 +121,11 @@ impl Scene {
         }
         self.bodies.copy_from_slice(&self.next);
         Ok(())
+    }
+
+    /// The bodies that are no scenery.
+    pub fn told(&self) -> &[BodyState] {
+        &self.bodies[..self.told]
     }
 
     /// What two bodies that overlap are called: for a world that cannot begin.
@@ -129,7 +144,7 @@ impl Scene {
     pub fn show(&mut self) {
         self.outputs.fill(Sample::Absent);
         let mut outputs = Outputs { samples: &mut self.outputs };
-        self.ego.show(self.clearance, &self.bodies, &self.network, &mut outputs);
+        self.ego.show(self.clearance, &self.bodies[..self.told], &self.network, &mut outputs);
         for object in &self.objects {
             match &object.behaviour {
                 Behaviour::Geometric(behaviour) => behaviour.show(&mut outputs),
@@ -159,7 +174,8 @@ impl Scene {
         self.pushes.clear();
         for object in &mut self.objects {
             let (first, end) = object.own;
-            let tick = Tick { dt, friction, graph, inputs: &self.inputs, bodies: &self.bodies, own: object.own };
+            let tick =
+                Tick { dt, friction, graph, inputs: &self.inputs, bodies: &self.bodies[..self.told], own: object.own };
             match &mut object.behaviour {
                 Behaviour::Geometric(behaviour) => {
                     behaviour.step(&tick)?;
@@ -184,7 +200,7 @@ impl Scene {
         self.next.copy_from_slice(&self.bodies);
         self.contact = self.world.contact(&self.bodies);
         self.clearance = match self.contact {
-            None => self.world.clearance(&self.bodies),
+            None => self.world.clearance(self.told()),
             Some(contact) => -self.missing_distance(contact, friction),
         };
         Ok(())

@@ -26,7 +26,7 @@ use crate::run::DEFAULT_DT;
 use crate::stream::{Datum, Effect, Equation, Forward, Graph, Kind, Node, Slot, Source, Stream, dot};
 use paracosm_coverage::{Domain, Parameter, Shape, Value};
 use param::Read;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::ops::RangeInclusive;
 use std::rc::Rc;
@@ -39,12 +39,16 @@ pub(crate) type Problems = Rc<RefCell<Vec<String>>>;
 pub struct Scenario {
     /// What this test says of parameters, by name; nothing while the program is only asked for them.
     given: Vec<(String, param::Given)>,
+    /// A number that another test hardly has, as far as its parameters are asked for: [`Test::key`]. 0 without a test.
+    pub(crate) key: Rc<Cell<u64>>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
     pub(crate) problems: Problems,
     /// Those that were placed, also such as cannot be built.
     pub(crate) networks: Vec<Option<Arc<Network>>>,
     pub(crate) cars: Vec<EgoSetup>,
     pub(crate) objects: Vec<ObjectSetup>,
+    /// What is there for sensors alone.
+    pub(crate) scenery: Vec<ObjectSetup>,
     pub(crate) wiring: Wiring,
     /// The outputs that every trace records, by name.
     pub(crate) signals: Vec<(String, Source)>,
@@ -97,11 +101,13 @@ impl Scenario {
         };
         Self {
             given: test.map(|test| test.values.iter().map(given).collect()).unwrap_or_default(),
+            key: Rc::new(Cell::new(test.map_or(0, Test::key))),
             parameters: Rc::default(),
             problems: Rc::default(),
             networks: Vec::new(),
             cars: Vec::new(),
             objects: Vec::new(),
+            scenery: Vec::new(),
             wiring: Wiring::default(),
             signals: Vec::new(),
             conditions: Conditions::default(),
@@ -154,7 +160,7 @@ impl Scenario {
         // A name that the test does not know is reported once the program has returned, with all the others.
         let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
         self.parameters.borrow_mut().push(Declared { parameter, open });
-        Param::new(self.parameters.clone(), self.problems.clone(), given.unwrap_or_default(), read)
+        Param::new(self, given.unwrap_or_default(), read)
     }
 
     /// The shape of a signal with a value of its own at every tick. It takes as many coordinates; the

@@ -4,11 +4,11 @@
 //! Whether a parameter is constant or a signal that varies over a run is nobody's business but the test's: the object
 //! that reads it gets a [`Stream`] either way.
 
-use super::Problems;
-use crate::program::Declared;
+use super::{Problems, Scenario};
+use crate::program::{Declared, entry};
 use crate::stream::{Datum, Kind, Sample, Stream, samples};
 use paracosm_coverage::{Shape, Value};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::rc::Rc;
 
@@ -19,6 +19,8 @@ pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
     index: usize,
     problems: Problems,
+    /// The key of the test: [`Test::key`](crate::Test::key).
+    key: Rc<Cell<u64>>,
     given: Given,
     read: Read<T>,
 }
@@ -61,9 +63,11 @@ impl<T: Into<Value> + Clone + 'static> Read<T> {
 
 impl<T: Clone> Param<T> {
     /// Of the parameter that was declared last.
-    pub(super) fn new(declared: Rc<RefCell<Vec<Declared>>>, problems: Problems, given: Given, read: Read<T>) -> Self {
+    pub(super) fn new(scenario: &Scenario, given: Given, read: Read<T>) -> Self {
+        let Scenario { parameters, problems, key, .. } = scenario;
+        let (declared, problems, key) = (parameters.clone(), problems.clone(), key.clone());
         let index = declared.borrow().len() - 1;
-        let parameter = Self { declared, index, problems, given, read };
+        let parameter = Self { declared, index, problems, key, given, read };
         for value in parameter.given.value.iter().flat_map(Value::scalars) {
             if (parameter.read.with)(value).is_none() {
                 let name = parameter.name();
@@ -90,6 +94,16 @@ impl<T: Clone> Param<T> {
     /// shape, or for none. A choice varies in pieces.
     pub fn signal(self, shape: Shape) -> Self {
         self.declared.borrow_mut()[self.index].parameter.signal = Some(shape);
+        self
+    }
+
+    /// Says that a test in which it has its nominal value is the one that it would be without it, down to the noise of its
+    /// cameras, which is another in every other test: for parameters that a program asks for later than for the rest.
+    pub fn incidental(self) -> Self {
+        let value = self.given_or_nominal();
+        if self.given.value.is_some() && value == self.declared.borrow()[self.index].nominal() {
+            self.key.set(self.key.get().wrapping_sub(entry(&self.name(), &value)));
+        }
         self
     }
 

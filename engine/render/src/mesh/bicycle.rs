@@ -1,4 +1,4 @@
-//! A bicycle with its rider.
+//! A bicycle, with its rider or without.
 
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::colours::{BLACK, HAIR, RUBBER, SKIN, STEEL, TROUSERS};
@@ -6,6 +6,9 @@ use super::{Mesh, Semantic, Surface};
 
 /// Length, width and height as it is modelled, in metres: those of [`Body::bicycle`](paracosm_engine::object::Body::bicycle).
 pub(crate) const SIZE: [f32; 3] = [1.8, 0.6, 1.75];
+
+/// The same of [`Body::parked_bicycle`](paracosm_engine::object::Body::parked_bicycle).
+pub(crate) const PARKED: [f32; 3] = [1.8, 0.6, 1.05];
 
 const WHEEL: f32 = 0.34;
 const FRONT: [f32; 3] = [0.56, 0.0, WHEEL];
@@ -16,6 +19,13 @@ pub(crate) fn bicycle() -> Mesh {
     frame(&mut clay);
     rider(&mut clay);
     clay.fitted(SIZE).mesh()
+}
+
+/// A bicycle that nobody rides.
+pub(crate) fn parked() -> Mesh {
+    let mut clay = Clay::default();
+    frame(&mut clay);
+    clay.fitted(PARKED).mesh()
 }
 
 fn frame(clay: &mut Clay) {

@@ -12,6 +12,7 @@ pub(crate) struct Models {
     pub car: Arc<Mesh>,
     pub truck: Arc<Mesh>,
     pub bicycle: Arc<Mesh>,
+    pub parked_bicycle: Arc<Mesh>,
     pub adult: Arc<Mesh>,
     pub child: Arc<Mesh>,
     /// Left, right.
@@ -50,6 +51,7 @@ impl Models {
             car: car::car().into(),
             truck: truck::truck().into(),
             bicycle: bicycle::bicycle().into(),
+            parked_bicycle: bicycle::parked().into(),
             adult: person::trunk(1.0).into(),
             child: person::trunk(1.3).into(),
             arms: [1.0, -1.0].map(|side| person::arm(side).into()),

@@ -18,6 +18,8 @@ const CROWN: [f32; 2] = [0.25, 0.19];
 const BOUGHS: [f32; 2] = [0.28, 0.10];
 /// What is taller than this is no sign but a lamp post, in metres.
 const LAMP_POST: f32 = 3.8;
+/// A bicycle lower than this has no rider, in metres.
+const RIDDEN: f32 = 1.3;
 /// A person smaller than this is a child, in metres.
 pub(super) const CHILD: f32 = 1.4;
 
@@ -59,6 +61,9 @@ impl<'a> Figure<'a> {
         match self.state.body.class {
             Class::Car => scene.push(self.stretched(&models.car, car::SIZE)),
             Class::Truck => scene.push(self.stretched(&models.truck, truck::SIZE)),
+            Class::Bicycle if self.size[2] < RIDDEN => {
+                scene.push(self.stretched(&models.parked_bicycle, bicycle::PARKED));
+            }
             Class::Bicycle => scene.push(self.stretched(&models.bicycle, bicycle::SIZE)),
             Class::Pedestrian => walker(self, models, scene),
             Class::Building => {

@@ -30,14 +30,17 @@ pub struct Stage {
     models: BTreeMap<Class, Model>,
 }
 
-/// A mesh of the user's with the box that it was modelled in.
+/// A mesh of a user's own, which is stretched to the box of whatever it stands for. Its front is along x.
 #[derive(Debug)]
-struct Model {
+pub struct Model {
     mesh: Arc<Mesh>,
     /// The middle of the bottom of its box.
     foot: Vector3<f32>,
     size: [f32; 3],
 }
+
+/// The bodies of a run that are shown as models of a user's own, by their indices.
+pub type Cast = BTreeMap<usize, Arc<Model>>;
 
 impl Stage {
     /// The stage of a network.
@@ -47,7 +50,7 @@ impl Stage {
 
     /// Shows all bodies of a class as this mesh, stretched to their boxes. Its front is along x.
     pub fn model(mut self, class: Class, mesh: impl Into<Arc<Mesh>>) -> Self {
-        self.models.insert(class, Model::of(mesh.into()));
+        self.models.insert(class, Model::new(mesh));
         self
     }
 
@@ -59,13 +62,24 @@ impl Stage {
 
     /// These bodies, each with its index among those of the run, in this air. Those that have left the world are left out.
     pub fn scene_of<'a>(&self, bodies: impl IntoIterator<Item = (usize, &'a BodyState)>, air: Air) -> Scene {
+        self.scene_with(&Cast::new(), bodies, air)
+    }
+
+    /// [`Stage::scene_of`], with some of the bodies shown as models of their own.
+    pub fn scene_with<'a>(
+        &self,
+        cast: &Cast,
+        bodies: impl IntoIterator<Item = (usize, &'a BodyState)>,
+        air: Air,
+    ) -> Scene {
         let mut instances = self.still.clone();
         for (index, state) in bodies.into_iter().filter(|(_, state)| state.present) {
             let on_foot = matches!(state.body.class, Class::Pedestrian | Class::Bicycle);
             let raised = if on_foot { self.pavement.height(state.pose.position) } else { 0.0 };
             let id = u16::try_from(index + 1).unwrap_or(u16::MAX);
             let figure = Figure::new(state, raised as f32, id);
-            match self.models.get(&state.body.class) {
+            let of_class = || self.models.get(&state.body.class);
+            match cast.get(&index).map(Arc::as_ref).or_else(of_class) {
                 Some(model) => instances.push(model.instance(&figure)),
                 None => figure.draw(&mut instances),
             }
@@ -75,7 +89,9 @@ impl Stage {
 }
 
 impl Model {
-    fn of(mesh: Arc<Mesh>) -> Self {
+    /// The model that this mesh is.
+    pub fn new(mesh: impl Into<Arc<Mesh>>) -> Self {
+        let mesh = mesh.into();
         let points = || mesh.vertices().iter().map(|vertex| Vector3::from(vertex.position));
         let min = points().fold(Vector3::repeat(f32::INFINITY), |min, point| min.inf(&point));
         let max = points().fold(Vector3::repeat(f32::NEG_INFINITY), |max, point| max.sup(&point));

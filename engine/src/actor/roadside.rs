@@ -1,0 +1,222 @@
+//! What stands beside the roads and should not matter to whoever drives there: trees, houses, lamp posts, signs, parked
+//! bicycles and cars, people who stand about.
+//!
+//! Beside every sidewalk, or the edge of a road without one, there is a place every few metres, and chance says whether
+//! something stands there, and what. Chance comes from the values of the test. Each thing keeps to a disc that lies beyond
+//! the sidewalk; it is left out where the disc meets another road, a body that is there, or the way of one.
+
+use super::{EgoSetup, Fixture};
+use crate::object::{Behaviour, Body, Class, Colour, ObjectSetup};
+use crate::road::{Bounds, Network, Strip, Surface, wrapped};
+use crate::scenario::{Place, Pose, Scenario};
+use crate::sensor::Chance;
+use nalgebra::Vector2;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Metres from one place to the next.
+const PLACES: f64 = 8.0;
+/// Metres that a thing keeps from roads and sidewalks, from other things, and from bodies and their ways.
+const FROM_ROAD: f64 = 0.25;
+const FROM_OTHERS: f64 = 0.5;
+const FROM_BODIES: f64 = 1.5;
+/// Metres between two points of a way that is kept free.
+const STEP: f64 = 0.5;
+
+/// What stands beside the roads, not placed yet. It is placed last, so that it keeps clear of everything else.
+///
+/// It is there for sensors, and for whoever runs into it. Drivers are not told of it, no traffic minds it, and neither
+/// clearances nor other signals know of it: as long as nobody leaves the road, traces are as without it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Roadside {
+    fullness: f64,
+}
+
+/// A kind of thing.
+struct Kind {
+    name: &'static str,
+    /// How many of all things are of it.
+    share: f64,
+    body: fn(&mut Chance) -> Body,
+    /// How far its disc is beyond the sidewalk, in metres, and as much again by chance.
+    back: f64,
+    /// Where it faces, in radians counter-clockwise from the way of the traffic beside it.
+    faces: f64,
+}
+
+/// Towards the road, which is to the left of the way of the traffic; against the traffic.
+const TO_ROAD: f64 = FRAC_PI_2;
+const TO_TRAFFIC: f64 = PI;
+
+const KINDS: [Kind; 8] = [
+    Kind { name: "tree", share: 0.36, body: tree, back: 1.4, faces: TO_ROAD },
+    Kind { name: "house", share: 0.2, body: house, back: 2.5, faces: TO_ROAD },
+    Kind { name: "lamp-post", share: 0.1, body: lamp_post, back: 0.0, faces: TO_ROAD },
+    Kind { name: "sign", share: 0.1, body: sign, back: 0.1, faces: TO_TRAFFIC },
+    Kind { name: "parked-bicycle", share: 0.08, body: bicycle, back: 0.1, faces: 0.2 },
+    Kind { name: "bystander", share: 0.08, body: bystander, back: 0.2, faces: TO_ROAD },
+    Kind { name: "barrel", share: 0.04, body: barrel, back: 0.1, faces: TO_ROAD },
+    Kind { name: "parked-car", share: 0.04, body: car, back: 0.4, faces: TO_ROAD },
+];
+
+fn tree(chance: &mut Chance) -> Body {
+    Body::disc(Class::Tree, 0.3, chance.between(4.0, 8.0))
+}
+
+fn house(chance: &mut Chance) -> Body {
+    const WALLS: [Colour; 4] = [[190, 175, 155], [205, 195, 185], [165, 95, 75], [200, 185, 130]];
+    let wall = WALLS[chance.between(0.0, WALLS.len() as f64) as usize];
+    let storeys = chance.between(1.0, 4.0).floor();
+    let body = Body::block(Class::Building, chance.between(7.0, 9.0), chance.between(8.0, 12.0), 2.2 + 2.8 * storeys);
+    body.coloured(wall)
+}
+
+fn lamp_post(_: &mut Chance) -> Body {
+    Body::disc(Class::Sign, 0.08, 6.0)
+}
+
+fn sign(_: &mut Chance) -> Body {
+    Body::disc(Class::Sign, 0.05, 2.5)
+}
+
+fn bicycle(chance: &mut Chance) -> Body {
+    Body::parked_bicycle().coloured(painted(chance))
+}
+
+fn bystander(chance: &mut Chance) -> Body {
+    let body = if chance.happens(0.3) { Body::child() } else { Body::adult() };
+    body.coloured(painted(chance))
+}
+
+fn barrel(_: &mut Chance) -> Body {
+    Body::disc(Class::Prop, 0.3, 1.25)
+}
+
+fn car(chance: &mut Chance) -> Body {
+    Body::car().coloured(painted(chance))
+}
+
+/// Any colour.
+fn painted(chance: &mut Chance) -> Colour {
+    [0; 3].map(|_: u8| chance.between(0.0, 256.0) as u8)
+}
+
+impl Roadside {
+    /// From 0, nothing, to 1, as full as can be: the share of places at which something stands.
+    pub fn new(fullness: f64) -> Self {
+        Self { fullness }
+    }
+}
+
+impl Place for Roadside {
+    /// Nothing: there is nothing to read of it.
+    type Handle = ();
+
+    fn place(self, scenario: &mut Scenario) {
+        if !(0.0..=1.0).contains(&self.fullness) {
+            return scenario.problem(format!("the roadside is {} full, expected 0 to 1", self.fullness));
+        }
+        // A world that cannot be built has no place for anything.
+        let sound = scenario.problems.borrow().is_empty();
+        let network = scenario.networks.first().cloned().flatten();
+        let Some(network) = network.filter(|_| sound && self.fullness > 0.0) else { return };
+        let mut room = Room::beside(&network, scenario);
+        for (number, edge) in edges(&network).enumerate() {
+            let mut chance = Chance::of(scenario.key.get(), "roadside", number as u64);
+            if chance.happens(self.fullness) {
+                let (name, body, at) = thing(&edge, &mut chance);
+                if room.takes(at.position, body.outline.reach()) {
+                    scenario.place(Fixture::new(name, body, at));
+                    scenario.scenery.extend(scenario.objects.pop());
+                }
+            }
+        }
+    }
+}
+
+/// The places on the outer edges of sidewalks, or of roads without any: facing along the traffic, the road to the left.
+fn edges(network: &Network) -> impl Iterator<Item = Pose> {
+    let edge = |strip: &Strip| match strip.surface {
+        Surface::Sidewalk => Some(strip.right),
+        Surface::EdgeLine => Some(0.0),
+        _ => None,
+    };
+    let beside = network.strips().into_iter().filter_map(move |strip| Some((strip.curve, edge(&strip)?)));
+    beside.flat_map(|(curve, offset)| {
+        let count = (curve.length() / PLACES) as usize;
+        let first = 0.5 * (curve.length() - count.saturating_sub(1) as f64 * PLACES);
+        (0..count).map(move |i| {
+            let s = first + i as f64 * PLACES;
+            Pose { position: curve.beside(s, offset), heading: curve.heading(s) }
+        })
+    })
+}
+
+/// What stands beyond this place of an edge.
+fn thing(edge: &Pose, chance: &mut Chance) -> (&'static str, Body, Pose) {
+    let mut left = chance.unit();
+    let drawn = KINDS.iter().find(|kind| {
+        left -= kind.share;
+        left < 0.0
+    });
+    let kind = drawn.unwrap_or(&KINDS[0]);
+    let body = (kind.body)(chance);
+    let beyond = body.outline.reach() + FROM_ROAD + kind.back * chance.between(1.0, 2.0);
+    let along = chance.between(-0.3, 0.3) * PLACES;
+    let position = edge.position + edge.forward() * along - edge.left() * beyond;
+    (kind.name, body, Pose { position, heading: wrapped(edge.heading + kind.faces) })
+}
+
+/// Where there is room beside the roads.
+struct Room {
+    ground: Vec<(Bounds, Strip)>,
+    /// Discs that are not free: their middles and radii.
+    taken: Vec<(Vector2<f64>, f64)>,
+}
+
+impl Room {
+    /// That which roads, bodies and their ways leave.
+    fn beside(network: &Network, scenario: &Scenario) -> Self {
+        let wide = |strip: &Strip| strip.right.abs().max(strip.left.abs());
+        let on_ground =
+            |strip: &Strip| matches!(strip.surface, Surface::Carriageway | Surface::Sidewalk | Surface::Island);
+        let strips = network.strips().into_iter().filter(on_ground);
+        let ground = strips.map(|strip| (strip.curve.bounds().grown(wide(&strip)), strip)).collect();
+        let cars = scenario.cars.iter().map(EgoSetup::disc);
+        let mut taken: Vec<_> = cars.chain(scenario.objects.iter().flat_map(kept_free)).collect();
+        taken.iter_mut().for_each(|(_, radius)| *radius += FROM_BODIES);
+        Self { ground, taken }
+    }
+
+    /// Takes a disc, if it is free.
+    fn takes(&mut self, middle: Vector2<f64>, radius: f64) -> bool {
+        let clear = radius + 0.9 * FROM_ROAD;
+        let around = Bounds::around([middle]).grown(clear);
+        let on_ground = |(bounds, strip): &(Bounds, Strip)| bounds.meets(&around) && distance(strip, middle) < clear;
+        let meets = |(other, reach): &(Vector2<f64>, f64)| (other - middle).norm() < radius + reach;
+        let free = !self.ground.iter().any(on_ground) && !self.taken.iter().any(meets);
+        if free {
+            self.taken.push((middle, radius + FROM_OTHERS));
+        }
+        free
+    }
+}
+
+/// The discs around the bodies of an object, and those that it goes through.
+fn kept_free(object: &ObjectSetup) -> Vec<(Vector2<f64>, f64)> {
+    let mut discs: Vec<_> = object.bodies.iter().map(|(body, at)| (at.position, body.outline.reach())).collect();
+    let reach = discs.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
+    if let Behaviour::Geometric(behaviour) = &object.behaviour
+        && let Some(way) = behaviour.plan()
+    {
+        let steps = (way.length() / STEP).ceil() as usize;
+        discs.extend((0..=steps).map(|i| (way.at((i as f64 * STEP).min(way.length())).position, reach)));
+    }
+    discs
+}
+
+/// Metres from a strip to a point; 0 on it.
+fn distance(strip: &Strip, point: Vector2<f64>) -> f64 {
+    let local = strip.curve.at(strip.curve.nearest(point)).to_local(point);
+    let aside = (strip.right - local.y).max(local.y - strip.left).max(0.0);
+    Vector2::new(local.x, aside).norm()
+}
