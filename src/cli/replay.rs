@@ -25,8 +25,8 @@ pub(super) struct Options {
     /// Draw the run from above to a file that does not exist yet: as one picture (.svg, .png) or as a film (.gif)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
-    /// Film what a camera at the front sees, into a FILE.gif or a FOLDER of PNG files that does not exist yet
-    #[arg(long, value_name = "FILE.gif|FOLDER")]
+    /// Film what a camera at the front sees, into a FILE.mp4, a FILE.gif or a FOLDER of PNG files that does not exist yet
+    #[arg(long, value_name = "FILE.mp4|FILE.gif|FOLDER")]
     camera: Option<PathBuf>,
     /// Film with the first camera in this file; `paracosm-fuzz record --print-cameras` prints one
     #[arg(long, value_name = "CAMERAS.toml", requires = "camera")]
@@ -127,7 +127,8 @@ impl Options {
         if trial != *logged {
             return Err(difference(&worker, logged, &trial).into());
         }
-        if let Some(clip) = &clip {
+        if let Some(clip) = clip {
+            let clip = clip.until(stop);
             clip.write(&mut worker, logged, &cameras)?.iter().for_each(|line| verbosity.note(line));
         }
         print(&match Format::or_fitting(self.format) {

@@ -16,6 +16,7 @@ mod part;
 mod projector;
 #[cfg(test)]
 pub(crate) mod tests;
+mod video;
 
 pub use crate::darkroom::Picture;
 pub use cameras::{STANDARD_CAMERAS, cameras_for_people, read_cameras, standard_cameras};

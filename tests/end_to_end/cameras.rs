@@ -55,7 +55,35 @@ fn a_recording_is_a_campaign_with_images_and_can_be_resumed_and_replayed() {
         count += 1;
     }
     assert_eq!(count, fs::read_dir(dir.join("front")).expect("a folder").count());
+    succeeds(fuzz(dir, &[&replay[..], &["front.mp4"]].concat()));
+    shows_the_same(dir, "front.mp4", "front", count);
     refused(&fuzz(dir, &[&replay[..], &["front.gif"]].concat()), &["front.gif exists"]);
+}
+
+/// Checks that a film has so many pictures of 40 x 24 pixels, and, where there is something that can decode it, that they
+/// are hardly other than those in a folder.
+fn shows_the_same(dir: &Path, film: &str, folder: &str, count: usize) {
+    let file = fs::read(dir.join(film)).expect("a film");
+    let place = file.windows(4).position(|kind| kind == b"stsz").expect("sizes of pictures");
+    let sizes = &file[place + 12..];
+    assert_eq!(u32::from_be_bytes([sizes[0], sizes[1], sizes[2], sizes[3]]) as usize, count);
+    let decoder = ["-v", "error", "-i", film, "-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"];
+    let Ok(decoded) = std::process::Command::new("ffmpeg").args(decoder).current_dir(dir).output() else {
+        eprintln!("SKIPPED: no ffmpeg, so that nobody looks at the pictures of {film}");
+        return;
+    };
+    assert!(decoded.status.success(), "{}", stderr(&decoded));
+    let frames = decoded.stdout.chunks_exact(40 * 24 * 3);
+    assert_eq!(frames.len(), count);
+    for (number, frame) in frames.enumerate() {
+        let image = fs::File::open(dir.join(folder).join(format!("{number:06}.png"))).expect("an image");
+        let mut reader = png::Decoder::new(std::io::BufReader::new(image)).read_info().expect("a PNG");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("it fits into memory")];
+        reader.next_frame(&mut pixels).expect("an image");
+        let apart: u64 = pixels.iter().zip(frame).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+        let mean = apart as f64 / pixels.len() as f64;
+        assert!(mean < 6.0, "picture {number} is {mean} off on average");
+    }
 }
 
 #[test]
@@ -91,7 +119,8 @@ fn what_cannot_be_recorded_is_said_before_anything_is_run() {
     let dir = dir.path();
     succeeds(fuzz(dir, &["--budget", "2"]));
     let film = |path| fuzz(dir, &["replay", "paracosm-out", "0", "--camera", path]);
-    refused(&film("front.mp4"), &["`.mp4`", "FILE.gif", "FOLDER"]);
+    refused(&film("front.mp5"), &["`.mp5`", "FILE.mp4", "FILE.gif", "FOLDER", "did you mean `mp4`?"]);
+    refused(&film("front.avi"), &["`.avi`", "FILE.mp4"]);
     refused(&fuzz(dir, &["record", "--outputs", "rgb,dept"]), &["no output `dept`", "`depth`"]);
     fs::write(dir.join("cameras.toml"), "[camera.front]\nresolutoin = [1, 1]\n").expect("a file");
     refused(
