@@ -9,6 +9,8 @@ use crate::simulator::Simulator;
 use crate::study::{Specs, Subject};
 use crate::{Error, Study, Trial};
 use paracosm_coverage::Values;
+#[cfg(feature = "camera")]
+use paracosm_engine::sensor::Cameras;
 use paracosm_engine::sensor::Shutters;
 use paracosm_engine::{Outcome, Run, Test};
 use paracosm_oracles::{Trace, Verdict};
@@ -110,6 +112,18 @@ impl<'a> Worker<'a> {
             Bench::System(connection) => asked(connection, &self.specs, index, test),
         };
         judged(&self.specs, index, test, outcome)
+    }
+
+    /// The cameras that its driver sees through: none where it sees nothing.
+    ///
+    /// # Errors
+    /// There is no driver to be had.
+    #[cfg(feature = "camera")]
+    pub fn eyes(&mut self) -> Result<Cameras, Error> {
+        match &mut self.bench {
+            Bench::Simulator(simulator) => simulator.eyes(),
+            Bench::System(_) => Ok(Cameras::default()),
+        }
     }
 
     /// What draws for its drivers, if they see.

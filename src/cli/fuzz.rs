@@ -28,7 +28,7 @@ const REPLAYS: &str = "\
 Examples:
   paracosm-fuzz replay paracosm-out 17 --trace trace-17.csv
   paracosm-fuzz replay paracosm-out 17 --draw test-17.gif
-  paracosm-fuzz replay paracosm-out 17 --camera front-17.gif
+  paracosm-fuzz replay paracosm-out 17 --camera front-17.mp4
   paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json
   paracosm-fuzz replay regressions/*.json                      the failures are still the same
   paracosm-fuzz replay regressions/*.json --fail-on-violation  in CI: what was mended stays so

@@ -3,7 +3,9 @@
 use super::output::plural;
 use super::run::{self, Conducted};
 use super::{Failure, Found, Verbosity, print};
-use crate::record::{Dataset, Kept, Projector, STANDARD_CAMERAS, check_rates, read_cameras, standard_cameras};
+use crate::record::{
+    Dataset, Kept, Projector, STANDARD_CAMERAS, VariedCameras, check_rates, read_cameras, standard_cameras,
+};
 use crate::{Error, Trial, Worker};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -32,7 +34,8 @@ and annotations.json beside these folders has the boxes of all tests as one set.
 pub(super) struct Options {
     #[command(flatten)]
     run: run::Options,
-    /// The cameras on the car under test [default: what --print-cameras prints]
+    /// The cameras on the car under test [default: what --print-cameras prints]. A setting that is a range, "LO..HI", or a
+    /// list, "A,B,C", is a parameter of the tests, called camera.NAME.SETTING
     #[arg(long, value_name = "CAMERAS.toml")]
     cameras: Option<PathBuf>,
     /// Print the file of the default camera, with an explanation of everything, and do nothing else
@@ -56,11 +59,17 @@ impl Options {
                 Error::Usage("--system: what a system does cannot be seen, so it cannot be recorded".into()).into()
             );
         }
-        let cameras = self.cameras.as_deref().map_or_else(|| Ok(standard_cameras()), read_cameras)?;
+        let cameras = match &self.cameras {
+            Some(path) => read_cameras(path)?,
+            None => VariedCameras::from(standard_cameras()),
+        };
         let kept: Kept = self.outputs.parse()?;
         // Before a long campaign, not after it, it is said that nothing can be drawn.
-        let mut projector = Projector::new(&cameras, kept.outputs())?;
-        let conducted = self.run.conduct(verbosity, |study| check_rates(study, &cameras))?;
+        let mut projector = Projector::new(cameras.nominal(), kept.outputs())?;
+        let conducted = self.run.conduct(verbosity, |study| {
+            check_rates(&study, cameras.nominal())?;
+            cameras.open(study)
+        })?;
         let dataset = Dataset::open(&self.run.out, cameras, kept, self.colours)?;
         self.record(&conducted, &dataset, &mut projector, verbosity)?;
         Ok(conducted.found)

@@ -3,8 +3,10 @@
 use super::draw::{Kind, Target};
 use super::output::{Format, Table, digits, json, value_words};
 use super::{Failure, Found, Verbosity, on_interrupt, print, regressions};
+use crate::coverage::{did_you_mean, nearest};
 use crate::engine::Metric;
 use crate::engine::picture::Record;
+use crate::engine::sensor::Cameras;
 use crate::expected::Expected;
 use crate::record::{Clip, cameras_for_people, read_cameras};
 use crate::{Error, Expectation, Folder, Study, Subject, Trial, Worker, plot, write_trace};
@@ -25,12 +27,16 @@ pub(super) struct Options {
     /// Draw the run from above to a file that does not exist yet: as one picture (.svg, .png) or as a film (.gif)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
-    /// Film what a camera at the front sees, into a FILE.gif or a FOLDER of PNG files that does not exist yet
-    #[arg(long, value_name = "FILE.gif|FOLDER")]
+    /// Film what a camera sees, into a FILE.mp4, a FILE.gif or a FOLDER of PNG files that does not exist yet
+    #[arg(long, value_name = "FILE.mp4|FILE.gif|FOLDER")]
     camera: Option<PathBuf>,
-    /// Film with the first camera in this file; `paracosm-fuzz record --print-cameras` prints one
+    /// Film through a camera in this file; `paracosm-fuzz record --print-cameras` prints one [default: what the driver sees
+    /// through; where it sees nothing, a camera at the front with 640 x 480 pixels]
     #[arg(long, value_name = "CAMERAS.toml", requires = "camera")]
     cameras: Option<PathBuf>,
+    /// Which of these cameras to film through [default: the first by name]
+    #[arg(long, value_name = "NAME", requires = "camera")]
+    through: Option<String>,
     /// How the tests in regression files are to end, whatever the files say
     #[arg(long, value_name = "VERDICT")]
     expect: Option<Ending>,
@@ -89,7 +95,8 @@ impl Options {
             .map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif]))
             .transpose()?;
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
-        let cameras = self.cameras.as_deref().map_or_else(|| Ok(cameras_for_people()), read_cameras)?;
+        let given = self.cameras.as_deref().map(read_cameras).transpose()?;
+        let given = given.map(|cameras| self.through(cameras.of_test(&logged.test))).transpose()?;
         let seen = [("--draw", &self.draw), ("--camera", &self.camera)];
         let seen = seen.into_iter().find_map(|(option, file)| Some((option, file.as_ref()?)));
         if let (Some((option, file)), Subject::System(_)) = (seen, &study.subject) {
@@ -127,7 +134,12 @@ impl Options {
         if trial != *logged {
             return Err(difference(&worker, logged, &trial).into());
         }
-        if let Some(clip) = &clip {
+        if let Some(clip) = clip {
+            let clip = clip.until(stop);
+            let cameras = match given {
+                Some(cameras) => cameras,
+                None => self.through(eyes(&mut worker)?)?,
+            };
             clip.write(&mut worker, logged, &cameras)?.iter().for_each(|line| verbosity.note(line));
         }
         print(&match Format::or_fitting(self.format) {
@@ -136,6 +148,31 @@ impl Options {
         })?;
         Ok(if trial.is_failure() { Found::Violation } else { Found::Nothing })
     }
+}
+
+impl Options {
+    /// The camera among these that is filmed through.
+    fn through(&self, mut cameras: Cameras) -> Result<Cameras, Error> {
+        let names = || cameras.all.keys().map(String::as_str);
+        let name = match &self.through {
+            Some(name) if cameras.all.contains_key(name) => Some(name.clone()),
+            Some(name) => {
+                let (all, meant) = (names().collect::<Vec<_>>().join(", "), did_you_mean(&nearest(name, names())));
+                return Err(Error::Usage(format!(
+                    "--through {name}: there is no such camera, expected one of {all}{meant}"
+                )));
+            }
+            None => names().next().map(str::to_owned),
+        };
+        cameras.all.retain(|other, _| Some(other) == name.as_ref());
+        Ok(cameras)
+    }
+}
+
+/// The cameras that the driver sees through, or one for people where it sees nothing.
+fn eyes(worker: &mut Worker) -> Result<Cameras, Error> {
+    let eyes = worker.eyes()?;
+    Ok(if eyes.all.is_empty() { cameras_for_people() } else { eyes })
 }
 
 impl From<Ending> for Expectation {

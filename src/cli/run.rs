@@ -81,17 +81,16 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        self.conduct(verbosity, |_| Ok(())).map(|conducted| conducted.found)
+        self.conduct(verbosity, Ok).map(|conducted| conducted.found)
     }
 
-    /// Runs the campaign, unless `check` has something against its study, and prints its summary.
+    /// Runs the campaign and prints its summary. `prepare` may open more of what is tested, or have something against it.
     pub fn conduct(
         &self,
         verbosity: Verbosity,
-        check: impl FnOnce(&Study) -> Result<(), Error>,
+        prepare: impl FnOnce(Study) -> Result<Study, Error>,
     ) -> Result<Conducted, Failure> {
-        let study = self.study(verbosity)?;
-        check(&study)?;
+        let study = self.study(prepare(self.subject.study(verbosity)?)?)?;
         if self.locate.is_some() && study.space.levels().is_empty() {
             let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
             return Err(Error::Usage(message.into()).into());
@@ -191,11 +190,10 @@ impl Options {
         Ok(Conducted { study, trials, found, stop })
     }
 
-    fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
+    /// A study of what is tested, with the strategy that is asked for.
+    fn study(&self, tested: Study) -> Result<Study, Error> {
         let sampling = &self.sampling;
-        let mut study = self
-            .subject
-            .study(verbosity)?
+        let mut study = tested
             .strategy(self.strategy())?
             .batch(self.batch)?
             .delta(sampling.delta)

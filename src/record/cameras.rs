@@ -1,7 +1,8 @@
-//! The cameras of a recording, as a file describes them.
+//! The cameras of a recording: those that it has where nothing is said, and those of a file.
 
+use super::VariedCameras;
+use super::camera_file::parse;
 use crate::Error;
-use crate::darkroom::check;
 use paracosm_engine::sensor::Cameras;
 use std::fs;
 use std::path::Path;
@@ -27,31 +28,8 @@ pub fn cameras_for_people() -> Cameras {
 /// Reads and checks a file.
 ///
 /// # Errors
-/// It cannot be read, is no TOML, or describes a camera that there is not; the error names it.
-pub fn read_cameras(path: &Path) -> Result<Cameras, Error> {
+/// It cannot be read, is no TOML, or describes a camera that there is not; the error names the key and the line.
+pub fn read_cameras(path: &Path) -> Result<VariedCameras, Error> {
     let text = fs::read_to_string(path).map_err(Error::file("read", path))?;
-    let cameras: Cameras = toml::from_str(&text).map_err(|error| {
-        let line = error.span().map(|span| text[..span.start].matches('\n').count() + 1);
-        Error::content(path, line, error.message().to_owned())
-    })?;
-    if cameras.all.is_empty() {
-        return Err(Error::content(path, None, "found no camera, expected a table [camera.NAME]"));
-    }
-    check_cameras(&cameras).map_err(|message| Error::content(path, None, message))?;
-    Ok(cameras)
-}
-
-/// Whether there are such cameras; the message names the one that is not.
-fn check_cameras(cameras: &Cameras) -> Result<(), String> {
-    let plain =
-        |name: &str| !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
-    for (name, camera) in &cameras.all {
-        if !plain(name) {
-            return Err(format!(
-                "camera `{name}`: expected a name of letters, digits, - and _, which becomes that of a folder"
-            ));
-        }
-        check(camera).map_err(|message| format!("camera `{name}`: {message}"))?;
-    }
-    Ok(())
+    parse(&text).map_err(|flaw| Error::content(path, flaw.line, flaw.message))
 }

@@ -1,47 +1,92 @@
-//! What one camera sees of a test, for people: as a film in a GIF file, or as a folder of PNG files.
+//! What one camera sees of a test, for people: as a film in an MP4 or a GIF file, or as a folder of PNG files.
 //!
 //! Images are written as they are drawn, so that no more than a few of them are in memory.
 
 use super::image::{Pixels, write};
 use super::missing::Missing;
 use super::part::Part;
+use super::video::Video;
 use super::{Film, Picture, Projector, Shot};
 use crate::folder::is_new;
 use crate::{Error, Trial, Worker, plot};
-use paracosm_engine::sensor::Cameras;
+use paracosm_coverage::{did_you_mean, nearest};
+use paracosm_engine::sensor::{Cameras, Mounted};
 use paracosm_render::{Outputs, Stages};
 use rayon::prelude::*;
 use std::error::Error as StdError;
+use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Where a clip goes, which does not exist yet.
 #[derive(Debug)]
 pub struct Clip {
     path: PathBuf,
-    is_film: bool,
+    form: Form,
+    stop: Arc<AtomicBool>,
+}
+
+/// What a clip is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Mp4,
+    Gif,
+    /// A folder of PNG files.
+    Images,
+}
+
+/// A film that is being written.
+enum Reel {
+    Mp4(Video<BufWriter<File>>),
+    Gif(plot::Reel<BufWriter<File>>),
+}
+
+impl Reel {
+    fn show(&mut self, rgb: &[u8], seconds: f64) -> Result<(), Box<dyn StdError + Send + Sync>> {
+        match self {
+            Self::Mp4(video) => video.show(rgb, seconds),
+            Self::Gif(reel) => reel.show(rgb, seconds),
+        }
+    }
+
+    fn end(self) -> Result<(), Box<dyn StdError + Send + Sync>> {
+        match self {
+            Self::Mp4(video) => video.end(),
+            Self::Gif(reel) => reel.end(),
+        }
+    }
 }
 
 impl Clip {
-    /// A clip in a file that ends in `.gif`, or in a folder of images, whose name has no ending.
+    /// A clip in a file that ends in `.mp4` or `.gif`, or in a folder of images, whose name has no ending.
     ///
     /// # Errors
     /// It exists, or its name has another ending.
     pub fn new(path: &Path) -> Result<Self, Error> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let is_film = match ending.as_deref() {
-            Some("gif") => true,
-            None => false,
+        let form = match ending.as_deref() {
+            Some("mp4") => Form::Mp4,
+            Some("gif") => Form::Gif,
+            None => Form::Images,
             Some(other) => {
+                let meant = did_you_mean(&nearest(other, ["mp4", "gif"]));
                 let message = format!(
-                    "--camera {}: found the ending `.{other}`, expected FILE.gif, or a FOLDER without an ending for PNG files",
+                    "--camera {}: found the ending `.{other}`, expected FILE.mp4, FILE.gif, or a FOLDER without an ending \
+                     for PNG files{meant}",
                     path.display()
                 );
                 return Err(Error::Usage(message));
             }
         };
         is_new(path, "a film")?;
-        Ok(Self { path: path.to_owned(), is_film })
+        Ok(Self { path: path.to_owned(), form, stop: Arc::default() })
+    }
+
+    /// The same, which is given up and leaves nothing behind once `stop` is set.
+    pub fn until(self, stop: Arc<AtomicBool>) -> Self {
+        Self { stop, ..self }
     }
 
     /// Films a test of a worker's study with the first of these cameras; in words, a line each, what was written and what
@@ -54,13 +99,11 @@ impl Clip {
         let mut projector = Projector::new(cameras, Outputs { rgb: true, ..Outputs::default() })?;
         let (name, camera) = cameras.all.iter().next().expect("there is a camera in every set");
         let mut missing = Missing::of(name, camera);
-        let size = camera.resolution;
-        let images = if self.is_film {
-            self.write_film(&film, &mut projector, &mut missing, size)?
-        } else {
-            self.write_images(&film, &mut projector, &mut missing, size)?
+        let images = match self.form {
+            Form::Images => self.write_images(&film, &mut projector, &mut missing, camera.resolution)?,
+            Form::Mp4 | Form::Gif => self.write_film(&film, &mut projector, &mut missing, camera)?,
         };
-        let written = format!("{images} images written to {}", self.path.display());
+        let written = format!("{images} images of camera `{name}` written to {}", self.path.display());
         Ok(std::iter::once(written).chain(missing.notes()).collect())
     }
 
@@ -69,13 +112,50 @@ impl Clip {
         film: &Film,
         projector: &mut Projector,
         missing: &mut Missing<'_>,
-        size: [u32; 2],
+        camera: &Mounted,
     ) -> Result<usize, Error> {
+        let failed = |error: Box<dyn StdError + Send + Sync>| self.failed(error.to_string());
+        let colours = match self.form {
+            Form::Gif => Some(self.colours(film, projector, missing)?),
+            Form::Mp4 | Form::Images => None,
+        };
+        let (part, file) = Part::file(&self.path)?;
+        let (file, size) = (BufWriter::new(file), camera.resolution);
+        let mut reel = match colours {
+            Some(colours) => Reel::Gif(plot::Reel::begin(file, size, colours.palette()).map_err(failed)?),
+            None => Reel::Mp4(Video::begin(file, size, camera.rate).map_err(failed)?),
+        };
+        let mut images = 0;
+        projector.show(film, 0, |shots| {
+            self.go_on()?;
+            shots.iter().try_for_each(|(shot, seen)| {
+                missing.see(shot, seen);
+                let Some(rgb) = colours_of(seen) else { return Ok(()) };
+                images += 1;
+                reel.show(rgb, shot.time).map_err(failed)
+            })
+        })?;
+        if images == 0 {
+            self.nothing(film, missing)?;
+        }
+        reel.end().map_err(failed)?;
+        part.finish()?;
+        Ok(images)
+    }
+
+    /// The colours of a film.
+    fn colours(
+        &self,
+        film: &Film,
+        projector: &mut Projector,
+        missing: &mut Missing<'_>,
+    ) -> Result<plot::Colours, Error> {
         let mut colours = plot::Colours::default();
         // Where the camera is inside something in all of the few, it may still see something in others.
         for some in [&film.sample(), film] {
             if colours.are_none() {
                 projector.show(some, 0, |shots| {
+                    self.go_on()?;
                     shots.iter().filter_map(|(_, seen)| colours_of(seen)).for_each(|rgb| colours.count(rgb));
                     Ok(())
                 })?;
@@ -84,21 +164,7 @@ impl Clip {
         if colours.are_none() {
             self.nothing(film, missing)?;
         }
-        let (part, file) = Part::file(&self.path)?;
-        let failed = |error: Box<dyn StdError + Send + Sync>| self.failed(error.to_string());
-        let mut reel = plot::Reel::begin(BufWriter::new(file), size, colours.palette()).map_err(failed)?;
-        let mut images = 0;
-        projector.show(film, 0, |shots| {
-            shots.iter().try_for_each(|(shot, seen)| {
-                missing.see(shot, seen);
-                let Some(rgb) = colours_of(seen) else { return Ok(()) };
-                images += 1;
-                reel.show(rgb, shot.time).map_err(failed)
-            })
-        })?;
-        reel.end().map_err(failed)?;
-        part.finish()?;
-        Ok(images)
+        Ok(colours)
     }
 
     fn write_images(
@@ -111,6 +177,7 @@ impl Clip {
         let part = Part::folder(&self.path)?;
         let mut images = 0;
         projector.show(film, 0, |shots| {
+            self.go_on()?;
             shots.iter().for_each(|(shot, seen)| missing.see(shot, seen));
             images += shots.iter().filter(|(_, seen)| seen.is_ok()).count();
             shots.par_iter().filter_map(|(shot, seen)| Some((shot, colours_of(seen)?))).try_for_each(|(shot, rgb)| {
@@ -123,6 +190,11 @@ impl Clip {
         }
         part.finish()?;
         Ok(images)
+    }
+
+    /// Whether nobody has had enough of it.
+    fn go_on(&self) -> Result<(), Error> {
+        if self.stop.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
     }
 
     /// Fails and says why there is nothing to see.

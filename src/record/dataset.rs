@@ -6,7 +6,7 @@ use super::coco::{ANNOTATIONS, Annotations, merge};
 use super::image::{Pixels, depth_words, write};
 use super::missing::Missing;
 use super::part::Part;
-use super::{Film, Inside, Picture, Projector, Shot};
+use super::{Film, Inside, Picture, Projector, Shot, VariedCameras};
 use crate::darkroom::camera;
 use crate::folder::write_whole;
 use crate::{Error, Trial, Worker};
@@ -16,6 +16,7 @@ use paracosm_render::{Outputs, Stages};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
@@ -84,6 +85,7 @@ struct Recording {
     kept: Kept,
     /// The seed of colours, where they are drawn.
     colours: Option<u64>,
+    /// The cameras; settings that tests vary are in the middle of their ranges, which the study has.
     cameras: Cameras,
 }
 
@@ -101,17 +103,23 @@ pub struct Recorded {
 pub struct Dataset {
     folder: PathBuf,
     recording: Recording,
+    cameras: VariedCameras,
     stages: Stages,
 }
 
 impl Dataset {
-    /// The data set in the folder of a campaign, begun if there is none.
+    /// The data set in the folder of a campaign, begun if there is none. Tests vary what [`VariedCameras::open`] opened.
     ///
     /// # Errors
     /// The folder cannot be written, or there is a data set of other cameras, outputs or colours.
-    pub fn open(folder: &Path, cameras: Cameras, kept: Kept, colours: Option<u64>) -> Result<Self, Error> {
-        let file = folder.join(RECORDING);
-        let recording = Recording { kept, colours, cameras };
+    pub fn open(
+        folder: &Path,
+        cameras: impl Into<VariedCameras>,
+        kept: Kept,
+        colours: Option<u64>,
+    ) -> Result<Self, Error> {
+        let (file, cameras) = (folder.join(RECORDING), cameras.into());
+        let recording = Recording { kept, colours, cameras: cameras.nominal().clone() };
         if file.exists() {
             let text = fs::read_to_string(&file).map_err(Error::file("read", &file))?;
             let there: Recording =
@@ -124,7 +132,7 @@ impl Dataset {
         } else {
             write_whole(&file, pretty(&recording).as_bytes())?;
         }
-        Ok(Self { folder: folder.to_owned(), recording, stages: Stages::default() })
+        Ok(Self { folder: folder.to_owned(), recording, cameras, stages: Stages::default() })
     }
 
     /// Whether a test is recorded.
@@ -137,17 +145,20 @@ impl Dataset {
     /// # Errors
     /// The test is not the one that was logged, its images cannot be drawn, or its folder cannot be written.
     pub fn record(&self, worker: &mut Worker, trial: &Trial, projector: &mut Projector) -> Result<Recorded, Error> {
-        let Recording { cameras, colours, .. } = &self.recording;
-        let mut film = Film::of(worker, trial, cameras, &self.stages)?;
-        if let Some(seed) = colours {
-            film.repaint(*seed, trial.index);
+        let cameras = self.cameras.of_test(&trial.test);
+        let mut film = Film::of(worker, trial, &cameras, &self.stages)?;
+        if let Some(seed) = self.recording.colours {
+            film.repaint(seed, trial.index);
+        }
+        if self.cameras.vary() {
+            projector.fit(&cameras)?;
         }
         let whole = self.path(trial);
         let part = whole.with_extension("part");
         if part.exists() {
             fs::remove_dir_all(&part).map_err(Error::file("remove", &part))?;
         }
-        let recorded = self.write(&film, projector, &part);
+        let recorded = self.write((&film, &cameras, trial), projector, &part);
         if recorded.is_err() {
             // It is of no use to anybody; that it cannot be removed changes nothing.
             let _ = fs::remove_dir_all(&part);
@@ -176,8 +187,13 @@ impl Dataset {
         self.folder.join(format!("{:06}", trial.index))
     }
 
-    fn write(&self, film: &Film, projector: &mut Projector, folder: &Path) -> Result<Recorded, Error> {
-        let Recording { cameras, kept, .. } = &self.recording;
+    fn write(
+        &self,
+        (film, cameras, trial): (&Film, &Cameras, &Trial),
+        projector: &mut Projector,
+        folder: &Path,
+    ) -> Result<Recorded, Error> {
+        let kept = &self.recording.kept;
         let mut annotations = Annotations::new();
         let mut controls = CONTROLS.to_owned();
         let (mut images, mut notes) = (0, Vec::new());
@@ -204,7 +220,13 @@ impl Dataset {
             })?;
             notes.extend(missing.notes());
         }
-        let mut files = vec![("controls.csv", controls), ("calibration.json", pretty(&calibration(cameras)?))];
+        let mut files = vec![
+            ("controls.csv", controls),
+            (
+                "calibration.json",
+                pretty(&calibration(cameras, |name| self.cameras.settings_of(name, &trial.test).collect())?),
+            ),
+        ];
         if kept.boxes {
             files.push((ANNOTATIONS, pretty(&annotations)));
         }
@@ -270,15 +292,18 @@ fn quoted(text: &str) -> String {
 }
 
 /// What `calibration.json` holds: each camera's matrix, which takes x to the right, y down and z forward to pixels, and
-/// where it is mounted.
-fn calibration(cameras: &Cameras) -> Result<serde_json::Value, Error> {
+/// where it is mounted; and those of its settings that vary from test to test.
+fn calibration<'n>(
+    cameras: &'n Cameras,
+    varied: impl Fn(&'n str) -> BTreeMap<&'static str, f64>,
+) -> Result<serde_json::Value, Error> {
     let described = cameras.all.iter().map(|(name, mounted)| {
         let camera = camera(mounted).map_err(|error| Error::Usage(format!("camera `{name}`: {error}")))?;
         let [width, height] = mounted.resolution;
         let (focal, x, y) = (camera.focal_pixels(), f64::from(width) / 2.0, f64::from(height) / 2.0);
         let pose = camera.mount().to_homogeneous();
         let rows: Vec<Vec<f64>> = pose.row_iter().map(|row| row.iter().copied().collect()).collect();
-        let described = json!({
+        let mut described = json!({
             "width": width,
             "height": height,
             "K": [[focal, 0.0, x], [0.0, focal, y], [0.0, 0.0, 1.0]],
@@ -288,6 +313,10 @@ fn calibration(cameras: &Cameras) -> Result<serde_json::Value, Error> {
             "position": mounted.position,
             "yaw_pitch_roll": mounted.yaw_pitch_roll,
         });
+        let varied = varied(name);
+        if !varied.is_empty() {
+            described["varied"] = json!(varied);
+        }
         Ok((name.clone(), described))
     });
     let cameras = described.collect::<Result<serde_json::Map<_, _>, Error>>()?;

@@ -5,6 +5,7 @@
 //! batch is as large with one test as with many. Everything, the noise of sensors too, depends on the test alone: on its
 //! values and the cameras' seed, so that every test has noise of its own and loses images of its own.
 
+mod camera_file;
 mod cameras;
 mod clip;
 mod coco;
@@ -14,8 +15,11 @@ mod image;
 mod missing;
 mod part;
 mod projector;
+mod settings;
 #[cfg(test)]
 pub(crate) mod tests;
+mod varied;
+mod video;
 
 pub use crate::darkroom::Picture;
 pub use cameras::{STANDARD_CAMERAS, cameras_for_people, read_cameras, standard_cameras};
@@ -23,3 +27,4 @@ pub use clip::Clip;
 pub use dataset::{Dataset, Kept, Recorded};
 pub use film::{Film, Shot, check_rates};
 pub use projector::{Developed, Inside, Projector};
+pub use varied::VariedCameras;

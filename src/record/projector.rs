@@ -27,13 +27,28 @@ impl Projector {
     /// # Errors
     /// There is no adapter, no such camera, or its images are too large for the adapter.
     pub fn new(cameras: &Cameras, wanted: Outputs) -> Result<Self, Error> {
-        let cameras = Optics::of(cameras)?;
+        // That there is no such camera is said even where there is no adapter.
+        let optics = Optics::of(cameras)?;
         let developer = Developer::new().map_err(|error| Error::Usage(error.to_string()))?;
+        let mut projector = Self { developer, cameras: Vec::new(), wanted };
+        projector.take(optics).map(|()| projector)
+    }
+
+    /// Draws the films of other cameras from now on.
+    ///
+    /// # Errors
+    /// There is no such camera, or its images are too large for the adapter.
+    pub fn fit(&mut self, cameras: &Cameras) -> Result<(), Error> {
+        self.take(Optics::of(cameras)?)
+    }
+
+    pub(super) fn take(&mut self, cameras: Vec<Optics>) -> Result<(), Error> {
         for optics in &cameras {
             let too_large = |error| Error::Usage(format!("camera `{}`: {error}", optics.name));
-            developer.check_size(&optics.camera, optics.needs(wanted)).map_err(too_large)?;
+            self.developer.check_size(&optics.camera, optics.needs(self.wanted)).map_err(too_large)?;
         }
-        Ok(Self { developer, cameras, wanted })
+        self.cameras = cameras;
+        Ok(())
     }
 
     /// What it draws with.

@@ -1,10 +1,13 @@
 //! Recordings against what they were made of, decoded and counted anew.
 
+#[path = "../../engine/render/tests/support/adapter.rs"]
+mod adapter;
+mod varied;
 mod whole;
 
 use super::*;
 use crate::{Campaign, Study, Trial, Worker};
-use paracosm_engine::sensor::Cameras;
+use paracosm_engine::sensor::{Cameras, Mounted};
 use paracosm_render::{Frame, Stages};
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,14 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// Whether there is something to draw with; a note where there is not, unless somebody insists.
 pub(crate) fn can_draw() -> bool {
-    match paracosm_render::adapter() {
-        Ok(_) => true,
-        Err(error) if std::env::var_os("PARACOSM_REQUIRE_ADAPTER").is_none_or(|required| required != "1") => {
-            eprintln!("SKIPPED: {error}");
-            false
-        }
-        Err(error) => panic!("PARACOSM_REQUIRE_ADAPTER=1: {error}"),
-    }
+    adapter::unless_missing(paracosm_render::adapter()).is_some()
 }
 
 fn cameras(more: &str) -> Cameras {

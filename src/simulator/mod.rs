@@ -57,10 +57,19 @@ impl<'a> Simulator<'a> {
     /// # Errors
     /// There is no driver to be had, or it sees through cameras and there is nothing to draw with.
     pub fn start(&mut self) -> Result<(), Error> {
+        let cameras = self.eyes()?;
+        if cameras.all.is_empty() { Ok(()) } else { self.open(&cameras).map(drop) }
+    }
+
+    /// The cameras that its drivers see through, if any.
+    ///
+    /// # Errors
+    /// There is no driver to be had.
+    pub fn eyes(&mut self) -> Result<Cameras, Error> {
         let mut driver = self.drivers.hire()?;
         let cameras = driver.equipment().cameras;
         self.drivers.dismiss(Some(driver));
-        if cameras.all.is_empty() { Ok(()) } else { self.open(&cameras).map(drop) }
+        Ok(cameras)
     }
 
     /// What draws for its drivers, if they see.

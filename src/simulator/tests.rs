@@ -254,6 +254,7 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
     assert_eq!(outcome.trace.map(|trace| trace.hash()), trial.trace_hash);
 
     let mut worker = Worker::new(&study).unwrap();
+    assert_eq!(worker.eyes().unwrap(), cameras);
     let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
     let mut recorded = Vec::new();
     let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();

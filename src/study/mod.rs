@@ -6,6 +6,7 @@ mod failures;
 mod network;
 mod odd;
 mod parameters;
+mod recorded;
 mod requirement;
 mod requirements_file;
 mod subject;
@@ -14,6 +15,8 @@ pub(crate) use appearance::Appearances;
 pub use driver::DriverChoice;
 pub(crate) use driver::Origin;
 pub use odd::{Attribute, Odd};
+#[cfg(feature = "camera")]
+pub(crate) use recorded::setting_name;
 pub use requirement::RequirementText;
 pub(crate) use requirement::Specs;
 pub use subject::{Simulation, Subject};
@@ -333,9 +336,10 @@ impl Study {
         Scales::of(self).worst(trial)
     }
 
-    /// All values of a test: its own and the fixed ones.
+    /// All values of a test that its world is built of: its own and the fixed ones.
     pub fn complete(&self, test: &Values) -> Values {
-        test.iter().chain(self.subject.fixed().iter()).map(owned).collect()
+        let own = test.iter().filter(|(name, _)| recorded::is_of_world(name));
+        own.chain(self.subject.fixed().iter()).map(owned).collect()
     }
 }
 

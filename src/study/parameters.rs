@@ -1,5 +1,6 @@
 //! Which parameters the tests of a study vary, and how.
 
+use super::recorded::is_of_world;
 use super::{Study, owned};
 use crate::Error;
 use paracosm_coverage::{Domain, Parameter, Shape, Space, Value, Values, did_you_mean, nearest};
@@ -54,7 +55,7 @@ impl Study {
         for (name, value) in self.subject.fixed().iter() {
             test.set(name, value.clone());
         }
-        for parameter in self.space.parameters() {
+        for parameter in self.space.parameters().iter().filter(|parameter| is_of_world(&parameter.name)) {
             test.set(&parameter.name, Declared { parameter: parameter.clone(), open: true }.nominal());
         }
         Ok(test)

@@ -1,19 +1,15 @@
 //! What cameras see of tests, by the command line: `record`, `replay --camera` and `doctor`.
 
+#[path = "../../engine/render/tests/support/adapter.rs"]
+mod adapter;
+
 use crate::common::{fuzz, refused, stderr, stdout, succeeds};
 use std::fs;
 use std::path::Path;
 
 /// Whether there is something to draw with; a note where there is not, unless somebody insists.
 pub fn can_draw() -> bool {
-    match paracosm::render::adapter() {
-        Ok(_) => true,
-        Err(error) if std::env::var_os("PARACOSM_REQUIRE_ADAPTER").is_none_or(|required| required != "1") => {
-            eprintln!("SKIPPED: {error}");
-            false
-        }
-        Err(error) => panic!("PARACOSM_REQUIRE_ADAPTER=1: {error}"),
-    }
+    adapter::unless_missing(paracosm::render::adapter()).is_some()
 }
 
 /// The default cameras, but small and slow.
@@ -55,7 +51,70 @@ fn a_recording_is_a_campaign_with_images_and_can_be_resumed_and_replayed() {
         count += 1;
     }
     assert_eq!(count, fs::read_dir(dir.join("front")).expect("a folder").count());
+    succeeds(fuzz(dir, &[&replay[..], &["front.mp4"]].concat()));
+    shows_the_same(dir, "front.mp4", "front", count);
     refused(&fuzz(dir, &[&replay[..], &["front.gif"]].concat()), &["front.gif exists"]);
+}
+
+/// Checks that a film has so many pictures of 40 x 24 pixels, and, where there is something that can decode it, that they
+/// are hardly other than those in a folder.
+fn shows_the_same(dir: &Path, film: &str, folder: &str, count: usize) {
+    let file = fs::read(dir.join(film)).expect("a film");
+    let place = file.windows(4).position(|kind| kind == b"stsz").expect("sizes of pictures");
+    let sizes = &file[place + 12..];
+    assert_eq!(u32::from_be_bytes([sizes[0], sizes[1], sizes[2], sizes[3]]) as usize, count);
+    let decoder = ["-v", "error", "-i", film, "-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"];
+    let Ok(decoded) = std::process::Command::new("ffmpeg").args(decoder).current_dir(dir).output() else {
+        eprintln!("SKIPPED: no ffmpeg, so that nobody looks at the pictures of {film}");
+        return;
+    };
+    assert!(decoded.status.success(), "{}", stderr(&decoded));
+    let frames = decoded.stdout.chunks_exact(40 * 24 * 3);
+    assert_eq!(frames.len(), count);
+    for (number, frame) in frames.enumerate() {
+        let image = fs::File::open(dir.join(folder).join(format!("{number:06}.png"))).expect("an image");
+        let mut reader = png::Decoder::new(std::io::BufReader::new(image)).read_info().expect("a PNG");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("it fits into memory")];
+        reader.next_frame(&mut pixels).expect("an image");
+        let apart: u64 = pixels.iter().zip(frame).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+        let mean = apart as f64 / pixels.len() as f64;
+        assert!(mean < 6.0, "picture {number} is {mean} off on average");
+    }
+}
+
+#[test]
+fn settings_of_cameras_vary_with_the_tests_and_stand_in_the_log() {
+    if !can_draw() {
+        return;
+    }
+    let dir = tempfile::tempdir().expect("a folder");
+    let dir = dir.path();
+    write_cameras(dir);
+    let closed = fs::read_to_string(dir.join("cameras.toml")).expect("a file");
+    let open =
+        closed.replace("exposure = 0.0", "exposure = \"-2..2\"").replace("[0.0, 2.0, 0.0]", "[0.0, \"0..4\", 0.0]");
+    fs::write(dir.join("cameras.toml"), &open).expect("a file");
+    let record = ["record", "--budget", "3", "--cameras", "cameras.toml", "--outputs", "rgb", "--out", "images"];
+    succeeds(fuzz(dir, &record));
+    let log = fs::read_to_string(dir.join("images/trials.jsonl")).expect("a log");
+    let third: serde_json::Value = serde_json::from_str(log.lines().nth(2).expect("a third test")).expect("JSON");
+    let (exposure, pitch) = (&third["test"]["camera.front.exposure"], &third["test"]["camera.front.pitch"]);
+    let calibration = fs::read_to_string(dir.join("images/000002/calibration.json")).expect("a file");
+    let calibration: serde_json::Value = serde_json::from_str(&calibration).expect("JSON");
+    let front = &calibration["cameras"]["front"];
+    assert_eq!((&front["varied"]["exposure"], &front["yaw_pitch_roll"][1]), (exposure, pitch));
+    // A replay films through the very cameras of its test.
+    succeeds(fuzz(dir, &["replay", "images", "2", "--cameras", "cameras.toml", "--camera", "front"]));
+    let image = |path: &str| fs::read(dir.join(path)).expect("an image");
+    assert!(image("front/000002.png") == image("images/000002/front/rgb/000002.png"));
+    // Another range is another study.
+    fs::write(dir.join("cameras.toml"), open.replace("-2..2", "-1..1")).expect("a file");
+    refused(&fuzz(dir, &[&record[..], &["--resume"]].concat()), &["images"]);
+    fs::write(dir.join("cameras.toml"), open.replace("-2..2", "2..-2")).expect("a file");
+    refused(
+        &fuzz(dir, &record),
+        &["cameras.toml, line 21: camera `front`: `exposure` is \"2..-2\", expected \"LO..HI\""],
+    );
 }
 
 #[test]
@@ -79,6 +138,14 @@ fn a_driver_that_sees_is_tested_replayed_and_recorded_like_any_other() {
     succeeds(fuzz(dir, &[&open[..], &["--jobs", "2", "--out", "two", "--resume"]].concat()));
     assert_eq!(log, fs::read_to_string(dir.join("two/trials.jsonl")).expect("a log"));
     succeeds(fuzz(dir, &["replay", "one", "2", "--camera", "front", "--cameras", "cameras.toml"]));
+    // What is filmed where nothing is said is what the driver sees, whose images are larger than those of the file.
+    let own = succeeds(fuzz(dir, &["replay", "one", "2", "--camera", "own"]));
+    assert!(stderr(&own).contains("images of camera `front` written to own"), "{}", stderr(&own));
+    let width =
+        |folder: &str| fs::read(dir.join(folder).join("000001.png")).map(|png| png[16..20].to_vec()).expect("an image");
+    assert_eq!((width("own"), width("front")), (vec![0, 0, 0, 200], vec![0, 0, 0, 40]));
+    let nobody = ["replay", "one", "2", "--camera", "film.mp4", "--through", "fornt"];
+    refused(&fuzz(dir, &nobody), &["--through fornt", "expected one of front", "did you mean `front`?"]);
     let record = ["--cameras", "cameras.toml", "--outputs", "rgb", "--out", "images"];
     succeeds(fuzz(dir, &[&["record"][..], &open, &record].concat()));
     let filmed = |path: &str| fs::read(dir.join(path)).expect("an image");
@@ -91,7 +158,8 @@ fn what_cannot_be_recorded_is_said_before_anything_is_run() {
     let dir = dir.path();
     succeeds(fuzz(dir, &["--budget", "2"]));
     let film = |path| fuzz(dir, &["replay", "paracosm-out", "0", "--camera", path]);
-    refused(&film("front.mp4"), &["`.mp4`", "FILE.gif", "FOLDER"]);
+    refused(&film("front.mp5"), &["`.mp5`", "FILE.mp4", "FILE.gif", "FOLDER", "did you mean `mp4`?"]);
+    refused(&film("front.avi"), &["`.avi`", "FILE.mp4"]);
     refused(&fuzz(dir, &["record", "--outputs", "rgb,dept"]), &["no output `dept`", "`depth`"]);
     fs::write(dir.join("cameras.toml"), "[camera.front]\nresolutoin = [1, 1]\n").expect("a file");
     refused(

@@ -71,6 +71,57 @@ use crate::scenario::Weather;
 use crate::vehicle::VehicleState;
 
 /// What measures something of the world around a car, or of the car itself.
+///
+/// A sensor of one's own, ultrasound in the front bumper that hears the nearest body and is off by some centimetres:
+///
+/// ```
+/// use paracosm_engine::sensor::{Chance, Delivery, Rig, Sensor, View};
+/// use paracosm_engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Run, Scenario, Setup, Side, driver};
+///
+/// struct Bumper {
+///     range: f64,
+///     noise: f64,
+/// }
+///
+/// impl Sensor for Bumper {
+///     type Reading = Option<f64>;
+///
+///     fn period(&self) -> f64 {
+///         0.05
+///     }
+///
+///     fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Option<f64>) {
+///         let car = view.car.pose();
+///         let front = car.position + 2.2 * car.forward();
+///         let distances = view.others().map(|(_, body)| (body.pose.position - front).norm());
+///         let nearest = distances.fold(self.range, f64::min);
+///         // Whether it hears anything or not, it draws as much, and only from what it is given.
+///         let error = self.noise * chance.normal();
+///         *reading = (nearest < self.range).then_some(nearest + error);
+///     }
+/// }
+///
+/// fn somebody_waits(s: &mut Scenario) {
+///     let road = s.place(RoadSegment::new(300.0));
+///     s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+///     s.place(Pedestrian::at(road.on_sidewalk(Side::Right, 40.0)));
+///     s.duration(3.0);
+/// }
+///
+/// let mut rig = Rig::new(7);
+/// let bumper = rig.attach("bumper", Bumper { range: 8.0, noise: 0.02 }, Delivery::after(0.01))?;
+/// let program = Program { name: "somebody-waits", about: "a car passes somebody", build: somebody_waits };
+/// let test = program.declare()?.nominal();
+/// let mut run = Run::new(&program, &test, Setup::asking_every(0.1))?;
+/// run.equip(rig);
+/// let mut heard = Vec::new();
+/// run.watch(driver::find("cruise")?.build(&[])?.as_mut(), |run| {
+///     heard.extend(run.rig().arrived(&bumper).iter().map(|sample| sample.reading));
+/// });
+/// let near = heard.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+/// assert!(heard[0].is_none() && (1.0..8.0).contains(&near), "{near} m");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Sensor: Send + 'static {
     /// What it measures at one moment. A rig uses the same ones again and again.
     type Reading: Default + Send + 'static;

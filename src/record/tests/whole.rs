@@ -1,8 +1,12 @@
 //! What recordings are as a whole: whose noise they have, what is missing in them, and how they are put together.
 
 use super::*;
+use crate::Error;
+use crate::darkroom::Optics;
 use paracosm_coverage::Value;
-use paracosm_engine::sensor::Mounted;
+use paracosm_render::Camera;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// The usual cameras with a change.
 fn changed(more: &str, change: impl Fn(&mut Mounted)) -> Cameras {
@@ -153,19 +157,79 @@ fn a_clip_leaves_what_is_not_its_own_alone() {
     let mut clip = |name: &str, cameras: &Cameras| {
         Clip::new(&dir.path().join(name)).and_then(|clip| clip.write(&mut worker, &trials[0], cameras))
     };
-    for name in ["foo", "film.gif"] {
+    for name in ["foo", "film.gif", "film.mp4"] {
         let refused = clip(name, &cameras("dropped = 1.0\n")).expect_err("there is nothing to see").to_string();
         assert!(refused.contains("saw nothing") && refused.contains("`dropped` is 1"), "{refused}");
         assert_eq!(files(dir.path()), foreign);
     }
     let film = filmed(&study, &trials[0], &cameras("")).expect("it can be filmed");
-    for name in ["foo", "film.gif"] {
+    for name in ["foo", "film.gif", "film.mp4"] {
         let written = clip(name, &cameras("")).expect("it is written");
-        assert!(written[0].starts_with(&format!("{} images", film.shots[0].len())), "{written:?}");
+        assert!(written[0].starts_with(&format!("{} images of camera `front`", film.shots[0].len())), "{written:?}");
     }
     let after = files(dir.path());
     assert!(foreign.iter().all(|(path, contents)| after.get(path) == Some(contents)));
-    assert_eq!(after.len(), foreign.len() + film.shots[0].len() + 1);
+    assert_eq!(after.len(), foreign.len() + film.shots[0].len() + 2);
+}
+
+#[test]
+fn a_clip_that_is_interrupted_or_cannot_be_written_leaves_nothing_behind() {
+    if !can_draw() {
+        return;
+    }
+    let (study, trials) = two_tests();
+    let dir = tempfile::tempdir().expect("a folder");
+    let mut worker = Worker::new(&study).expect("it can be run");
+    for name in ["foo", "film.gif", "film.mp4"] {
+        let clip = Clip::new(&dir.path().join(name)).expect("it is new").until(Arc::new(AtomicBool::new(true)));
+        let stopped = clip.write(&mut worker, &trials[0], &cameras("")).expect_err("it was stopped");
+        assert!(matches!(stopped, Error::Interrupted), "{stopped}");
+        assert_eq!(fs::read_dir(dir.path()).expect("a folder").count(), 0, "{name}");
+    }
+    // Somebody makes a folder of the film's name meanwhile.
+    let clip = Clip::new(&dir.path().join("film.mp4")).expect("it is new");
+    fs::create_dir_all(dir.path().join("film.mp4/theirs")).expect("a folder");
+    clip.write(&mut worker, &trials[0], &cameras("")).expect_err("the name is taken");
+    let left: Vec<_> =
+        fs::read_dir(dir.path()).expect("a folder").map(|entry| entry.expect("an entry").file_name()).collect();
+    assert_eq!(left, ["film.mp4"]);
+}
+
+#[test]
+fn a_recording_that_fails_half_way_leaves_no_part_of_the_test_behind() {
+    if !can_draw() {
+        return;
+    }
+    let (study, trials) = two_tests();
+    let dir = tempfile::tempdir().expect("a folder");
+    let dataset = Dataset::open(dir.path(), cameras(""), Kept::ALL, None).expect("a new data set");
+    let mut projector = Projector::new(&cameras(""), Kept::ALL.outputs()).expect("there is an adapter");
+    let mut worker = Worker::new(&study).expect("it can be run");
+    fs::write(dir.path().join("000000.part"), "no folder").expect("a file");
+    dataset.record(&mut worker, &trials[0], &mut projector).expect_err("a file is in the way");
+    fs::remove_file(dir.path().join("000000.part")).expect("a file");
+    dataset.record(&mut worker, &trials[0], &mut projector).expect("it is recorded");
+    let mut left: Vec<_> =
+        fs::read_dir(dir.path()).expect("a folder").map(|entry| entry.expect("an entry").file_name()).collect();
+    left.sort();
+    assert_eq!(left, ["000000", "recording.json"]);
+}
+
+#[test]
+fn images_that_are_too_large_for_the_adapter_are_refused_with_the_name_of_their_camera() {
+    if !can_draw() {
+        return;
+    }
+    let mut projector = Projector::new(&cameras(""), Kept::ALL.outputs()).expect("there is an adapter");
+    let most = projector.adapter().max_image;
+    let of = |width: u32| {
+        let mut optics = Optics::of(&cameras("")).expect("sound cameras");
+        optics[0].camera = Camera::new(width, 1, 24.0, 36.0).expect("a camera");
+        optics
+    };
+    let refused = projector.take(of(most + 1)).expect_err("it is too large").to_string();
+    assert!(refused.contains("camera `front`") && refused.contains(&(most + 1).to_string()), "{refused}");
+    projector.take(of(most)).expect("it is as large as can be");
 }
 
 #[test]

@@ -1,19 +1,15 @@
 //! What only the renderer itself can see: that it forgets meshes, and that it survives the loss of its device.
 
+#[path = "../../tests/support/adapter.rs"]
+mod adapter;
+
 use super::Renderer;
 use crate::{Camera, Instance, Mesh, Outputs, RenderError, Scene, Semantic, Surface, Vertex, View};
 use nalgebra::Isometry3;
 use std::sync::Arc;
 
 fn renderer() -> Option<Renderer> {
-    match Renderer::new() {
-        Ok(renderer) => Some(renderer),
-        Err(error) if std::env::var_os("PARACOSM_REQUIRE_ADAPTER").is_none_or(|required| required != "1") => {
-            eprintln!("SKIPPED: {error}");
-            None
-        }
-        Err(error) => panic!("PARACOSM_REQUIRE_ADAPTER=1: {error}"),
-    }
+    adapter::unless_missing(Renderer::new())
 }
 
 /// A board across the way of a camera at the origin.

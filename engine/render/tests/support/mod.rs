@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test file uses some of it")]
 
+mod adapter;
 pub mod golden;
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -10,14 +11,7 @@ use std::sync::Arc;
 
 /// A renderer; `None`, and a note, where there is no adapter and nobody insists.
 pub fn renderer() -> Option<Renderer> {
-    match Renderer::new() {
-        Ok(renderer) => Some(renderer),
-        Err(error) if std::env::var_os("PARACOSM_REQUIRE_ADAPTER").is_none_or(|required| required != "1") => {
-            eprintln!("SKIPPED: {error}");
-            None
-        }
-        Err(error) => panic!("PARACOSM_REQUIRE_ADAPTER=1: {error}"),
-    }
+    adapter::unless_missing(Renderer::new())
 }
 
 pub const NOTHING: Outputs =

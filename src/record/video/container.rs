@@ -1,0 +1,163 @@
+//! The file around the pictures of a video: boxes of the ISO base media file format (ISO/IEC 14496-12), with H.264 as
+//! ISO/IEC 14496-15 stores it.
+//!
+//! All pictures lie one after the other in one box, `mdat`; `moov`, after it, says where and when each is.
+
+use std::num::TryFromIntError;
+
+/// Ticks of a file's clock in a second, as is usual for video.
+const CLOCK: u32 = 90_000;
+
+/// What a file begins with: its kind, and the head of a box of pictures whose size is not known yet.
+pub(super) const HEADER: [u8; 48] = *b"\0\0\0\x20ftypisom\0\0\x02\0isomiso2avc1mp41\0\0\0\x01mdat\0\0\0\0\0\0\0\0";
+
+/// Where in the file the size of that box stands.
+pub(super) const MDAT_SIZE: u64 = 40;
+/// How long its head is.
+const MDAT_HEAD: u64 = 16;
+
+/// One picture.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Picture {
+    /// When it comes.
+    pub seconds: f64,
+    /// How long it is in the file.
+    pub bytes: u32,
+    /// Whether a player can begin with it.
+    pub is_key: bool,
+}
+
+/// The pictures of a film, and what a player has to know of them.
+pub(super) struct Track {
+    size: [u32; 2],
+    rate: f64,
+    /// How colours were divided into brightness and differences.
+    matrix: u16,
+    /// The parameter sets of H.264.
+    pub sequence: Vec<u8>,
+    pub parameters: Vec<u8>,
+    pub pictures: Vec<Picture>,
+}
+
+impl Track {
+    /// No pictures yet of so many pixels across and down.
+    pub fn new(size: [u32; 2], rate: f64, matrix: u16) -> Self {
+        Self { size, rate, matrix, sequence: Vec::new(), parameters: Vec::new(), pictures: Vec::new() }
+    }
+
+    /// The size of the box of pictures, with its head.
+    pub fn mdat_size(&self) -> u64 {
+        MDAT_HEAD + self.pictures.iter().map(|picture| u64::from(picture.bytes)).sum::<u64>()
+    }
+
+    /// The box `moov`.
+    ///
+    /// # Errors
+    /// The film lasts longer than 13 hours, or has more than 4 billion pictures.
+    pub fn contents(&self) -> Result<Vec<u8>, TryFromIntError> {
+        let durations = self.durations()?;
+        let duration = u32::try_from(durations.iter().map(|ticks| u64::from(*ticks)).sum::<u64>())?;
+        let media = container(b"mdia", &[self.media_header(duration), handler(), self.information(&durations)?]);
+        let track = container(b"trak", &[self.track_header(duration), media]);
+        Ok(container(b"moov", &[movie_header(duration), track]))
+    }
+
+    /// How many ticks each picture is shown. Times are rounded and not what is between them, so that a film runs at the right
+    /// speed.
+    fn durations(&self) -> Result<Vec<u32>, TryFromIntError> {
+        let ticks = |seconds: f64| (seconds * f64::from(CLOCK)).round() as u64;
+        let times = self.pictures.iter().map(|picture| ticks(picture.seconds));
+        let last = self.pictures.last().map(|picture| ticks(picture.seconds + 1.0 / self.rate));
+        let next = times.clone().skip(1).chain(last);
+        times.zip(next).map(|(this, next)| u32::try_from(next.saturating_sub(this).max(1))).collect()
+    }
+
+    fn track_header(&self, duration: u32) -> Vec<u8> {
+        let [width, height] = self.size.map(|pixels| pixels << 16);
+        // Shown and part of the film; made and changed nobody knows when; the first track.
+        let words = [0, 0, 1, 0, duration, 0, 0, 0, 0];
+        versioned(b"tkhd", 3, &[&big(&words), &MATRIX, &big(&[width, height])])
+    }
+
+    fn media_header(&self, duration: u32) -> Vec<u8> {
+        // `und`: in no language.
+        versioned(b"mdhd", 0, &[&big(&[0, 0, CLOCK, duration]), &[0x55, 0xC4, 0, 0]])
+    }
+
+    fn information(&self, durations: &[u32]) -> Result<Vec<u8>, TryFromIntError> {
+        let video = versioned(b"vmhd", 1, &[&[0; 8]]);
+        // The pictures are in this very file.
+        let here = versioned(b"dref", 0, &[&big(&[1]), &versioned(b"url ", 1, &[])]);
+        let count = u32::try_from(self.pictures.len())?;
+        let keys = self.pictures.iter().zip(1..).filter(|(picture, _)| picture.is_key).map(|(_, number)| number);
+        let keys: Vec<u32> = keys.collect();
+        let sizes: Vec<u32> = self.pictures.iter().map(|picture| picture.bytes).collect();
+        let mut runs: Vec<[u32; 2]> = Vec::new();
+        for duration in durations {
+            match runs.last_mut() {
+                Some([pictures, same]) if same == duration => *pictures += 1,
+                _ => runs.push([1, *duration]),
+            }
+        }
+        let tables = [
+            versioned(b"stsd", 0, &[&big(&[1]), &self.description()]),
+            versioned(b"stts", 0, &[&big(&[u32::try_from(runs.len())?]), &big(runs.as_flattened())]),
+            versioned(b"stss", 0, &[&big(&[u32::try_from(keys.len())?]), &big(&keys)]),
+            versioned(b"stsc", 0, &[&big(&[1, 1, count, 1])]),
+            versioned(b"stsz", 0, &[&big(&[0, count]), &big(&sizes)]),
+            versioned(b"stco", 0, &[&big(&[1, HEADER.len() as u32])]),
+        ];
+        Ok(container(b"minf", &[video, container(b"dinf", &[here]), container(b"stbl", &tables)]))
+    }
+
+    /// What the pictures are coded in.
+    fn description(&self) -> Vec<u8> {
+        let [width, height] = self.size.map(|pixels| (pixels as u16).to_be_bytes());
+        let [profile, constraints, level] = [1, 2, 3].map(|byte| self.sequence.get(byte).copied().unwrap_or_default());
+        let length = |unit: &[u8]| (unit.len() as u16).to_be_bytes();
+        let (sequence, parameters) = (&self.sequence, &self.parameters);
+        let units =
+            [&[1, profile, constraints, level, 0xFF, 0xE1][..], &length(sequence), sequence, &[1], &length(parameters)];
+        let coding = boxed(b"avcC", &[&units.concat(), parameters]);
+        // The colours of sRGB are those of BT.709; in the range of television.
+        let colours = boxed(b"colr", &[b"nclx\0\x01\0\x01", &self.matrix.to_be_bytes(), &[0]]);
+        let dots_per_inch = big(&[0x0048_0000, 0x0048_0000]);
+        // Six bytes and the first reference; sixteen that mean nothing; one picture a sample, of no name, 24 bits deep.
+        let head =
+            [&[0, 0, 0, 0, 0, 0, 0, 1][..], &[0; 16], &width, &height, &dots_per_inch, &[0, 0, 0, 0, 0, 1], &[0; 32]];
+        boxed(b"avc1", &[&head.concat(), &[0, 24, 0xFF, 0xFF], &coding, &colours])
+    }
+}
+
+/// A picture is shown as it is, neither turned nor moved.
+const MATRIX: [u8; 36] = *b"\0\x01\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x40\0\0\0";
+
+fn movie_header(duration: u32) -> Vec<u8> {
+    // At its own speed, silent but as loud as it is, and the next track would be the second.
+    let words = [0, 0, CLOCK, duration, 0x0001_0000, 0x0100_0000, 0, 0];
+    versioned(b"mvhd", 0, &[&big(&words), &MATRIX, &[0; 24], &big(&[2])])
+}
+
+fn handler() -> Vec<u8> {
+    versioned(b"hdlr", 0, &[&[0; 4], b"vide", &[0; 12], b"camera\0"])
+}
+
+/// A box of boxes.
+fn container(kind: &[u8; 4], boxes: &[Vec<u8>]) -> Vec<u8> {
+    boxed(kind, &boxes.iter().map(Vec::as_slice).collect::<Vec<_>>())
+}
+
+/// A box that begins with a version, which is 0, and flags.
+fn versioned(kind: &[u8; 4], flags: u32, parts: &[&[u8]]) -> Vec<u8> {
+    boxed(kind, &[&[&flags.to_be_bytes()[..]], parts].concat())
+}
+
+/// A box: its size, its kind, and what is in it.
+fn boxed(kind: &[u8; 4], parts: &[&[u8]]) -> Vec<u8> {
+    let contents = parts.concat();
+    [&(8 + contents.len() as u32).to_be_bytes()[..], kind, &contents].concat()
+}
+
+fn big(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_be_bytes()).collect()
+}

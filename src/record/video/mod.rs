@@ -1,0 +1,102 @@
+//! Films as MP4 files, which players and browsers show: H.264 in its constrained baseline profile, 4:2:0.
+//!
+//! Pictures are compressed and written as they come, so that only their sizes and times are in memory; what a player reads
+//! first stands at the end of the file.
+
+mod container;
+mod level;
+mod planes;
+#[cfg(test)]
+mod tests;
+
+use container::{HEADER, MDAT_SIZE, Picture, Track};
+use level::level;
+use planes::Planes;
+use rusty_h264_common::nal::split_annex_b;
+use rusty_h264_common::{NalUnitType, YuvPlanes};
+use rusty_h264_encoder::{Encoder, EncoderConfig};
+use std::error::Error as StdError;
+use std::io::{Seek, SeekFrom, Write};
+
+type Failure = Box<dyn StdError + Send + Sync>;
+
+/// How coarse the compression is, from 0 to 51: nothing of it is to be seen yet.
+const QUANTISER: u8 = 17;
+/// From how many pictures to the next a player can jump.
+const BETWEEN_KEYS: u32 = 50;
+
+/// A film that is written picture by picture.
+pub(super) struct Video<W: Write + Seek> {
+    file: W,
+    encoder: Encoder,
+    planes: Planes,
+    track: Track,
+}
+
+impl<W: Write + Seek> Video<W> {
+    /// A film of so many pixels across and down, with about so many pictures a second. Colours are stored for squares of two
+    /// pixels, so that an odd size is rounded up and the last pixels are repeated.
+    ///
+    /// # Errors
+    /// Pictures are larger than H.264 knows, or nothing can be written.
+    pub fn begin(mut file: W, size: [u32; 2], rate: f64) -> Result<Self, Failure> {
+        let planes = Planes::new(size);
+        let [width, height] = planes.size();
+        let level = level([width, height], rate).ok_or_else(|| {
+            format!(
+                "{} x {} pixels are more than a video may have, expected .gif or a folder of PNG files",
+                size[0], size[1]
+            )
+        })?;
+        let settings = EncoderConfig {
+            level_idc: level,
+            qp: QUANTISER,
+            bitrate: 0,
+            gop_size: BETWEEN_KEYS,
+            ..EncoderConfig::baseline(width as usize, height as usize)
+        };
+        let encoder = Encoder::new(settings)?;
+        file.write_all(&HEADER)?;
+        Ok(Self { file, encoder, track: Track::new([width, height], rate, planes.matrix_code()), planes })
+    }
+
+    /// Adds a picture that comes at this time, later than all before: red, green and blue of each pixel.
+    ///
+    /// # Errors
+    /// Nothing can be written.
+    pub fn show(&mut self, rgb: &[u8], seconds: f64) -> Result<(), Failure> {
+        self.planes.take(rgb);
+        let [width, height] = self.planes.size().map(|pixels| pixels as usize);
+        let [y, u, v] = self.planes.all();
+        let planes = YuvPlanes::new(width, height, y, u, v, width, width / 2).ok_or("a picture has another size")?;
+        let coded = self.encoder.encode_planes(&planes)?;
+        let mut picture = Picture { seconds, ..Picture::default() };
+        for unit in split_annex_b(&coded) {
+            match NalUnitType::from_id(unit.first().copied().unwrap_or_default()) {
+                NalUnitType::Sps => self.track.sequence = unit.to_vec(),
+                NalUnitType::Pps => self.track.parameters = unit.to_vec(),
+                kind => {
+                    picture.is_key |= kind == NalUnitType::IdrSlice;
+                    let length = u32::try_from(unit.len())?;
+                    self.file.write_all(&length.to_be_bytes())?;
+                    self.file.write_all(unit)?;
+                    picture.bytes += 4 + length;
+                }
+            }
+        }
+        self.track.pictures.push(picture);
+        Ok(())
+    }
+
+    /// Ends the film; its last picture is shown as long as one usually is.
+    ///
+    /// # Errors
+    /// It lasts longer than a file can say, or nothing can be written.
+    pub fn end(mut self) -> Result<(), Failure> {
+        self.file.write_all(&self.track.contents()?)?;
+        self.file.seek(SeekFrom::Start(MDAT_SIZE))?;
+        self.file.write_all(&self.track.mdat_size().to_be_bytes())?;
+        self.file.flush()?;
+        Ok(())
+    }
+}

@@ -1,0 +1,77 @@
+//! Pictures as video has them: brightness for each pixel, and colour for each square of four.
+
+/// From how many lines on players take a video that says nothing for one in the colours of HDTV.
+const HIGH_DEFINITION: u32 = 720;
+
+/// The planes of one picture: brightness Y and the colour differences Cb and Cr, in the range of television (16 to 235 and
+/// 16 to 240).
+pub(super) struct Planes {
+    /// Pixels across and down of what is shown, and of the picture, which are even.
+    shown: [usize; 2],
+    size: [usize; 2],
+    matrix: Matrix,
+    y: Vec<u8>,
+    cb: Vec<u8>,
+    cr: Vec<u8>,
+}
+
+/// How much red and blue are part of the brightness; the rest is green.
+struct Matrix {
+    red: f32,
+    blue: f32,
+    /// What it is called in files (ITU-T H.273, table 4).
+    code: u16,
+}
+
+/// ITU-R BT.601 and BT.709. Players that look at nothing but the size choose between them in the same way.
+const STANDARD: Matrix = Matrix { red: 0.299, blue: 0.114, code: 6 };
+const HIGH: Matrix = Matrix { red: 0.2126, blue: 0.0722, code: 1 };
+
+impl Planes {
+    /// Those of a picture of so many pixels across and down.
+    pub fn new(shown: [u32; 2]) -> Self {
+        let matrix = if shown[1] < HIGH_DEFINITION { STANDARD } else { HIGH };
+        let shown = shown.map(|pixels| pixels as usize);
+        let size = shown.map(|pixels| pixels.next_multiple_of(2));
+        let pixels = size[0] * size[1];
+        Self { shown, size, matrix, y: vec![0; pixels], cb: vec![0; pixels / 4], cr: vec![0; pixels / 4] }
+    }
+
+    /// Pixels across and down.
+    pub fn size(&self) -> [u32; 2] {
+        self.size.map(|pixels| pixels as u32)
+    }
+
+    /// What files call the matrix.
+    pub fn matrix_code(&self) -> u16 {
+        self.matrix.code
+    }
+
+    /// Y, Cb and Cr.
+    pub fn all(&self) -> [&[u8]; 3] {
+        [&self.y, &self.cb, &self.cr]
+    }
+
+    /// Takes a picture: red, green and blue of each pixel. What is left of an even size is like what is beside it.
+    pub fn take(&mut self, rgb: &[u8]) {
+        let Matrix { red, blue, .. } = self.matrix;
+        let [across, down] = self.shown;
+        let [width, height] = self.size;
+        for row in (0..height).step_by(2) {
+            for column in (0..width).step_by(2) {
+                let mut differences = [0.0; 2];
+                for (x, y) in [(column, row), (column + 1, row), (column, row + 1), (column + 1, row + 1)] {
+                    let from = 3 * (y.min(down - 1) * across + x.min(across - 1));
+                    let [r, g, b] = [0, 1, 2].map(|part| f32::from(rgb[from + part]) / 255.0);
+                    let bright = red * r + (1.0 - red - blue) * g + blue * b;
+                    self.y[y * width + x] = (16.0 + 219.0 * bright).round() as u8;
+                    differences[0] += (b - bright) / (1.0 - blue);
+                    differences[1] += (r - bright) / (1.0 - red);
+                }
+                let [cb, cr] = differences.map(|sum: f32| (128.0 + 112.0 * sum / 4.0).round() as u8);
+                let square = row / 2 * (width / 2) + column / 2;
+                (self.cb[square], self.cr[square]) = (cb, cr);
+            }
+        }
+    }
+}
