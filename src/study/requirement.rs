@@ -2,7 +2,7 @@
 
 use super::{Study, Subject};
 use crate::Error;
-use paracosm_engine::Outcome;
+use paracosm_engine::{Outcome, violation_metrics};
 use paracosm_oracles::{Formula, Requirement, Truth, Verdict};
 use serde::{Deserialize, Serialize};
 
@@ -120,6 +120,9 @@ impl Specs {
                 }
             };
             outcome.robustness.push((id.clone(), (truth != Truth::Undecided).then_some(robustness)));
+            if truth == Truth::Violated {
+                outcome.metrics.extend(violation_metrics(id, formula, trace));
+            }
             outcome.verdict = match (truth, outcome.verdict) {
                 (Truth::Violated, _) | (_, Verdict::Fail) => Verdict::Fail,
                 (Truth::Undecided, _) => Verdict::Inconclusive,

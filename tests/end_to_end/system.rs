@@ -71,12 +71,20 @@ fn formulas_are_asked_of_traces_and_each_is_reported() {
         assert_eq!(trial["verdict"], if x <= -0.5 { "fail" } else { "pass" }, "{trial}");
         assert_eq!(trial["robustness"]["spec-1"], x.min(1.0) + 0.5);
         assert_eq!(trial["ticks"], 2);
+        let cause = json!({"critical_time.spec-1": 0.1, "critical_part.spec-1": "(speed > -0.5)"});
+        assert_eq!(trial["metrics"], if x <= -0.5 { cause } else { json!({}) }, "{trial}");
         assert_eq!(trial["trace_hash"].as_str().unwrap().len(), 32);
     }
     let failed = trials.iter().filter(|trial| trial["verdict"] == "fail").count();
     let requirements: Value = serde_json::from_str::<Value>(&stdout(&summary)).unwrap()["requirements"].take();
     assert_eq!((&requirements[0]["id"], &requirements[0]["violated"]), (&json!("spec-1"), &json!(failed)));
     assert_eq!((&requirements[1]["id"], &requirements[1]["violated"]), (&json!("spec-2"), &json!(0)));
+    let said: Value = serde_json::from_str(&stdout(&summary)).unwrap();
+    assert_eq!(said["worst"]["cause"], json!({"time": 0.1, "part": "(speed > -0.5)"}));
+    assert_eq!(said["modes"][0]["words"], "violates spec-1, by `(speed > -0.5)`, 0.1 s after the start");
+    let worst = said["worst"]["index"].to_string();
+    let replay = stdout(&succeeds(fuzz(dir.path(), &["replay", "out", &worst, "--format", "table"])));
+    assert!(replay.contains("critical_part.spec-1  (speed > -0.5)\n"), "{replay}");
     succeeds(fuzz(dir.path(), &["replay", "out", "2", "--trace", "trace.csv"]));
     let trace = fs::read_to_string(dir.path().join("trace.csv")).unwrap();
     assert_eq!(trace, "time,speed,on\n0,1,1\n0.1,0.5,1\n0.2,1,0\n");
