@@ -160,15 +160,35 @@ struct Sight {
 }
 
 impl Sight {
-    /// The instants at which the operator may bend otherwise than by operands that pass each other.
+    /// Instants between which the operator rises or falls throughout: those at which an operand bends here or at an edge
+    /// of the window, and those at which two of these values pass each other.
     fn bends(&self, operands: &[&Curve]) -> Vec<f64> {
-        let times = operands.iter().flat_map(|curve| curve.times.iter().copied());
+        let sign = if self.past { -1.0 } else { 1.0 };
         let Interval { start, end, .. } = self.interval;
-        let sign = if self.past { 1.0 } else { -1.0 };
-        times
-            .flat_map(|time| [Some(time), Some(time + sign * start), end.is_finite().then_some(time + sign * end)])
-            .flatten()
-            .collect()
+        let ways: Vec<f64> =
+            [0.0, start, end].into_iter().filter(|way| way.is_finite()).map(|way| sign * way).collect();
+        let record = 0.0..=operands[0].end();
+        let times = operands.iter().flat_map(|curve| curve.times.iter().copied());
+        let mut bends: Vec<f64> = times.flat_map(|time| ways.iter().map(move |way| time - way)).collect();
+        bends.retain(|time| record.contains(time));
+        bends.sort_by(f64::total_cmp);
+        let mut passed = Vec::new();
+        for ends in bends.windows(2).filter(|ends| ends[1] - ends[0] > 1e-9) {
+            let at = |share: f64| ends[0] + share * (ends[1] - ends[0]);
+            let moving = operands.iter().flat_map(|curve| ways.iter().map(move |way| (curve, way)));
+            let inside = moving.filter(|(_, way)| record.contains(&(at(0.5) + *way)));
+            let lines: Vec<[f64; 2]> =
+                inside.map(|(curve, way)| [0.25, 0.75].map(|share| curve.at(at(share) + way))).collect();
+            for (place, a) in lines.iter().enumerate() {
+                for b in &lines[..place] {
+                    let (before, after) = (a[0] - b[0], a[1] - b[1]);
+                    let share = 0.25 + 0.5 * before / (before - after);
+                    passed.extend((share > 0.0 && share < 1.0).then(|| at(share)));
+                }
+            }
+        }
+        bends.extend(passed);
+        bends
     }
 
     /// What is seen of the record from an instant, if anything.
