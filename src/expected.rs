@@ -4,12 +4,15 @@
 //! Which requirements a system judges itself by is known by its first answer. Trials are checked against it in the order
 //! of their indices, so that it does not matter who was answered first.
 
+use crate::study::Specs;
 use crate::{Error, Study, Subject, Trial};
 use paracosm_engine::Outcome;
 use paracosm_oracles::Verdict;
 
 /// After how many tests, all of them in error, a system is given up: it may take its time to fail.
 const GIVEN_UP: usize = 50;
+/// After how many, where a formula fits the trace of none: only some may lack a signal.
+const MISFITS: usize = 3;
 
 /// What trials have said so far.
 #[derive(Debug, Clone)]
@@ -20,6 +23,8 @@ pub struct Expected {
     first: Option<(usize, Vec<String>)>,
     /// How many there were before it, and what was wrong with the first.
     failed: usize,
+    /// How many of these had a trace that a formula does not fit.
+    misfits: usize,
     why: Option<String>,
 }
 
@@ -30,7 +35,7 @@ impl Expected {
             Subject::Scenario(simulation) => simulation.driver.is_external(),
             Subject::System(_) => true,
         };
-        let mut expected = Self { is_external, first: None, failed: 0, why: None };
+        let mut expected = Self { is_external, first: None, failed: 0, misfits: 0, why: None };
         trials.iter().for_each(|trial| expected.learn(trial));
         expected
     }
@@ -58,7 +63,7 @@ impl Expected {
     /// The system or the driver did none of so many tests.
     pub fn go_on(&self) -> Result<(), Error> {
         match (&self.first, &self.why) {
-            (None, Some(why)) if self.failed >= GIVEN_UP => {
+            (None, Some(why)) if self.failed >= GIVEN_UP || self.misfits == self.failed && self.failed >= MISFITS => {
                 Err(Error::Unanswered { tests: self.failed, why: why.clone() })
             }
             _ => Ok(()),
@@ -73,6 +78,7 @@ impl Expected {
             self.first = Some((trial.index, requirements(trial)));
         } else {
             self.failed += 1;
+            self.misfits += usize::from(trial.error.as_deref().is_some_and(Specs::is_misfit));
             self.why = self.why.take().or_else(|| trial.error.clone());
         }
     }

@@ -90,7 +90,7 @@ pub use shrink::{Change, Sameness, Shrunk};
 pub use study::{Attribute, DriverChoice, Odd, RequirementText, Simulation, Study, Subject};
 pub use summary::{Judged, Summary, Worst};
 pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
-pub use trace_file::write_trace;
+pub use trace_file::{read_trace, write_trace};
 pub use traceability::{Became, Gap, Traceability, Traced, Tried};
 pub use trial::Trial;
 pub use worker::Worker;

@@ -66,6 +66,18 @@ impl Trial {
         self.requirements().filter(|id| self.violates(id))
     }
 
+    /// What a violated requirement comes down to: the critical time in seconds and the part of its formula that is
+    /// responsible, as far as they are known.
+    pub fn cause(&self, requirement: &str) -> Option<(f64, &str)> {
+        match [
+            self.metric(&format!("critical_time.{requirement}")),
+            self.metric(&format!("critical_part.{requirement}")),
+        ] {
+            [Some(Metric::Number(time)), Some(Metric::Word(Some(part)))] => Some((*time, part)),
+            _ => None,
+        }
+    }
+
     /// What was measured under that name.
     pub fn metric(&self, name: &str) -> Option<&Metric> {
         self.metrics.get(name).map(|value| &value.0)

@@ -51,7 +51,7 @@ pub use actor::{
 };
 pub use monitor::Monitor;
 pub use observation::{Ahead, Briefing, Control, Observation, Other, Way};
-pub use outcome::{Metric, Outcome};
+pub use outcome::{Metric, Outcome, violation_metrics};
 pub use paracosm_coverage::Shape;
 pub use program::{Declaration, Declared, Program, ProgramError, Test};
 pub use road::RoadSegment;

@@ -1,6 +1,6 @@
 //! What a run leaves behind.
 
-use paracosm_oracles::{Trace, Verdict};
+use paracosm_oracles::{Formula, Trace, Verdict};
 use std::fmt;
 
 /// A number, a flag or a word that describes a run.
@@ -35,8 +35,7 @@ pub struct Outcome {
     /// `travelled` (m); of a contact `impact_speed` (the car's, m/s; 0 without one), `contact_face` (the side of the car),
     /// `contact_with` (the name of the object), `contact_class` (what it is taken for), `contact_motion` (whether the car
     /// was `driving`, `braking` or `standing`) and `other_speed` (the object's, m/s); `triggered`: whether the premise of
-    /// the scenario came about. For each violated requirement ID `critical_time.ID` (s), the time at which its formula came
-    /// to be worth what it is, with `critical_travelled.ID` (m) and `critical_speed.ID` (m/s) of the car then.
+    /// the scenario came about. For each violated requirement the [`violation_metrics`].
     pub metrics: Vec<(String, Metric)>,
     /// The record of the run; `None` where there was none.
     pub trace: Option<Trace>,
@@ -49,4 +48,22 @@ impl Outcome {
     pub fn broken(verdict: Verdict, message: impl Into<String>) -> Self {
         Self { verdict, robustness: Vec::new(), metrics: Vec::new(), trace: None, error: Some(message.into()) }
     }
+}
+
+/// Why and when the violated requirement ID came to be worth what it is: `critical_part.ID`, the sub-formula on which it
+/// depends, and `critical_time.ID` (s), at which it does; of a trace with a car, `critical_travelled.ID` (m) and
+/// `critical_speed.ID` (m/s) say how far that had come then and how fast it was. Nothing where the formula does not fit the
+/// trace.
+pub fn violation_metrics(id: &str, formula: &Formula, trace: &Trace) -> Vec<(String, Metric)> {
+    let Ok(Some(cause)) = formula.explain(trace) else { return Vec::new() };
+    let tick = (cause.time / trace.dt()).round() as usize;
+    let at = |signal: &str| trace.signal(signal).and_then(|mut samples| samples.nth(tick));
+    let numbers = [
+        ("critical_time", Some(cause.time)),
+        ("critical_travelled", at("car.travelled")),
+        ("critical_speed", at("car.speed")),
+    ];
+    let numbers = numbers.into_iter().filter_map(|(name, value)| Some((name, Metric::Number(value?))));
+    let part = ("critical_part", Metric::Word(Some(cause.part.to_string())));
+    numbers.chain([part]).map(|(name, metric)| (format!("{name}.{id}"), metric)).collect()
 }

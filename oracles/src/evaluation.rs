@@ -4,9 +4,11 @@ use crate::core::{Core, Id, Kind, Sight};
 use crate::offline::{Column, columns};
 use crate::worth::{Worth, truth};
 use crate::{EvaluationError, Formula, Trace, Truth, dense};
+use serde::{Deserialize, Serialize};
 
 /// What a trace says of the time between its samples.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Semantics {
     /// Nothing: formulas speak of the samples.
     #[default]

@@ -53,6 +53,21 @@ fn what_comes_after_the_last_sample_is_open_as_it_is_on_samples() {
 }
 
 #[test]
+fn where_two_jump_at_one_instant_both_are_still_what_they_were() {
+    let zeros = |dt: f64, ticks: usize| trace(dt, &vec![0.0; ticks], false);
+    let [inf, none] = [f64::INFINITY, f64::NEG_INFINITY];
+    for (text, trace, lower, robustness) in [
+        ("once[1,inf] true release[0.5,1.25] true", zeros(0.5, 3), none, inf),
+        ("always[0,1.75] true until (true since[0.25,0.25] true)", zeros(1.0, 3), none, inf),
+        ("always[0,1] (true since ((x < 0) until[1,1] true))", zeros(1.0, 2), 0.0, 0.0),
+        ("false until historically[0,0] always[1.25,1.5] true", zeros(0.5, 4), inf, inf),
+    ] {
+        let found = dense(text, &trace).unwrap();
+        assert_eq!((found.lower, found.robustness), (lower, robustness), "{text}");
+    }
+}
+
+#[test]
 fn what_is_not_piecewise_linear_is_refused() {
     let trace = trace(1.0, &[1.0, 2.0], true);
     for (text, complaint) in [

@@ -3,7 +3,7 @@
 mod common;
 
 use common::DT;
-use common::{formulas, traces};
+use common::{cases, formulas, traces};
 use paracosm_oracles::{EvaluationError, Formula, Monitor, Trace, Truth};
 use proptest::prelude::*;
 
@@ -83,7 +83,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(cases())]
 
     #[test]
     fn at_every_tick_the_truth_is_that_of_the_trace_so_far(formula in formulas(3), trace in traces()) {

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{DT, formulas, naive, traces};
+use common::{DT, cases, formulas, naive, traces};
 use paracosm_oracles::{Evaluation, Formula, Interval, Monitor, Trace, Truth, flag, signal};
 use proptest::prelude::*;
 
@@ -157,8 +157,7 @@ fn the_cause_is_the_comparison_at_the_time_on_which_everything_depends() {
 }
 
 proptest! {
-    // So many whatever the environment says: the suite promises them.
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    #![proptest_config(cases())]
 
     #[test]
     fn formulas_are_worth_what_their_definition_says(formula in formulas(3), trace in traces()) {

@@ -44,7 +44,11 @@ impl Answer {
     /// Reads the answer to the test of this index.
     pub fn read(line: &str, index: usize) -> Result<Self, String> {
         let text = line.trim();
-        let answer: Line = serde_json::from_str(text).map_err(|error| no_answer(text, &error))?;
+        let answer: Line = match serde_json::from_str(text) {
+            Ok(answer) => answer,
+            // As some languages write numbers that JSON does not have. What is said of it is where they stand.
+            Err(error) => serde_json::from_str(&without_nan(text)).map_err(|_| no_answer(text, &error))?,
+        };
         if answer.index != index {
             return Err(format!("found the answer to test {}, expected that to test {index}", answer.index));
         }
@@ -56,6 +60,17 @@ impl Answer {
             _ => Err("found several of `trace`, `robustness` and `error`, expected one".into()),
         }
     }
+}
+
+/// The line with `null` for what is no finite number outside of words.
+fn without_nan(text: &str) -> String {
+    let parts = text.split('"').enumerate().map(|(place, part)| {
+        if place % 2 == 1 {
+            return part.to_owned();
+        }
+        ["-Infinity", "Infinity", "NaN"].iter().fold(part.to_owned(), |part, word| part.replace(word, "null"))
+    });
+    parts.collect::<Vec<_>>().join("\"")
 }
 
 /// What is wrong with a line that is no answer: the place, if it is no JSON.
@@ -86,7 +101,9 @@ fn read_trace(answer: &Record<Vec<Sample>>) -> Result<Trace, String> {
             return Err(format!("`{name}` has {} samples, expected {} as `time` has", samples.len(), time.len()));
         }
         if let Some(at) = samples.iter().position(|sample| !sample.0.is_finite()) {
-            return Err(format!("`{name}` has no finite value at sample {at}"));
+            let when = time.get(at).filter(|time| time.0.is_finite()).map(|time| format!(", {} s", time.0));
+            let when = when.unwrap_or_default();
+            return Err(format!("`{name}` has no finite value (NaN, infinity or null) at sample {at}{when}"));
         }
     }
     let dt = period(time)?;
@@ -202,7 +219,9 @@ mod tests {
     fn what_is_no_answer_is_quoted() {
         refuses("", "found `` in column 1");
         refuses("é hello", "found `é hello` in column 1");
-        refuses(r#"{"index":3,"trace":{"time":[0,Infinity]}}"#, "found `Infinity]}}` in column 31");
+        refuses(r#"{"index":3,"trace":{"time":[0,wrong]}}"#, "found `wrong]}}` in column 31");
+        refuses(r#"{"index":3,"robustness":{"a":NaN}}"#, "the robustness of `a` is no number");
+        refuses(r#"{"index":3,"robustness":{"a":"NaN"}}"#, "expected a number");
         refuses(r#"{"trace":{"time":[0,1],"a":[0,1]}}"#, "missing field `index`");
         refuses(r#"{"index":3,"robustnes":{"a":1}}"#, "unknown field `robustnes`, expected one of");
         refuses(r#"{"index":3}"#, "found only an index");
@@ -223,7 +242,11 @@ mod tests {
         refuses(&trace(r#""time":[],"a":[]"#), "found 0 samples, expected two");
         refuses(&trace(r#""time":[0],"a":[1]"#), "found 1 samples, expected two");
         refuses(&trace(r#""time":[0,1],"a":[1,2,3]"#), "`a` has 3 samples, expected 2");
-        refuses(&trace(r#""time":[0,1],"a":[1,null]"#), "`a` has no finite value at sample 1");
+        let nothing = "has no finite value (NaN, infinity or null) at sample 1";
+        refuses(&trace(r#""time":[0,0.5],"a":[1,null]"#), &format!("`a` {nothing}, 0.5 s"));
+        refuses(&trace(r#""time":[0,0.5],"NaN":[1,NaN]"#), &format!("`NaN` {nothing}, 0.5 s"));
+        refuses(&trace(r#""time":[0,0.5],"a":[1,-Infinity]"#), &format!("`a` {nothing}, 0.5 s"));
+        refuses(&trace(r#""time":[0,Infinity],"a":[1,2]"#), &format!("`time` {nothing}"));
         refuses(&trace(r#""time":[0,1],"a":[1,"x"]"#), "expected a number or a truth");
         refuses(&trace(r#""time":[1,2],"a":[1,2]"#), "begins at 1 s, expected 0 s");
         refuses(&trace(r#""time":[0,1,1],"a":[1,2,3]"#), "from 1 to 1 at sample 2");

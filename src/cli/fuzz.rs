@@ -1,8 +1,8 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Found, Verbosity, bench, blame, describe, doctor, likelihood, list, map, record, replay, run, shrink,
-    trace,
+    Failure, Found, Verbosity, bench, blame, describe, doctor, likelihood, list, map, monitor, record, replay, run,
+    shrink, trace,
 };
 use clap::{Parser, Subcommand};
 
@@ -19,6 +19,7 @@ Examples:
   paracosm-fuzz shrink paracosm-out 17               the simplest test near test 17 that still fails
   paracosm-fuzz blame paracosm-out                   which failures other drivers could have avoided
   paracosm-fuzz trace paracosm-out                   requirement by test, and what is untested
+  paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)'       ask formulas of a recorded trace
   paracosm-fuzz record pedestrian-crossing --budget 20 --out images      what cameras see of tests, labelled
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
@@ -96,6 +97,9 @@ enum Verb {
     /// Show requirement by test: what passed, what failed, and what is untested
     #[command(after_help = trace::EXAMPLES)]
     Trace(trace::Options),
+    /// Ask formulas of a recorded trace, or of one that is being recorded
+    #[command(after_help = monitor::EXAMPLES)]
+    Monitor(monitor::Options),
     /// Run a campaign and record what cameras see of its tests: images, masks, depths, boxes and controls
     #[command(after_help = record::EXAMPLES)]
     Record(Box<record::Options>),
@@ -118,6 +122,7 @@ impl Command {
             Some(Verb::Shrink(options)) => options.execute(self.verbosity),
             Some(Verb::Blame(options)) => options.execute(self.verbosity),
             Some(Verb::Trace(options)) => options.execute(),
+            Some(Verb::Monitor(options)) => options.execute(self.verbosity),
             Some(Verb::Record(options)) => options.execute(self.verbosity),
             Some(Verb::Doctor(options)) => options.execute(),
         }

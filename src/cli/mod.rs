@@ -15,6 +15,7 @@ mod interrupt;
 mod likelihood;
 mod list;
 mod map;
+mod monitor;
 mod odd;
 mod output;
 mod progress;

@@ -88,6 +88,9 @@ impl Report<'_> {
             let robustness = self.robustness(&worst.requirement, robustness);
             table.row("worst test", &format!("{}: {} {robustness}", worst.index, worst.requirement));
             table.row("  where", &in_words(study, trial));
+            if let Some((time, part)) = trial.cause(&worst.requirement) {
+                table.row("  why", &format!("`{part}` at {} s", digits(time)));
+            }
             if trial.is_failure() {
                 table.row("  shrink", &self.command("shrink", worst.index));
             }
@@ -99,8 +102,13 @@ impl Report<'_> {
     pub(super) fn json(&self) -> serde_json::Value {
         let counts = VERDICTS.map(|verdict| (verdict.to_string(), self.summary.count(verdict).into()));
         let worst = self.summary.worst().map(|worst| {
-            json!({"index": worst.index, "requirement": worst.requirement, "test": self.trials[worst.index].test,
-                "robustness": self.trials[worst.index].robustness(&worst.requirement), "replay": self.replay(worst.index)})
+            let trial = &self.trials[worst.index];
+            let mut said = json!({"index": worst.index, "requirement": worst.requirement, "test": trial.test,
+                "robustness": trial.robustness(&worst.requirement), "replay": self.replay(worst.index)});
+            if let Some((time, part)) = trial.cause(&worst.requirement) {
+                said["cause"] = json!({"time": time, "part": part});
+            }
+            said
         });
         let requirements: Vec<_> = self
             .summary

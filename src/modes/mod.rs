@@ -1,7 +1,8 @@
 //! The ways in which a campaign's tests fail: failing tests grouped by what went wrong, not by where they are in the space.
 //!
-//! Two failures are of one mode if they violate the same requirements, and the car touched the same object with the same
-//! side while doing the same (driving, braking or standing). What words tell no further apart, figures do: the
+//! Two failures are of one mode if they violate the same requirements by the same part of their formulas, and the car
+//! touched the same object with the same side while doing the same (driving, braking or standing). What words tell no
+//! further apart, figures do: the
 //! critical time, the way that the car had come by then, and its speed. Where one of them leaves a [gap](gap::groups) the
 //! mode is two.
 
@@ -45,6 +46,8 @@ pub struct Mode {
     pub worst: usize,
     /// What they violate.
     pub violates: Vec<String>,
+    /// The part of each of these formulas on which its robustness depends, by the requirement's id, as far as is known.
+    pub parts: Record<String>,
     /// What the car touched, and how.
     pub contact: Option<Touch>,
     /// The least and the greatest critical time (s), way come (m) and speed (m/s) of the car then.
@@ -83,7 +86,7 @@ impl Modes {
     /// Groups the failing trials of a study.
     pub fn of(study: &Study, trials: &[Trial]) -> Self {
         let failing: Vec<&Trial> = trials.iter().filter(|trial| trial.is_failure()).collect();
-        let mut kinds: BTreeMap<(Vec<String>, Option<Touch>), Vec<&Trial>> = BTreeMap::new();
+        let mut kinds: BTreeMap<Kind, Vec<&Trial>> = BTreeMap::new();
         for trial in &failing {
             let violates = trial.violated().map(str::to_owned).collect();
             kinds.entry((violates, Touch::of(trial))).or_default().push(trial);
@@ -106,17 +109,42 @@ impl Touch {
     }
 }
 
+/// What failures have in common in words: what they violate, and what the car touched.
+type Kind = (Vec<String>, Option<Touch>);
+
+/// The modes of trials of one kind.
+fn divided(study: &Study, kind: &Kind, trials: &[&Trial]) -> Vec<Mode> {
+    let mut by_parts: BTreeMap<Vec<Option<&str>>, Vec<&Trial>> = BTreeMap::new();
+    for trial in trials {
+        let parts = kind.0.iter().map(|id| Some(trial.cause(id)?.1)).collect();
+        by_parts.entry(parts).or_default().push(trial);
+    }
+    let is_told_by_part = by_parts.len() > 1;
+    let modes = by_parts.iter().flat_map(|(parts, trials)| of_parts(study, kind, parts, is_told_by_part, trials));
+    let mut modes: Vec<Mode> = modes.collect();
+    modes.sort_by_key(|mode| mode.trials[0]);
+    if modes.len() > 1 {
+        modes.iter_mut().enumerate().for_each(|(i, mode)| mode.name.push_str(&format!("#{}", i + 1)));
+    }
+    modes
+}
+
 /// The modes of trials that words do not tell apart.
-fn divided(study: &Study, (violates, contact): &(Vec<String>, Option<Touch>), trials: &[&Trial]) -> Vec<Mode> {
+fn of_parts(
+    study: &Study,
+    (violates, contact): &Kind,
+    parts: &[Option<&str>],
+    is_told_by_part: bool,
+    trials: &[&Trial],
+) -> Vec<Mode> {
     let figures = figures(violates, trials);
     let known: Vec<Figure> =
         figures.iter().map(|(_, values, resolution)| Figure { values, resolution: *resolution }).collect();
-    let mut groups = gap::groups(trials.len(), &known);
-    groups.sort_by_key(|group| group.members[0]);
-    let several = groups.len() > 1;
-    let parts = [Some(violates.join("+")), contact.as_ref().map(Touch::name)];
-    let name = parts.into_iter().flatten().collect::<Vec<_>>().join("/");
-    let mode = |(i, Group { members, set_apart_by }): (usize, Group)| {
+    let name = [Some(violates.join("+")), contact.as_ref().map(Touch::name)];
+    let name = name.into_iter().flatten().collect::<Vec<_>>().join("/");
+    let parts: Vec<(&str, &str)> =
+        violates.iter().zip(parts).filter_map(|(id, part)| Some((id.as_str(), (*part)?))).collect();
+    let mode = |Group { members, set_apart_by }: Group| {
         let all: Vec<&Trial> = members.iter().map(|member| trials[*member]).collect();
         let ranges: Vec<(&str, [f64; 2])> = figures
             .iter()
@@ -124,20 +152,22 @@ fn divided(study: &Study, (violates, contact): &(Vec<String>, Option<Touch>), tr
             .collect();
         let typical = typical(study, trials, &members, &known);
         let apart: Vec<&str> = set_apart_by.iter().map(|figure| figures[*figure].0).collect();
+        let story = words::Story { violates, parts: &parts, is_told_by_part, ranges: &ranges, apart: &apart };
         Mode {
-            name: if several { format!("{name}#{}", i + 1) } else { name.clone() },
-            words: words::of(violates, contact.as_ref(), trials[typical], &ranges, &apart),
+            name: name.clone(),
+            words: story.words(contact.as_ref(), trials[typical]),
             count: members.len(),
             representative: trials[typical].index,
             worst: all.iter().min_by(|a, b| severity(study, a).total_cmp(&severity(study, b))).map_or(0, |t| t.index),
             violates: violates.clone(),
+            parts: parts.iter().map(|(id, part)| ((*id).to_owned(), (*part).to_owned())).collect(),
             contact: contact.clone(),
-            figures: ranges.into_iter().map(|(name, range)| (name.to_owned(), range)).collect(),
+            figures: ranges.iter().map(|(name, range)| ((*name).to_owned(), *range)).collect(),
             parameters: extents(study, &all),
             trials: all.iter().map(|trial| trial.index).collect(),
         }
     };
-    groups.into_iter().enumerate().map(mode).collect()
+    gap::groups(trials.len(), &known).into_iter().map(mode).collect()
 }
 
 impl Touch {

@@ -75,6 +75,30 @@ fn a_gap_in_the_speed_makes_two_modes_of_one_kind_each_with_a_typical_test() {
 }
 
 #[test]
+fn failures_of_a_system_are_told_apart_by_the_part_of_the_formula_and_the_time() {
+    let line = |index: usize, part: &str, time: f64| {
+        format!(
+            "{{\"index\":{index},\"test\":{{\"speed\":1,\"distance\":20}},\"verdict\":\"fail\",\
+             \"robustness\":{{\"spec-1\":-1.5}},\"metrics\":{{\"critical_time.spec-1\":{time},\
+             \"critical_part.spec-1\":\"{part}\"}},\"ticks\":9,\"trace_hash\":\"00\",\"error\":null}}"
+        )
+    };
+    let early = (0..6).map(|i| line(i, "(rpm < 4750)", 3.0 + 0.1 * i as f64));
+    let late = (6..12).map(|i| line(i, "(rpm < 4750)", 22.0 + 0.1 * i as f64));
+    let other = (12..14).map(|i| line(i, "(speed < 120)", 9.0));
+    let trials: Vec<Trial> = early.chain(late).chain(other).map(|line| serde_json::from_str(&line).unwrap()).collect();
+    let found = modes(&trials).modes;
+    let told: Vec<_> = found.iter().map(|mode| (mode.name.as_str(), mode.words.as_str(), mode.count)).collect();
+    let expected = [
+        ("spec-1#1", "violates spec-1, by `(rpm < 4750)`, 3 to 3.5 s after the start", 6),
+        ("spec-1#2", "violates spec-1, by `(rpm < 4750)`, 22.6 to 23.1 s after the start", 6),
+        ("spec-1#3", "violates spec-1, by `(speed < 120)`, 9 s after the start", 2),
+    ];
+    assert_eq!(told, expected);
+    assert_eq!(found[2].parts.get("spec-1").map(String::as_str), Some("(speed < 120)"));
+}
+
+#[test]
 fn trials_of_which_only_the_violation_is_known_are_one_mode() {
     let line = |index: usize| {
         format!(

@@ -7,35 +7,53 @@ use paracosm_engine::Metric;
 /// Speed in m/s below which what the car touched stood.
 const STANDING: f64 = 0.1;
 
-/// A sentence about a mode: from what it violates, what was touched, a typical trial, and the ranges of its figures, of
-/// which some set it apart.
-pub(super) fn of(
-    violates: &[String],
-    contact: Option<&Touch>,
-    typical: &Trial,
-    ranges: &[(&str, [f64; 2])],
-    apart: &[&str],
-) -> String {
-    let range = |figure: &str| ranges.iter().find(|(name, _)| *name == figure).map(|(_, range)| *range);
-    let time = || range("critical_time").map(|range| format!("{} s after the start", span(range)));
-    let place = || range("critical_travelled").map(|range| format!("after {} m", span(range)));
-    let speed = || range("critical_speed").map(|range| format!("at {} m/s", span(range)));
-    let Some(contact) = contact else {
-        let rest: Vec<String> = [time(), place(), speed()].into_iter().flatten().collect();
-        return [vec![format!("violates {}", violates.join(" and "))], rest].concat().join(", ");
-    };
-    let also = [
-        time().filter(|_| apart.contains(&"critical_time")),
-        place().filter(|_| apart.contains(&"critical_travelled")),
-    ];
-    let motion = match contact.motion.as_str() {
-        "standing" => "stands",
-        "braking" => "brakes",
-        _ => "goes on",
-    };
-    let at = speed().filter(|_| motion != "stands").map(|speed| format!(" {speed}")).unwrap_or_default();
-    let also: String = also.into_iter().flatten().map(|text| format!(", {text}")).collect();
-    format!("the car {motion}{at}{}{also}", meeting(contact, typical))
+/// What the trials of a mode have in common.
+pub(super) struct Story<'a> {
+    pub violates: &'a [String],
+    /// The parts of their formulas that were violated.
+    pub parts: &'a [(&'a str, &'a str)],
+    /// Whether these tell it from other modes.
+    pub is_told_by_part: bool,
+    pub ranges: &'a [(&'a str, [f64; 2])],
+    /// Those of the ranges that set it apart.
+    pub apart: &'a [&'a str],
+}
+
+impl Story<'_> {
+    /// A sentence about it, with what was touched and a typical trial.
+    pub fn words(&self, contact: Option<&Touch>, typical: &Trial) -> String {
+        let time = || self.range("critical_time").map(|range| format!("{} s after the start", span(range)));
+        let place = || self.range("critical_travelled").map(|range| format!("after {} m", span(range)));
+        let speed = || self.range("critical_speed").map(|range| format!("at {} m/s", span(range)));
+        let Some(contact) = contact else {
+            let rest = [self.part(), time(), place(), speed()].into_iter().flatten();
+            let violates = format!("violates {}", self.violates.join(" and "));
+            return [violates].into_iter().chain(rest).collect::<Vec<_>>().join(", ");
+        };
+        let also = [
+            self.part().filter(|_| self.is_told_by_part),
+            time().filter(|_| self.apart.contains(&"critical_time")),
+            place().filter(|_| self.apart.contains(&"critical_travelled")),
+        ];
+        let motion = match contact.motion.as_str() {
+            "standing" => "stands",
+            "braking" => "brakes",
+            _ => "goes on",
+        };
+        let at = speed().filter(|_| motion != "stands").map(|speed| format!(" {speed}")).unwrap_or_default();
+        let also: String = also.into_iter().flatten().map(|text| format!(", {text}")).collect();
+        format!("the car {motion}{at}{}{also}", meeting(contact, typical))
+    }
+
+    fn range(&self, figure: &str) -> Option<[f64; 2]> {
+        self.ranges.iter().find(|(name, _)| *name == figure).map(|(_, range)| *range)
+    }
+
+    /// What of the formulas is not so.
+    fn part(&self) -> Option<String> {
+        let parts: Vec<String> = self.parts.iter().map(|(_, part)| format!("`{part}`")).collect();
+        (!parts.is_empty()).then(|| format!("by {}", parts.join(" and ")))
+    }
 }
 
 /// How the car and the other meet, after what the car does.

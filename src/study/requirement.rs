@@ -2,8 +2,8 @@
 
 use super::{Study, Subject};
 use crate::Error;
-use paracosm_engine::Outcome;
-use paracosm_oracles::{Formula, Requirement, Truth, Verdict};
+use paracosm_engine::{Outcome, violation_metrics};
+use paracosm_oracles::{EvaluationError, Formula, Requirement, Semantics, Truth, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// A requirement as it is written down.
@@ -25,16 +25,25 @@ pub struct RequirementText {
     /// How severe a violation is, in a word of whoever states it.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub severity: Option<String>,
+    /// What is taken to happen between the samples of a trace.
+    #[serde(skip_serializing_if = "is_sampled", default)]
+    pub time: Semantics,
     /// Whether it is none of the scenario's own, but was given with the study.
     #[serde(skip_serializing_if = "std::ops::Not::not", default)]
     pub given: bool,
+}
+
+/// What is usual is not written down.
+fn is_sampled(time: &Semantics) -> bool {
+    *time == Semantics::Sampled
 }
 
 impl From<Requirement> for RequirementText {
     fn from(requirement: Requirement) -> Self {
         let Requirement { id, text, formula, unit, scale } = requirement;
         let formula = formula.to_string();
-        Self { id, text, formula, unit, scale: Some(scale), source: None, severity: None, given: false }
+        let (scale, time) = (Some(scale), Semantics::Sampled);
+        Self { id, text, formula, unit, scale, source: None, severity: None, time, given: false }
     }
 }
 
@@ -52,7 +61,9 @@ impl Study {
     /// # Errors
     /// The text is no formula, speaks of a signal that the scenario does not have, or has a time bound between two ticks.
     pub fn spec(mut self, text: &str) -> Result<Self, Error> {
-        let formula = self.checked(text).map_err(|message| Error::Usage(format!("--spec {text}: {message}")))?;
+        let formula = self
+            .checked(text, Semantics::Sampled)
+            .map_err(|message| Error::Usage(format!("--spec {text}: {message}")))?;
         let formula = formula.to_string();
         let mut ids = (1..).map(|number| format!("spec-{number}"));
         let id = ids.find(|id| self.requirement(id).is_none()).expect("there is always another number");
@@ -64,6 +75,7 @@ impl Study {
             scale: None,
             source: None,
             severity: None,
+            time: Semantics::Sampled,
             given: true,
         });
         Ok(self)
@@ -76,7 +88,7 @@ impl Study {
     pub fn outlasting(&self) -> Result<Vec<(String, String)>, Error> {
         let Subject::Scenario(simulation) = &self.subject else { return Ok(Vec::new()) };
         let specs = Specs::of(self)?;
-        let part = |(id, formula): &(String, Formula)| {
+        let part = |Spec { id, formula, .. }: &Spec| {
             formula.outlasting(simulation.duration()).map(|part| (id.clone(), part.to_string()))
         };
         Ok(specs.0.iter().filter_map(part).collect())
@@ -85,7 +97,17 @@ impl Study {
 
 /// The formulas that were given with a study, by their ids.
 #[derive(Debug, Clone)]
-pub(crate) struct Specs(Vec<(String, Formula)>);
+pub(crate) struct Specs(Vec<Spec>);
+
+#[derive(Debug, Clone)]
+struct Spec {
+    id: String,
+    formula: Formula,
+    time: Semantics,
+}
+
+/// What stands in the error of a trial whose trace a formula can never be asked of, whatever its samples.
+const MISFIT: &str = " does not fit the trace: ";
 
 impl Specs {
     /// Those of a study.
@@ -98,7 +120,7 @@ impl Specs {
             let formula = requirement.formula.parse().map_err(|error| {
                 Error::Usage(format!("requirement `{}`, `{}`: {error}", requirement.id, requirement.formula))
             })?;
-            Ok((requirement.id.clone(), formula))
+            Ok(Spec { id: requirement.id.clone(), formula, time: requirement.time })
         };
         Ok(Self(given.map(parse).collect::<Result<_, Error>>()?))
     }
@@ -107,19 +129,29 @@ impl Specs {
         self.0.is_empty()
     }
 
+    /// Whether the error of a trial says that one of them does not fit the trace.
+    pub fn is_misfit(error: &str) -> bool {
+        error.contains(MISFIT)
+    }
+
     /// Asks them of the trace of a run that came to a verdict, and joins what they say with that.
     pub fn judge(&self, outcome: &mut Outcome) {
         let Some(trace) = outcome.trace.as_ref().filter(|_| outcome.error.is_none()) else { return };
         let mut wrong = None;
-        for (id, formula) in &self.0 {
-            let (truth, robustness) = match formula.evaluate(trace) {
+        for Spec { id, formula, time } in &self.0 {
+            let (truth, robustness) = match formula.evaluate_in(*time, trace) {
                 Ok(evaluation) => (evaluation.truth, evaluation.robustness),
                 Err(error) => {
-                    wrong.get_or_insert(format!("{id}: {error}"));
+                    let says = if matches!(error, EvaluationError::NoValue { .. }) { ": " } else { MISFIT };
+                    wrong.get_or_insert(format!("{id}{says}{error}"));
                     (Truth::Undecided, f64::NAN)
                 }
             };
             outcome.robustness.push((id.clone(), (truth != Truth::Undecided).then_some(robustness)));
+            // Which instant between two samples is to blame is not known.
+            if truth == Truth::Violated && is_sampled(time) {
+                outcome.metrics.extend(violation_metrics(id, formula, trace));
+            }
             outcome.verdict = match (truth, outcome.verdict) {
                 (Truth::Violated, _) | (_, Verdict::Fail) => Verdict::Fail,
                 (Truth::Undecided, _) => Verdict::Inconclusive,

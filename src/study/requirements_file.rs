@@ -5,7 +5,7 @@ use super::odd::Written;
 use super::{RequirementText, Study, Subject};
 use crate::Error;
 use paracosm_coverage::{did_you_mean, nearest};
-use paracosm_oracles::{Formula, Trace};
+use paracosm_oracles::{Formula, Semantics, Trace};
 use serde::Deserialize;
 use std::fs;
 use std::path::Path;
@@ -31,10 +31,11 @@ struct Entry {
     formula: Option<Spanned<String>>,
     unit: Option<String>,
     scale: Option<Spanned<f64>>,
+    time: Option<Semantics>,
 }
 
 /// What may stand in the file and in its tables.
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "requirement",
     "odd",
     "id",
@@ -44,6 +45,7 @@ const KEYS: [&str; 12] = [
     "formula",
     "unit",
     "scale",
+    "time",
     "varied",
     "fixed",
     "excluded",
@@ -74,8 +76,8 @@ impl Study {
                 Some(position) => {
                     let claim = if entry.formula.is_some() {
                         Some("a formula")
-                    } else if entry.unit.is_some() || entry.scale.is_some() {
-                        Some("a unit and a scale")
+                    } else if entry.unit.is_some() || entry.scale.is_some() || entry.time.is_some() {
+                        Some("a unit, a scale and a time")
                     } else {
                         None
                     };
@@ -103,10 +105,11 @@ impl Study {
     /// A requirement that is none of the study's own yet; or what is wrong with it, and where.
     fn stated(&self, entry: Entry) -> Result<RequirementText, (usize, String)> {
         let id = entry.id.into_inner();
+        let time = entry.time.unwrap_or_default();
         let formula = match &entry.formula {
             None => String::new(),
             Some(formula) => self
-                .checked(formula.get_ref())
+                .checked(formula.get_ref(), time)
                 .map_err(|message| (formula.span().start, format!("requirement `{id}`: {message}")))?
                 .to_string(),
         };
@@ -125,19 +128,29 @@ impl Study {
             scale: entry.scale.map(Spanned::into_inner),
             source: entry.source,
             severity: entry.severity,
+            time,
             given: true,
         })
     }
 
     /// A formula that can be asked of this study's traces, as far as these are known.
-    pub(super) fn checked(&self, text: &str) -> Result<Formula, String> {
+    pub(super) fn checked(&self, text: &str, time: Semantics) -> Result<Formula, String> {
         let formula: Formula = text.parse().map_err(|error| format!("{error}"))?;
         let signals = self.signals().map_err(|error| error.to_string())?;
-        if let (Subject::Scenario(simulation), Some(signals)) = (&self.subject, signals) {
+        if let (Subject::Scenario(simulation), Some(signals)) = (&self.subject, &signals) {
             let describe = format!("`paracosm-fuzz describe {}` shows its signals", simulation.scenario);
-            Formula::parse(text, &signals).map_err(|error| format!("{error}; {describe}"))?;
-            let nothing = Trace::new(simulation.dt(), signals);
-            formula.evaluate(&nothing).map_err(|error| error.to_string())?;
+            Formula::parse(text, signals).map_err(|error| format!("{error}; {describe}"))?;
+            if time == Semantics::Sampled {
+                let nothing = Trace::new(simulation.dt(), signals.clone());
+                formula.evaluate(&nothing).map_err(|error| error.to_string())?;
+            }
+        }
+        if time == Semantics::Dense {
+            // It has to be one whose comparisons are straight between samples, of whatever signals.
+            let names: Vec<String> = formula.signals().into_iter().map(str::to_owned).chain([String::new()]).collect();
+            let mut sample = Trace::new(1.0, names.clone());
+            sample.record(&vec![0.0; names.len()]);
+            formula.evaluate_in(time, &sample).map_err(|error| error.to_string())?;
         }
         Ok(formula)
     }

@@ -23,6 +23,7 @@ mod k_epsilon;
 mod likelihood;
 mod maps;
 mod mixed_space;
+mod monitor;
 mod networks;
 mod pedestrian_study;
 mod pictures;

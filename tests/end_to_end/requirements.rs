@@ -47,6 +47,32 @@ fn trials(dir: &Path, out: &str) -> Vec<Value> {
 }
 
 #[test]
+fn a_requirement_may_speak_of_the_time_between_samples() {
+    let dir = tempfile::tempdir().unwrap();
+    let ask = |out: &str, more: &str| {
+        fs::write(dir.path().join("r.toml"), format!("[[requirement]]\nid = \"soon\"\n{more}\n")).unwrap();
+        fuzz(dir.path(), &["--requirements", "r.toml", "--out", out, "-q", "--budget", "4"])
+    };
+    let formula = "formula = \"always[0,0.125] (car.speed < 16)\"";
+    refused(&ask("out", formula), &["r.toml, line 3", "0.125 s is no multiple"]);
+    refused(&ask("out", &format!("{formula}\ntime = \"dens\"")), &["r.toml, line 4", "`dens`", "`dense`"]);
+    let square = "formula = \"always (car.speed * car.speed < 16)\"\ntime = \"dense\"";
+    refused(&ask("out", square), &["r.toml, line 3", "no piecewise linear function"]);
+    succeeds(ask("out", &format!("{formula}\ntime = \"dense\"")));
+    for trial in trials(dir.path(), "out") {
+        let robustness = trial["robustness"]["soon"].as_f64().unwrap();
+        assert_eq!(
+            trial["verdict"] == "fail",
+            robustness < 0.0 || trial["robustness"]["no-collision"].as_f64() < Some(0.0)
+        );
+        assert!((-1.0..0.0).contains(&robustness), "{trial}");
+    }
+    let study: Value = serde_json::from_slice(&fs::read(dir.path().join("out/campaign.json")).unwrap()).unwrap();
+    assert_eq!((&study["requirements"][2]["time"], &study["requirements"][0]["time"]), (&json!("dense"), &Value::Null));
+    succeeds(fuzz(dir.path(), &["replay", "out", "1"]));
+}
+
+#[test]
 fn a_file_adds_requirements_and_says_where_they_come_from() {
     let dir = tempfile::tempdir().unwrap();
     let summary = campaign(dir.path(), "12", &["--format", "table", "--spec", "G (car.speed < 30)"]);

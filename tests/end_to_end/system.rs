@@ -71,12 +71,20 @@ fn formulas_are_asked_of_traces_and_each_is_reported() {
         assert_eq!(trial["verdict"], if x <= -0.5 { "fail" } else { "pass" }, "{trial}");
         assert_eq!(trial["robustness"]["spec-1"], x.min(1.0) + 0.5);
         assert_eq!(trial["ticks"], 2);
+        let cause = json!({"critical_time.spec-1": 0.1, "critical_part.spec-1": "(speed > -0.5)"});
+        assert_eq!(trial["metrics"], if x <= -0.5 { cause } else { json!({}) }, "{trial}");
         assert_eq!(trial["trace_hash"].as_str().unwrap().len(), 32);
     }
     let failed = trials.iter().filter(|trial| trial["verdict"] == "fail").count();
     let requirements: Value = serde_json::from_str::<Value>(&stdout(&summary)).unwrap()["requirements"].take();
     assert_eq!((&requirements[0]["id"], &requirements[0]["violated"]), (&json!("spec-1"), &json!(failed)));
     assert_eq!((&requirements[1]["id"], &requirements[1]["violated"]), (&json!("spec-2"), &json!(0)));
+    let said: Value = serde_json::from_str(&stdout(&summary)).unwrap();
+    assert_eq!(said["worst"]["cause"], json!({"time": 0.1, "part": "(speed > -0.5)"}));
+    assert_eq!(said["modes"][0]["words"], "violates spec-1, by `(speed > -0.5)`, 0.1 s after the start");
+    let worst = said["worst"]["index"].to_string();
+    let replay = stdout(&succeeds(fuzz(dir.path(), &["replay", "out", &worst, "--format", "table"])));
+    assert!(replay.contains("critical_part.spec-1  (speed > -0.5)\n"), "{replay}");
     succeeds(fuzz(dir.path(), &["replay", "out", "2", "--trace", "trace.csv"]));
     let trace = fs::read_to_string(dir.path().join("trace.csv")).unwrap();
     assert_eq!(trace, "time,speed,on\n0,1,1\n0.1,0.5,1\n0.2,1,0\n");
@@ -87,8 +95,14 @@ fn formulas_are_asked_of_traces_and_each_is_reported() {
 /// Answers of test 2, and what is said of them.
 const BAD: &[(&str, &str)] = &[
     ("echo garbage", "found `garbage` in column 1"),
-    ("echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"speed\":[NaN,1]}}'", "found `NaN,1]}}` in column 43"),
-    ("echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"speed\":[1,null]}}'", "`speed` has no finite value at sample 1"),
+    (
+        "echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"speed\":[NaN,1]}}'",
+        "`speed` has no finite value (NaN, infinity or null) at sample 0, 0 s",
+    ),
+    (
+        "echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"speed\":[1,null]}}'",
+        "`speed` has no finite value (NaN, infinity or null) at sample 1, 1 s",
+    ),
     ("echo '{\"index\":2,\"trace\":{\"time\":[0,1],\"sped\":[0,0]}}'", "no signal `speed` (did you mean `sped`?)"),
     ("echo '{\"index\":1,\"trace\":{\"time\":[0,1],\"speed\":[0,0]}}'", "found the answer to test 1, expected that to"),
     ("echo '{\"index\":2,\"robustness\":{\"a\":1}}'", "answers with robustness, expected a trace"),
@@ -190,6 +204,24 @@ fn systems_that_answer_nothing_are_failed_runs() {
         refused(&given_up, &["first 50 tests ended in an error", "given up", "no licence"]);
         assert_eq!(trials(dir.path(), "none").len(), 50);
     }
+}
+
+#[test]
+fn a_formula_that_fits_no_trace_is_given_up_soon_and_one_that_fits_some_is_not() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), TRACE);
+    for (out, formula, why) in [
+        ("typo", "always (sped > 0)", "the trace has no signal `sped` (did you mean `speed`?)"),
+        ("tick", "always[0,0.05] (speed > 0)", "a time bound of 0.05 s is no multiple of the sample period of 0.1 s"),
+    ] {
+        let says = ["each of the first 3 tests", &format!("spec-1 does not fit the trace: {why}")];
+        refused(&run(dir.path(), out, &["--spec", formula, "--budget", "60"]), &says);
+        assert_eq!(trials(dir.path(), out).len(), 3);
+    }
+    script(dir.path(), &format!("case $i in 0|1|3) {};; *) {TRACE};; esac", TRACE.replace("speed", "sped")));
+    succeeds(run(dir.path(), "some", &["--spec", "always (speed > -9)", "--budget", "8"]));
+    let broken: Vec<Value> = trials(dir.path(), "some").iter().map(|trial| trial["verdict"].clone()).collect();
+    assert_eq!(broken, ["error", "error", "pass", "error", "pass", "pass", "pass", "pass"]);
 }
 
 #[test]

@@ -4,7 +4,6 @@
 use super::scene::Scene;
 use crate::outcome::Metric;
 use crate::vehicle::VehicleState;
-use paracosm_oracles::{Requirement, Trace};
 
 /// Speed in m/s below which the car stands at a contact.
 const STANDING: f64 = 0.1;
@@ -38,20 +37,4 @@ fn motion(car: &VehicleState) -> &'static str {
     } else {
         "driving"
     }
-}
-
-/// When and where a violated requirement came to be worth what it is: its critical time, and how far the car had come
-/// then and how fast it was.
-pub(super) fn of_violation(requirement: &Requirement, trace: &Trace) -> Vec<(String, Metric)> {
-    let Ok(Some(cause)) = requirement.formula.explain(trace) else { return Vec::new() };
-    let tick = (cause.time / trace.dt()).round() as usize;
-    let at = |signal: &str| trace.signal(signal).and_then(|mut samples| samples.nth(tick));
-    let metrics = [
-        ("critical_time", Some(cause.time)),
-        ("critical_travelled", at("car.travelled")),
-        ("critical_speed", at("car.speed")),
-    ];
-    let named =
-        |(name, value): (&str, Option<f64>)| Some((format!("{name}.{}", requirement.id), Metric::Number(value?)));
-    metrics.into_iter().filter_map(named).collect()
 }

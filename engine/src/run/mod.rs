@@ -16,7 +16,7 @@ pub use driving::{simulate, watch};
 
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, violation_metrics};
 use crate::program::{Program, ProgramError, Test};
 use crate::road::{Network, Path, wrapped};
 use crate::scenario::Weather;
@@ -314,7 +314,7 @@ impl Run {
             let evaluation = requirement.judge(&self.trace).expect("its signal has a column");
             if evaluation.truth == Truth::Violated {
                 violated = true;
-                metrics.extend(metrics::of_violation(requirement, &self.trace));
+                metrics.extend(violation_metrics(&requirement.id, &requirement.formula, &self.trace));
             }
             let decided = evaluation.truth != Truth::Undecided;
             open |= !decided;

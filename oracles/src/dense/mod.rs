@@ -183,7 +183,7 @@ struct Scope {
 impl Scope {
     /// The operator, of which `apply` computes the sibling.
     fn track<const N: usize>(self, operands: [Track; N], apply: impl Fn(Self, [Wave; N]) -> Wave) -> Track {
-        let operator = |scope: Self, waves: [Wave; N]| scope.turned(apply(scope, waves.map(|wave| scope.turned(wave))));
+        let operator = |scope: Self, waves: [Wave; N]| scope.back(apply(scope, waves.map(|wave| scope.ahead(wave))));
         let known = operands.iter().map(|track| track.settled).fold(f64::INFINITY, f64::min);
         let settled = if self.past {
             known
@@ -210,9 +210,15 @@ impl Scope {
         }
     }
 
-    /// Between the operator and its sibling, to and fro.
-    fn turned(&self, wave: Wave) -> Wave {
+    /// An operand of the operator as its sibling takes it.
+    fn ahead(&self, wave: Wave) -> Wave {
         let wave = if self.past { wave.cut(self.needed).reversed() } else { wave };
+        if self.dual { wave.scaled(-1.0) } else { wave }
+    }
+
+    /// What the sibling comes to, as the operator has it.
+    fn back(&self, wave: Wave) -> Wave {
+        let wave = if self.past { wave.reversed().cut(self.needed) } else { wave };
         if self.dual { wave.scaled(-1.0) } else { wave }
     }
 
@@ -220,30 +226,38 @@ impl Scope {
         let Interval { start, end, .. } = self.interval;
         let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
         if end.is_finite() {
-            return wave.greatest(start, end, self.needed, outside);
+            return self.greatest(wave, [start, end], self.needed, outside);
         }
         if self.needed == 0.0 && start == 0.0 && !self.past {
             return Wave::constant(wave.greatest_of_all().max(outside), 0.0);
         }
         let now = wave.greatest_from_now(outside);
-        if start == 0.0 { now } else { now.greatest(start, start, self.needed, outside) }
+        if start == 0.0 { now } else { self.greatest(now, [start, start], self.needed, outside) }
     }
 
     fn until(&self, hold: Wave, goal: Wave) -> Wave {
         let Interval { start, end, .. } = self.interval;
         let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
-        let mut until = Wave::until(&hold, &goal, outside);
+        let mut until = Wave::until(&hold, &goal, self.past, outside);
         if end.is_finite() {
             // The goal is in sight, and it is reached, in sight or not: then it is reached in sight.
             let needed = self.asked.min(self.needed + start);
-            until = until.min(&goal.greatest(0.0, end - start, needed, outside));
+            until = until.min(&self.greatest(goal, [0.0, end - start], needed, outside));
         }
         if start > 0.0 {
             let fails = self.outside.map_or(f64::NEG_INFINITY, |worth| -worth);
-            let before = hold.scaled(-1.0).greatest(0.0, start, self.needed, fails).scaled(-1.0);
-            until = before.min(&until.greatest(start, start, self.needed, outside));
+            let before = self.greatest(hold.scaled(-1.0), [0.0, start], self.needed, fails).scaled(-1.0);
+            until = before.min(&self.greatest(until, [start, start], self.needed, outside));
         }
         until
+    }
+
+    /// The greatest that is in sight.
+    fn greatest(&self, wave: Wave, [start, end]: [f64; 2], needed: f64, outside: f64) -> Wave {
+        let (time, last) = wave.last();
+        let greatest = wave.greatest(start, end, needed, outside);
+        // Of the past, the first instant of the trace sees itself and nothing else, whatever follows it.
+        if self.past && start == 0.0 && time == needed { greatest.ending(last) } else { greatest }
     }
 }
 

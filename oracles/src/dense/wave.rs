@@ -29,8 +29,20 @@ impl Wave {
         &self.0
     }
 
+    /// The end and the value there.
+    pub fn last(&self) -> (f64, f64) {
+        self.0[self.0.len() - 1]
+    }
+
     fn end(&self) -> f64 {
-        self.0[self.0.len() - 1].0
+        self.last().0
+    }
+
+    /// The function with this value at its end.
+    pub fn ending(mut self, value: f64) -> Self {
+        let end = self.end();
+        push(&mut self.0, (end, value));
+        self
     }
 
     /// The value at time 0.
@@ -77,10 +89,13 @@ impl Wave {
         Self(points)
     }
 
-    /// The function and, from its end on, another one.
+    /// The function and, after its end, another one.
     pub fn followed_by(mut self, other: &Self) -> Self {
         let end = self.end();
-        self.0.extend(other.0.iter().map(|point| (end + point.0, point.1)));
+        // What the other is at its very beginning this one is at its end.
+        let after = other.0.partition_point(|point| point.0 <= 0.0).saturating_sub(1);
+        let later = other.0[after..].iter().map(|point| (end + point.0, point.1));
+        later.for_each(|point| push(&mut self.0, point));
         self
     }
 
@@ -221,8 +236,9 @@ impl Wave {
         Self(result)
     }
 
-    /// What `hold until goal` is worth at each instant, however late the goal; beyond the end it is `outside`.
-    pub fn until(hold: &Self, goal: &Self, outside: f64) -> Self {
+    /// What `hold until goal` is worth at each instant, however late the goal; beyond the end it is `outside`. Time may run
+    /// `back`: then what a function is at a jump is what it jumps to.
+    pub fn until(hold: &Self, goal: &Self, back: bool, outside: f64) -> Self {
         let mut pieces = Vec::with_capacity(hold.0.len() + goal.0.len());
         hold.together(goal, |piece| pieces.push(piece));
         let mut result = Vec::with_capacity(pieces.len());
@@ -230,8 +246,8 @@ impl Wave {
         for Piece { from, to, lines: [(h0, h1), (g0, g1)] } in pieces.into_iter().rev() {
             // The best goal that is reached within this piece or after it, as far as `hold` is not what limits it.
             let (hold, best) = if from == to {
-                // At a jump, what comes after it is reached only by way of what `hold` jumps to.
-                ((h1, h0), h1.min(rest))
+                // What comes after a jump is reached only by way of what `hold` jumps to, but for the jump's own instant.
+                ((h1, h0), if back { g1.max(rest) } else { h1.min(rest) })
             } else if h1 > h0 {
                 ((h1, h0), g1.max(rest))
             } else {

@@ -2,6 +2,8 @@
 //! worse, and sharing nothing with the crate but the data.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
+pub mod curve;
+
 use paracosm_oracles::{
     Arithmetic, Comparison, Connective, Expression, Formula, Interval, Modality, Sequence, Trace, Truth, flag, signal,
 };
@@ -9,6 +11,15 @@ use proptest::prelude::*;
 
 pub const DT: f64 = 0.5;
 pub const SIGNALS: [&str; 3] = ["x", "y", "car.speed"];
+
+/// The environment variable that asks for more random pairs of formula and trace than the suite tries.
+const CASES: &str = "PARACOSM_FORMULA_CASES";
+
+/// As many random pairs as the suite promises whatever the environment says, or more if it asks for more.
+pub fn cases() -> ProptestConfig {
+    let asked = std::env::var(CASES).ok().and_then(|cases| cases.parse().ok());
+    ProptestConfig::with_cases(asked.unwrap_or(0).max(10_000))
+}
 
 /// Small whole numbers, so that comparisons are often met with equality.
 pub fn traces() -> impl Strategy<Value = Trace> {

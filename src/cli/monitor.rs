@@ -1,0 +1,167 @@
+//! `paracosm-fuzz monitor`: formulas asked of a trace as it comes.
+
+use super::output::{Format, Table, digits, json, plural};
+use super::{Failure, Found, Verbosity, print};
+use crate::json::Number;
+use crate::oracles::{Cause, Evaluation, Formula, Monitor, Semantics, Trace, Truth};
+use crate::{Error, read_trace};
+use clap::Args;
+use serde_json::{Value, json};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::PathBuf;
+
+pub(super) const EXAMPLES: &str = "\
+Examples:
+  paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)' --spec 'eventually[0,9] (car.x > 50)'
+  ./vehicle --log-csv | paracosm-fuzz monitor --spec 'always (speed < 30)' --stop-when-decided
+  paracosm-fuzz monitor trace-17.csv --dense --spec 'always[0,0.25] (car.speed > 1)'
+
+A trace is CSV: a header, a column `time` in seconds, evenly spaced from 0 on, and one for each signal. Standard
+error says what a formula comes to at the first sample at which that is known, whatever follows.
+
+Exit status: 0 done, 1 a formula is violated (with --fail-on-violation), 2 wrong use or bad input.";
+
+/// What `monitor` takes.
+#[derive(Debug, Args)]
+pub(super) struct Options {
+    /// The trace; `-` is standard input
+    #[arg(default_value = "-", value_name = "TRACE.csv")]
+    trace: PathBuf,
+    /// Ask a formula of it; several times for several
+    #[arg(long, value_name = "FORMULA", required = true)]
+    spec: Vec<String>,
+    /// Take signals for straight lines from sample to sample, and the formulas to speak of every instant
+    #[arg(long)]
+    dense: bool,
+    /// End when all formulas are decided, and leave the rest of the trace unread
+    #[arg(long, conflicts_with = "dense")]
+    stop_when_decided: bool,
+    /// Exit with status 1 if a formula is violated
+    #[arg(long)]
+    fail_on_violation: bool,
+    /// How to print it [default: table on a terminal, json elsewhere]
+    #[arg(long)]
+    format: Option<Format>,
+}
+
+/// A formula with what is known of it.
+struct Asked {
+    id: String,
+    formula: Formula,
+    monitor: Option<Monitor>,
+    /// When it was decided, if that was before the end.
+    decided_at: Option<f64>,
+}
+
+impl Options {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+        let mut asked = Vec::new();
+        for (i, text) in self.spec.iter().enumerate() {
+            let formula = text.parse().map_err(|error| Error::Usage(format!("--spec {text}: {error}")))?;
+            asked.push(Asked { id: format!("spec-{}", i + 1), formula, monitor: None, decided_at: None });
+        }
+        let source: Box<dyn Read> = if self.trace.as_os_str() == "-" {
+            Box::new(io::stdin().lock())
+        } else {
+            Box::new(File::open(&self.trace).map_err(Error::file("read", &self.trace))?)
+        };
+        let mut seen = 0;
+        let trace = read_trace(&self.trace, source, |trace| {
+            if seen == 0 {
+                self.begin(&mut asked, trace)?;
+            }
+            for (tick, row) in trace.rows().enumerate().skip(seen) {
+                for asked in &mut asked {
+                    asked.step(row, tick as f64 * trace.dt(), verbosity)?;
+                }
+            }
+            seen = trace.len();
+            Ok(!(self.stop_when_decided && asked.iter().all(|asked| asked.decided_at.is_some())))
+        })?;
+        let judged: Vec<(&Asked, Evaluation, Option<Cause>)> =
+            asked.iter().map(|asked| self.judged(asked, &trace)).collect::<Result<_, Error>>()?;
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => self.table(&trace, &judged),
+            Format::Json => json(&self.json(&trace, &judged)),
+        })?;
+        let violated = judged.iter().any(|(_, evaluation, _)| evaluation.truth == Truth::Violated);
+        Ok(if self.fail_on_violation && violated { Found::Violation } else { Found::Nothing })
+    }
+
+    fn time(&self) -> Semantics {
+        if self.dense { Semantics::Dense } else { Semantics::Sampled }
+    }
+
+    /// Checks the formulas against the signals, and lets monitors follow those that can be followed.
+    fn begin(&self, asked: &mut [Asked], trace: &Trace) -> Result<(), Error> {
+        for (asked, text) in asked.iter_mut().zip(&self.spec) {
+            let wrong = |error: String| Error::Usage(format!("--spec {text}: {error}"));
+            Formula::parse(text, trace.signals()).map_err(|error| wrong(error.to_string()))?;
+            if self.time() == Semantics::Sampled {
+                let monitor = Monitor::new(&asked.formula, trace.signals(), trace.dt());
+                asked.monitor = Some(monitor.map_err(|error| wrong(error.to_string()))?);
+            }
+        }
+        Ok(())
+    }
+
+    fn judged<'a>(&self, asked: &'a Asked, trace: &Trace) -> Result<(&'a Asked, Evaluation, Option<Cause<'a>>), Error> {
+        let wrong = |error| Error::Usage(format!("{}: {error}", asked.id));
+        let evaluation = asked.formula.evaluate_in(self.time(), trace).map_err(wrong)?;
+        // Which instant between two samples is to blame is not known.
+        let cause = if self.dense { None } else { asked.formula.explain(trace).map_err(wrong)? };
+        Ok((asked, evaluation, cause))
+    }
+
+    fn table(&self, trace: &Trace, judged: &[(&Asked, Evaluation, Option<Cause>)]) -> String {
+        let mut table = Table::default();
+        table.heading(&format!("{} every {} s", plural(trace.len(), "sample"), digits(trace.dt())));
+        for (Asked { id, formula, decided_at, .. }, evaluation, cause) in judged {
+            let since = decided_at.map(|time| format!(", known at {} s", digits(time))).unwrap_or_default();
+            table.row(id, &formula.to_string());
+            table.row("  truth", &format!("{}{since}", word(evaluation.truth)));
+            let Evaluation { robustness, lower, upper, .. } = evaluation;
+            let open = if lower == upper { String::new() } else { format!(", open from {lower} to {upper}") };
+            table.row("  robustness", &format!("{}{open}", digits(*robustness)));
+            if let Some(Cause { time, part, .. }) = cause {
+                table.row("  because of", &format!("`{part}` at {} s", digits(*time)));
+            }
+        }
+        table.finish()
+    }
+
+    fn json(&self, trace: &Trace, judged: &[(&Asked, Evaluation, Option<Cause>)]) -> Value {
+        let formula = |(asked, evaluation, cause): &(&Asked, Evaluation, Option<Cause>)| {
+            let number = |number: f64| Number(Some(number));
+            let cause = cause.map(|cause| json!({"time": cause.time, "part": cause.part.to_string()}));
+            json!({"id": asked.id, "formula": asked.formula.to_string(), "truth": word(evaluation.truth),
+                "decided_at": asked.decided_at, "robustness": number(evaluation.robustness),
+                "lower": number(evaluation.lower), "upper": number(evaluation.upper), "cause": cause})
+        };
+        let requirements: Vec<Value> = judged.iter().map(formula).collect();
+        json!({"samples": trace.len(), "dt": trace.dt(), "complete": trace.is_complete(), "time": self.time(),
+            "requirements": requirements})
+    }
+}
+
+impl Asked {
+    /// Learns a sample.
+    fn step(&mut self, row: &[f64], time: f64, verbosity: Verbosity) -> Result<(), Error> {
+        let Some(monitor) = &mut self.monitor else { return Ok(()) };
+        let truth = monitor.step(row).map_err(|error| Error::Usage(format!("{}: {error}", self.id)))?;
+        if truth != Truth::Undecided && self.decided_at.is_none() {
+            self.decided_at = Some(time);
+            verbosity.note(format_args!("{} {} at {} s", self.id, word(truth), digits(time)));
+        }
+        Ok(())
+    }
+}
+
+fn word(truth: Truth) -> &'static str {
+    match truth {
+        Truth::Holds => "holds",
+        Truth::Violated => "violated",
+        Truth::Undecided => "undecided",
+    }
+}
