@@ -250,6 +250,16 @@ impl Study {
         Ok(strategy.build(&request)?)
     }
 
+    /// A generator of the study's strategy that draws discrete values for every test rather than take the rows of a family.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub(crate) fn independent_generator(&self) -> Result<Box<dyn Generator>, Error> {
+        let existing = self.existing()?;
+        let (strategy, request) = self.request(&existing)?;
+        Ok(strategy.build_independent(&request)?)
+    }
+
     /// What the study's tests promise by theory; `None` where their rows are not random.
     ///
     /// # Errors
