@@ -79,6 +79,11 @@ impl<'a> Steering<'a> {
         Ok(())
     }
 
+    /// The scales by which the searches are told.
+    pub fn scales(&self) -> &Scales<'a> {
+        &self.scales
+    }
+
     /// Begins a search for each of these requirements, if that makes sense.
     fn know<'i>(&mut self, ids: impl Iterator<Item = &'i str>) -> Result<(), Error> {
         let ids: Vec<String> = ids.map(str::to_owned).collect();

@@ -82,7 +82,7 @@ impl Report<'_> {
             }
         }
         table.row("written to", &self.out.display().to_string());
-        if let Some(worst) = summary.worst() {
+        if let Some(worst) = summary.worst(self.study) {
             let trial = &self.trials[worst.index];
             let robustness = trial.robustness(&worst.requirement).unwrap_or(f64::NAN);
             let robustness = self.robustness(&worst.requirement, robustness);
@@ -98,7 +98,7 @@ impl Report<'_> {
 
     pub(super) fn json(&self) -> serde_json::Value {
         let counts = VERDICTS.map(|verdict| (verdict.to_string(), self.summary.count(verdict).into()));
-        let worst = self.summary.worst().map(|worst| {
+        let worst = self.summary.worst(self.study).map(|worst| {
             json!({"index": worst.index, "requirement": worst.requirement, "test": self.trials[worst.index].test,
                 "robustness": self.trials[worst.index].robustness(&worst.requirement), "replay": self.replay(worst.index)})
         });
