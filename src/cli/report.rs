@@ -197,8 +197,9 @@ impl Report<'_> {
 
     /// The tests as CI systems read them.
     pub(super) fn junit(&self) -> String {
-        let trials = self.trials.iter().map(|trial| (trial, self.replay(trial.index))).collect();
-        junit::document(&[junit::Suite { name: self.study.subject.title(), study: self.study, trials }])
+        let case = |trial| junit::Case::of(self.study, trial, self.replay(trial.index));
+        let cases = self.trials.iter().map(case).collect();
+        junit::document(&[junit::Suite { name: self.study.subject.title(), study: self.study, cases }])
     }
 
     /// The command that runs a test again.
