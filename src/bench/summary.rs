@@ -65,7 +65,7 @@ pub struct LogRank {
 pub struct Correlation {
     /// The name of the target.
     pub scenario: String,
-    /// Among which runs: those of `all` strategies, or those that do not go by robustness, `open loop`.
+    /// Among which runs: those of `all` strategies but the control, or of these that do not go by robustness, `open loop`.
     pub among: &'static str,
     /// How many these are.
     pub runs: usize,
@@ -99,11 +99,12 @@ pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<Cell>, Vec<Correlat
     let per_target = bench.strategies.len() * bench.seeds;
     for of_target in rows.chunks(per_target) {
         cells.extend(cells_of(bench, of_target));
-        let open_loop = |row: &&Row| !row.strategy.is_adaptive();
-        correlations.extend(correlation(bench, "all", &of_target.iter().collect::<Vec<_>>()));
+        // The control leaves all of the inside empty on purpose.
+        let all: Vec<&Row> = of_target.iter().filter(|row| row.strategy != Strategy::RandomCorners).collect();
+        let some: Vec<&Row> = all.iter().copied().filter(|row| !row.strategy.is_adaptive()).collect();
+        correlations.extend(correlation(bench, "all", &all));
         // Where all are, it would be said twice.
-        if !of_target.iter().all(|row| open_loop(&row)) {
-            let some: Vec<&Row> = of_target.iter().filter(open_loop).collect();
+        if some.len() < all.len() {
             correlations.extend(correlation(bench, "open loop", &some));
         }
     }
