@@ -10,6 +10,7 @@ use crate::steering::Steering;
 use crate::{Error, Study, Trial, Worker};
 use paracosm_coverage::Values;
 use paracosm_oracles::Verdict;
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -80,7 +81,19 @@ impl<'a> Campaign<'a> {
     ///
     /// # Errors
     /// That of `watch`, a known trial that is not of this campaign, or a system that did none of its first tests.
-    pub fn run(self, mut watch: impl FnMut(&Trial) -> Result<(), Error>) -> Result<(), Error> {
+    pub fn run(self, watch: impl FnMut(&Trial) -> Result<(), Error>) -> Result<(), Error> {
+        self.run_learning(watch, |_| Ok(()))
+    }
+
+    /// The same; `learned` sees the scales of requirements that state none as soon as the search has learned them.
+    ///
+    /// # Errors
+    /// As [`Campaign::run`], and that of `learned`.
+    pub fn run_learning(
+        self,
+        mut watch: impl FnMut(&Trial) -> Result<(), Error>,
+        mut learned: impl FnMut(&BTreeMap<String, f64>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let study = self.study;
         let mut steering = Steering::new(study)?;
         let mut expected = Expected::of(self.study, &self.known);
@@ -114,7 +127,11 @@ impl<'a> Campaign<'a> {
                 return Ok(());
             }
             ran?;
+            let before = steering.scales().learned().len();
             steering.tell(&points, &trials)?;
+            if steering.scales().learned().len() > before {
+                learned(steering.scales().learned())?;
+            }
             done += points.len();
         }
         self.known.get(done).map_or(Ok(()), |trial| Err(foreign(trial)))

@@ -56,11 +56,19 @@ impl Folder {
                 path.display()
             )));
         }
-        let mut text = serde_json::to_string_pretty(study).expect("a study is always JSON");
-        text.push('\n');
-        write_whole(&path.join(STUDY), text.as_bytes())?;
+        Self::write_study(path, study)?;
         keep_extended(path, study)?;
         Self::open_log(path)
+    }
+
+    /// Writes the study of the campaign in a folder, with what it has learned of scales.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_study(path: &Path, study: &Study) -> Result<(), Error> {
+        let mut text = serde_json::to_string_pretty(study).expect("a study is always JSON");
+        text.push('\n');
+        write_whole(&path.join(STUDY), text.as_bytes())
     }
 
     /// Continues the campaign of this study in its folder, or begins it if there is none yet; the trials that
@@ -88,7 +96,7 @@ impl Folder {
         Ok((folder, trials))
     }
 
-    /// Reads a campaign: its study and the trials that are there.
+    /// Reads a campaign: its study and the trials that are there. Scales that it had not learned yet are learned from these.
     ///
     /// # Errors
     /// There is none, or a file of it is broken.
@@ -102,7 +110,9 @@ impl Folder {
         let log = path.join(TRIALS);
         let text = fs::read_to_string(&log).map_err(Error::file("read", &log))?;
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
-        Ok((study, parse_trials(&log, &text[..whole])?))
+        let trials = parse_trials(&log, &text[..whole])?;
+        let learned = study.learned_scales().clone();
+        Ok((study.with_scales(learned, &trials), trials))
     }
 
     /// Reads the tests that the study of this folder counts as done, if there are any.
@@ -196,6 +206,10 @@ fn same_study(path: &Path, study: &Study) -> Result<(), Error> {
         let mut study = study.clone();
         if let Some(extends) = study.get_mut("extends") {
             *extends = extends["hash"].take();
+        }
+        // What a campaign learns on its way makes it no other one.
+        if let Some(entries) = study.as_object_mut() {
+            entries.remove("learned_scales");
         }
         study
     });

@@ -15,15 +15,56 @@ pub struct Suite<'a> {
     pub name: String,
     /// Their study.
     pub study: &'a Study,
-    /// The trials, each with the command that runs it again.
-    pub trials: Vec<(&'a Trial, String)>,
+    /// The trials.
+    pub cases: Vec<Case<'a>>,
+}
+
+/// A trial as a test case.
+pub struct Case<'a> {
+    /// The trial.
+    pub trial: &'a Trial,
+    /// The command that runs it again.
+    pub replay: String,
+    /// How it ends as a test case.
+    pub end: End,
+    /// What was expected of it, if that is not that it passes.
+    pub expected: Option<&'static str>,
+}
+
+/// How a test case ends, with what there is to be said of that.
+pub enum End {
+    /// As it should.
+    Passed,
+    /// It is what CI has to stop for.
+    Failed(String),
+    /// It came to nothing.
+    Error(String),
+    /// It says nothing either way.
+    Skipped(String),
+}
+
+impl<'a> Case<'a> {
+    /// A trial of a campaign, which ends as its verdict says.
+    pub fn of(study: &Study, trial: &'a Trial, replay: String) -> Self {
+        let error = trial.error.as_deref().unwrap_or_default();
+        let end = match trial.verdict {
+            Verdict::Pass => End::Passed,
+            Verdict::Fail => End::Failed(violations(study, trial)),
+            Verdict::Error => End::Error(error.to_owned()),
+            Verdict::Inconclusive => End::Skipped(
+                "inconclusive: the situation that the test is about never came about, or it ended too early".to_owned(),
+            ),
+            Verdict::Invalid => End::Skipped(format!("invalid: {error}")),
+        };
+        Self { trial, replay, end, expected: None }
+    }
 }
 
 /// The contents of a file with these suites.
 pub fn document(suites: &[Suite]) -> String {
     let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
-    let trials = || suites.iter().flat_map(|suite| &suite.trials).map(|(trial, _)| *trial);
-    let _ = writeln!(text, "<testsuites name=\"paracosm\"{}>", counts(trials()));
+    let cases = || suites.iter().flat_map(|suite| &suite.cases);
+    let _ = writeln!(text, "<testsuites name=\"paracosm\"{}>", counts(cases()));
     for suite in suites {
         suite.write(&mut text);
     }
@@ -33,12 +74,12 @@ pub fn document(suites: &[Suite]) -> String {
 
 impl Suite<'_> {
     fn write(&self, text: &mut String) {
-        let trials = self.trials.iter().map(|(trial, _)| *trial);
-        let time = trials.clone().filter_map(|trial| self.seconds(trial)).reduce(|sum, seconds| sum + seconds);
-        let _ = writeln!(text, "  <testsuite name=\"{}\"{}{}>", escaped(&self.name), counts(trials), attribute(time));
+        let cases = self.cases.iter();
+        let time = cases.clone().filter_map(|case| self.seconds(case.trial)).reduce(|sum, seconds| sum + seconds);
+        let _ = writeln!(text, "  <testsuite name=\"{}\"{}{}>", escaped(&self.name), counts(cases), attribute(time));
         properties(text, "    ", &self.properties());
-        for (trial, replay) in &self.trials {
-            self.write_case(text, trial, replay);
+        for case in &self.cases {
+            self.write_case(text, case);
         }
         text.push_str("  </testsuite>\n");
     }
@@ -62,7 +103,7 @@ impl Suite<'_> {
         all
     }
 
-    fn write_case(&self, text: &mut String, trial: &Trial, replay: &str) {
+    fn write_case(&self, text: &mut String, Case { trial, replay, end, expected }: &Case) {
         let class = match &self.study.subject {
             Subject::Scenario(simulation) => simulation.scenario.as_str(),
             Subject::System(_) => "system",
@@ -78,39 +119,24 @@ impl Suite<'_> {
             Some(_) => "holds",
         };
         all.extend(trial.requirements().map(|id| (format!("requirement.{id}"), became(id).to_owned())));
-        all.push(("replay".to_owned(), replay.to_owned()));
+        all.extend(expected.map(|expected| ("expected".to_owned(), expected.to_owned())));
+        all.push(("replay".to_owned(), replay.clone()));
         properties(text, "      ", &all);
-        let error = trial.error.as_deref().unwrap_or_default();
-        let _ = match trial.verdict {
-            Verdict::Pass => Ok(()),
-            Verdict::Fail => {
+        let replay = escaped(replay);
+        let _ = match end {
+            End::Passed => Ok(()),
+            End::Failed(message) => {
                 let kind = escaped(&trial.violated().collect::<Vec<_>>().join(" "));
-                let (message, replay) = (escaped(&self.violations(trial)), escaped(replay));
+                let message = escaped(message);
                 writeln!(text, "      <failure type=\"{kind}\" message=\"{message}\">{replay}</failure>")
             }
-            Verdict::Error => {
-                let (message, replay) = (escaped(error), escaped(replay));
+            End::Error(message) => {
+                let message = escaped(message);
                 writeln!(text, "      <error type=\"error\" message=\"{message}\">{replay}</error>")
             }
-            Verdict::Inconclusive => {
-                let message =
-                    "inconclusive: the situation that the test is about never came about, or it ended too early";
-                writeln!(text, "      <skipped message=\"{message}\"/>")
-            }
-            Verdict::Invalid => {
-                writeln!(text, "      <skipped message=\"{}\"/>", escaped(&format!("invalid: {error}")))
-            }
+            End::Skipped(message) => writeln!(text, "      <skipped message=\"{}\"/>", escaped(message)),
         };
         text.push_str("    </testcase>\n");
-    }
-
-    /// What a trial violates, and by how much.
-    fn violations(&self, trial: &Trial) -> String {
-        let violation = |id: &str| {
-            let unit = self.study.requirement(id).map_or("", |requirement| requirement.unit.as_str());
-            format!("{id} {} {unit}", trial.robustness(id).unwrap_or(f64::NAN)).trim_end().to_owned()
-        };
-        trial.violated().map(violation).collect::<Vec<_>>().join(", ")
     }
 
     /// How long a trial of a scenario was, in simulated seconds; of a system only the system knows.
@@ -127,12 +153,22 @@ fn attribute(seconds: Option<f64>) -> String {
     seconds.map(|seconds| format!(" time=\"{seconds:.3}\"")).unwrap_or_default()
 }
 
-/// The attributes that count trials.
-fn counts<'a>(trials: impl Iterator<Item = &'a Trial> + Clone) -> String {
-    let count = |verdicts: &[Verdict]| trials.clone().filter(|trial| verdicts.contains(&trial.verdict)).count();
-    let skipped = count(&[Verdict::Inconclusive, Verdict::Invalid]);
-    let (failures, errors) = (count(&[Verdict::Fail]), count(&[Verdict::Error]));
-    let tests = trials.clone().count();
+/// What a trial violates, and by how much.
+fn violations(study: &Study, trial: &Trial) -> String {
+    let violation = |id: &str| {
+        let unit = study.requirement(id).map_or("", |requirement| requirement.unit.as_str());
+        format!("{id} {} {unit}", trial.robustness(id).unwrap_or(f64::NAN)).trim_end().to_owned()
+    };
+    trial.violated().map(violation).collect::<Vec<_>>().join(", ")
+}
+
+/// The attributes that count test cases.
+fn counts<'a>(cases: impl Iterator<Item = &'a Case<'a>> + Clone) -> String {
+    let count = |ends: fn(&End) -> bool| cases.clone().filter(|case| ends(&case.end)).count();
+    let failures = count(|end| matches!(end, End::Failed(_)));
+    let errors = count(|end| matches!(end, End::Error(_)));
+    let skipped = count(|end| matches!(end, End::Skipped(_)));
+    let tests = cases.clone().count();
     format!(" tests=\"{tests}\" failures=\"{failures}\" errors=\"{errors}\" skipped=\"{skipped}\"")
 }
 

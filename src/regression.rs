@@ -9,6 +9,7 @@ use crate::{Campaign, Error, Folder, RequirementText, Study, Trial, older};
 use paracosm_coverage::Values;
 use paracosm_oracles::Verdict;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -58,7 +59,7 @@ impl Regression {
     pub fn new(about: String, study: &Study, trial: &Trial) -> Self {
         let violates = trial.violated().map(str::to_owned).collect();
         // How the campaign went about its tests is of no concern to this one.
-        let mut study = study.clone().stop_at_first(false);
+        let mut study = study.clone().stop_at_first(false).with_scales(BTreeMap::new(), &[]);
         (study.extends, study.odd, study.budget) = (None, None, 1);
         let (test, trace_hash) = (trial.test.clone(), trial.trace_hash.clone());
         Self { about, expect: Expectation::Fail, violates, test, trace_hash, study }

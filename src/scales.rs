@@ -4,6 +4,9 @@
 //! itself by, states none: it may be in thousands of revolutions or in fractions of a metre. Its scale is the largest
 //! robustness among the first tests that decide it, and stays: a search sees differences wherever these differ, and far
 //! beyond.
+//!
+//! What a campaign has learned is written down with its study, so that whatever compares robustness later (which test is
+//! the worst, how far those of a failure map are from failing) means the same by it.
 
 use crate::{Study, Trial};
 use std::collections::BTreeMap;
@@ -18,9 +21,14 @@ pub(crate) struct Scales<'a> {
 }
 
 impl<'a> Scales<'a> {
-    /// The scales that are stated.
+    /// The scales that are stated, and those that the study's campaign has learned.
     pub fn of(study: &'a Study) -> Self {
-        Self { study, learned: BTreeMap::new() }
+        Self { study, learned: study.learned_scales().clone() }
+    }
+
+    /// Those that are learned.
+    pub fn learned(&self) -> &BTreeMap<String, f64> {
+        &self.learned
     }
 
     /// Learns the scales that are not known yet from the next trials of the campaign.
@@ -42,11 +50,17 @@ impl<'a> Scales<'a> {
         stated.or_else(|| self.learned.get(id).copied())
     }
 
+    /// A robustness of this requirement in multiples of its scale; 1 where that is not known, for it was never decided
+    /// other than by 0 or an infinity.
+    pub fn normalised(&self, id: &str, robustness: f64) -> f64 {
+        robustness / self.known(id).unwrap_or(1.0)
+    }
+
     /// The robustness of a requirement in multiples of its scale, clipped to [-10, 10]. `None` where the trial broke or it
     /// was not decided.
     pub fn clipped(&self, trial: &Trial, id: &str) -> Option<f64> {
         let robustness = trial.robustness(id).filter(|_| trial.covers())?;
-        Some((robustness / self.known(id).unwrap_or(1.0)).clamp(-MOST, MOST))
+        Some(self.normalised(id, robustness).clamp(-MOST, MOST))
     }
 
     /// What a search minimises where nothing competes: the worst of all requirements.
@@ -81,6 +95,17 @@ mod tests {
         assert_eq!(told(1000.0, 0.5), Some(0.25));
         assert_eq!(told(-1e9, 0.5), Some(-10.0));
         assert_eq!(scales.clipped(&trial(&[("rpm", f64::INFINITY)]), "rpm"), Some(10.0));
+    }
+
+    #[test]
+    fn what_a_campaign_has_learned_is_the_scale_of_whatever_compares_its_trials() {
+        let study = Study::of_system(BlackBox::new("none", None).unwrap(), Space::unit_cube(1));
+        let trials = [trial(&[("rpm", 4000.0), ("gap", 0.5)]), trial(&[("rpm", -2000.0), ("gap", -0.4)])];
+        let study = study.with_scales(BTreeMap::from([("gap".to_owned(), 0.8)]), &trials);
+        assert_eq!(study.learned_scales(), &BTreeMap::from([("gap".to_owned(), 0.8), ("rpm".to_owned(), 4000.0)]));
+        assert_eq!(study.worst(&trials[0]), Some(("gap", 0.625)));
+        assert_eq!(study.objective(&trials[1]), Some(-0.5));
+        assert_eq!(study.worst(&trial(&[("rpm", -80_000.0)])), Some(("rpm", -20.0)));
     }
 
     #[test]

@@ -30,8 +30,16 @@ impl<'a> Steering<'a> {
     /// # Errors
     /// As [`Study::generator`].
     pub fn new(study: &'a Study) -> Result<Self, Error> {
+        Self::with(study, study.generator()?)
+    }
+
+    /// The same with another generator of the study's strategy; searches for single requirements are the study's.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub fn with(study: &'a Study, generator: Box<dyn Generator>) -> Result<Self, Error> {
         let mut steering =
-            Self { study, search: Search::One(study.generator()?), scales: Scales::of(study), before: Vec::new() };
+            Self { study, search: Search::One(generator), scales: Scales::of(study), before: Vec::new() };
         let judged = study.requirements.iter().filter(|requirement| requirement.has_formula());
         steering.know(judged.map(|requirement| requirement.id.as_str()))?;
         Ok(steering)
@@ -69,6 +77,11 @@ impl<'a> Steering<'a> {
             }
         }
         Ok(())
+    }
+
+    /// The scales by which the searches are told.
+    pub fn scales(&self) -> &Scales<'a> {
+        &self.scales
     }
 
     /// Begins a search for each of these requirements, if that makes sense.

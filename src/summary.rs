@@ -1,5 +1,6 @@
 //! A campaign in a few numbers: how many tests ended how, what became of each requirement, and which test was the worst.
 
+use crate::scales::Scales;
 use crate::{Study, Trial};
 use paracosm_oracles::Verdict;
 
@@ -7,19 +8,16 @@ use paracosm_oracles::Verdict;
 #[derive(Debug, Clone, Default)]
 pub struct Summary {
     counts: [usize; 5],
-    worst: Option<Worst>,
     requirements: Vec<Judged>,
 }
 
 /// The trial that violates a requirement most, or comes nearest to it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Worst {
     /// The trial's index.
     pub index: usize,
     /// The requirement.
     pub requirement: String,
-    /// Its robustness in multiples of its scale.
-    normalised: f64,
 }
 
 /// What became of a requirement.
@@ -37,13 +35,8 @@ pub struct Judged {
 
 impl Summary {
     /// Takes a trial into account.
-    pub fn add(&mut self, study: &Study, trial: &Trial) {
+    pub fn add(&mut self, trial: &Trial) {
         self.counts[trial.verdict as usize] += 1;
-        if let Some((requirement, normalised)) = study.worst(trial)
-            && self.worst.as_ref().is_none_or(|worst| normalised < worst.normalised)
-        {
-            self.worst = Some(Worst { index: trial.index, requirement: requirement.to_owned(), normalised });
-        }
         for id in trial.requirements().filter(|_| trial.covers()) {
             self.judged(id).add(trial);
         }
@@ -68,9 +61,15 @@ impl Summary {
         self.counts.iter().sum()
     }
 
-    /// The worst trial: the first among equals.
-    pub fn worst(&self) -> Option<&Worst> {
-        self.worst.as_ref()
+    /// The worst trial by the scales of the study, stated or learned: the first among equals.
+    pub fn worst(&self, study: &Study) -> Option<Worst> {
+        let scales = Scales::of(study);
+        let worst = self.requirements.iter().filter_map(|judged| {
+            let (robustness, index) = judged.worst?;
+            Some((scales.normalised(&judged.id, robustness), index, judged))
+        });
+        let (_, index, judged) = worst.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?;
+        Some(Worst { index, requirement: judged.id.clone() })
     }
 
     /// What became of each requirement, in the order in which they were first judged.

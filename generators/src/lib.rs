@@ -31,6 +31,7 @@ mod existing;
 mod family;
 pub mod functions;
 mod greedy;
+mod independent;
 mod mixed;
 mod seeded;
 mod sequence;

@@ -141,7 +141,8 @@ struct Studied<'a> {
 impl<'a> Studied<'a> {
     fn new(study: &'a Study) -> Result<Self, Error> {
         let worker = Worker::until(study, Arc::default())?;
-        Ok(Self { study, steering: Steering::new(study)?, worker, expected: Expected::of(study, &[]) })
+        let steering = Steering::with(study, study.independent_generator()?)?;
+        Ok(Self { study, steering, worker, expected: Expected::of(study, &[]) })
     }
 }
 

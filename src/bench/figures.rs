@@ -1,12 +1,8 @@
 //! The figures of a bench: for every scenario how many runs are still without a failure, and recall over dispersion.
 
-use super::{Benched, Cell};
-use crate::plot::{Entry, Frame, Picture, Series, Shares};
+use super::{Benched, Cell, Row};
+use crate::plot::{Entry, Frame, Picture, Series, Shares, Survivals, Waiting};
 use crate::write_up::look;
-use paracosm_generators::Strategy;
-
-/// How many marks a curve has, so that it is known without its colour.
-const MARKS: usize = 5;
 
 /// All figures with their names.
 pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
@@ -14,7 +10,7 @@ pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
     for target in &benched.bench.targets {
         let name = target.name();
         let file = target.file_name();
-        figures.push((format!("{file}-survival"), Picture::of_shares(survival(benched, name))));
+        figures.push((format!("{file}-survival"), Picture::of_survivals(survival(benched, name))));
         if let Some(chart) = recall(benched, name) {
             figures.push((format!("{file}-recall"), Picture::of_shares(chart)));
         }
@@ -23,36 +19,34 @@ pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
 }
 
 /// The curves of Kaplan and Meier.
-fn survival(benched: &Benched, scenario: &str) -> Shares {
-    let budget = benched.bench.budget as f64;
-    let series = |(index, &strategy): (usize, &Strategy)| {
-        let survival = benched.survival(scenario, strategy);
-        let inner = survival.steps.iter().copied().filter(|step| step.0 > 1.0);
-        let end = survival.at(budget);
-        let steps = [(1.0, survival.at(1.0))].into_iter().chain(inner).chain([(budget, end)]).collect();
-        // Marks at sizes that differ from curve to curve, evenly along the axis.
-        let of = benched.bench.strategies.len() as f64;
-        let along = |mark: usize| (mark as f64 + (index as f64 + 0.5) / of) / MARKS as f64;
-        let size = |mark: usize| libm::floor(libm::pow(budget, along(mark))).max(1.0);
-        let marks = (0..MARKS).map(|mark| (size(mark), survival.at(size(mark)))).collect();
-        Series { look: look(strategy), steps, marks }
+fn survival(benched: &Benched, scenario: &str) -> Survivals {
+    let (budget, seeds) = (benched.bench.budget, benched.bench.seeds);
+    let curve = |cell: &Cell| {
+        let rows = || benched.rows_of(scenario, cell.strategy);
+        let end = |row: &Row| row.first_failure.map_or(f64::INFINITY, |tests| tests as f64);
+        Waiting {
+            look: look(cell.strategy),
+            steps: benched.survival(scenario, cell.strategy).steps,
+            ends: rows().map(end).collect(),
+            censored: rows().any(|row| row.first_failure.is_none() && !row.is_exhausted(budget)),
+        }
     };
     let number = |cell: &Cell| format!("{:.1}", cell.restricted_mean);
-    let seeds = benched.bench.seeds;
-    Shares {
+    let rank = |cell: &Cell| cell.restricted_mean;
+    Survivals {
         frame: Frame {
             title: format!("Tests to the first failure: {scenario}"),
             note: format!(
-                "Kaplan-Meier curves of {seeds} runs each, which end after {budget} tests; legend: restricted mean"
+                "Kaplan-Meier curves of {seeds} runs each; a tick at the end: runs censored after {budget} tests; legend: restricted mean"
             ),
             legend: ["strategy".into(), "tests".into()],
-            entries: entries(benched, scenario, number, |cell| cell.restricted_mean),
+            entries: entries(benched, scenario, number, rank),
             cross: None,
         },
-        x: "tests".into(),
-        y: "share of runs without a failure".into(),
-        range: (1.0, budget),
-        series: benched.bench.strategies.iter().enumerate().map(series).collect(),
+        axes: ["tests".into(), "share of runs without a failure".into()],
+        numbers: "runs without a failure after so many tests".into(),
+        horizon: budget as f64,
+        curves: ranked(benched, scenario, rank).into_iter().map(curve).collect(),
     }
 }
 
@@ -61,10 +55,10 @@ fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
     let mut range = (f64::INFINITY, 0.0_f64);
     let mut all = Vec::new();
     for &strategy in &benched.bench.strategies {
-        let mark = |row: &super::Row| Some((row.dispersion.filter(|volume| *volume > 0.0)?, row.recall?));
+        let mark = |row: &Row| Some((row.dispersion.filter(|volume| *volume > 0.0)?, row.recall?));
         let marks: Vec<(f64, f64)> = benched.rows_of(scenario, strategy).map(mark).collect::<Option<_>>()?;
         range = marks.iter().fold(range, |(least, most), mark| (least.min(mark.0), most.max(mark.0)));
-        all.push(Series { look: look(strategy), steps: Vec::new(), marks });
+        all.push(Series { look: look(strategy), marks });
     }
     let (budget, number) = (benched.bench.budget, |cell: &Cell| cell.recall.map_or("-".into(), |r| format!("{r:.2}")));
     let correlations = benched.correlations.iter().filter(|correlation| correlation.scenario == scenario);
@@ -92,9 +86,14 @@ fn entries(
     number: impl Fn(&Cell) -> String,
     rank: impl Fn(&Cell) -> f64,
 ) -> Vec<Entry> {
-    let mut cells: Vec<&Cell> = benched.of_target(scenario).collect();
-    cells.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     let entry =
         |cell: &Cell| Entry { look: look(cell.strategy), name: cell.strategy.to_string(), number: number(cell) };
-    cells.into_iter().map(entry).collect()
+    ranked(benched, scenario, rank).into_iter().map(entry).collect()
+}
+
+/// The cells of a scenario, from the greatest to the least of a number.
+fn ranked<'a>(benched: &'a Benched, scenario: &'a str, rank: impl Fn(&Cell) -> f64) -> Vec<&'a Cell> {
+    let mut cells: Vec<&Cell> = benched.of_target(scenario).collect();
+    cells.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    cells
 }

@@ -95,7 +95,7 @@ impl Rows {
 /// What makes a bench this one.
 fn description(bench: &Bench, maps: &Value) -> Value {
     json!({
-        "format": 1,
+        "format": 2,
         "version": env!("CARGO_PKG_VERSION"),
         "strategies": bench.strategies.iter().map(|strategy| strategy.name()).collect::<Vec<_>>(),
         "budget": bench.budget,
@@ -155,6 +155,7 @@ impl Benched {
             "strategy",
             "runs",
             "found",
+            "exhausted",
             "rate",
             "rate_low",
             "rate_high",
@@ -181,7 +182,7 @@ impl Benched {
         let mut rows = vec![header.map(str::to_owned).to_vec()];
         for cell in &self.cells {
             let mut row = vec![cell.scenario.clone(), cell.strategy.to_string(), cell.runs.to_string()];
-            row.extend([cell.found.to_string(), cell.rate.to_string()]);
+            row.extend([cell.found.to_string(), cell.exhausted.to_string(), cell.rate.to_string()]);
             row.extend(cell.rate_interval.map(|end| end.to_string()));
             row.extend([maybe(cell.mean_found), maybe(cell.median), cell.restricted_mean.to_string()]);
             row.extend(cell.restricted_interval.map(|end| end.to_string()));

@@ -5,11 +5,16 @@
 //! it finds (only that of a function ends with a failure), and is one row:
 //!
 //! - *tests to the first failure*, censored at the budget where there was none (`statistics::Survival` says what that asks
-//!   for). A strategy that has nothing more to propose before is counted as if it had gone on in vain. A test that is
-//!   proposed again is known, and costs nothing;
+//!   for). A test that is proposed again is known, and costs nothing. A run that is *exhausted*, for its strategy had nothing
+//!   more to propose before the budget was spent, is not censored: there is no failure for it to be found, however many
+//!   tests it had, and its time is infinite. In restricted means both count as the budget;
 //! - *failure modes*, as [`Modes`](crate::Modes) tells them apart;
 //! - *recall* and *precision* of the run as a map of where tests fail, against a [`ReferenceMap`];
 //! - *dispersion* of its tests, exact, so that it can be asked whether a low one finds failures.
+//!
+//! Discrete values are drawn for every test of an open-loop strategy, uniformly among the valid ones, instead of taken from
+//! the rows of a covering array as in `run`: a run over such rows tells what the array has left out, and `random` would not be
+//! random (`Strategy::build_independent`). Adaptive strategies search all combinations anyway.
 //!
 //! Runs are made one to a core, each on a single thread, so that results depend neither on their number nor on what else a
 //! core does. Rows are written in order as runs end, so that a study that was cut short goes on where it was.

@@ -32,6 +32,11 @@ pub struct Row {
 }
 
 impl Row {
+    /// Whether the strategy had nothing more to propose before the budget was spent, and no failure by then.
+    pub fn is_exhausted(&self, budget: usize) -> bool {
+        self.first_failure.is_none() && self.tests < budget
+    }
+
     /// The names of the columns.
     pub const COLUMNS: [&str; 10] = [
         "scenario",

@@ -20,6 +20,8 @@ pub struct Cell {
     pub runs: usize,
     /// How many of them found a failure.
     pub found: usize,
+    /// How many of the others ended before the budget, for the strategy had nothing more to propose.
+    pub exhausted: usize,
     /// Their share.
     pub rate: f64,
     /// Wilson's 95 % interval of the share.
@@ -28,7 +30,8 @@ pub struct Cell {
     pub mean_found: Option<f64>,
     /// After how many tests one half have found one; `None` where fewer did.
     pub median: Option<f64>,
-    /// The restricted mean: how many tests a run takes that ends with the first failure, or with the budget.
+    /// The restricted mean: how many tests a run takes that ends with the first failure, or with the budget; one that is
+    /// exhausted never finds a failure, and counts as the budget too.
     pub restricted_mean: f64,
     /// Its 95 % bootstrap interval over the seeds.
     pub restricted_interval: [f64; 2],
@@ -62,7 +65,7 @@ pub struct LogRank {
 pub struct Correlation {
     /// The name of the target.
     pub scenario: String,
-    /// Among which runs: those of `all` strategies, or those that do not go by robustness, `open loop`.
+    /// Among which runs: those of `all` strategies but the control, or of these that do not go by robustness, `open loop`.
     pub among: &'static str,
     /// How many these are.
     pub runs: usize,
@@ -96,11 +99,12 @@ pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<Cell>, Vec<Correlat
     let per_target = bench.strategies.len() * bench.seeds;
     for of_target in rows.chunks(per_target) {
         cells.extend(cells_of(bench, of_target));
-        let open_loop = |row: &&Row| !row.strategy.is_adaptive();
-        correlations.extend(correlation(bench, "all", &of_target.iter().collect::<Vec<_>>()));
+        // The control leaves all of the inside empty on purpose.
+        let all: Vec<&Row> = of_target.iter().filter(|row| row.strategy != Strategy::RandomCorners).collect();
+        let some: Vec<&Row> = all.iter().copied().filter(|row| !row.strategy.is_adaptive()).collect();
+        correlations.extend(correlation(bench, "all", &all));
         // Where all are, it would be said twice.
-        if !of_target.iter().all(|row| open_loop(&row)) {
-            let some: Vec<&Row> = of_target.iter().filter(open_loop).collect();
+        if some.len() < all.len() {
             correlations.extend(correlation(bench, "open loop", &some));
         }
     }
@@ -112,15 +116,23 @@ pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<Cell>, Vec<Correlat
     (cells, correlations, standings)
 }
 
-/// How many tests a run waits for its first failure, at most its budget.
-fn waited(bench: &Bench, row: &Row) -> f64 {
-    row.first_failure.unwrap_or(bench.budget) as f64
+/// How long a run waits for its first failure: longer than its budget where that is spent, for ever where it is exhausted.
+pub(super) fn lifetime(bench: &Bench, row: &Row) -> Lifetime {
+    let time = match row.first_failure {
+        Some(tests) => tests as f64,
+        None if row.is_exhausted(bench.budget) => f64::INFINITY,
+        None => bench.budget as f64,
+    };
+    Lifetime { time, happened: row.first_failure.is_some() }
 }
 
-/// How long runs wait for their first failures.
+/// How many tests a run waits for its first failure, at most the budget.
+fn waited(bench: &Bench, row: &Row) -> f64 {
+    lifetime(bench, row).time.min(bench.budget as f64)
+}
+
 fn lifetimes<'a>(bench: &Bench, rows: impl IntoIterator<Item = &'a Row>) -> Vec<Lifetime> {
-    let lifetime = |row: &Row| Lifetime { time: waited(bench, row), happened: row.first_failure.is_some() };
-    rows.into_iter().map(lifetime).collect()
+    rows.into_iter().map(|row| lifetime(bench, row)).collect()
 }
 
 impl Benched {
@@ -161,6 +173,7 @@ fn cell(bench: &Bench, line: &[Row], times: &[f64]) -> Cell {
         strategy: line[0].strategy,
         runs: line.len(),
         found: found.len(),
+        exhausted: line.iter().filter(|row| row.is_exhausted(bench.budget)).count(),
         rate: found.len() as f64 / line.len() as f64,
         rate_interval: wilson(found.len(), line.len(), 0.95),
         mean_found: mean(&found),
@@ -210,4 +223,36 @@ fn standing(strategy: Strategy, cells: &[Cell]) -> Option<Standing> {
     let logs: Vec<f64> = ratios().map(|(ratio, _)| libm::log(ratio)).collect();
     let geometric_mean = libm::exp(mean(&logs)?);
     Some(Standing { strategy, worst: worst.0, worst_scenario: worst.1.scenario.clone(), geometric_mean })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::Target;
+    use paracosm_generators::functions::Function;
+
+    #[test]
+    fn a_run_waits_longer_than_its_budget_or_for_ever() {
+        let targets = vec![Target::function(Function::ALL[0])];
+        let bench = Bench { budget: 50, ..Bench::of(&[Strategy::Random], targets).unwrap() };
+        let row = |tests: usize, first_failure: Option<usize>| Row {
+            scenario: "corner5".into(),
+            strategy: Strategy::Random,
+            seed: 1,
+            tests,
+            first_failure,
+            failures: usize::from(first_failure.is_some()),
+            modes: None,
+            recall: None,
+            precision: None,
+            dispersion: None,
+        };
+        let rows = [row(50, Some(7)), row(50, None), row(8, None)];
+        let lifetimes = lifetimes(&bench, &rows);
+        let expected = [(7.0, true), (50.0, false), (f64::INFINITY, false)];
+        assert_eq!(lifetimes, expected.map(|(time, happened)| Lifetime { time, happened }));
+        assert_eq!(rows.map(|row| waited(&bench, &row)), [7.0, 50.0, 50.0]);
+        let survival = Survival::of(&lifetimes);
+        assert_eq!((survival.restricted_mean(50.0), survival.at(50.0)), (107.0 / 3.0, 2.0 / 3.0));
+    }
 }

@@ -45,6 +45,14 @@ impl Benched {
         for cell in self.of_target(scenario) {
             let _ = writeln!(text, "{}", first_failure(cell).trim_end());
         }
+        for cell in self.of_target(scenario).filter(|cell| cell.exhausted > 0) {
+            let (strategy, of) = (cell.strategy, cell.runs);
+            let _ = writeln!(
+                text,
+                "  {strategy}: {} of {of} runs had nothing more to test, and no failure to find; they count as {budget} tests",
+                cell.exhausted
+            );
+        }
     }
 
     fn after_all(&self, text: &mut String, scenario: &str) {

@@ -70,7 +70,7 @@ impl Target {
     /// Checks that a strategy can make its tests.
     pub(super) fn check(&self, strategy: Strategy, bench: &Bench) -> Result<(), Error> {
         match &self.kind {
-            Kind::Study(study) => study_of(study, strategy, bench.first_seed, bench)?.generator().map(drop),
+            Kind::Study(study) => study_of(study, strategy, bench.first_seed, bench)?.independent_generator().map(drop),
             Kind::Function(function) => generator_of(*function, strategy, bench.first_seed, bench).map(drop),
         }
     }
@@ -90,5 +90,5 @@ pub(super) fn generator_of(
     bench: &Bench,
 ) -> Result<Box<dyn Generator>, Error> {
     let space = function.space();
-    Ok(strategy.build(&Request { seed: Some(seed), ..Request::new(&space, bench.budget) })?)
+    Ok(strategy.build_independent(&Request { seed: Some(seed), ..Request::new(&space, bench.budget) })?)
 }

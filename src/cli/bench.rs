@@ -29,6 +29,10 @@ Every strategy runs every scenario with every seed, to the end of the budget; ru
 written with parameters to open, NAME+PARAMETER+PARAMETER; beside those of `paracosm-fuzz list` there are the functions
 corner5 ball5 decoy5 errors5 valley2 ring2 rough3 few20 words2 needle2, each seed of which puts the failure elsewhere.
 
+Strategies in open loop draw discrete values for every test, uniformly among the valid ones, instead of taking the rows of a
+covering array as `run` does; a test that repeats an earlier one costs nothing. A run without a failure is censored at the
+budget, unless the strategy had nothing more to test: then it is exhausted, and has no failure to find.
+
 What a run knows of where tests fail is held against a map of many random tests: each of them is told to fail if the
 nearest of the run's tests fails. Recall is the share of the failing ones that are told so, precision the share of those
 told to fail that do. Maps are read from --reference where they are there, and made and kept there where not.

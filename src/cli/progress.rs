@@ -38,7 +38,7 @@ impl Progress {
     }
 
     pub(super) fn count(&mut self, study: &Study, trial: &Trial) {
-        self.summary.add(study, trial);
+        self.summary.add(trial);
         // Where nobody sees the bar, it need not be known.
         if trial.covers()
             && !self.bar.is_hidden()

@@ -3,7 +3,7 @@
 use super::output::{Format, digits, json, shell_word};
 use super::{Failure, Found, print};
 use crate::folder::{is_new, write_whole};
-use crate::junit::{self, Suite};
+use crate::junit::{self, Case, End, Suite};
 use crate::oracles::Verdict;
 use crate::{Error, Expectation, Regression, Replayed, Trial};
 use serde_json::json;
@@ -11,7 +11,9 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Runs regression files, all of them whatever becomes of one, and says what became of each. `expect` overrides what they
-/// say, and `junit` is written if it is a file that does not exist yet. The first that broke, or did not repeat what the same software has recorded, is the failure in the end.
+/// say, and `junit` is written if it is a file that does not exist yet. A violation is one that is not expected: a test that
+/// is to fail, and does as it did, is what it should be. The first that broke, or did not repeat what the same software has
+/// recorded, is the failure in the end.
 pub(super) fn replay(
     files: &[PathBuf],
     expect: Option<Expectation>,
@@ -27,23 +29,25 @@ pub(super) fn replay(
     }
     let (mut lines, mut objects) = (String::new(), Vec::new());
     let (mut found, mut wrong) = (Found::Nothing, None);
-    let mut ran = Vec::new();
+    let (mut trials, mut ends) = (Vec::new(), Vec::new());
     for (file, regression) in &regressions {
         let replayed = regression.run().map_err(|error| Error::content(file, None, error.to_string()))?;
         let words = words(regression, &replayed);
         let _ = writeln!(lines, "{}: {words}", file.display());
         objects.push(json!({"file": file, "about": regression.about, "replayed": replayed}));
-        if replayed.trial.is_failure() {
-            found = Found::Violation;
+        let ended = end(&replayed, words);
+        match &ended {
+            End::Failed(_) => found = Found::Violation,
+            End::Error(words) => drop(wrong.get_or_insert(format!("{}: {words}", file.display()))),
+            End::Passed | End::Skipped(_) => {}
         }
-        if broke(&replayed.trial) || replayed.same_trace == Some(false) {
-            wrong.get_or_insert(format!("{}: {words}", file.display()));
-        }
-        ran.push(replayed.trial);
+        trials.push(replayed.trial);
+        ends.push(ended);
     }
     if let Some(path) = junit {
+        let suites = regressions.iter().zip(&trials).zip(ends);
         let suites: Vec<Suite> =
-            regressions.iter().zip(&ran).map(|((file, regression), trial)| suite(file, regression, trial)).collect();
+            suites.map(|(((file, regression), trial), end)| suite(file, regression, (trial, end))).collect();
         write_whole(path, junit::document(&suites).as_bytes())?;
     }
     print(&match Format::or_fitting(format) {
@@ -53,11 +57,22 @@ pub(super) fn replay(
     wrong.map_or(Ok(found), |message| Err(message.into()))
 }
 
+/// How a test ends for CI: by what was expected of it, not by its verdict alone.
+fn end(replayed: &Replayed, words: String) -> End {
+    match replayed {
+        _ if broke(&replayed.trial) || replayed.same_trace == Some(false) => End::Error(words),
+        Replayed { as_expected: true, .. } => End::Passed,
+        _ if replayed.trial.is_failure() => End::Failed(words),
+        _ => End::Skipped(words),
+    }
+}
+
 /// The suite of one test.
-fn suite<'a>(file: &Path, regression: &'a Regression, trial: &'a Trial) -> Suite<'a> {
+fn suite<'a>(file: &Path, regression: &'a Regression, (trial, end): (&'a Trial, End)) -> Suite<'a> {
     let name = file.to_string_lossy().into_owned();
-    let command = format!("paracosm-fuzz replay {}", shell_word(&name));
-    Suite { name, study: regression.study(), trials: vec![(trial, command)] }
+    let replay = format!("paracosm-fuzz replay {}", shell_word(&name));
+    let expected = Some(if regression.expect == Expectation::Fail { "fail" } else { "pass" });
+    Suite { name, study: regression.study(), cases: vec![Case { trial, replay, end, expected }] }
 }
 
 /// What became of a test.

@@ -82,7 +82,7 @@ impl Report<'_> {
             }
         }
         table.row("written to", &self.out.display().to_string());
-        if let Some(worst) = summary.worst() {
+        if let Some(worst) = summary.worst(self.study) {
             let trial = &self.trials[worst.index];
             let robustness = trial.robustness(&worst.requirement).unwrap_or(f64::NAN);
             let robustness = self.robustness(&worst.requirement, robustness);
@@ -101,7 +101,7 @@ impl Report<'_> {
 
     pub(super) fn json(&self) -> serde_json::Value {
         let counts = VERDICTS.map(|verdict| (verdict.to_string(), self.summary.count(verdict).into()));
-        let worst = self.summary.worst().map(|worst| {
+        let worst = self.summary.worst(self.study).map(|worst| {
             let trial = &self.trials[worst.index];
             let mut said = json!({"index": worst.index, "requirement": worst.requirement, "test": trial.test,
                 "robustness": trial.robustness(&worst.requirement), "replay": self.replay(worst.index)});
@@ -205,8 +205,9 @@ impl Report<'_> {
 
     /// The tests as CI systems read them.
     pub(super) fn junit(&self) -> String {
-        let trials = self.trials.iter().map(|trial| (trial, self.replay(trial.index))).collect();
-        junit::document(&[junit::Suite { name: self.study.subject.title(), study: self.study, trials }])
+        let case = |trial| junit::Case::of(self.study, trial, self.replay(trial.index));
+        let cases = self.trials.iter().map(case).collect();
+        junit::document(&[junit::Suite { name: self.study.subject.title(), study: self.study, cases }])
     }
 
     /// The command that runs a test again.

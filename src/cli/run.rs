@@ -12,6 +12,7 @@ use crate::generators::Strategy;
 use crate::oracles::Verdict;
 use crate::{Campaign, Coverage, Error, Explanation, Folder, Measure, Modes, Study, Tests, Trial};
 use clap::Args;
+use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -115,15 +116,24 @@ impl Options {
         trials.iter().for_each(|trial| progress.count(&study, trial));
         let stop = campaign.stop();
         on_interrupt(stop.clone());
-        let run = campaign.resume(known).run(|trial| {
+        let mut scales = BTreeMap::new();
+        let watch = |trial: &Trial| {
             folder.append(trial)?;
             progress.show(&study, trial);
             trials.push(trial.clone());
             Ok(())
+        };
+        let run = campaign.resume(known).run_learning(watch, |learned| {
+            scales.clone_from(learned);
+            Folder::write_study(&self.out, &study.clone().with_scales(scales.clone(), &[]))
         });
         if let Err(error) = run {
             progress.bar.finish_and_clear();
             return Err(cut_short(&error, &self.out, trials.len()));
+        }
+        let study = study.with_scales(scales, &trials);
+        if !study.learned_scales().is_empty() {
+            Folder::write_study(&self.out, &study)?;
         }
         let stopped = study.stops_at_first() && trials.last().is_some_and(Trial::is_failure);
         if trials.len() < study.budget && !stopped {

@@ -61,7 +61,10 @@ fn table(study: &Study, shrunk: &Shrunk) -> String {
         let value = shrunk.trial.robustness(&requirement.id).map(digits).unwrap_or_default();
         table.row(&requirement.id, &format!("{value} {}", requirement.unit));
     }
-    let left = if shrunk.minimal { "nothing simpler fails" } else { "a larger --budget may find a simpler one" };
+    let left = match shrunk.minimal {
+        true => "no simpler one that fails is a step or two away",
+        false => "a larger --budget may find a simpler one",
+    };
     table.row("found in", &format!("{}; {left}", plural(shrunk.runs, "run")));
     table.finish()
 }

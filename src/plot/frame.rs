@@ -7,6 +7,8 @@ use plotters::prelude::*;
 
 /// The width of the legend, in pixels of the SVG.
 pub(super) const LEGEND: u32 = 230;
+/// The height of the lines above, in pixels of the SVG.
+pub(super) const HEADER: u32 = 67;
 /// The size of text, in pixels of the SVG.
 pub(super) const TEXT: f64 = 16.0;
 
@@ -45,7 +47,7 @@ impl Frame {
         scale: f64,
     ) -> Result<Areas<B>, B> {
         let px = |length: f64| (length * scale).round() as i32;
-        let (header, body) = area.split_vertically(px(4.2 * TEXT));
+        let (header, body) = area.split_vertically(px(f64::from(HEADER)));
         header.draw(&Text::new(self.title.clone(), (px(14.0), px(0.5 * TEXT)), ink(1.15 * TEXT * scale)))?;
         header.draw(&Text::new(self.note.clone(), (px(14.0), px(2.0 * TEXT)), ink(0.85 * TEXT * scale)))?;
         Ok(body.split_horizontally(px(f64::from(width))))

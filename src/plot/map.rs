@@ -229,18 +229,25 @@ impl Ranged for Ends {
     }
 
     fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
+        self.numbers(hint.max_num_points())
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.0.0..self.0.1
+    }
+}
+
+impl Ends {
+    /// The numbers at the axis: both ends, and round ones between them, no more than so many steps.
+    pub(super) fn numbers(&self, most: usize) -> Vec<f64> {
         let (lo, hi) = self.0;
-        let step = round_step((hi - lo) / hint.max_num_points().max(2) as f64);
+        let step = round_step((hi - lo) / most.max(2) as f64);
         let first = (lo / step).ceil() as i64;
         let last = (hi / step).floor() as i64;
         let inner = (first..=last).map(|i| i as f64 * step);
         // An inner number too close to an end would be printed over it.
         let clear = inner.filter(|x| x - lo > 0.4 * step && hi - x > 0.4 * step);
         [lo].into_iter().chain(clear).chain([hi]).collect()
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.0.0..self.0.1
     }
 }
 

@@ -17,6 +17,7 @@ mod mark;
 mod raster;
 mod shade;
 mod shares;
+mod survival;
 mod symbol;
 mod tint;
 
@@ -31,6 +32,7 @@ pub use map::{Axis, FailureMap};
 pub use mark::Mark;
 pub use raster::drawing_png;
 pub(crate) use shares::{Series, Shares};
+pub(crate) use survival::{Survivals, Waiting};
 pub(crate) use symbol::{Look, Shape};
 pub use tint::Tints;
 
@@ -76,6 +78,7 @@ enum Panel {
     Map(FailureMap),
     LogLog(LogLog),
     Shares(Shares),
+    Survivals(Survivals),
     Lines(Lines),
     Heat(HeatMap),
 }
@@ -97,6 +100,12 @@ impl Picture {
     /// A picture of shares over sizes.
     pub(crate) fn of_shares(chart: Shares) -> Self {
         Self { panels: vec![Panel::Shares(chart)], columns: 1, size: (frame::LEGEND + shares::PLANE, 520) }
+    }
+
+    /// A picture of how many still wait.
+    pub(crate) fn of_survivals(chart: Survivals) -> Self {
+        let size = (frame::LEGEND + survival::PLANE, frame::HEADER + chart.height());
+        Self { panels: vec![Panel::Survivals(chart)], columns: 1, size }
     }
 
     /// A picture of charts of curves, one below the other.
@@ -173,6 +182,7 @@ impl Picture {
                     Panel::Map(map) => map.draw(&part, f64::from(scale))?,
                     Panel::LogLog(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Shares(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Survivals(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Lines(chart) => chart.draw(&part, f64::from(scale))?,
                     Panel::Heat(image) => image.draw(&part, scale)?,
                 }

@@ -1,8 +1,8 @@
-//! Shares over sizes: a logarithmic axis from left to right, and from bottom to top 0 to 1. Curves of steps, clouds of marks.
+//! Shares over sizes: a logarithmic axis from left to right, and from bottom to top 0 to 1. Clouds of marks.
 
 use super::frame::{Frame, TEXT};
 use super::log_axis::Log;
-use super::symbol::{LINE, Look, Symbol};
+use super::symbol::{Look, Symbol};
 use super::{GRID, INK, ink};
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -29,8 +29,6 @@ pub(crate) struct Shares {
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
     pub look: Look,
-    /// Sizes at which a curve steps to these shares, in ascending order; none is no curve.
-    pub steps: Vec<(f64, f64)>,
     /// Places of marks.
     pub marks: Vec<(f64, f64)>,
 }
@@ -62,26 +60,11 @@ impl Shares {
             .light_line_style(TRANSPARENT)
             .draw()?;
         let plane = chart.plotting_area();
-        // What matters most is never covered: marks stand above curves.
-        for series in &self.series {
-            plane.draw(&PathElement::new(series.corners(), series.look.colour().stroke_width(px(LINE))))?;
-        }
         for series in &self.series {
             for &mark in &series.marks {
                 plane.draw(&(EmptyElement::at(mark) + Symbol::of(series.look, scale)))?;
             }
         }
         self.frame.draw_legend(&legend, scale)
-    }
-}
-
-impl Series {
-    /// The curve, with a corner before every step.
-    fn corners(&self) -> Vec<(f64, f64)> {
-        let mut corners: Vec<(f64, f64)> = self.steps.first().copied().into_iter().collect();
-        for pair in self.steps.windows(2) {
-            corners.extend([(pair[1].0, pair[0].1), pair[1]]);
-        }
-        corners
     }
 }

@@ -30,8 +30,9 @@ pub struct Shrunk {
     pub parameters: Vec<Change>,
     /// How many tests were run.
     pub runs: usize,
-    /// Whether every simpler test was tried: where it is false the runs did not suffice. Where it is true no single
-    /// parameter can be set back to its nominal value without losing the failure.
+    /// Whether every step was tried: where it is false the runs did not suffice. Where it is true no parameter and no two of
+    /// them can be set back to their nominal values without losing the failure, and no other step that was tried keeps it.
+    /// A simpler test that takes three steps at once may still fail.
     pub minimal: bool,
     /// The shrunk test with what became of it.
     pub trial: Trial,

@@ -5,6 +5,10 @@
 //! knots, numbers come as near to nominal as bisection finds them failing and are then made round, choices go to an
 //! earlier level. That is repeated until nothing changes, which it does in the end: a step is taken only if it is
 //! [simpler](Dimension::compare).
+//!
+//! Where values only fail together, as two that have to be alike, no step with one of them gets anywhere. So when single
+//! steps are at an end, steps with two parameters at once are tried, each to one of a few simpler forms; after one that goes,
+//! single steps again. What takes three at once is not found.
 
 use super::delta::needed;
 use super::form::{Dimension, Form};
@@ -58,7 +62,7 @@ where
             for index in 0..self.dimensions.len() {
                 self.simplify(index)?;
             }
-            if self.current == before {
+            if self.current == before && !self.simplify_two()? {
                 return Ok(Found { test: self.test(&self.current), runs: self.tried.len(), complete: !self.exhausted });
             }
         }
@@ -204,6 +208,51 @@ where
             self.current = nearest;
         }
         Ok(())
+    }
+
+    /// Makes two parameters simpler at once, if any two can be.
+    fn simplify_two(&mut self) -> Result<bool, E> {
+        for second in 1..self.dimensions.len() {
+            for first in 0..second {
+                for (one, other) in self.pairs(first, second) {
+                    let mut forms = self.current.clone();
+                    (forms[first], forms[second]) = (one, other);
+                    if self.go(forms)? {
+                        return Ok(true);
+                    }
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    /// Simpler forms of two parameters, the simplest first.
+    fn pairs(&self, first: usize, second: usize) -> Vec<(Form, Form)> {
+        let [one, other] = [first, second].map(|index| self.simpler_forms(index));
+        one.iter().flat_map(|one| other.iter().map(|other| (one.clone(), other.clone()))).collect()
+    }
+
+    /// A few forms of a parameter that are simpler than what it is: nominal, constant, an early level, or a round number
+    /// half as far from nominal.
+    fn simpler_forms(&self, index: usize) -> Vec<Form> {
+        let dimension = &self.dimensions[index];
+        let Form::Own(knots) = &self.current[index] else { return Vec::new() };
+        let constant = dimension.with_knots(knots, 1);
+        let values: Vec<Value> = match (&dimension.parameter.domain, &constant[0]) {
+            _ if knots.len() > 1 => vec![constant[0].clone()],
+            (Domain::Choice(levels), _) => levels.iter().take(FEW).cloned().collect(),
+            (Domain::Interval { lo, hi }, value) => {
+                let goal = dimension.nominal_knots(1)[0].number();
+                let ends = value.number().zip(goal);
+                let half = ends.and_then(|(here, goal)| {
+                    Decimals::of(*lo, *hi).beyond(0.5 * goal + 0.5 * here, goal).find(|half| *half != here)
+                });
+                half.map(Value::Number).into_iter().collect()
+            }
+        };
+        let own = values.into_iter().map(|value| Form::Own(vec![value]));
+        let all = std::iter::once(Form::Nominal).chain(own);
+        all.filter(|form| dimension.compare(form, &self.current[index]) == Ordering::Less).collect()
     }
 
     fn number(&self, index: usize, knot: usize) -> Option<f64> {

@@ -143,6 +143,36 @@ fn signals_become_constant_or_get_fewer_pieces() {
     assert_eq!(gusts(&falling.test), [0.3, 0.3, 0.3, 0.0, 0.0, 0.0]);
 }
 
+/// Of three numbers any two have to be alike, and far from nominal.
+fn alike(test: &Values) -> bool {
+    let shares = [("speed", 0.5, 10.0), ("distance", 5.0, 60.0), ("friction", 0.2, 0.8)];
+    let shares = shares.map(|(name, lo, hi)| (number(test, name) - lo) / (hi - lo));
+    shares.iter().all(|share| (share - shares[0]).abs() < 0.05)
+}
+
+#[test]
+fn two_parameters_that_only_fail_together_are_made_simpler_together() {
+    let mut test = space().decode(&Point { continuous: vec![0.9; 9], discrete: vec![1, 3] });
+    test.set("friction", 0.3);
+    let same = |test: &Values| {
+        // Clear and red, or neither. All others are needed, so that no half of the parameters can be set back.
+        let gusts = test.get("gusts").unwrap().scalars().iter().all(|gust| gust.number() > Some(0.5));
+        let words = ["weather", "colour"].map(|name| test.get(name).unwrap().word().unwrap().to_owned());
+        let needed = number(test, "speed") > 8.0 && number(test, "distance") > 50.0 && number(test, "friction") < 0.75;
+        needed && gusts && (words[0] == "clear") == (words[1] == "red")
+    };
+    let found = shrunk(&test, usize::MAX, same);
+    let words = ["weather", "colour"].map(|name| found.test.get(name).unwrap().word().unwrap().to_owned());
+    assert_eq!(words, ["clear", "red"]);
+}
+
+#[test]
+fn three_that_only_fail_together_are_left_as_they_are() {
+    let test = space().decode(&Point { continuous: vec![0.9; 9], discrete: vec![0, 1] });
+    let found = shrunk(&test, usize::MAX, alike);
+    assert!(found.complete && alike(&found.test));
+}
+
 #[test]
 fn a_constraint_is_never_violated_on_the_way() {
     let space = space().with_constraints(["colour == 'red' implies weather == 'fog'"]).unwrap();

@@ -28,6 +28,7 @@ use paracosm_engine::Program;
 use paracosm_generators::{Aim, DiscreteFamily, Generator, Request, Strategy};
 use paracosm_scenarios as scenarios;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// How many tests an adaptive strategy is asked for at a time where nothing is said.
@@ -49,6 +50,9 @@ pub struct Study {
     pub space: Space,
     /// What is asked of every run. A system that answers with robustness has requirements that are not known here.
     pub requirements: Vec<RequirementText>,
+    /// How much robustness is a lot of those that state no scale, once a campaign has learned that.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    learned_scales: BTreeMap<String, f64>,
     /// What of the operational design domain the tests are about, if anybody has said so.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub odd: Option<Odd>,
@@ -105,6 +109,7 @@ impl Study {
             subject,
             space,
             requirements,
+            learned_scales: BTreeMap::new(),
             odd: None,
             strategy: Strategy::Halton.name().to_owned(),
             discrete: "ipog".to_owned(),
@@ -255,6 +260,16 @@ impl Study {
         Ok(strategy.build(&request)?)
     }
 
+    /// A generator of the study's strategy that draws discrete values for every test rather than take the rows of a family.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub(crate) fn independent_generator(&self) -> Result<Box<dyn Generator>, Error> {
+        let existing = self.existing()?;
+        let (strategy, request) = self.request(&existing)?;
+        Ok(strategy.build_independent(&request)?)
+    }
+
     /// What the study's tests promise by theory; `None` where their rows are not random.
     ///
     /// # Errors
@@ -318,20 +333,30 @@ impl Study {
         self.requirements.iter().find(|requirement| requirement.id == id)
     }
 
-    /// The robustness of a requirement in multiples of its scale. `None` where the trial broke or it was not decided.
-    fn normalised(&self, trial: &Trial, requirement: &str) -> Option<f64> {
-        let scale = self.requirement(requirement).and_then(|requirement| requirement.scale).unwrap_or(1.0);
-        trial.robustness(requirement).filter(|_| trial.covers()).map(|robustness| robustness / scale)
+    /// The scales that a campaign has learned, of requirements that state none.
+    pub fn learned_scales(&self) -> &BTreeMap<String, f64> {
+        &self.learned_scales
+    }
+
+    /// The study with scales that a campaign has learned, and for requirements that neither state one nor are among these,
+    /// the largest robustness among these trials of it.
+    pub fn with_scales(mut self, learned: BTreeMap<String, f64>, trials: &[Trial]) -> Self {
+        self.learned_scales = learned;
+        let mut scales = Scales::of(&self);
+        scales.learn(trials);
+        self.learned_scales = scales.learned().clone();
+        self
     }
 
     /// The requirement that a trial comes nearest to violating, or violates most: its id and its robustness in
     /// multiples of its scale. `None` where the trial broke or nothing was decided.
     pub fn worst<'t>(&self, trial: &'t Trial) -> Option<(&'t str, f64)> {
-        let all = trial.requirements().filter_map(|id| Some((id, self.normalised(trial, id)?)));
-        all.min_by(|a, b| a.1.total_cmp(&b.1))
+        let scales = Scales::of(self);
+        let worth = |id: &'t str| Some((id, scales.normalised(id, trial.robustness(id)?)));
+        trial.requirements().filter(|_| trial.covers()).filter_map(worth).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The worst robustness, in multiples of the requirement's scale, or 1 where none is stated, and clipped to [-10, 10].
+    /// The worst robustness, in multiples of the requirement's scale, stated or learned, and clipped to [-10, 10].
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
         Scales::of(self).worst(trial)
     }

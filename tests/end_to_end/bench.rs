@@ -156,6 +156,44 @@ fn the_map_that_is_kept_here_is_the_one_that_is_made() {
     assert!((recall("kept") - recall("made")).abs() < 0.2);
 }
 
+/// A bench of a system with three switches that fails for one setting of them; its table and its folder.
+fn switches(dir: &Path, failing: &str, strategies: &str) -> String {
+    let switch = |name: &str| format!("{{ name = \"{name}\", choice = [0, 1] }}");
+    fs::write(dir.join("SPACE.toml"), format!("parameter = [{}, {}, {}]", switch("a"), switch("b"), switch("c")))
+        .unwrap();
+    let answer = r#"echo "{\"index\":${i%%,*},\"robustness\":{\"holds\":$r}}""#;
+    let judge = format!("case $line in *{failing}*) r=-1;; *) r=1;; esac");
+    fs::write(dir.join("system.sh"), format!("while read -r line; do i=${{line#*:}}\n{judge}\n{answer}\ndone\n"))
+        .unwrap();
+    let system = ["bench", "--system", "sh system.sh", "--space", "SPACE.toml", "--strategies", strategies];
+    let sizes = ["--budget", "20", "--seeds", "6", "--reference-tests", "0", "--quiet", "--format", "table"];
+    stdout(&succeeds(fuzz(dir, &[&system[..], &sizes].concat())))
+}
+
+#[test]
+fn a_combination_that_a_covering_array_leaves_out_is_found() {
+    let dir = tempfile::tempdir().unwrap();
+    switches(dir.path(), r#"'"a":1,"b":1,"c":1}'"#, "random,halton,lhs,pso");
+    for run in rows(&dir.path().join("paracosm-bench/runs.csv")) {
+        assert!(number(&run, "first_failure").is_some_and(|first| first <= 8.0), "{run:?}");
+        assert_eq!((number(&run, "tests"), number(&run, "failures")), (Some(8.0), Some(1.0)), "{run:?}");
+    }
+}
+
+#[test]
+fn a_run_that_has_tested_all_there_is_in_vain_is_not_censored() {
+    let dir = tempfile::tempdir().unwrap();
+    let table = switches(dir.path(), "never", "random,cmaes");
+    for strategy in ["random", "cmaes"] {
+        let said =
+            format!("{strategy}: 6 of 6 runs had nothing more to test, and no failure to find; they count as 20 tests");
+        assert!(table.contains(&said), "{table}");
+    }
+    for cell in rows(&dir.path().join("paracosm-bench/summary.csv")) {
+        assert_eq!((&cell["found"][..], &cell["exhausted"][..], &cell["restricted_mean"][..]), ("0", "6", "20"));
+    }
+}
+
 #[test]
 fn what_cannot_be_benched_is_said() {
     let dir = tempfile::tempdir().unwrap();

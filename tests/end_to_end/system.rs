@@ -32,6 +32,42 @@ fn trials(dir: &Path, out: &str) -> Vec<Value> {
     log(dir, out).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
+/// Of two requirements the first is in thousands, and the second is the one that is violated by far.
+const TWO_SIZES: &str = r#"case $x in -*) rpm=-500;; *) rpm=${x}e3;; esac; if [ "$i" = 7 ]; then gap=-0.9; else gap=0.3; fi
+echo "{\"index\":$i,\"robustness\":{\"rpm\":$rpm,\"gap\":$gap}}""#;
+
+#[test]
+fn scales_that_a_campaign_has_learned_are_kept_and_used_by_whatever_comes_after_it() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), TWO_SIZES);
+    let study = |out: &str| fs::read_to_string(dir.path().join(out).join("campaign.json")).unwrap();
+    for strategy in ["halton", "cmaes"] {
+        let options = ["--budget", "40", "--strategy", strategy];
+        let summary = run(dir.path(), strategy, &[&options[..], &["--format", "json"]].concat());
+        let summary: Value = serde_json::from_str(&stdout(&succeeds(summary))).unwrap();
+        let learned = serde_json::from_str::<Value>(&study(strategy)).unwrap()["learned_scales"].clone();
+        assert_eq!(learned["gap"], 0.9, "{strategy}");
+        assert!(learned["rpm"].as_f64().is_some_and(|scale| scale > 600.0), "{strategy}: {learned}");
+        // The other one is violated by 500, which is little for it.
+        assert_eq!((&summary["worst"]["index"], &summary["worst"]["requirement"]), (&json!(7), &json!("gap")));
+        let map = || fs::read_to_string(dir.path().join(strategy).join("failure-map.csv")).unwrap();
+        let (before, whole) = (map(), study(strategy));
+        succeeds(fuzz(dir.path(), &["map", strategy, "-q"]));
+        assert_eq!(map(), before);
+        // A campaign that is cut short goes on with the same ones, and ends with the same files.
+        let log = dir.path().join(strategy).join("trials.jsonl");
+        let lines = log_lines(&log, 20);
+        let all = fs::read_to_string(&log).unwrap();
+        fs::write(&log, lines).unwrap();
+        succeeds(run(dir.path(), strategy, &[&options[..], &["--resume"]].concat()));
+        assert_eq!((fs::read_to_string(&log).unwrap(), study(strategy), map()), (all, whole, before));
+    }
+}
+
+fn log_lines(log: &Path, count: usize) -> String {
+    fs::read_to_string(log).unwrap().split_inclusive('\n').take(count).collect()
+}
+
 #[test]
 fn robustness_is_judged_by_its_sign_and_shown_in_every_file() {
     let dir = tempfile::tempdir().unwrap();
