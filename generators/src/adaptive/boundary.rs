@@ -45,7 +45,7 @@ impl Boundary {
         let (failed, passed): (Vec<&Trial>, Vec<&Trial>) = ran.iter().partition(|trial| trial.cost() < 0.0);
         ran.sort_by(|a, b| a.cost().abs().total_cmp(&b.cost().abs()));
         ran.truncate(CLOSE_CALLS);
-        (0..(CANDIDATES * axes.len()).clamp(240, 600))
+        (0..(CANDIDATES * axes.len()).clamp(240, 480))
             .map(|index| match index % 4 {
                 0 if !failed.is_empty() && !passed.is_empty() => {
                     let a = failed[rng.random_range(0..failed.len())];

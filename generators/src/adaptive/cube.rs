@@ -21,6 +21,16 @@ pub(super) enum Axis {
     Nominal(usize),
 }
 
+impl Axis {
+    /// How far apart two places are along it; different words are all alike different.
+    pub(super) fn difference(self, a: f64, b: f64) -> f64 {
+        match self {
+            Self::Nominal(_) => f64::from(a != b),
+            Self::Continuous | Self::Ordered(_) => a - b,
+        }
+    }
+}
+
 /// The cube of a space.
 pub(super) struct Cube {
     axes: Vec<Axis>,

@@ -9,6 +9,7 @@
 
 use super::cube::Axis;
 use faer::linalg::solvers::{Llt, Solve};
+use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side};
 
@@ -32,34 +33,56 @@ pub(super) struct Kernel {
 impl Kernel {
     /// The squared distance along one axis, in multiples of its length.
     pub(super) fn squared(&self, axis: usize, a: &[f64], b: &[f64]) -> f64 {
-        let difference = match self.axes[axis] {
-            Axis::Nominal(_) => f64::from(a[axis] != b[axis]),
-            Axis::Continuous | Axis::Ordered(_) => a[axis] - b[axis],
-        };
-        let scaled = difference / self.lengths[axis];
+        let scaled = self.axes[axis].difference(a[axis], b[axis]) / self.lengths[axis];
         scaled * scaled
     }
 
     /// `sqrt(5) r`, r being the distance.
     pub(super) fn scaled_distance(&self, a: &[f64], b: &[f64]) -> f64 {
-        (5.0 * (0..a.len()).map(|axis| self.squared(axis, a, b)).sum::<f64>()).sqrt()
+        let squares = self.axes.iter().zip(&self.lengths).zip(a.iter().zip(b));
+        let squares = squares.map(|((axis, length), (a, b))| {
+            let scaled = axis.difference(*a, *b) / length;
+            scaled * scaled
+        });
+        (5.0 * squares.sum::<f64>()).sqrt()
     }
 
     /// The correlation of two places.
     pub(super) fn correlation(&self, a: &[f64], b: &[f64]) -> f64 {
-        let s = self.scaled_distance(a, b);
-        (1.0 + s + s * s / 3.0) * libm::exp(-s)
+        Pair::of(self, a, b).correlation()
     }
 
-    /// The correlations of the places with each other, noise included, as far as they are needed: from the diagonal down.
-    fn matrix(&self, places: &[Vec<f64>]) -> Mat<f64> {
-        let entry = |i: usize, j: usize| match i.cmp(&j) {
-            std::cmp::Ordering::Less => 0.0,
-            std::cmp::Ordering::Equal => 1.0 + self.noise,
-            std::cmp::Ordering::Greater => self.correlation(&places[i], &places[j]),
-        };
-        Mat::from_fn(places.len(), places.len(), entry)
+    /// The pairs of different places: for each those before it.
+    fn pairs(&self, places: &[Vec<f64>]) -> Vec<Pair> {
+        let before = |i: usize| (0..i).map(move |j| Pair::of(self, &places[i], &places[j]));
+        (0..places.len()).flat_map(before).collect()
     }
+}
+
+/// Two places.
+#[derive(Debug, Clone, Copy)]
+struct Pair {
+    /// `sqrt(5)` times their distance.
+    distance: f64,
+    /// `exp` of minus that, which takes longer than all else.
+    decay: f64,
+}
+
+impl Pair {
+    fn of(kernel: &Kernel, a: &[f64], b: &[f64]) -> Self {
+        let distance = kernel.scaled_distance(a, b);
+        Self { distance, decay: libm::exp(-distance) }
+    }
+
+    fn correlation(self) -> f64 {
+        let s = self.distance;
+        (1.0 + s + s * s / 3.0) * self.decay
+    }
+}
+
+/// Where the pair of two places is, the second before the first.
+fn pair(i: usize, j: usize) -> usize {
+    i * i.saturating_sub(1) / 2 + j
 }
 
 /// What is known of the mean far from all tests.
@@ -75,6 +98,7 @@ pub(super) enum Mean {
 pub(super) struct Process {
     kernel: Kernel,
     places: Vec<Vec<f64>>,
+    pairs: Vec<Pair>,
     factor: Llt<f64>,
     /// The inverse of the correlations times what the mean leaves.
     pull: Vec<f64>,
@@ -89,7 +113,14 @@ impl Process {
         if n == 0 {
             return None;
         }
-        let factor = kernel.matrix(&places).llt(Side::Lower).ok()?;
+        let pairs = kernel.pairs(&places);
+        // The correlations, noise included, as far as they are needed: from the diagonal down.
+        let entry = |i: usize, j: usize| match i.cmp(&j) {
+            std::cmp::Ordering::Less => 0.0,
+            std::cmp::Ordering::Equal => 1.0 + kernel.noise,
+            std::cmp::Ordering::Greater => pairs[pair(i, j)].correlation(),
+        };
+        let factor = Mat::from_fn(n, n, entry).llt(Side::Lower).ok()?;
         let both = factor.solve(Mat::from_fn(n, 2, |i, j| if j == 0 { values[i] } else { 1.0 }));
         let sum = |column: usize| (0..n).map(|i| both[(i, column)]).sum::<f64>();
         let mean = match mean {
@@ -99,7 +130,15 @@ impl Process {
         let pull: Vec<f64> = (0..n).map(|i| both[(i, 0)] - mean * both[(i, 1)]).collect();
         let variance = values.iter().zip(&pull).map(|(value, pull)| (value - mean) * pull).sum::<f64>() / n as f64;
         let variance = variance.max(LEAST_VARIANCE);
-        (mean.is_finite() && variance.is_finite()).then_some(Self { kernel, places, factor, pull, mean, variance })
+        (mean.is_finite() && variance.is_finite()).then_some(Self {
+            kernel,
+            places,
+            pairs,
+            factor,
+            pull,
+            mean,
+            variance,
+        })
     }
 
     /// The process through values at places, with as much noise as it takes: without any, places that are almost one have
@@ -120,9 +159,11 @@ impl Process {
     /// and Williams, equation 5.12).
     pub(super) fn leave_one_out(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let n = self.places.len();
-        let inverse = self.factor.solve(Mat::<f64>::identity(n, n));
+        // Of the inverse only the diagonal is needed: the squares in the columns of the inverse of the factor.
+        let mut inverse = Mat::<f64>::zeros(n, n);
+        invert_lower_triangular(inverse.as_mut(), self.factor.L(), Par::Seq);
         let one = |i: usize| {
-            let share = 1.0 / inverse[(i, i)];
+            let share = 1.0 / inverse.col_as_slice(i)[i..].iter().map(|entry| entry * entry).sum::<f64>();
             (values[i] - self.pull[i] * share, (share * self.variance).sqrt())
         };
         (0..n).map(one).collect()
@@ -149,9 +190,9 @@ impl Process {
                     continue;
                 }
                 let (a, b) = (&self.places[i], &self.places[j]);
-                let s = self.kernel.scaled_distance(a, b);
+                let Pair { distance, decay } = self.pairs[pair(i, j)];
                 // Twice a half, for both entries.
-                let slope = push * 5.0 / 3.0 * (1.0 + s) * libm::exp(-s);
+                let slope = push * 5.0 / 3.0 * (1.0 + distance) * decay;
                 for (axis, partial) in gradient[..axes].iter_mut().enumerate() {
                     *partial += slope * self.kernel.squared(axis, a, b);
                 }
@@ -233,13 +274,13 @@ impl Posterior<'_> {
     pub(super) fn believe(&mut self, index: usize) {
         let kernel = &self.process.kernel;
         let length = (self.share[index] + kernel.noise).sqrt();
-        let (known, at) = (self.whitened.col(index), &self.places[index]);
+        let at = &self.places[index];
+        let explained = products(&self.whitened, index);
         let row: Vec<f64> = (0..self.places.len())
             .map(|other| {
                 let alike = kernel.correlation(at, &self.places[other]);
-                let explained: f64 = known.iter().zip(self.whitened.col(other).iter()).map(|(a, b)| a * b).sum();
                 let believed: f64 = self.believed.iter().map(|row| row[index] * row[other]).sum();
-                (alike - explained - believed) / length
+                (alike - explained[other] - believed) / length
             })
             .collect();
         for (share, covariance) in self.share.iter_mut().zip(&row) {
@@ -247,6 +288,25 @@ impl Posterior<'_> {
         }
         self.believed.push(row);
     }
+}
+
+/// The products of a column with every column. Four at a time are added up, each in the order of its terms: one alone would
+/// have to wait for itself.
+fn products(columns: &Mat<f64>, column: usize) -> Vec<f64> {
+    let known = columns.col_as_slice(column);
+    let mut all = Vec::with_capacity(columns.ncols());
+    for first in (0..columns.ncols()).step_by(4) {
+        // At the end the last one stands in for those that are missing.
+        let four = [0, 1, 2, 3].map(|i| columns.col_as_slice((first + i).min(columns.ncols() - 1)));
+        let mut sums = [0.0; 4];
+        for (row, value) in known.iter().enumerate() {
+            for (sum, other) in sums.iter_mut().zip(four) {
+                *sum += value * other[row];
+            }
+        }
+        all.extend(&sums[..4.min(columns.ncols() - first)]);
+    }
+    all
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::bend::{Bend, is_failure};
 use super::cube::{Axis, level, middle};
 use super::fit::{fit, prior};
 use super::log_ei::normal_below;
-use super::process::{Kernel, Mean, Posterior, Process};
+use super::process::{Kernel, Mean, Process};
 use super::telling::telling;
 use super::verdicts::Fitter;
 use super::{Trial, normal};
@@ -146,14 +146,11 @@ impl Surrogate {
             open.retain(|&index| runs[index] >= WORTH_TRYING);
         }
         while chosen.len() < n.min(MOST_BATCH) && !open.is_empty() {
-            let value = |posterior: &Posterior, index: usize| {
-                worth(bend, posterior.mean(index), posterior.deviation(index), runs[index])
-            };
+            let value = |index: usize| worth(bend, posterior.mean(index), posterior.deviation(index), runs[index]);
+            let values = open.iter().map(|&index| value(index)).enumerate();
             // Of equal worth the first.
-            let best = (0..open.len())
-                .rev()
-                .max_by(|&a, &b| value(&posterior, open[a]).total_cmp(&value(&posterior, open[b])));
-            let Some(best) = best else { break };
+            let best = values.rev().max_by(|a, b| a.1.total_cmp(&b.1));
+            let Some((best, _)) = best else { break };
             let index = open.swap_remove(best);
             posterior.believe(index);
             let at = posterior.place(index).to_vec();

@@ -35,7 +35,7 @@ const PLACES: usize = 1024;
 
 /// How many steps the first fit takes, and those after it.
 const FIRST_FIT: usize = 40;
-const LATER_FIT: usize = 8;
+const LATER_FIT: usize = 4;
 
 /// Where the offset is looked for, on both sides of 0, and how often what remains is cut to two thirds.
 const MOST_OFFSET: f64 = 4.0;
@@ -132,16 +132,32 @@ impl Link {
 
 /// How much of the space each of the places stands for: how many random ones are nearest to it, and half a one more.
 fn weights(axes: &[Axis], places: &[Vec<f64>]) -> Vec<f64> {
-    let flat = Kernel { axes: axes.to_vec(), lengths: vec![1.0; axes.len()], noise: 0.0 };
     let mut rng = seeded(0, Purpose::Draws, 1);
     let mut weights = vec![0.5; places.len()];
     for _ in 0..PLACES {
         let at = snapped(axes, anywhere(axes, &mut rng));
-        let distance = |place: &Vec<f64>| (0..at.len()).map(|axis| flat.squared(axis, place, &at)).sum::<f64>();
-        let nearest = (0..places.len()).min_by(|&a, &b| distance(&places[a]).total_cmp(&distance(&places[b])));
-        nearest.into_iter().for_each(|nearest| weights[nearest] += 1.0);
+        let mut nearest = (f64::INFINITY, None);
+        for (index, place) in places.iter().enumerate() {
+            if let Some(distance) = squared_distance_below(nearest.0, axes, place, &at) {
+                nearest = (distance, Some(index));
+            }
+        }
+        nearest.1.into_iter().for_each(|nearest| weights[nearest] += 1.0);
     }
     weights
+}
+
+/// The squared distance of two places if it is below a bound; most are far apart along few axes already.
+fn squared_distance_below(bound: f64, axes: &[Axis], a: &[f64], b: &[f64]) -> Option<f64> {
+    let mut sum = 0.0;
+    for (axis, (a, b)) in axes.iter().zip(a.iter().zip(b)) {
+        let difference = axis.difference(*a, *b);
+        sum += difference * difference;
+        if sum >= bound {
+            return None;
+        }
+    }
+    Some(sum)
 }
 
 /// By which link the verdicts of left-out tests are most likely, and how likely: the logarithm. For each slope `offset` finds
