@@ -33,9 +33,10 @@ const TOGETHER: usize = 1024;
 /// By so many random places it is told how much of the space a test stands for.
 const PLACES: usize = 1024;
 
-/// How many steps the first fit takes, and those after it.
+/// How many steps the first fit takes, and those after it: fewer along many axes, where a step takes longer, within these
+/// limits.
 const FIRST_FIT: usize = 40;
-const LATER_FIT: usize = 4;
+const LATER_FIT: (usize, usize) = (4, 8);
 
 /// Where the offset is looked for, on both sides of 0, and how often what remains is cut to two thirds.
 const MOST_OFFSET: f64 = 4.0;
@@ -71,7 +72,8 @@ impl Fitter {
 
     /// The best of the three models; the first places have to tell the lengths. `None` where there is no place.
     pub(super) fn fit(&mut self, places: &[Vec<f64>], robustness: &[f64]) -> Option<Verdicts> {
-        let steps = if self.is_fitted { LATER_FIT } else { FIRST_FIT };
+        let later = (FIRST_FIT / self.kernels[0].axes.len().max(1)).clamp(LATER_FIT.0, LATER_FIT.1);
+        let steps = if self.is_fitted { later } else { FIRST_FIT };
         self.is_fitted = true;
         let bends = Bend::of_sides(robustness);
         // Of one verdict alone nothing is to be told apart, and where the other may be only the robustness knows.
