@@ -39,8 +39,8 @@ enum Form {
 
 /// A film that is being written.
 enum Reel {
-    Mp4(Video<BufWriter<File>>),
-    Gif(plot::Reel<BufWriter<File>>),
+    Mp4(Box<Video<BufWriter<File>>>),
+    Gif(Box<plot::Reel<BufWriter<File>>>),
 }
 
 impl Reel {
@@ -122,8 +122,8 @@ impl Clip {
         let (part, file) = Part::file(&self.path)?;
         let (file, size) = (BufWriter::new(file), camera.resolution);
         let mut reel = match colours {
-            Some(colours) => Reel::Gif(plot::Reel::begin(file, size, colours.palette()).map_err(failed)?),
-            None => Reel::Mp4(Video::begin(file, size, camera.rate).map_err(failed)?),
+            Some(colours) => Reel::Gif(Box::new(plot::Reel::begin(file, size, colours.palette()).map_err(failed)?)),
+            None => Reel::Mp4(Box::new(Video::begin(file, size, camera.rate).map_err(failed)?)),
         };
         let mut images = 0;
         projector.show(film, 0, |shots| {
