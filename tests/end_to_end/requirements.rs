@@ -356,7 +356,7 @@ fn regressions_report_to_ci_as_well() {
     edited("other-trace.json", &|file| file["trace_hash"] = "00".into());
     // How it ends, and how many failures, errors and skipped tests the report has.
     let cases = [
-        ("a", 0, [0, 0, 0]),
+        ("a", 1, [0, 0, 0]),
         ("expected-to-pass", 1, [1, 0, 0]),
         ("mended", 0, [0, 0, 1]),
         ("other-trace", 2, [0, 1, 0]),
