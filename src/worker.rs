@@ -56,11 +56,18 @@ impl<'a> Worker<'a> {
         stop: Arc<AtomicBool>,
         darkroom: Option<Arc<Darkroom>>,
     ) -> Result<Self, Error> {
+        let specs = Specs::of(study)?;
         let bench = match &study.subject {
-            Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
+            Subject::Scenario(simulation) => {
+                let mut simulator = Simulator::new(simulation, stop, darkroom)?;
+                if let Some(formulas) = specs.online().filter(|_| simulation.stop_runs_early) {
+                    simulator.end_when_decided(formulas);
+                }
+                Bench::Simulator(Box::new(simulator))
+            }
             Subject::System(system) => Bench::System(Connection::new(system, stop)?),
         };
-        Ok(Self { study, specs: Specs::of(study)?, bench })
+        Ok(Self { study, specs, bench })
     }
 
     /// What it runs tests of.

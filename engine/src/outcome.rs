@@ -32,7 +32,7 @@ pub struct Outcome {
     /// The robustness of each requirement by its id; `None` where the run ended before it was decided: it is inconclusive
     /// then, unless another was violated.
     pub robustness: Vec<(String, Option<f64>)>,
-    /// `travelled` (m); of a contact `impact_speed` (the car's, m/s; 0 without one), `contact_face` (the side of the car),
+    /// `travelled` (m); `ended_early`, of runs that may end as soon as all is decided; of a contact `impact_speed` (the car's, m/s; 0 without one), `contact_face` (the side of the car),
     /// `contact_with` (the name of the object), `contact_class` (what it is taken for), `contact_motion` (whether the car
     /// was `driving`, `braking` or `standing`) and `other_speed` (the object's, m/s); `triggered`: whether the premise of
     /// the scenario came about. For each violated requirement the [`violation_metrics`].

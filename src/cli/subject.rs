@@ -42,6 +42,10 @@ pub(super) struct Subject {
     /// `paracosm-fuzz describe SCENARIO` shows the signals that it may speak of
     #[arg(long, value_name = "FORMULA")]
     spec: Vec<String>,
+    /// End a run as soon as all its requirements are decided. That never changes a verdict, but the robustness is of what was
+    /// run; a scenario that asks for something over its whole time goes on to its end
+    #[arg(long, conflicts_with = "system")]
+    stop_runs_early: bool,
 }
 
 impl Subject {
@@ -124,7 +128,7 @@ impl Subject {
         for formula in &self.spec {
             study = study.spec(formula)?;
         }
-        Ok(study)
+        if self.stop_runs_early { study.stop_runs_early() } else { Ok(study) }
     }
 }
 

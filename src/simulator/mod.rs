@@ -17,6 +17,7 @@ use paracosm_coverage::{Space, Values};
 use paracosm_engine::sensor::{Cameras, Shutters};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{Outcome, Program, Run, Test};
+use paracosm_oracles::Formula;
 use ride::Ride;
 use std::slice;
 use std::sync::Arc;
@@ -28,6 +29,8 @@ pub(crate) struct Simulator<'a> {
     model: Model,
     drivers: Drivers<'a>,
     appearances: Appearances,
+    /// What has to be decided beside a run's own requirements for it to end early, if it may.
+    early: Option<Vec<Formula>>,
     darkroom: Option<Arc<Darkroom>>,
 }
 
@@ -49,7 +52,22 @@ impl<'a> Simulator<'a> {
 
     /// A simulator of a program, in which these drivers drive a car that this model moves.
     fn with(program: Program, model: Model, drivers: Drivers<'a>, darkroom: Option<Arc<Darkroom>>) -> Self {
-        Self { program, model, drivers, appearances: Appearances::default(), darkroom }
+        Self { program, model, drivers, appearances: Appearances::default(), early: None, darkroom }
+    }
+
+    /// Ends runs as soon as their requirements and these formulas are decided.
+    pub fn end_when_decided(&mut self, formulas: Vec<Formula>) {
+        self.early = Some(formulas);
+    }
+
+    /// A test under way.
+    fn begin(&mut self, place: usize, test: Test<'_>) -> Ride {
+        let driver = self.drivers.hire();
+        let mut ride = Ride::begin(place, &self.program, test, self.model, driver);
+        if let Some(formulas) = &self.early {
+            ride.end_when_decided(formulas);
+        }
+        ride
     }
 
     /// Has a driver at hand, and what draws for it.
@@ -92,8 +110,7 @@ impl<'a> Simulator<'a> {
     }
 
     fn ride(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Outcome {
-        let driver = self.drivers.hire();
-        let mut ride = Ride::begin(0, &self.program, test, self.model, driver);
+        let mut ride = self.begin(0, test);
         if let Some(film) = film {
             ride.film(film);
         }
@@ -121,9 +138,7 @@ impl<'a> Simulator<'a> {
             while rides.len() < at_once.max(1)
                 && let Some(index) = desk.next()
             {
-                let (values, driver) = (tests(index), self.drivers.hire());
-                let test = Test::new(&values, space);
-                rides.push(Ride::begin(index, &self.program, test, self.model, driver));
+                rides.push(self.begin(index, Test::new(&tests(index), space)));
             }
             rides.iter_mut().for_each(|ride| ride.go_on(|_| ()));
             // What broke because it was stopped came to nothing.

@@ -5,7 +5,7 @@ use paracosm_engine::driver::Driver;
 use paracosm_engine::sensor::{Image, Shutters};
 use paracosm_engine::vehicle::Model;
 use paracosm_engine::{Outcome, Program, Run, Test};
-use paracosm_oracles::Verdict;
+use paracosm_oracles::{Formula, Verdict};
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -45,6 +45,13 @@ impl Ride {
             Err(error) => ride.outcome = Some(broken(error.to_string())),
         }
         ride
+    }
+
+    /// Lets it end as soon as its requirements and these formulas are decided.
+    pub fn end_when_decided(&mut self, formulas: &[Formula]) {
+        if let Some(run) = &mut self.run {
+            run.end_when_decided(formulas);
+        }
     }
 
     /// Films it.

@@ -125,6 +125,12 @@ impl Specs {
         Ok(Self(given.map(parse).collect::<Result<_, Error>>()?))
     }
 
+    /// The formulas, if all of them can be decided while a run goes on: not those in dense time.
+    pub fn online(&self) -> Option<Vec<Formula>> {
+        let sampled = |spec: &Spec| (spec.time == Semantics::Sampled).then(|| spec.formula.clone());
+        self.0.iter().map(sampled).collect()
+    }
+
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

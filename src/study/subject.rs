@@ -36,6 +36,9 @@ pub struct Simulation {
     /// What actors look like to cameras.
     #[serde(rename = "models", skip_serializing_if = "Appearances::is_empty", default)]
     pub(crate) appearances: Appearances,
+    /// Whether a run ends as soon as all that is asked of it is decided.
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    pub(crate) stop_runs_early: bool,
     dt: f64,
     duration: f64,
     /// A program that is not in the catalogue.
@@ -98,6 +101,7 @@ impl Simulation {
             fixed: fixed.collect(),
             driver: DriverChoice::new("aeb", &[], program.name)?,
             appearances: Appearances::default(),
+            stop_runs_early: false,
             dt,
             duration,
             program: Some(program),
@@ -143,6 +147,16 @@ impl Study {
     /// There is no such model, or the study is of no scenario.
     pub fn vehicle(mut self, name: &str) -> Result<Self, Error> {
         self.subject.scenario_mut()?.vehicle = Model::find(name)?;
+        Ok(self)
+    }
+
+    /// Ends a run as soon as all that is asked of it is decided, which never changes a verdict. The robustness of such a run is
+    /// that of what was run.
+    ///
+    /// # Errors
+    /// The study is of no scenario.
+    pub fn stop_runs_early(mut self) -> Result<Self, Error> {
+        self.subject.scenario_mut()?.stop_runs_early = true;
         Ok(self)
     }
 

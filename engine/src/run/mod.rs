@@ -3,11 +3,12 @@
 //! A run knows no driver, thread or socket: it says what it needs and is supplied. At each tick
 //!
 //! 1. every stream is evaluated on the world as it stands, and the trace records it;
-//! 2. the run ends if the car touches something or the time is up;
+//! 2. the run ends if the car touches something or the time is up, or, if it may, as soon as all is decided;
 //! 3. the driver is asked, if its period has passed, and otherwise keeps its control;
 //! 4. the inputs of the objects are read and everything moves on by `dt`.
 
 mod driving;
+mod early;
 mod metrics;
 mod scene;
 mod sensing;
@@ -16,13 +17,14 @@ pub use driving::{simulate, watch};
 
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
-use crate::outcome::{Outcome, violation_metrics};
+use crate::outcome::{Metric, Outcome, violation_metrics};
 use crate::program::{Program, ProgramError, Test};
 use crate::road::{Network, Path, wrapped};
 use crate::scenario::Weather;
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::Model;
-use paracosm_oracles::{Requirement, Trace, Truth, Verdict};
+use early::Early;
+use paracosm_oracles::{Formula, Requirement, Trace, Truth, Verdict};
 use scene::Scene;
 use sensing::Sensing;
 use std::collections::VecDeque;
@@ -85,6 +87,8 @@ pub struct Run {
     premise: Option<Slot>,
     triggered: bool,
     requirements: Vec<Requirement>,
+    /// What has to be decided for the run to end early, if it may, and whether it is.
+    early: Option<(Early, bool)>,
     columns: Vec<Column>,
     row: Vec<f64>,
     trace: Trace,
@@ -146,6 +150,7 @@ impl Run {
             premise,
             triggered: false,
             requirements,
+            early: None,
             row: vec![0.0; columns.len()],
             columns,
             trace,
@@ -154,6 +159,15 @@ impl Run {
             unable: overlap.or(fault),
             scene,
         })
+    }
+
+    /// Lets the run end as soon as its requirements and these formulas are decided, whatever might follow, and its premise has
+    /// come about: the verdict is that of the whole run. A robustness is then that of what was
+    /// run, which may have become worse or better later, on the same side of 0. The metric `ended_early` tells. To be called
+    /// before it begins; with a formula that does not fit its trace, the run never ends early.
+    pub fn end_when_decided(&mut self, beside: &[Formula]) {
+        let own = self.requirements.iter().map(|requirement| &requirement.formula);
+        self.early = Early::new(own.chain(beside), self.trace.signals(), self.dt).map(|early| (early, false));
     }
 
     /// What a driver of this run has to know beforehand.
@@ -182,7 +196,7 @@ impl Run {
                     return self.end(Outcome::broken(Verdict::Error, message));
                 }
                 self.sense();
-                if self.scene.contact.is_some() || self.tick == self.ticks {
+                if self.scene.contact.is_some() || self.tick == self.ticks || self.is_decided() {
                     let outcome = self.judged();
                     return self.end(outcome);
                 }
@@ -280,7 +294,16 @@ impl Run {
             }
         }
         self.trace.record(&self.row);
+        if let Some((early, decided)) = &mut self.early {
+            *decided = early.step(&self.row);
+        }
         Ok(())
+    }
+
+    /// Whether it may end, as nothing can turn out otherwise.
+    fn is_decided(&self) -> bool {
+        let in_vain = self.premise.is_some() && !self.triggered;
+        !in_vain && self.early.as_ref().is_some_and(|(_, decided)| *decided)
     }
 
     fn observe(&mut self) {
@@ -304,10 +327,14 @@ impl Run {
     }
 
     fn judged(&mut self) -> Outcome {
-        if self.scene.contact.is_none() {
+        let early = self.scene.contact.is_none() && self.tick < self.ticks;
+        if self.scene.contact.is_none() && !early {
             self.trace.finish();
         }
         let mut metrics = metrics::of_run(&self.scene, self.triggered);
+        if self.early.is_some() {
+            metrics.push(("ended_early".to_owned(), Metric::Flag(early)));
+        }
         let mut robustness = Vec::new();
         let (mut violated, mut open) = (false, false);
         for requirement in &self.requirements {
