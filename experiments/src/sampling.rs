@@ -215,7 +215,8 @@ fn draw(out: &Path, name: &str, picture: &Picture) -> Done {
     write(&out.join(format!("{name}.png")), picture.png()?)
 }
 
-fn write_csv(path: &Path, rows: &[Vec<String>]) -> Done {
+/// Writes a table, of which the first row is the header.
+pub fn write_csv(path: &Path, rows: &[Vec<String>]) -> Done {
     let mut csv = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| csv.write_record(row))?;
     write(path, csv.into_inner()?)

@@ -31,6 +31,36 @@ fn the_cloned_driver_gets_less_far_and_fails_more_in_fog_than_where_it_was_train
     assert!(fog > clear + 0.2, "{clear} fail in clear air, {fog} in fog");
 }
 
+/// How many tests of an examination each driver passes: the network, the expert, and who never brakes.
+fn passed(table: &str) -> [usize; 3] {
+    ["cnn", "expert", "cruise"].map(|driver| {
+        let rows: Vec<&str> = table.lines().filter(|line| line.split(',').any(|cell| cell == driver)).collect();
+        assert_eq!(rows.len(), 100);
+        rows.iter().filter(|line| line.split(',').any(|cell| cell == "pass")).count()
+    })
+}
+
+#[test]
+fn every_network_passes_where_it_was_trained_and_where_there_is_something_to_brake_for_that_says_something() {
+    let follow = passed(include_str!("../data/exam-follow.csv"));
+    let stop = passed(include_str!("../data/exam-stop.csv"));
+    let turn = passed(include_str!("../data/exam-loop.csv"));
+    for [cnn, expert, _] in [follow, stop, turn] {
+        assert!(cnn >= 95 && expert == 100, "{cnn} and {expert} of 100 pass");
+    }
+    assert!(follow[2] < 50 && stop[2] < 75, "who never brakes passes {} and {}", follow[2], stop[2]);
+}
+
+#[test]
+fn the_driver_follows_a_red_leader_whoever_comes_and_a_white_one_less_well() {
+    let rows: Vec<Vec<&str>> =
+        include_str!("../data/fig10c.csv").lines().skip(1).map(|line| line.split(',').collect()).collect();
+    assert!(rows.iter().all(|row| row.len() == 6));
+    let failing = |case: &str| rows.iter().filter(|row| row[0] == case && row[2] == "fail").count();
+    assert_eq!(["red leader", "red leader and a red car coming"].map(failing), [0, 0]);
+    assert!(failing("white leader") > 0);
+}
+
 /// The columns of a table by their names.
 fn column(table: &str, name: &str) -> Vec<f64> {
     let place = table.lines().next().unwrap().split(',').position(|column| column == name).expect("a column");

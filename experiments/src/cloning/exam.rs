@@ -3,8 +3,9 @@
 //! Beside each stands the expert who taught it, and `cruise`, who keeps its lane, told the truth about it, and brakes for
 //! nobody: where the latter passes as well, passing proves nothing of a network's brakes.
 
-use super::{Course, FOLLOW, Failure, LOOP, STOP, trials};
-use crate::{Done, print, write};
+use super::{Course, FOLLOW, LOOP, STOP, trials};
+use crate::sampling::write_csv;
+use crate::{Done, print};
 use indicatif::ProgressBar;
 use paracosm::oracles::Verdict;
 use paracosm::{Study, Trial};
@@ -46,16 +47,17 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
 }
 
 /// A row for each test of each driver.
-fn table(path: &Path, driven: &[(&str, Vec<Trial>)]) -> Result<(), Failure> {
-    let parameters: Vec<&str> = driven[0].1[0].test.iter().map(|(name, _)| name).collect();
-    let mut rows = vec![format!("{},driver,verdict,violated,travelled", parameters.join(","))];
+fn table(path: &Path, driven: &[(&str, Vec<Trial>)]) -> Done {
+    let parameters = driven[0].1[0].test.iter().map(|(name, _)| name.to_string());
+    let columns = ["driver", "verdict", "violated", "travelled"].map(str::to_owned);
+    let mut rows = vec![parameters.chain(columns).collect()];
     for (driver, trials) in driven {
         rows.extend(trials.iter().map(|trial| {
-            let values: String = trial.test.iter().map(|(_, value)| format!("{value},")).collect();
             let violated: Vec<&str> = trial.violated().collect();
             let travelled = trial.metric("travelled").map(ToString::to_string).unwrap_or_default();
-            format!("{values}{driver},{},{},{travelled}", trial.verdict, violated.join(" "))
+            let became = [(*driver).to_owned(), trial.verdict.to_string(), violated.join(" "), travelled];
+            trial.test.iter().map(|(_, value)| value.to_string()).chain(became).collect()
         }));
     }
-    write(path, rows.join("\n") + "\n")
+    write_csv(path, &rows)
 }
