@@ -1,5 +1,6 @@
 //! Drivers in a process of their own: the program of these tests, started again, serves them.
 
+use crate::cameras::can_draw;
 use crate::common::{fuzz, refused, stdout, succeeds};
 use paracosm::engine::driver::{Driver, Fault, find};
 use paracosm::engine::{Briefing, Control, Observation};
@@ -75,6 +76,9 @@ fn served_to_others() {
         if options.settings.contains_key("gain") {
             return Err(Fault("no setting `gain`".into()));
         }
+        if options.settings.contains_key("sees") {
+            return find("lane-camera").unwrap().build(&[]).map_err(|error| Fault(error.to_string()));
+        }
         Ok(Box::new(Served { aeb: find("aeb").unwrap().build(&[]).unwrap(), options: options.clone() }))
     };
     serve(TcpListener::bind(address).unwrap(), "served", make).unwrap();
@@ -144,6 +148,22 @@ fn a_campaign_over_grpc_has_the_log_of_the_same_driver_in_process_for_any_number
     assert_eq!(study("connected-1")["driver"], driver);
     let driver = json!({"name": command(), "settings": {}, "external": {"by": "command", "timeout": 60.0}});
     assert_eq!(study("started-1")["driver"], driver);
+}
+
+#[test]
+fn a_driver_that_sees_has_the_same_log_over_grpc() {
+    if !can_draw() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    let few = ["follow-leader", "--budget", "4", "--set", "leader_speed=12", "--open", "fog"];
+    succeeds(fuzz(dir, &[&few[..], &["--driver", "lane-camera", "--out", "near"]].concat()));
+    for jobs in ["1", "2"] {
+        let far = ["--set", "driver.sees=1", "--jobs", jobs];
+        succeeds(run(dir, jobs, &[&few[..], &far].concat()));
+        assert_eq!(log(dir, jobs), log(dir, "near"));
+    }
 }
 
 /// What a driver does when somebody runs at more than 8.8 m/s, and what is said of it.

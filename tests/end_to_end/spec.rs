@@ -17,6 +17,26 @@ fn trials(dir: &Path, out: &str) -> Vec<Value> {
 }
 
 #[test]
+fn runs_that_may_end_early_have_the_verdicts_of_whole_runs_and_it_is_recorded() {
+    let dir = tempfile::tempdir().unwrap();
+    let dir = dir.path();
+    let of = |out: &str, more: &[&str]| -> Vec<Value> {
+        run(dir, out, &[&["--spec", "always[0,2] (car.speed > 1)"], more].concat());
+        trials(dir, out)
+    };
+    let (whole, early) = (of("whole", &[]), of("early", &["--stop-runs-early"]));
+    for (whole, early) in whole.iter().zip(&early) {
+        assert_eq!(whole["verdict"], early["verdict"]);
+        // `no-collision` is asked of the whole run, so that it went on to its end.
+        assert_eq!(early["metrics"]["ended_early"], false);
+        assert_eq!(whole["trace_hash"], early["trace_hash"]);
+    }
+    let study: Value = serde_json::from_str(&fs::read_to_string(dir.join("early/campaign.json")).unwrap()).unwrap();
+    assert_eq!(study["stop_runs_early"], true);
+    succeeds(fuzz(dir, &["replay", "early", "0"]));
+}
+
+#[test]
 fn a_formula_is_a_further_requirement_and_changes_no_run() {
     let dir = tempfile::tempdir().unwrap();
     run(dir.path(), "plain", &[]);
