@@ -82,7 +82,7 @@ const STUDIES: &[Study] = &[
     Study {
         name: "train-stop",
         about: "teaches the network that stops for pedestrians who walk at 1 m/s, for Figure 9",
-        time: "6 min",
+        time: "10 min",
         run: |out, bar| cloning::run(&cloning::STOP, out, bar),
     },
     #[cfg(feature = "neural")]
