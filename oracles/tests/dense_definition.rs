@@ -7,7 +7,7 @@
 mod common;
 
 use common::curve::Curve;
-use common::{SIGNALS, cases};
+use common::{SIGNALS, cases, comparisons, connected};
 use paracosm_oracles::{
     Arithmetic, Comparison, Connective, Expression, Formula, Interval, Modality, Semantics, Sequence, Trace, signal,
 };
@@ -292,27 +292,13 @@ fn intervals() -> impl Strategy<Value = Interval> {
 }
 
 fn formulas() -> impl Strategy<Value = Formula> {
-    use Comparison::*;
-    let comparisons = || prop::sample::select(vec![Below, AtMost, Above, AtLeast, Equal, Different]);
     let leaf = prop_oneof![
         1 => any::<bool>().prop_map(Formula::Constant),
         8 => (prop::sample::select(&SIGNALS[..]), comparisons(), -4..=4i8)
             .prop_map(|(name, comparison, number)| signal(name).compare(comparison, f64::from(number) / 2.0)),
         6 => (expressions(), comparisons(), expressions()).prop_map(|(l, comparison, r)| l.compare(comparison, r)),
     ];
-    leaf.prop_recursive(3, 10, 2, |inner| {
-        use {Connective::*, Modality::*, Sequence::*};
-        let pair = (inner.clone(), inner.clone()).prop_map(|(l, r)| (Box::new(l), Box::new(r)));
-        let join = (prop::sample::select(vec![And, Or, Implies]), pair.clone());
-        let modal = prop::sample::select(vec![Always, Eventually, Historically, Once]);
-        let sequence = (prop::sample::select(vec![Until, Release, Since]), intervals(), pair);
-        prop_oneof![
-            1 => inner.clone().prop_map(|f| !f),
-            2 => join.prop_map(|(connective, (l, r))| Formula::Join(connective, l, r)),
-            4 => (modal, intervals(), inner).prop_map(|(modality, i, f)| Formula::Modal(modality, i, Box::new(f))),
-            5 => sequence.prop_map(|(sequence, i, (l, r))| Formula::Sequence(sequence, i, l, r)),
-        ]
-    })
+    connected(leaf, 3, intervals)
 }
 
 fn traces() -> impl Strategy<Value = Trace> {

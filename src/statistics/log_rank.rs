@@ -32,14 +32,9 @@ pub fn log_rank_p(first: &[Lifetime], second: &[Lifetime]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::survival::lifetimes;
     use super::*;
     use proptest::prelude::*;
-
-    fn lifetimes(text: &str) -> Vec<Lifetime> {
-        let of =
-            |word: &str| Lifetime { time: word.trim_end_matches('+').parse().unwrap(), happened: !word.ends_with('+') };
-        text.split(' ').map(of).collect()
-    }
 
     #[test]
     fn the_leukaemia_patients_of_freireich_have_their_published_statistic() {

@@ -59,16 +59,18 @@ impl Survival {
     }
 }
 
+/// Times as tables of patients have them: `6+` is one that is only known to be longer than 6.
+#[cfg(test)]
+pub(super) fn lifetimes(text: &str) -> Vec<Lifetime> {
+    let of =
+        |word: &str| Lifetime { time: word.trim_end_matches('+').parse().unwrap(), happened: !word.ends_with('+') };
+    text.split(' ').map(of).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
-
-    fn lifetimes(text: &str) -> Vec<Lifetime> {
-        let of =
-            |word: &str| Lifetime { time: word.trim_end_matches('+').parse().unwrap(), happened: !word.ends_with('+') };
-        text.split(' ').map(of).collect()
-    }
 
     #[test]
     fn the_leukaemia_patients_of_freireich_have_their_published_curve() {

@@ -53,7 +53,7 @@ pub fn expressions() -> impl Strategy<Value = Expression> {
     })
 }
 
-fn comparisons() -> impl Strategy<Value = Comparison> {
+pub fn comparisons() -> impl Strategy<Value = Comparison> {
     use Comparison::*;
     prop::sample::select(vec![Below, AtMost, Above, AtLeast, Equal, Different])
 }
@@ -78,7 +78,16 @@ pub fn formulas(depth: u32) -> impl Strategy<Value = Formula> {
             .prop_map(|(name, comparison, number)| signal(name).compare(comparison, f64::from(number))),
         4 => (expressions(), comparisons(), expressions()).prop_map(|(l, comparison, r)| l.compare(comparison, r)),
     ];
-    leaf.prop_recursive(depth, 12, 2, |inner| {
+    connected(leaf, depth, intervals)
+}
+
+/// Formulas of these leaves, so deep, with these windows.
+pub fn connected<W: Strategy<Value = Interval> + 'static>(
+    leaf: impl Strategy<Value = Formula> + 'static,
+    depth: u32,
+    intervals: fn() -> W,
+) -> impl Strategy<Value = Formula> {
+    leaf.prop_recursive(depth, 12, 2, move |inner| {
         use {Connective::*, Modality::*, Sequence::*};
         let pair = (inner.clone(), inner.clone()).prop_map(|(l, r)| (Box::new(l), Box::new(r)));
         let join = (prop::sample::select(vec![And, Or, Implies]), pair.clone());
