@@ -44,8 +44,9 @@ const FAR: f32 = 32.0;
 
 /// A car as a chassis and four wheels on joints.
 ///
-/// It can tip over, where friction is higher than half of the track by the height of the centre of gravity. Its body
-/// touches nothing, so that there the model ends: its state becomes no number.
+/// It can tip over: in a bend where friction is higher than half of the track by the height of the centre of gravity, and
+/// at two thirds of that in the worst of spins, where the road pushes it to one side just after the other and the body
+/// rolls further than it would stand. Its body touches nothing, so that there the model ends: its state becomes no number.
 pub struct Jointed {
     vehicle: Vehicle,
     state: VehicleState,
