@@ -29,7 +29,7 @@ const REQUIREMENTS: [(&str, &str); 5] = [
 ];
 
 /// Where tests come from: `random-corners` is the control.
-const STRATEGIES: [Strategy; 10] = [
+const STRATEGIES: [Strategy; 11] = [
     Strategy::Random,
     Strategy::Halton,
     Strategy::RandomCorners,
@@ -37,6 +37,7 @@ const STRATEGIES: [Strategy; 10] = [
     Strategy::Pso,
     Strategy::NelderMead,
     Strategy::Cmaes,
+    Strategy::GpCmaes,
     Strategy::Bayes,
     Strategy::Boundary,
     Strategy::Auto,

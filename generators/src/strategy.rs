@@ -58,6 +58,8 @@ pub enum Strategy {
     NelderMead,
     /// CMA-ES with restarts (BIPOP) on the robustness.
     Cmaes,
+    /// CMA-ES whose samples a Gaussian process chooses from.
+    GpCmaes,
     /// Bayesian optimisation of the robustness in a trust region.
     Bayes,
     /// The boundary between passing and failing, by a Gaussian process.
@@ -133,7 +135,7 @@ impl<'a> Request<'a> {
 
 impl Strategy {
     /// All strategies.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Random,
         Self::RandomCorners,
         Self::Halton,
@@ -151,6 +153,7 @@ impl Strategy {
         Self::Pso,
         Self::NelderMead,
         Self::Cmaes,
+        Self::GpCmaes,
         Self::Bayes,
         Self::Boundary,
         Self::Auto,
@@ -176,6 +179,7 @@ impl Strategy {
             Self::Pso => "pso",
             Self::NelderMead => "nelder-mead",
             Self::Cmaes => "cmaes",
+            Self::GpCmaes => "gp-cmaes",
             Self::Bayes => "bayes",
             Self::Boundary => "boundary",
             Self::Auto => "auto",
@@ -204,9 +208,12 @@ impl Strategy {
             Self::Pso => "swarms drawn to the worst tests so far: rough robustness, many tests at a time",
             Self::NelderMead => "simplices downhill to a failure: few parameters and a robustness that slopes",
             Self::Cmaes => "a distribution that learns where failures lie: hundreds of tests, narrow valleys",
+            Self::GpCmaes => {
+                "cmaes with a model that chooses from its samples: the fewest tests to a failure nearly everywhere"
+            }
             Self::Bayes => "a model of the robustness says which test is likely to fail: few, costly tests",
             Self::Boundary => "a model says where passing turns into failing: maps the border instead of one failure",
-            Self::Auto => "bayes, nelder-mead and cmaes side by side, learning from each other: where nothing is known",
+            Self::Auto => "gp-cmaes, bayes and nelder-mead side by side, learning from each other: where nothing is known",
         }
     }
 
@@ -244,7 +251,14 @@ impl Strategy {
     pub fn is_adaptive(self) -> bool {
         matches!(
             self,
-            Self::Anneal | Self::Pso | Self::NelderMead | Self::Cmaes | Self::Bayes | Self::Boundary | Self::Auto
+            Self::Anneal
+                | Self::Pso
+                | Self::NelderMead
+                | Self::Cmaes
+                | Self::GpCmaes
+                | Self::Bayes
+                | Self::Boundary
+                | Self::Auto
         )
     }
 

@@ -44,12 +44,13 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 
 /// The strategies of a bench where nothing is said: chance, the paper's choice, random corners as a control, and what goes by robustness.
-pub const USUAL: [Strategy; 7] = [
+pub const USUAL: [Strategy; 8] = [
     Strategy::Random,
     Strategy::Halton,
     Strategy::RandomCorners,
     Strategy::NelderMead,
     Strategy::Cmaes,
+    Strategy::GpCmaes,
     Strategy::Bayes,
     Strategy::Auto,
 ];

@@ -23,6 +23,7 @@ pub(crate) fn look(strategy: Strategy) -> Look {
         Strategy::Pso => (0xf0_8080, Shape::Square, false),
         Strategy::NelderMead => (0xf0_8080, Shape::Triangle, false),
         Strategy::Cmaes => (0xa0_1c1c, Shape::Diamond, true),
+        Strategy::GpCmaes => (0xa0_1c1c, Shape::Diamond, false),
         Strategy::Bayes => (0x7b_3294, Shape::Circle, true),
         Strategy::Boundary => (0x7b_3294, Shape::Circle, false),
         Strategy::Auto => (0x7b_3294, Shape::Diamond, true),

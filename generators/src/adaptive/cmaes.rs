@@ -10,9 +10,12 @@
 //! the cube, so that its corners are tested as such. Discrete ones are sampled from a probability of each level, which
 //! moves to the levels of the better half as the mean does and never falls below a floor (estimation of distribution,
 //! as in Hamano et al., "CatCMA", GECCO 2024, without its natural gradient).
+//!
+//! Every sample is tested, or those that a model chooses (`preselection`).
 
 use super::cube::{Axis, level, middle};
 use super::evolution::{Evolution, default_lambda};
+use super::preselection::Preselection;
 use super::{Search, Trial, anywhere};
 use nalgebra::DMatrix;
 use rand::Rng;
@@ -33,6 +36,7 @@ pub(super) struct Cmaes {
     dims: usize,
     /// How the first steps of a run vary along the continuous axes.
     covariance: DMatrix<f64>,
+    preselection: Option<Preselection>,
     run: Option<Run>,
     /// How many runs had a large population, and what each kind has spent.
     doubled: u32,
@@ -62,8 +66,24 @@ struct Sample {
 
 impl Cmaes {
     pub(super) fn new(axes: Vec<Axis>, covariance: DMatrix<f64>, rng: Pcg64) -> Self {
-        let dims = covariance.nrows();
-        Self { axes, dims, covariance, run: None, doubled: 0, spent: [0; 2], best: None, proposals: 0, rng }
+        let (dims, preselection) = (covariance.nrows(), None);
+        Self {
+            axes,
+            dims,
+            covariance,
+            preselection,
+            run: None,
+            doubled: 0,
+            spent: [0; 2],
+            best: None,
+            proposals: 0,
+            rng,
+        }
+    }
+
+    /// The search that tests those of its samples that a Gaussian process chooses.
+    pub(super) fn preselected(axes: Vec<Axis>, covariance: DMatrix<f64>, rng: Pcg64) -> Self {
+        Self { preselection: Some(Preselection::new(axes.clone())), ..Self::new(axes, covariance, rng) }
     }
 
     fn start(&mut self) -> Run {
@@ -155,18 +175,26 @@ impl Search for Cmaes {
             self.run = Some(self.start());
         }
         let run = self.run.as_mut().expect("one was started");
-        let places: Vec<Vec<f64>> = (run.generation.len()..run.evolution.lambda())
-            .take(n)
-            .map(|_| {
-                run.generation.push(Sample { proposal: self.proposals, told: None });
-                self.proposals += 1;
-                run.sample(&mut self.rng)
-            })
-            .collect();
+        let missing = run.evolution.lambda() - run.generation.len();
+        let places: Vec<Vec<f64>> = match &mut self.preselection {
+            None => (0..missing.min(n)).map(|_| run.sample(&mut self.rng)).collect(),
+            Some(preselection) => {
+                let out = run.generation.iter().filter(|sample| sample.told.is_none()).count();
+                let n = missing.min(n).min(preselection.room(out));
+                preselection.choose(n, self.best.as_ref(), || run.sample(&mut self.rng))
+            }
+        };
+        for _ in &places {
+            run.generation.push(Sample { proposal: self.proposals, told: None });
+            self.proposals += 1;
+        }
         places
     }
 
     fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+        if let Some(preselection) = &mut self.preselection {
+            preselection.learn(proposal, trial);
+        }
         if self.best.as_ref().is_none_or(|best| trial.cost() < best.cost()) {
             self.best = Some(trial.clone());
         }

@@ -25,6 +25,7 @@ mod fit;
 mod log_ei;
 mod nelder_mead;
 mod opening;
+mod preselection;
 mod process;
 mod pso;
 mod region;
@@ -138,6 +139,7 @@ impl Adaptive {
             Strategy::Pso => Box::new(pso::pso(axes, rng)),
             Strategy::NelderMead => Box::new(nelder_mead::nelder_mead(axes, rng)),
             Strategy::Cmaes => Box::new(cmaes::Cmaes::new(axes, signals::covariance(request.space), rng)),
+            Strategy::GpCmaes => Box::new(cmaes::Cmaes::preselected(axes, signals::covariance(request.space), rng)),
             Strategy::Bayes => Box::new(bayes::Bayes::new(axes, rng)),
             Strategy::Boundary => Box::new(boundary::Boundary::new(axes, rng)),
             Strategy::Auto => Box::new(auto::Auto::new(axes, signals::covariance(request.space), rng)),

@@ -1,0 +1,66 @@
+//! Which samples of a distribution are worth a test: a Gaussian process chooses a few of many.
+//!
+//! An evolution strategy learns from the ranks of a generation, and most of its samples only tell it what tests nearby have
+//! told before. So it draws many times as many as it tests, and of these are tested those with the greatest logarithm of
+//! the expected improvement (`log_ei`) by the tests so far: individual-based evolution control, as in Jin, "A comprehensive
+//! survey of fitness approximation in evolutionary computation" (2005), and for CMA-ES Pitra, Bajer and Holeňa (PPSN 2016). The distribution keeps the model near what has been tested, the model the distribution from
+//! testing what it knows.
+//!
+//! A generation is tested in parts, so that the later samples are chosen by what came of the earlier ones.
+
+use super::Trial;
+use super::bend::Bend;
+use super::cube::Axis;
+use super::log_ei::log_expected_improvement;
+use super::surrogate::{Surrogate, View, snapped};
+
+/// How many samples are drawn for each that is tested.
+const DRAWN: usize = 32;
+
+/// How many tests are out at a time.
+const PART: usize = 4;
+
+/// The model that chooses.
+pub(super) struct Preselection {
+    axes: Vec<Axis>,
+    surrogate: Surrogate,
+}
+
+impl Preselection {
+    pub(super) fn new(axes: Vec<Axis>) -> Self {
+        Self { surrogate: Surrogate::new(axes.clone()), axes }
+    }
+
+    /// How many more tests there may be while so many are out.
+    pub(super) fn room(&self, out: usize) -> usize {
+        PART.saturating_sub(out)
+    }
+
+    /// The `n` samples from which most is expected beyond the best test so far; where nothing is known, or few
+    /// different ones are drawn, any.
+    pub(super) fn choose(
+        &mut self,
+        n: usize,
+        best: Option<&Trial>,
+        mut sample: impl FnMut() -> Vec<f64>,
+    ) -> Vec<Vec<f64>> {
+        let mut samples: Vec<Vec<f64>> = (0..DRAWN * n).map(|_| snapped(&self.axes, sample())).collect();
+        let any = samples.split_off((DRAWN - 1) * n);
+        let known = best.and_then(|best| Some((&best.at, best.robustness?)));
+        let mut places = known.map_or_else(Vec::new, |(at, robustness)| {
+            let worth = |bend: Bend, mean, deviation, runs| {
+                log_expected_improvement(bend.apply(robustness), mean, deviation) + libm::log(runs)
+            };
+            self.surrogate.choose(n, View::Near(at), samples, worth)
+        });
+        let missing = n - places.len();
+        self.surrogate.send(&any[..missing]);
+        places.extend_from_slice(&any[..missing]);
+        places
+    }
+
+    /// How a test went: its own of a number, or one from elsewhere.
+    pub(super) fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+        self.surrogate.learn(proposal, trial);
+    }
+}
