@@ -213,7 +213,9 @@ impl Strategy {
             }
             Self::Bayes => "a model of the robustness says which test is likely to fail: few, costly tests",
             Self::Boundary => "a model says where passing turns into failing: maps the border instead of one failure",
-            Self::Auto => "gp-cmaes, bayes and nelder-mead side by side, learning from each other: where nothing is known",
+            Self::Auto => {
+                "gp-cmaes, bayes and nelder-mead side by side, learning from each other: where nothing is known"
+            }
         }
     }
 

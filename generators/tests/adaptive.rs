@@ -99,7 +99,7 @@ fn a_narrow_valley_is_followed_to_its_end() {
         let (a, b) = (4.0 * test.continuous[0] - 2.0, 4.0 * test.continuous[1] - 1.0);
         100.0 * (b - a * a) * (b - a * a) + (1.0 - a) * (1.0 - a) - 0.04
     };
-    for strategy in [Strategy::NelderMead, Strategy::Bayes, Strategy::Boundary, Strategy::Auto] {
+    for strategy in [Strategy::NelderMead, Strategy::GpCmaes, Strategy::Bayes, Strategy::Boundary, Strategy::Auto] {
         let tests = first_failures(strategy, &space, valley);
         assert!(tests[6] < BUDGET, "{strategy}: {tests:?}");
     }
@@ -134,21 +134,34 @@ fn where_nothing_is_continuous_the_one_failing_row_in_a_thousand_is_found_by_its
     let space = with_words(0, &[4, 4, 4, 4, 4]);
     let robustness =
         |test: &Point| test.discrete.iter().zip([1, 3, 0, 2, 2]).filter(|(a, b)| **a != *b).count() as f64 - 0.5;
-    for strategy in [Strategy::Anneal, Strategy::Cmaes, Strategy::Bayes, Strategy::Boundary, Strategy::Auto] {
+    let strategies =
+        [Strategy::Anneal, Strategy::Cmaes, Strategy::GpCmaes, Strategy::Bayes, Strategy::Boundary, Strategy::Auto];
+    for strategy in strategies {
         let tests = first_failures(strategy, &space, robustness);
         assert!(tests[5] < 200, "{strategy}: {tests:?}");
     }
 }
 
 #[test]
-fn bayes_learns_where_tests_end_in_errors_and_keeps_away() {
+fn models_learn_where_tests_end_in_errors_and_keep_away() {
     let space = Space::unit_cube(3);
     let robustness = |test: &Point| (test.continuous[0] < 0.6).then(|| distance(test, &[0.55, 0.5, 0.5]));
-    let tests = run(Strategy::Bayes, &space, 1, 150, robustness);
-    let errors = tests[50..].iter().filter(|test| test.1.is_none()).count();
-    assert!(errors <= 30, "{errors} of 100 tests ended in an error");
-    let best = tests.iter().filter_map(|test| test.1).fold(f64::INFINITY, f64::min);
-    assert!(best < 0.02, "{best}");
+    for strategy in [Strategy::Bayes, Strategy::GpCmaes] {
+        let tests = run(strategy, &space, 1, 150, robustness);
+        let errors = tests[50..].iter().filter(|test| test.1.is_none()).count();
+        assert!(errors <= 30, "{strategy}: {errors} of 100 tests ended in an error");
+        let best = tests.iter().filter_map(|test| test.1).fold(f64::INFINITY, f64::min);
+        assert!(best < 0.02, "{strategy}: {best}");
+    }
+}
+
+#[test]
+fn samples_that_a_model_chooses_find_a_failure_in_half_the_tests_of_all_samples() {
+    let space = Space::unit_cube(5);
+    let robustness = |test: &Point| distance(test, &[0.35, 0.6, 0.45, 0.7, 0.3]) - 0.18;
+    let tests = |strategy| first_failures(strategy, &space, robustness).iter().sum::<usize>();
+    let (all, chosen) = (tests(Strategy::Cmaes), tests(Strategy::GpCmaes));
+    assert!(2 * chosen < all, "{chosen}, of all samples {all}");
 }
 
 #[test]

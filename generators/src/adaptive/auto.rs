@@ -96,3 +96,33 @@ impl Search for Auto {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_others_choose_in_proportion_to_the_leader_however_many_tests_are_asked_for() {
+        for n in [1, 3, 16] {
+            let mut auto = Auto::new(vec![Axis::Continuous; 2], DMatrix::identity(2, 2), seeded(1, Purpose::Search, 0));
+            let robustness = |at: &[f64]| Some(1.0 + at[0] + at[1] * at[1]);
+            for at in [[0.3, 0.2], [0.7, 0.9], [0.5, 0.4]] {
+                auto.learn(None, &Trial { at: at.into(), robustness: robustness(&at) });
+            }
+            let mut told = 0;
+            while told < 100 {
+                let places = auto.propose(n);
+                assert!((1..=n).contains(&places.len()));
+                for at in places {
+                    auto.learn(Some(told), &Trial { robustness: robustness(&at), at });
+                    told += 1;
+                }
+            }
+            let [led, bayes, simplices] = [0, 1, 2].map(|member| auto.members[member].proposals as f64);
+            assert!(
+                (bayes - 0.5 * led).abs() < 4.0 && (simplices - 0.1 * led).abs() < 2.0,
+                "{led} {bayes} {simplices}"
+            );
+        }
+    }
+}

@@ -64,3 +64,35 @@ impl Preselection {
         self.surrogate.learn(proposal, trial);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::seeded::{Purpose, seeded};
+    use rand::Rng;
+
+    #[test]
+    fn it_chooses_near_the_failure_among_samples_from_everywhere_and_none_twice() {
+        let mut preselection = Preselection::new(vec![Axis::Continuous; 2]);
+        let robustness = |at: &[f64]| (at[0] - 0.8) * (at[0] - 0.8) + (at[1] - 0.3) * (at[1] - 0.3);
+        let mut rng = seeded(1, Purpose::Search, 0);
+        let mut trials = Vec::new();
+        for index in 0..25 {
+            let at = vec![0.1 + 0.2 * f64::from(index % 5), 0.1 + 0.2 * f64::from(index / 5)];
+            trials.push(Trial { robustness: Some(robustness(&at)), at });
+            preselection.learn(None, &trials[index as usize]);
+        }
+        let best = trials.iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));
+        let chosen = preselection.choose(4, best, || vec![rng.random(), rng.random()]);
+        assert_eq!(chosen.len(), 4);
+        assert!(chosen.iter().all(|at| robustness(at) < 0.04), "{chosen:?}");
+        assert!((1..4).all(|index| !chosen[..index].contains(&chosen[index])));
+    }
+
+    #[test]
+    fn where_nothing_is_known_any_samples_will_do() {
+        let mut preselection = Preselection::new(vec![Axis::Nominal(3)]);
+        assert_eq!(preselection.choose(3, None, || vec![0.5]), [[0.5], [0.5], [0.5]]);
+        assert_eq!([0, 3, 4, 9].map(|out| preselection.room(out)), [4, 1, 0, 0]);
+    }
+}
