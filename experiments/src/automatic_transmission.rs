@@ -1,5 +1,5 @@
 //! After how many simulations each strategy falsifies the automatic transmission: five requirements of the benchmark, 30
-//! seeds each, in batches as campaigns have them. A run without a failure counts as all that it may take.
+//! seeds each, in batches as campaigns have them, and one at a time. A run without a failure counts as all that it may take.
 
 use crate::transmission::{SAMPLES_PER_SECOND, run as simulate};
 use crate::{Done, print, system, write};
@@ -16,8 +16,8 @@ const SPACE: &str = include_str!("../systems/automatic-transmission.toml");
 /// How many simulations a run may take.
 const BUDGET: usize = 300;
 const SEEDS: u64 = 30;
-/// How many tests an adaptive strategy is asked for at a time, as in a campaign.
-const BATCH: usize = 16;
+/// How many tests an adaptive strategy is asked for at a time: as in a campaign, and as few as can be.
+const BATCHES: [usize; 2] = [16, 1];
 
 /// The requirements by their names in the benchmark.
 const REQUIREMENTS: [(&str, &str); 5] = [
@@ -49,19 +49,21 @@ type Runs = Vec<Option<usize>>;
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let space = Space::from_toml(SPACE)?;
-    bar.set_length((REQUIREMENTS.len() * STRATEGIES.len()) as u64 * SEEDS);
-    let mut table = String::from("requirement,strategy,seed,simulations\n");
+    let ways: Vec<(usize, Strategy)> = ways().collect();
+    bar.set_length((REQUIREMENTS.len() * ways.len()) as u64 * SEEDS);
+    let mut table = String::from("requirement,strategy,batch,seed,simulations\n");
     for (name, formula) in REQUIREMENTS {
         let formula: Formula = formula.parse()?;
         bar.suspend(|| {
-            print(&format!("{name}: {formula}\n  {:<16}{:>8}{:>8}{:>8}\n", "strategy", "mean", "median", "found"))
+            let [strategy, batch, mean, median, found] = ["strategy", "batch", "mean", "median", "found"];
+            print(&format!("{name}: {formula}\n  {strategy:<16}{batch:>8}{mean:>8}{median:>8}{found:>8}\n"))
         })?;
-        for strategy in STRATEGIES {
+        for &(batch, strategy) in &ways {
             let seeds: Vec<u64> = (0..SEEDS).collect();
             let runs: Result<Runs, _> = seeds
                 .into_par_iter()
                 .map(|seed| {
-                    let first = first_failure(&space, &formula, strategy, seed);
+                    let first = first_failure(&space, &formula, strategy, batch, seed);
                     bar.inc(1);
                     first
                 })
@@ -69,23 +71,31 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
             let runs = runs?;
             for (seed, run) in runs.iter().enumerate() {
                 let simulations = run.map_or_else(String::new, |run| run.to_string());
-                table += &format!("{name},{},{seed},{simulations}\n", strategy.name());
+                table += &format!("{name},{},{batch},{seed},{simulations}\n", strategy.name());
             }
-            bar.suspend(|| print(&line(strategy.name(), &runs)))?;
+            bar.suspend(|| print(&line(strategy.name(), batch, &runs)))?;
         }
     }
     bar.finish_and_clear();
     write(&out.join("simulations.csv"), &table)
 }
 
+/// Every strategy in batches as in a campaign; those that the size of a batch makes a difference to with the others as well.
+fn ways() -> impl Iterator<Item = (usize, Strategy)> {
+    let matters = |batch: usize, strategy: Strategy| batch == BATCHES[0] || strategy.is_adaptive();
+    BATCHES.into_iter().flat_map(move |batch| {
+        STRATEGIES.into_iter().filter(move |&strategy| matters(batch, strategy)).map(move |strategy| (batch, strategy))
+    })
+}
+
 /// Mean and median, and in how many runs there was a failure.
-fn line(name: &str, runs: &[Option<usize>]) -> String {
+fn line(name: &str, batch: usize, runs: &[Option<usize>]) -> String {
     let found = runs.iter().flatten().count();
     let mut counts: Vec<usize> = runs.iter().map(|run| run.unwrap_or(BUDGET)).collect();
     counts.sort_unstable();
     let mean = counts.iter().sum::<usize>() as f64 / counts.len() as f64;
     let median = (counts[(counts.len() - 1) / 2] + counts[counts.len() / 2]) as f64 / 2.0;
-    format!("  {name:<16}{mean:>8.1}{median:>8.1}{:>8}\n", format!("{found}/{}", counts.len()))
+    format!("  {name:<16}{batch:>8}{mean:>8.1}{median:>8.1}{:>8}\n", format!("{found}/{}", counts.len()))
 }
 
 /// After how many simulations the first one fails, if any does within the budget.
@@ -93,12 +103,13 @@ fn first_failure(
     space: &Space,
     formula: &Formula,
     strategy: Strategy,
+    batch: usize,
     seed: u64,
 ) -> Result<Option<usize>, Box<dyn std::error::Error + Send + Sync>> {
     let mut generator = strategy.build(&Request { seed: Some(seed), ..Request::new(space, BUDGET) })?;
     let mut done = 0;
     while done < BUDGET {
-        let tests = generator.ask(BATCH.min(BUDGET - done));
+        let tests = generator.ask(batch.min(BUDGET - done));
         if tests.is_empty() {
             break;
         }
@@ -149,6 +160,7 @@ mod tests {
 
     #[test]
     fn a_run_without_a_failure_counts_as_the_whole_budget() {
-        assert_eq!(line("x", &[Some(10), None]), format!("  {:<16}{:>8}{:>8}{:>8}\n", "x", "155.0", "155.0", "1/2"));
+        let expected = format!("  {:<16}{:>8}{:>8}{:>8}{:>8}\n", "x", 16, "155.0", "155.0", "1/2");
+        assert_eq!(line("x", 16, &[Some(10), None]), expected);
     }
 }

@@ -7,7 +7,9 @@
 //! pieces of a signal at different ends, of an array of all coordinates; but only of up to seven of these, as of more eight
 //! corners tell too little. Which are tested first is up to the seed. Then follow points of the shifted
 //! Halton sequence, three more than there are continuous parameters but from 4 to 16, and as many more as it takes to see up
-//! to 32 rows of the discrete family, which the tests take in turn. The opening is at most a third of the budget.
+//! to 32 rows of the discrete family, which the tests take in turn, in an order that the seed decides as well: a family
+//! begins with the first levels of all parameters, and failures may lie with the last. The opening is at most a third of the
+//! budget.
 //!
 //! Signals count as one parameter here too: what many points in many coordinates tell a search of does not make up for the
 //! tests that they take (experiments/automatic-transmission.md).
@@ -33,6 +35,8 @@ const MOST_ROWS: usize = 32;
 /// The points to begin with, and the low-dispersion points that go on after them.
 pub(super) struct Opening {
     family: Family,
+    /// The first rows of the family, shuffled.
+    rows: Vec<u64>,
     halton: Halton,
     corners: Vec<Vec<f64>>,
     len: usize,
@@ -45,9 +49,10 @@ impl Opening {
         let seed = request.seed.unwrap_or(0);
         let corners = if dims == 0 { Vec::new() } else { corners(request, seed) };
         let points = if dims == 0 { 0 } else { (parameters(&owners(request)).len() + 3).clamp(4, 16) };
-        let rows = family.len().min(MOST_ROWS as u64) as usize;
-        let len = (corners.len() + points).max(rows).min(request.budget.div_ceil(3));
-        Self { family, halton: Halton::new(dims, Some(seed)), corners, len, next: 0 }
+        let mut rows: Vec<u64> = (0..family.len().min(MOST_ROWS as u64)).collect();
+        shuffle(&mut rows, &mut seeded(seed, Purpose::Corners, 1));
+        let len = (corners.len() + points).max(rows.len()).min(request.budget.div_ceil(3));
+        Self { family, rows, halton: Halton::new(dims, Some(seed)), corners, len, next: 0 }
     }
 
     /// Whether all of the opening has been proposed.
@@ -63,7 +68,9 @@ impl Opening {
             Some(corner) => corner.clone(),
             None => self.halton.point((index - self.corners.len()) as u64 + 1),
         };
-        Point { continuous, discrete: self.family.row(index as u64 % self.family.len()) }
+        let row = index as u64 % self.family.len();
+        let row = self.rows.get(row as usize).copied().unwrap_or(row);
+        Point { continuous, discrete: self.family.row(row) }
     }
 }
 
@@ -96,11 +103,15 @@ fn corners(request: &Request, seed: u64) -> Vec<Vec<f64>> {
             }
         }
     }
-    let mut rng = seeded(seed, Purpose::Corners, 0);
-    for last in (1..corners.len()).rev() {
-        corners.swap(last, rng.random_range(0..=last));
-    }
+    shuffle(&mut corners, &mut seeded(seed, Purpose::Corners, 0));
     corners
+}
+
+/// A random order (Fisher and Yates).
+fn shuffle<T>(all: &mut [T], rng: &mut impl Rng) {
+    for last in (1..all.len()).rev() {
+        all.swap(last, rng.random_range(0..=last));
+    }
 }
 
 /// Whether a parameter is at its upper end: the columns are all sums modulo 2 of three that are independent. Beyond seven
@@ -167,5 +178,21 @@ mod tests {
             assert!(corner[..5].iter().all(|&end| end == corner[0]));
             assert!(corner[5..].iter().all(|&end| end == corner[5]));
         }
+    }
+    #[test]
+    fn the_first_rows_of_a_family_are_all_tested_and_the_seed_says_which_first() {
+        let text =
+            "parameter = [{ name = \"speed\", interval = [0, 20] }, { name = \"overlap\", choice = [1, 2, 3, 4, 5] },
+            { name = \"leader\", choice = [\"stands\", \"drives\", \"brakes\"] }]";
+        let space = Space::from_toml(text).unwrap();
+        let rows = |seed| -> Vec<Vec<usize>> {
+            let request = Request { seed: Some(seed), ..Request::new(&space, 100) };
+            let family = Family::new(&space.rules().unwrap(), &request).unwrap();
+            let mut opening = Opening::new(&request, family);
+            (0..opening.len).map(|_| opening.next().discrete).collect()
+        };
+        assert_eq!(rows(1).into_iter().collect::<BTreeSet<_>>().len(), 15);
+        let first: BTreeSet<_> = (0..40).map(|seed| rows(seed)[0].clone()).collect();
+        assert!(first.len() > 10, "{first:?}");
     }
 }
