@@ -33,6 +33,7 @@ pub mod functions;
 mod greedy;
 mod independent;
 mod mixed;
+mod request;
 mod seeded;
 mod sequence;
 mod spread;
@@ -43,7 +44,8 @@ pub use bandit::Bandit;
 pub use error::GeneratorError;
 pub use family::DiscreteFamily;
 pub use greedy::Aim;
-pub use strategy::{Request, Strategy};
+pub use request::Request;
+pub use strategy::Strategy;
 
 use paracosm_coverage::Point;
 
