@@ -62,13 +62,14 @@ impl Answer {
     }
 }
 
-/// The line with `null` for what is no finite number outside of words.
+/// The line with infinities as JSON can have them, and with `null` for NaN, outside of words.
 fn without_nan(text: &str) -> String {
     let parts = text.split('"').enumerate().map(|(place, part)| {
         if place % 2 == 1 {
             return part.to_owned();
         }
-        ["-Infinity", "Infinity", "NaN"].iter().fold(part.to_owned(), |part, word| part.replace(word, "null"))
+        let written = [("-Infinity", r#""-inf""#), ("Infinity", r#""inf""#), ("NaN", "null")];
+        written.iter().fold(part.to_owned(), |part, (word, other)| part.replace(word, other))
     });
     parts.collect::<Vec<_>>().join("\"")
 }
@@ -172,6 +173,14 @@ impl<'de> Deserialize<'de> for Sample {
                 Ok(Sample(number))
             }
 
+            fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<Sample, E> {
+                match word {
+                    "inf" => Ok(Sample(f64::INFINITY)),
+                    "-inf" => Ok(Sample(f64::NEG_INFINITY)),
+                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(word), &self)),
+                }
+            }
+
             fn visit_unit<E>(self) -> Result<Sample, E> {
                 Ok(Sample(f64::NAN))
             }
@@ -220,6 +229,9 @@ mod tests {
         refuses("", "found `` in column 1");
         refuses("é hello", "found `é hello` in column 1");
         refuses(r#"{"index":3,"trace":{"time":[0,wrong]}}"#, "found `wrong]}}` in column 31");
+        let infinite = Answer::read(r#"{"index":3,"robustness":{"a":-Infinity,"b":Infinity}}"#, 3).unwrap();
+        let expected = [("a".to_owned(), f64::NEG_INFINITY), ("b".to_owned(), f64::INFINITY)];
+        assert!(matches!(infinite, Answer::Robustness(all) if all == expected));
         refuses(r#"{"index":3,"robustness":{"a":NaN}}"#, "the robustness of `a` is no number");
         refuses(r#"{"index":3,"robustness":{"a":"NaN"}}"#, "expected a number");
         refuses(r#"{"trace":{"time":[0,1],"a":[0,1]}}"#, "missing field `index`");

@@ -20,7 +20,7 @@ use std::thread::available_parallelism;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
-  paracosm-fuzz bench                                          seven strategies on pedestrian-crossing
+  paracosm-fuzz bench                                          eight strategies on pedestrian-crossing
   paracosm-fuzz bench --scenarios cut-in,pedestrian-crossing+friction+fog --strategies random,halton,greedy,auto
   paracosm-fuzz bench --scenarios ball5,decoy5,valley2 --reference-tests 0       functions whose failures are known
   paracosm-fuzz bench --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)' --strategies random,auto

@@ -43,7 +43,7 @@ pub(super) struct Options {
     /// Write what became of the tests in regression files to this file, which does not exist yet, as CI systems read it
     #[arg(long, value_name = "FILE.xml")]
     junit: Option<PathBuf>,
-    /// Exit with status 1 if a test violates a requirement; of regression files, if one does that is not expected to
+    /// Exit with status 1 if a test violates a requirement, expected or not
     #[arg(long)]
     fail_on_violation: bool,
     /// How to print the outcome [default: table on a terminal, json elsewhere]
