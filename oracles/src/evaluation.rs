@@ -108,6 +108,19 @@ impl Formula {
         let robustness = columns[columns.len() - 1].recorded[0].robustness();
         Ok(Some(Cause { time: at.1 as f64 * trace.dt(), part: parts[at.0], robustness }))
     }
+
+    /// The same by the samples or between them. In dense time the responsible part at the critical time is worth what the
+    /// whole is as exactly as lines can be followed to where they cross; if there are several, it is one of them.
+    ///
+    /// # Errors
+    /// As for [`evaluate_in`](Self::evaluate_in).
+    pub fn explain_in(&self, semantics: Semantics, trace: &Trace) -> Result<Option<Cause<'_>>, EvaluationError> {
+        match semantics {
+            Semantics::Sampled => self.explain(trace),
+            Semantics::Dense if trace.is_empty() => Ok(None),
+            Semantics::Dense => dense::explain(self, trace).map(Some),
+        }
+    }
 }
 
 /// The operand, and the tick of it, that the worth of a node at a tick is taken from.

@@ -274,7 +274,7 @@ fn meeting((h0, h1): (f64, f64), (g0, g1): (f64, f64)) -> f64 {
 }
 
 /// The value at an instant of the line through two points.
-fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> f64 {
+pub(super) fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> f64 {
     if time <= t0 || v0 == v1 {
         v0
     } else if time >= t1 {
