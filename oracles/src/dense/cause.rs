@@ -232,12 +232,17 @@ impl Scan<'_> {
     fn follow(&mut self, [near, far]: [Moment; 2]) {
         let ends = [near, far].map(|moment| self.worths(moment));
         let [[h0, g0], [h1, g1]] = ends;
-        let at = |share: f64| Moment::at(near.time + (far.time - near.time) * share);
+        let hair = self.hair;
+        let at = |share: f64| {
+            let time = near.time + (far.time - near.time) * share;
+            let end = [near, far].into_iter().find(|end| (time - end.time).abs() <= hair);
+            end.unwrap_or(Moment::at(time))
+        };
         // Until then the hold is above the goal.
         let meets = if g1 > h1 { (h0 - g0) / ((h0 - g0) + (g1 - h1)) } else { 1.0 };
         self.pass(ends[0], near);
         let [holds_still, goal_still] = [is_near(h0, h1), is_near(g0, g1)];
-        let lasts = (far.time - near.time).abs() > 4.0 * self.hair;
+        let lasts = (far.time - near.time).abs() > 4.0 * hair;
         if holds_still && lasts {
             self.hold(h0, at(0.5), true);
         }
