@@ -132,13 +132,13 @@ fn formulas_are_asked_of_traces_and_each_is_reported() {
 fn a_formula_may_speak_of_the_time_between_samples_and_names_the_instant_that_counts() {
     let dir = tempfile::tempdir().unwrap();
     script(dir.path(), TRACE);
-    let dense = ["--spec", "always[0.05,0.05] (speed > 0.25)", "--dense", "--budget", "30"];
+    let dense = ["--spec", "always[0.05,0.05] (speed > 0.3)", "--dense", "--budget", "30"];
     let summary = succeeds(run(dir.path(), "out", &dense));
     let trials = trials(dir.path(), "out");
     for trial in &trials {
-        let robustness = 0.5 + 0.5 * trial["test"]["x"].as_f64().unwrap() - 0.25;
+        let robustness = 0.5 + 0.5 * trial["test"]["x"].as_f64().unwrap() - 0.3;
         assert!((trial["robustness"]["spec-1"].as_f64().unwrap() - robustness).abs() < 1e-12, "{trial}");
-        let cause = json!({"critical_time.spec-1": 0.05, "critical_part.spec-1": "(speed > 0.25)"});
+        let cause = json!({"critical_time.spec-1": 0.05, "critical_part.spec-1": "(speed > 0.3)"});
         assert_eq!(trial["metrics"], if robustness < 0.0 { cause } else { json!({}) }, "{trial}");
     }
     let failed = trials.iter().filter(|trial| trial["verdict"] == "fail").count();
@@ -147,16 +147,16 @@ fn a_formula_may_speak_of_the_time_between_samples_and_names_the_instant_that_co
         serde_json::from_str(&fs::read_to_string(dir.path().join("out/campaign.json")).unwrap()).unwrap();
     assert_eq!(study["requirements"][0]["time"], "dense");
     let said: Value = serde_json::from_str(&stdout(&summary)).unwrap();
-    assert_eq!(said["worst"]["cause"], json!({"time": 0.05, "part": "(speed > 0.25)"}));
-    assert_eq!(said["modes"][0]["words"], "violates spec-1, by `(speed > 0.25)`, 0.05 s after the start");
+    assert_eq!(said["worst"]["cause"], json!({"time": 0.05, "part": "(speed > 0.3)"}));
+    assert_eq!(said["modes"][0]["words"], "violates spec-1, by `(speed > 0.3)`, 0.1 s after the start");
     let worst = said["worst"]["index"].to_string();
     let replay = stdout(&succeeds(fuzz(dir.path(), &["replay", "out", &worst, "--format", "table"])));
-    assert!(replay.contains("critical_part.spec-1  (speed > 0.25)\n"), "{replay}");
+    assert!(replay.contains("critical_part.spec-1  (speed > 0.3)\n"), "{replay}");
     // What is missing is asked in the same way, and by no other.
     let whole = log(dir.path(), "out");
     let file = dir.path().join("out/trials.jsonl");
     fs::write(&file, log_lines(&file, 11)).unwrap();
-    let sampled = run(dir.path(), "out", &["--spec", "always[0.1,0.1] (speed > 0.25)", "--budget", "30", "--resume"]);
+    let sampled = run(dir.path(), "out", &["--spec", "always[0.1,0.1] (speed > 0.3)", "--budget", "30", "--resume"]);
     refused(&sampled, &["different campaign", "`requirements`"]);
     succeeds(run(dir.path(), "out", &[&dense[..], &["--resume"]].concat()));
     assert_eq!(log(dir.path(), "out"), whole);
