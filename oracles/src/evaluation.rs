@@ -109,8 +109,8 @@ impl Formula {
         Ok(Some(Cause { time: at.1 as f64 * trace.dt(), part: parts[at.0], robustness }))
     }
 
-    /// The same by the samples or between them. In dense time the responsible part at the critical time is worth what the
-    /// whole is as exactly as lines can be followed to where they cross; if there are several, it is one of them.
+    /// The same by the samples or between them. In dense time the part is worth at that time what the whole is but for
+    /// rounding, and where two are, as lines meet, it is one of them. It takes up to twice as long as the evaluation.
     ///
     /// # Errors
     /// As for [`evaluate_in`](Self::evaluate_in).

@@ -288,6 +288,10 @@ fn a_formula_that_fits_no_trace_is_given_up_soon_and_one_that_fits_some_is_not()
         refused(&run(dir.path(), out, &["--spec", formula, "--budget", "60"]), &says);
         assert_eq!(trials(dir.path(), out).len(), 3);
     }
+    // Traces that differ may be followed by one that it fits.
+    script(dir.path(), &format!("case $i in 1) {};; *) {TRACE};; esac", TRACE.replace("[0,0.1,0.2]", "[0,0.2,0.4]")));
+    let ticks = run(dir.path(), "ticks", &["--spec", "always[0,0.05] (speed > 0)", "--budget", "6"]);
+    refused(&ticks, &["every test ended in an error"]);
     // A test that comes to nothing else is no sign that the formula fits.
     script(dir.path(), &format!("case $i in 1) echo garbage;; *) {TRACE};; esac"));
     let says = ["each of the first 4 tests", "test 0: spec-1 does not fit the trace"];
