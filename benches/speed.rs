@@ -206,6 +206,16 @@ fn dense(bencher: Bencher, formula: &str) {
     bencher.counter(ItemsCount::new(trace.len())).bench(|| formula.evaluate_in(Semantics::Dense, &trace).unwrap());
 }
 
+/// The same, with the part and the time on which the robustness depends.
+#[divan::bench(args = &FORMULAS[1..])]
+fn dense_cause(bencher: Bencher, formula: &str) {
+    let trace = wandering();
+    let formula: Formula = formula.parse().unwrap();
+    bencher
+        .counter(ItemsCount::new(trace.len()))
+        .bench(|| formula.explain_in(Semantics::Dense, &trace).unwrap().is_some());
+}
+
 /// Samples told one by one.
 #[divan::bench(args = FORMULAS)]
 fn online(bencher: Bencher, formula: &str) {

@@ -65,11 +65,13 @@ pub enum Error {
         message: String,
     },
     /// A system that others wrote did none of its first tests.
-    #[error("each of the first {tests} tests ended in an error, so the campaign was given up; the first: {why}")]
+    #[error("each of the first {tests} tests ended in an error, so the campaign was given up; test {test}: {why}")]
     Unanswered {
         /// How many tests there were.
         tests: usize,
-        /// What was wrong with the first.
+        /// The first of those that say what was wrong.
+        test: usize,
+        /// What it said.
         why: String,
     },
     /// The campaign was told to stop.

@@ -11,7 +11,8 @@ use paracosm_oracles::Verdict;
 
 /// After how many tests, all of them in error, a system is given up: it may take its time to fail.
 const GIVEN_UP: usize = 50;
-/// After how many, where a formula fits the trace of none: only some may lack a signal.
+/// After how many, where a formula fits none of their traces, all for the same reason, and will fit no other. A signal that they
+/// merely lack is no such reason: some tests may have it, and so it takes [`GIVEN_UP`] of them.
 const MISFITS: usize = 3;
 
 /// What trials have said so far.
@@ -23,9 +24,12 @@ pub struct Expected {
     first: Option<(usize, Vec<String>)>,
     /// How many there were before it, and what was wrong with the first.
     failed: usize,
-    /// How many of these had a trace that a formula does not fit.
+    why: Option<(usize, String)>,
+    /// How many of these had a trace that a formula does not fit, and what the first of them said.
     misfits: usize,
-    why: Option<String>,
+    misfit: Option<(usize, String)>,
+    /// Whether they did not all say the same.
+    vary: bool,
 }
 
 impl Expected {
@@ -35,7 +39,8 @@ impl Expected {
             Subject::Scenario(simulation) => simulation.driver.is_external(),
             Subject::System(_) => true,
         };
-        let mut expected = Self { is_external, first: None, failed: 0, misfits: 0, why: None };
+        let mut expected =
+            Self { is_external, first: None, failed: 0, why: None, misfits: 0, misfit: None, vary: false };
         trials.iter().for_each(|trial| expected.learn(trial));
         expected
     }
@@ -62,9 +67,11 @@ impl Expected {
     /// # Errors
     /// The system or the driver did none of so many tests.
     pub fn go_on(&self) -> Result<(), Error> {
-        match (&self.first, &self.why) {
-            (None, Some(why)) if self.failed >= GIVEN_UP || self.misfits == self.failed && self.failed >= MISFITS => {
-                Err(Error::Unanswered { tests: self.failed, why: why.clone() })
+        let fits_none = self.misfits >= MISFITS && !self.vary;
+        let why = self.misfit.as_ref().filter(|_| fits_none).or(self.why.as_ref());
+        match (&self.first, why) {
+            (None, Some((test, why))) if fits_none || self.failed >= GIVEN_UP => {
+                Err(Error::Unanswered { tests: self.failed, test: *test, why: why.clone() })
             }
             _ => Ok(()),
         }
@@ -78,8 +85,14 @@ impl Expected {
             self.first = Some((trial.index, requirements(trial)));
         } else {
             self.failed += 1;
-            self.misfits += usize::from(trial.error.as_deref().is_some_and(Specs::is_misfit));
-            self.why = self.why.take().or_else(|| trial.error.clone());
+            let Some(error) = &trial.error else { return };
+            let first = |known: Option<(usize, String)>| known.or_else(|| Some((trial.index, error.clone())));
+            self.why = first(self.why.take());
+            if Specs::is_misfit(error) {
+                self.misfits += 1;
+                self.misfit = first(self.misfit.take());
+                self.vary |= self.misfit.as_ref().is_some_and(|(_, misfit)| misfit != error);
+            }
         }
     }
 }

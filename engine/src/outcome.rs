@@ -1,6 +1,6 @@
 //! What a run leaves behind.
 
-use paracosm_oracles::{Formula, Trace, Verdict};
+use paracosm_oracles::{Formula, Semantics, Trace, Verdict};
 use std::fmt;
 
 /// A number, a flag or a word that describes a run.
@@ -50,14 +50,22 @@ impl Outcome {
     }
 }
 
+/// How many ticks a critical time may be away from a sample at which it is, as both are rounded.
+const SAME_TICK: f64 = 1e-6;
+
 /// Why and when the violated requirement ID came to be worth what it is: `critical_part.ID`, the sub-formula on which it
 /// depends, and `critical_time.ID` (s), at which it does; of a trace with a car, `critical_travelled.ID` (m) and
-/// `critical_speed.ID` (m/s) say how far that had come then and how fast it was. Nothing where the formula does not fit the
-/// trace.
-pub fn violation_metrics(id: &str, formula: &Formula, trace: &Trace) -> Vec<(String, Metric)> {
-    let Ok(Some(cause)) = formula.explain(trace) else { return Vec::new() };
-    let tick = (cause.time / trace.dt()).round() as usize;
-    let at = |signal: &str| trace.signal(signal).and_then(|mut samples| samples.nth(tick));
+/// `critical_speed.ID` (m/s) say how far that had come then and how fast it was. Between two samples these are on the straight
+/// line, as the formula takes them in dense time. Nothing where the formula does not fit the trace.
+pub fn violation_metrics(id: &str, formula: &Formula, semantics: Semantics, trace: &Trace) -> Vec<(String, Metric)> {
+    let Ok(Some(cause)) = formula.explain_in(semantics, trace) else { return Vec::new() };
+    let ticks = cause.time / trace.dt();
+    let ticks = if (ticks - ticks.round()).abs() <= SAME_TICK { ticks.round() } else { ticks };
+    let at = |signal: &str| {
+        let mut samples = trace.signal(signal)?.skip(ticks as usize);
+        let (before, after) = (samples.next()?, samples.next());
+        Some(after.filter(|_| ticks.fract() > 0.0).map_or(before, |after| before + (after - before) * ticks.fract()))
+    };
     let numbers = [
         ("critical_time", Some(cause.time)),
         ("critical_travelled", at("car.travelled")),

@@ -45,6 +45,18 @@ pub enum EvaluationError {
 }
 
 impl EvaluationError {
+    /// Whether the formula will fit other traces of the same source no better. A signal that one trace lacks another may
+    /// have, unless one that is there is called the same but for a slip of the pen.
+    pub fn fits_no_trace(&self) -> bool {
+        match self {
+            EvaluationError::UnknownSignal { name, nearest } => {
+                nearest.as_ref().is_some_and(|nearest| is_slip(name, nearest))
+            }
+            EvaluationError::NoValue { .. } => false,
+            EvaluationError::TimeBound { .. } | EvaluationError::NotLinear(_) | EvaluationError::Interval(_) => true,
+        }
+    }
+
     pub(crate) fn unknown(name: &str, signals: &[String]) -> Self {
         let nearest = nearest(name, signals.iter().map(String::as_str)).map(str::to_owned);
         EvaluationError::UnknownSignal { name: name.to_owned(), nearest }
@@ -63,6 +75,58 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
         .map(|(_, candidate)| candidate)
 }
 
+/// Whether one name is written for the other: with other capitals or separators, or in one word with two letters swapped, or
+/// with one that is wrong, missing or too many between its first and its last. What differs by a digit or at the edge of a word,
+/// as `car1` and `car2`, `gap_l` and `gap_r` do, are names of two things.
+fn is_slip(name: &str, other: &str) -> bool {
+    let [name, other] = [name, other].map(str::to_lowercase);
+    let words = |name: &str| -> Vec<String> {
+        name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).map(str::to_owned).collect()
+    };
+    let [words, others] = [words(&name), words(&other)];
+    if words.concat() == others.concat() {
+        return true;
+    }
+    let mut differing = words.iter().zip(&others).filter(|(word, other)| word != other);
+    let (Some((word, other)), None) = (differing.next(), differing.next()) else { return false };
+    let letters = |word: &str| {
+        let mut letters: Vec<char> = word.chars().collect();
+        letters.sort_unstable();
+        letters
+    };
+    let digits = |word: &str| -> String { word.chars().filter(char::is_ascii_digit).collect() };
+    let edges = |word: &str| (word.chars().next(), word.chars().next_back());
+    words.len() == others.len()
+        && digits(word) == digits(other)
+        && strsim::damerau_levenshtein(word, other) == 1
+        && (letters(word) == letters(other) || edges(word) == edges(other))
+}
+
 fn did_you_mean(nearest: &Option<String>) -> String {
     nearest.as_ref().map(|name| format!(" (did you mean `{name}`?)")).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_of_the_pen_is_told_from_the_name_of_another_thing() {
+        let slips = [("rmp", "rpm"), ("sped", "speed"), ("car.speeed", "car.speed"), ("Car.Speed", "car.speed")];
+        for (name, other) in slips.into_iter().chain([("carspeed", "car.speed"), ("lead_distence", "lead_distance")]) {
+            assert!(is_slip(name, other), "{name} {other}");
+        }
+        for (name, other) in [
+            ("car1.speed", "car2.speed"),
+            ("a.speed", "b.speed"),
+            ("car.x", "car.y"),
+            ("gap_l", "gap_r"),
+            ("car", "cars"),
+            ("lead.speed", "car.speed"),
+            ("car.sped.x", "car.speed"),
+            ("velocity", "speed"),
+        ] {
+            assert!(!is_slip(name, other), "{name} {other}");
+        }
+    }
 }

@@ -198,3 +198,12 @@ proptest! {
         prop_assert!(early.lower <= late.lower + nothing && late.upper <= early.upper + nothing, "{}", formula);
     }
 }
+
+#[test]
+fn where_one_rises_as_another_falls_at_one_instant_nothing_between_is_seen() {
+    let mut trace = Trace::new(1.0, vec!["x".into(), "y".into(), "z".into()]);
+    (0..3).for_each(|_| trace.record(&[0.0, 1.0, 0.0]));
+    trace.finish();
+    let text = "always ((x > 0 or once[1,1] (y > 0)) or ((x > -1) and historically[1,1] (z > 0)))";
+    assert_eq!(dense(text, &trace).unwrap().robustness, 1.0);
+}

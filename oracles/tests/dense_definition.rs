@@ -6,14 +6,11 @@
 
 mod common;
 
+use common::cases;
 use common::curve::Curve;
-use common::{SIGNALS, cases, comparisons, connected};
-use paracosm_oracles::{
-    Arithmetic, Comparison, Connective, Expression, Formula, Interval, Modality, Semantics, Sequence, Trace, signal,
-};
+use common::dense::{TOLERANCE, end, formulas, margin, traces};
+use paracosm_oracles::{Connective, Formula, Interval, Modality, Semantics, Sequence, Trace};
 use proptest::prelude::*;
-
-const TOLERANCE: f64 = 1e-6;
 
 /// What stands for all that was not recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,49 +38,6 @@ impl Beyond {
     }
 }
 
-fn end(trace: &Trace) -> f64 {
-    (trace.len() - 1) as f64 * trace.dt()
-}
-
-/// An expression over time, whose parts are straight between the instants at which they bend.
-fn number(expression: &Expression, trace: &Trace) -> Curve {
-    let of = |inner: &Expression| number(inner, trace);
-    let bends = |a: &Curve, b: &Curve| [a.times.clone(), b.times.clone()].concat();
-    match expression {
-        Expression::Number(number) => Curve::new(end(trace), [], |_| *number),
-        Expression::Signal(name) => {
-            let samples: Vec<f64> = trace.signal(name).unwrap().collect();
-            let ticks = (0..samples.len()).map(|tick| tick as f64 * trace.dt());
-            Curve::new(end(trace), ticks, |time| {
-                let (tick, share) = ((time / trace.dt()).floor() as usize, (time / trace.dt()).fract());
-                samples[tick] * (1.0 - share) + samples.get(tick + 1).map_or(0.0, |next| next * share)
-            })
-        }
-        Expression::Negate(inner) => {
-            let inner = of(inner);
-            Curve::new(end(trace), inner.times.clone(), |time| -inner.at(time))
-        }
-        Expression::Absolute(inner) => {
-            let inner = of(inner);
-            Curve::new(end(trace), inner.times.clone(), |time| inner.at(time).abs())
-        }
-        Expression::Binary(operation, left, right) => {
-            let (left, right) = (of(left), of(right));
-            Curve::new(end(trace), bends(&left, &right), |time| {
-                let (left, right) = (left.at(time), right.at(time));
-                match operation {
-                    Arithmetic::Add => left + right,
-                    Arithmetic::Subtract => left - right,
-                    Arithmetic::Multiply => left * right,
-                    Arithmetic::Divide => left / right,
-                    Arithmetic::Least => left.min(right),
-                    Arithmetic::Greatest => left.max(right),
-                }
-            })
-        }
-    }
-}
-
 /// A formula over time.
 fn worth(formula: &Formula, trace: &Trace, beyond: Beyond) -> Curve {
     let of = |inner: &Formula| worth(inner, trace, beyond);
@@ -94,19 +48,7 @@ fn worth(formula: &Formula, trace: &Trace, beyond: Beyond) -> Curve {
             Curve::new(end(trace), [], |_| if *truth { f64::INFINITY } else { f64::NEG_INFINITY })
         }
         Formula::Flag(_) => unreachable!("a flag has no place in dense time"),
-        Formula::Compare(left, comparison, right) => {
-            let (left, right) = (number(left, trace), number(right, trace));
-            let bends = [left.times.clone(), right.times.clone()].concat();
-            Curve::new(end(trace), bends, |time| {
-                let (left, right) = (left.at(time), right.at(time));
-                match comparison {
-                    Comparison::Below | Comparison::AtMost => right - left,
-                    Comparison::Above | Comparison::AtLeast => left - right,
-                    Comparison::Equal => -(left - right).abs(),
-                    Comparison::Different => (left - right).abs(),
-                }
-            })
-        }
+        Formula::Compare(left, comparison, right) => margin(left, *comparison, right, trace),
         Formula::Not(inner) => not(inner),
         Formula::Join(connective, left, right) => {
             let left = if *connective == Connective::Implies { not(left) } else { of(left) };
@@ -258,60 +200,6 @@ fn most(held: f64, hold: [f64; 2], goal: [f64; 2]) -> f64 {
         |line: [f64; 2], share: f64| if line[0] == line[1] { line[0] } else { line[0] + (line[1] - line[0]) * share };
     let least = |share: f64| lines.iter().map(|line| on(*line, share)).fold(f64::INFINITY, f64::min);
     crossings.chain([0.0, 1.0]).map(least).fold(f64::NEG_INFINITY, f64::max)
-}
-
-/// Expressions whose values stay small.
-fn expressions() -> impl Strategy<Value = Expression> {
-    let leaf = prop_oneof![
-        1 => (-4..=4i8).prop_map(|number| Expression::Number(f64::from(number) / 2.0)),
-        3 => prop::sample::select(&SIGNALS[..]).prop_map(signal),
-    ];
-    leaf.prop_recursive(2, 5, 2, |inner| {
-        use Arithmetic::*;
-        let operation = prop::sample::select(vec![Add, Subtract, Least, Greatest]);
-        let factor = prop::sample::select(vec![-2.0, -0.5, 0.5, 1.0, 2.0]);
-        prop_oneof![
-            1 => inner.clone().prop_map(|e| -e),
-            1 => inner.clone().prop_map(Expression::abs),
-            1 => (inner.clone(), factor.clone()).prop_map(|(e, factor)| e * factor),
-            1 => (inner.clone(), factor).prop_map(|(e, factor)| e / factor),
-            3 => (operation, inner.clone(), inner)
-                .prop_map(|(operation, l, r)| Expression::Binary(operation, Box::new(l), Box::new(r))),
-        ]
-    })
-}
-
-/// Windows at quarters of a second: from now or from later on, an instant wide or wider, and without an end.
-fn intervals() -> impl Strategy<Value = Interval> {
-    let bounded = (0..6u8, 0..9u8).prop_map(|(start, length)| {
-        let start = 0.25 * f64::from(start);
-        Interval::from(start..=start + 0.25 * f64::from(length))
-    });
-    let unbounded = (0..4u8).prop_map(|start| Interval::from(0.5 * f64::from(start)..));
-    prop_oneof![5 => bounded, 1 => Just(Interval::UNBOUNDED), 1 => unbounded]
-}
-
-fn formulas() -> impl Strategy<Value = Formula> {
-    let leaf = prop_oneof![
-        1 => any::<bool>().prop_map(Formula::Constant),
-        8 => (prop::sample::select(&SIGNALS[..]), comparisons(), -4..=4i8)
-            .prop_map(|(name, comparison, number)| signal(name).compare(comparison, f64::from(number) / 2.0)),
-        6 => (expressions(), comparisons(), expressions()).prop_map(|(l, comparison, r)| l.compare(comparison, r)),
-    ];
-    connected(leaf, 3, intervals)
-}
-
-fn traces() -> impl Strategy<Value = Trace> {
-    let row = prop::array::uniform3((-3..=3i8).prop_map(f64::from));
-    let period = prop::sample::select(vec![0.5, 1.0]);
-    (period, prop::collection::vec(row, 1..7), any::<bool>()).prop_map(|(dt, rows, complete)| {
-        let mut trace = Trace::new(dt, SIGNALS.map(str::to_owned).to_vec());
-        rows.iter().for_each(|row| trace.record(row));
-        if complete {
-            trace.finish();
-        }
-        trace
-    })
 }
 
 proptest! {

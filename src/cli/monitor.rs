@@ -109,8 +109,7 @@ impl Options {
     fn judged<'a>(&self, asked: &'a Asked, trace: &Trace) -> Result<(&'a Asked, Evaluation, Option<Cause<'a>>), Error> {
         let wrong = |error| Error::Usage(format!("{}: {error}", asked.id));
         let evaluation = asked.formula.evaluate_in(self.time(), trace).map_err(wrong)?;
-        // Which instant between two samples is to blame is not known.
-        let cause = if self.dense { None } else { asked.formula.explain(trace).map_err(wrong)? };
+        let cause = asked.formula.explain_in(self.time(), trace).map_err(wrong)?;
         Ok((asked, evaluation, cause))
     }
 

@@ -22,6 +22,7 @@ pub(super) struct Progress {
     pub(super) bar: ProgressBar,
     pub(super) summary: Summary,
     coverage: Option<LiveCoverage>,
+    quiet: bool,
     verbose: bool,
 }
 
@@ -34,7 +35,8 @@ impl Progress {
         if let Some(coverage) = coverage.as_mut().filter(|_| !bar.is_hidden()) {
             study.existing()?.iter().try_for_each(|test| coverage.add(test))?;
         }
-        Ok(Self { bar, summary: Summary::default(), coverage, verbose: verbosity.verbose })
+        let Verbosity { quiet, verbose } = verbosity;
+        Ok(Self { bar, summary: Summary::default(), coverage, quiet, verbose })
     }
 
     pub(super) fn count(&mut self, study: &Study, trial: &Trial) {
@@ -60,6 +62,11 @@ impl Progress {
         let combinations = combinations.unwrap_or_default();
         self.bar.set_message(format!("{} fail{dispersion}{combinations}", self.summary.count(Verdict::Fail)));
         self.bar.inc(1);
+        // What is wrong with one test may be wrong with all, and whoever looks on can stop them.
+        let is_first = trial.verdict == Verdict::Error && self.summary.count(Verdict::Error) == 1;
+        if let Some(error) = trial.error.as_ref().filter(|_| is_first && !self.verbose && !self.quiet) {
+            self.bar.suspend(|| complain(&format!("test {} ended in an error: {error}", trial.index)));
+        }
         if self.verbose && trial.verdict != Verdict::Pass {
             let line = format!("test {}: {}, {}", trial.index, trial.verdict, in_words(study, trial));
             self.bar.suspend(|| complain(&line));

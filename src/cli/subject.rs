@@ -3,6 +3,7 @@
 use super::Verbosity;
 use super::system::System;
 use crate::coverage::{Domain, Shape, Value, did_you_mean, nearest};
+use crate::oracles::Semantics;
 use crate::{Error, RequirementText, Study};
 use clap::Args;
 use std::path::PathBuf;
@@ -42,9 +43,13 @@ pub(super) struct Subject {
     /// `paracosm-fuzz describe SCENARIO` shows the signals that it may speak of
     #[arg(long, value_name = "FORMULA")]
     spec: Vec<String>,
+    /// Take signals for straight lines from sample to sample, and the formulas of --spec to speak of every instant. A file of
+    /// requirements says it of each of its own with time = "dense"
+    #[arg(long, requires = "spec")]
+    dense: bool,
     /// End a run as soon as all its requirements are decided. That never changes a verdict, but the robustness is of what was
     /// run; a scenario that asks for something over its whole time goes on to its end
-    #[arg(long, conflicts_with = "system")]
+    #[arg(long, conflicts_with_all = ["system", "dense"])]
     stop_runs_early: bool,
 }
 
@@ -125,8 +130,9 @@ impl Subject {
             study = study.require(path)?;
             note_unjudged(&study, verbosity);
         }
+        let time = if self.dense { Semantics::Dense } else { Semantics::Sampled };
         for formula in &self.spec {
-            study = study.spec(formula)?;
+            study = study.spec_in(time, formula)?;
         }
         if self.stop_runs_early { study.stop_runs_early() } else { Ok(study) }
     }

@@ -60,10 +60,16 @@ impl Study {
     ///
     /// # Errors
     /// The text is no formula, speaks of a signal that the scenario does not have, or has a time bound between two ticks.
-    pub fn spec(mut self, text: &str) -> Result<Self, Error> {
-        let formula = self
-            .checked(text, Semantics::Sampled)
-            .map_err(|message| Error::Usage(format!("--spec {text}: {message}")))?;
+    pub fn spec(self, text: &str) -> Result<Self, Error> {
+        self.spec_in(Semantics::Sampled, text)
+    }
+
+    /// The same by the samples or between them.
+    ///
+    /// # Errors
+    /// As for [`spec`](Self::spec); in dense time also if a comparison is not piecewise linear, while time bounds may be any.
+    pub fn spec_in(mut self, time: Semantics, text: &str) -> Result<Self, Error> {
+        let formula = self.checked(text, time).map_err(|message| Error::Usage(format!("--spec {text}: {message}")))?;
         let formula = formula.to_string();
         let mut ids = (1..).map(|number| format!("spec-{number}"));
         let id = ids.find(|id| self.requirement(id).is_none()).expect("there is always another number");
@@ -75,7 +81,7 @@ impl Study {
             scale: None,
             source: None,
             severity: None,
-            time: Semantics::Sampled,
+            time,
             given: true,
         });
         Ok(self)
@@ -106,8 +112,10 @@ struct Spec {
     time: Semantics,
 }
 
-/// What stands in the error of a trial whose trace a formula can never be asked of, whatever its samples.
+/// What stands in the error of a trial whose trace a formula does not fit, as it will fit no other.
 const MISFIT: &str = " does not fit the trace: ";
+/// The same where another trace may be different.
+const NO_ANSWER: &str = " cannot be asked of this trace: ";
 
 impl Specs {
     /// Those of a study.
@@ -135,7 +143,7 @@ impl Specs {
         self.0.is_empty()
     }
 
-    /// Whether the error of a trial says that one of them does not fit the trace.
+    /// Whether the error of a trial says that one of them fits no trace.
     pub fn is_misfit(error: &str) -> bool {
         error.contains(MISFIT)
     }
@@ -143,20 +151,26 @@ impl Specs {
     /// Asks them of the trace of a run that came to a verdict, and joins what they say with that.
     pub fn judge(&self, outcome: &mut Outcome) {
         let Some(trace) = outcome.trace.as_ref().filter(|_| outcome.error.is_none()) else { return };
-        let mut wrong = None;
+        let mut wrong: Option<(bool, String)> = None;
         for Spec { id, formula, time } in &self.0 {
             let (truth, robustness) = match formula.evaluate_in(*time, trace) {
                 Ok(evaluation) => (evaluation.truth, evaluation.robustness),
                 Err(error) => {
-                    let says = if matches!(error, EvaluationError::NoValue { .. }) { ": " } else { MISFIT };
-                    wrong.get_or_insert(format!("{id}{says}{error}"));
+                    let (is_misfit, says) = match &error {
+                        EvaluationError::NoValue { .. } => (false, ": "),
+                        error if error.fits_no_trace() => (true, MISFIT),
+                        _ => (false, NO_ANSWER),
+                    };
+                    // What is wrong with all traces goes before what is wrong with this one.
+                    if wrong.as_ref().is_none_or(|(was_misfit, _)| is_misfit && !was_misfit) {
+                        wrong = Some((is_misfit, format!("{id}{says}{error}")));
+                    }
                     (Truth::Undecided, f64::NAN)
                 }
             };
             outcome.robustness.push((id.clone(), (truth != Truth::Undecided).then_some(robustness)));
-            // Which instant between two samples is to blame is not known.
-            if truth == Truth::Violated && is_sampled(time) {
-                outcome.metrics.extend(violation_metrics(id, formula, trace));
+            if truth == Truth::Violated {
+                outcome.metrics.extend(violation_metrics(id, formula, *time, trace));
             }
             outcome.verdict = match (truth, outcome.verdict) {
                 (Truth::Violated, _) | (_, Verdict::Fail) => Verdict::Fail,
@@ -164,9 +178,9 @@ impl Specs {
                 (Truth::Holds, verdict) => verdict,
             };
         }
-        if wrong.is_some() {
+        if let Some((_, error)) = wrong {
             outcome.verdict = Verdict::Error;
-            outcome.error = wrong;
+            outcome.error = Some(error);
         }
     }
 }

@@ -39,6 +39,7 @@ fn a_formula_is_judged_with_its_moment_and_its_reason() {
     let dense = ["monitor", "t.csv", "--dense", "--spec", "always[0.125,0.25] (speed > 1)"];
     let dense: Value = serde_json::from_str(&stdout(&succeeds(fuzz(dir.path(), &dense)))).unwrap();
     assert_eq!((&dense["requirements"][0]["robustness"], &dense["time"]), (&json!(0.5), &json!("dense")));
+    assert_eq!(dense["requirements"][0]["cause"], json!({"time": 0.125, "part": "(speed > 1)"}));
 }
 
 #[test]

@@ -70,6 +70,26 @@ fn a_formula_is_a_further_requirement_and_changes_no_run() {
 }
 
 #[test]
+fn in_dense_time_the_car_is_placed_between_samples_when_a_formula_is_violated() {
+    let dir = tempfile::tempdir().unwrap();
+    let dense = ["--spec", "always[0.125,0.125] (car.travelled < 0)", "--dense"];
+    let summary = run(dir.path(), "dense", &dense);
+    assert_eq!(summary["requirements"][2]["violated"], 30);
+    for trial in trials(dir.path(), "dense") {
+        let metric = |name: &str| trial["metrics"][format!("{name}.spec-1")].clone();
+        assert_eq!((metric("critical_time"), metric("critical_part")), (json!(0.125), json!("(car.travelled < 0)")));
+        let travelled = -trial["robustness"]["spec-1"].as_f64().unwrap();
+        assert!((metric("critical_travelled").as_f64().unwrap() - travelled).abs() < 1e-12, "{trial}");
+        assert!(metric("critical_speed").as_f64().unwrap() > 1.0);
+    }
+    let early = [&dense[..], &["--stop-runs-early", "--budget", "1"]].concat();
+    refused(&fuzz(dir.path(), &early), &["--dense", "--stop-runs-early"]);
+    refused(&fuzz(dir.path(), &["--dense", "--budget", "1"]), &["--spec"]);
+    let square = ["--spec", "G (car.speed * car.speed < 400)", "--dense", "--budget", "1"];
+    refused(&fuzz(dir.path(), &square), &["--spec G (car.speed * car.speed < 400)", "no piecewise linear function"]);
+}
+
+#[test]
 fn formulas_that_cannot_be_asked_are_refused_before_anything_runs() {
     let dir = tempfile::tempdir().unwrap();
     let cases: &[(&str, &[&str])] = &[

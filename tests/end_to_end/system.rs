@@ -128,6 +128,40 @@ fn formulas_are_asked_of_traces_and_each_is_reported() {
     assert!(stdout(&late).contains("\"inconclusive\": 4"), "{}", stdout(&succeeds(late)));
 }
 
+#[test]
+fn a_formula_may_speak_of_the_time_between_samples_and_names_the_instant_that_counts() {
+    let dir = tempfile::tempdir().unwrap();
+    script(dir.path(), TRACE);
+    let dense = ["--spec", "always[0.05,0.05] (speed > 0.3)", "--dense", "--budget", "30"];
+    let summary = succeeds(run(dir.path(), "out", &dense));
+    let trials = trials(dir.path(), "out");
+    for trial in &trials {
+        let robustness = 0.5 + 0.5 * trial["test"]["x"].as_f64().unwrap() - 0.3;
+        assert!((trial["robustness"]["spec-1"].as_f64().unwrap() - robustness).abs() < 1e-12, "{trial}");
+        let cause = json!({"critical_time.spec-1": 0.05, "critical_part.spec-1": "(speed > 0.3)"});
+        assert_eq!(trial["metrics"], if robustness < 0.0 { cause } else { json!({}) }, "{trial}");
+    }
+    let failed = trials.iter().filter(|trial| trial["verdict"] == "fail").count();
+    assert!(0 < failed && failed < 30, "{failed}");
+    let study: Value =
+        serde_json::from_str(&fs::read_to_string(dir.path().join("out/campaign.json")).unwrap()).unwrap();
+    assert_eq!(study["requirements"][0]["time"], "dense");
+    let said: Value = serde_json::from_str(&stdout(&summary)).unwrap();
+    assert_eq!(said["worst"]["cause"], json!({"time": 0.05, "part": "(speed > 0.3)"}));
+    assert_eq!(said["modes"][0]["words"], "violates spec-1, by `(speed > 0.3)`, 0.1 s after the start");
+    let worst = said["worst"]["index"].to_string();
+    let replay = stdout(&succeeds(fuzz(dir.path(), &["replay", "out", &worst, "--format", "table"])));
+    assert!(replay.contains("critical_part.spec-1  (speed > 0.3)\n"), "{replay}");
+    // What is missing is asked in the same way, and by no other.
+    let whole = log(dir.path(), "out");
+    let file = dir.path().join("out/trials.jsonl");
+    fs::write(&file, log_lines(&file, 11)).unwrap();
+    let sampled = run(dir.path(), "out", &["--spec", "always[0.1,0.1] (speed > 0.3)", "--budget", "30", "--resume"]);
+    refused(&sampled, &["different campaign", "`requirements`"]);
+    succeeds(run(dir.path(), "out", &[&dense[..], &["--resume"]].concat()));
+    assert_eq!(log(dir.path(), "out"), whole);
+}
+
 /// Answers of test 2, and what is said of them.
 const BAD: &[(&str, &str)] = &[
     ("echo garbage", "found `garbage` in column 1"),
@@ -254,10 +288,44 @@ fn a_formula_that_fits_no_trace_is_given_up_soon_and_one_that_fits_some_is_not()
         refused(&run(dir.path(), out, &["--spec", formula, "--budget", "60"]), &says);
         assert_eq!(trials(dir.path(), out).len(), 3);
     }
+    // Traces that differ may be followed by one that it fits.
+    script(dir.path(), &format!("case $i in 1) {};; *) {TRACE};; esac", TRACE.replace("[0,0.1,0.2]", "[0,0.2,0.4]")));
+    let ticks = run(dir.path(), "ticks", &["--spec", "always[0,0.05] (speed > 0)", "--budget", "6"]);
+    refused(&ticks, &["every test ended in an error"]);
+    // A test that comes to nothing else is no sign that the formula fits.
+    script(dir.path(), &format!("case $i in 1) echo garbage;; *) {TRACE};; esac"));
+    let says = ["each of the first 4 tests", "test 0: spec-1 does not fit the trace"];
+    refused(&run(dir.path(), "garbage", &["--spec", "always (sped > 0)", "--budget", "60"]), &says);
     script(dir.path(), &format!("case $i in 0|1|3) {};; *) {TRACE};; esac", TRACE.replace("speed", "sped")));
     succeeds(run(dir.path(), "some", &["--spec", "always (speed > -9)", "--budget", "8"]));
     let broken: Vec<Value> = trials(dir.path(), "some").iter().map(|trial| trial["verdict"].clone()).collect();
     assert_eq!(broken, ["error", "error", "pass", "error", "pass", "pass", "pass", "pass"]);
+}
+
+#[test]
+fn a_signal_that_the_first_traces_lack_may_come_later_unless_its_name_is_a_slip_of_the_pen() {
+    let dir = tempfile::tempdir().unwrap();
+    // The second car is there in some tests only, and from the eighth on at that.
+    script(
+        dir.path(),
+        &format!(
+            "case $i in [0-6]) {};; *) {};; esac",
+            TRACE.replace("speed", "car1.speed"),
+            TRACE.replace("speed", "car2.speed")
+        ),
+    );
+    let late = run(dir.path(), "late", &["--spec", "always (car2.speed > -9)", "--budget", "12"]);
+    assert!(stdout(&succeeds(late)).contains("\"pass\": 5"));
+    let trials = trials(dir.path(), "late");
+    let lacks =
+        "spec-1 cannot be asked of this trace: the trace has no signal `car2.speed` (did you mean `car1.speed`?)";
+    assert!(trials[..7].iter().all(|trial| trial["error"] == lacks), "{}", trials[0]);
+    // What never comes is waited for as long as any system is; whoever looks on is told at once.
+    let options = ["--system", "sh system.sh", "--space", "SPACE.toml", "--out", "never", "--budget", "60"];
+    let never = fuzz(dir.path(), &[&options[..], &["--spec", "always (velocity > 0)"]].concat());
+    let says = "test 0 ended in an error: spec-1 cannot be asked of this trace: the trace has no signal `velocity`\n";
+    assert_eq!(stderr(&never).matches(says).count(), 1, "{}", stderr(&never));
+    refused(&never, &["each of the first 50 tests", "test 0: spec-1 cannot be asked of this trace"]);
 }
 
 #[test]

@@ -24,7 +24,7 @@ use crate::scenario::Weather;
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
 use crate::vehicle::Model;
 use early::Early;
-use paracosm_oracles::{Formula, Requirement, Trace, Truth, Verdict};
+use paracosm_oracles::{Formula, Requirement, Semantics, Trace, Truth, Verdict};
 use scene::Scene;
 use sensing::Sensing;
 use std::collections::VecDeque;
@@ -341,7 +341,8 @@ impl Run {
             let evaluation = requirement.judge(&self.trace).expect("its signal has a column");
             if evaluation.truth == Truth::Violated {
                 violated = true;
-                metrics.extend(violation_metrics(&requirement.id, &requirement.formula, &self.trace));
+                let Requirement { id, formula, .. } = requirement;
+                metrics.extend(violation_metrics(id, formula, Semantics::Sampled, &self.trace));
             }
             let decided = evaluation.truth != Truth::Undecided;
             open |= !decided;

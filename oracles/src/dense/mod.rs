@@ -3,19 +3,22 @@
 //! Every sub-formula becomes a piecewise linear function of time, from the comparisons up. Comparisons must be
 //! piecewise linear for that: sums, differences, `abs`, `min`, `max`, and products with and quotients by constants.
 
+mod cause;
 mod track;
 mod wave;
 
 use crate::expression::Arithmetic;
-use crate::{Comparison, Connective, Evaluation, EvaluationError, Expression, Formula, Interval, Modality, Sequence};
+use crate::{
+    Cause, Comparison, Connective, Evaluation, EvaluationError, Expression, Formula, Interval, Modality, Sequence,
+};
 use crate::{Trace, Truth};
+use cause::{Causes, hair};
 use track::{Track, reaches};
 use wave::Wave;
 
 /// What a formula is worth at the beginning of a trace that has samples.
 pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, EvaluationError> {
-    let dense = Dense { trace, end: (trace.len() - 1) as f64 * trace.dt() };
-    let [robustness, lower, upper] = dense.track(formula, 0.0)?.first();
+    let [robustness, lower, upper] = Dense::new(trace).track(formula, 0.0, &mut |_, _| {})?.first();
     let truth = if lower > 0.0 {
         Truth::Holds
     } else if upper < 0.0 {
@@ -26,6 +29,20 @@ pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, E
     Ok(Evaluation { truth, robustness, lower, upper })
 }
 
+/// What its robustness on a trace that has samples comes down to. It takes no more than the worth of every part over time,
+/// which is asked for once and kept.
+pub(crate) fn explain<'f>(formula: &'f Formula, trace: &Trace) -> Result<Cause<'f>, EvaluationError> {
+    let dense = Dense::new(trace);
+    let mut parts = Vec::new();
+    let whole = dense.track(formula, 0.0, &mut |part, wave| parts.push((part, wave.clone())))?;
+    let [robustness, ..] = whole.first();
+    let (part, time) = Causes { end: dense.end, parts }.of(formula, robustness);
+    // What counts at a sample counts at its time as it is written elsewhere.
+    let sample = (time / trace.dt()).round() * trace.dt();
+    let time = if (time - sample).abs() <= hair(dense.end) { sample } else { time };
+    Ok(Cause { time, part, robustness })
+}
+
 /// A trace in dense time.
 struct Dense<'a> {
     trace: &'a Trace,
@@ -33,41 +50,53 @@ struct Dense<'a> {
     end: f64,
 }
 
-impl Dense<'_> {
-    /// What the formula is worth from time 0 at least to `needed`.
-    fn track(&self, formula: &Formula, needed: f64) -> Result<Track, EvaluationError> {
-        match formula {
+impl<'a> Dense<'a> {
+    fn new(trace: &'a Trace) -> Self {
+        Self { trace, end: (trace.len() - 1) as f64 * trace.dt() }
+    }
+
+    /// What the formula is worth from time 0 at least to `needed`; `keep` sees what that is by what was recorded, of the
+    /// formula and of all its parts.
+    fn track<'f>(
+        &self,
+        formula: &'f Formula,
+        needed: f64,
+        keep: &mut dyn FnMut(&'f Formula, &Wave),
+    ) -> Result<Track, EvaluationError> {
+        let track = match formula {
             Formula::Constant(truth) => {
                 let worth = if *truth { f64::INFINITY } else { f64::NEG_INFINITY };
-                Ok(Track::settled(Wave::constant(worth, self.end), needed))
+                Track::settled(Wave::constant(worth, self.end), needed)
             }
-            Formula::Flag(_) => Err(EvaluationError::NotLinear(formula.to_string())),
+            Formula::Flag(_) => return Err(EvaluationError::NotLinear(formula.to_string())),
             Formula::Compare(left, comparison, right) => {
-                Ok(Track::settled(self.comparison(formula, left, *comparison, right)?, needed))
+                Track::settled(self.comparison(formula, left, *comparison, right)?, needed)
             }
-            Formula::Not(inner) => Ok(self.track(inner, needed)?.negated()),
+            Formula::Not(inner) => self.track(inner, needed, keep)?.negated(),
             Formula::Join(connective, left, right) => {
-                let (left, right) = (self.track(left, needed)?, self.track(right, needed)?);
-                Ok(match connective {
+                let (left, right) = (self.track(left, needed, keep)?, self.track(right, needed, keep)?);
+                match connective {
                     Connective::And => left.joined(&right, Wave::min),
                     Connective::Or => left.joined(&right, Wave::max),
                     Connective::Implies => left.negated().joined(&right, Wave::max),
-                })
+                }
             }
             Formula::Modal(modality, interval, inner) => {
                 let past = matches!(modality, Modality::Historically | Modality::Once);
                 let dual = matches!(modality, Modality::Always | Modality::Historically);
                 let scope = self.scope(*interval, past, dual, needed)?;
-                let inner = self.track(inner, scope.asked)?;
-                Ok(scope.track([inner], |scope, [inner]| scope.any(inner)))
+                let inner = self.track(inner, scope.asked, keep)?;
+                scope.track([inner], |scope, [inner]| scope.any(inner))
             }
             Formula::Sequence(sequence, interval, hold, goal) => {
                 let past = *sequence == Sequence::Since;
                 let scope = self.scope(*interval, past, *sequence == Sequence::Release, needed)?;
-                let operands = [self.track(hold, scope.asked)?, self.track(goal, scope.asked)?];
-                Ok(scope.track(operands, |scope, [hold, goal]| scope.until(hold, goal)))
+                let operands = [self.track(hold, scope.asked, keep)?, self.track(goal, scope.asked, keep)?];
+                scope.track(operands, |scope, [hold, goal]| scope.until(hold, goal))
             }
-        }
+        };
+        keep(formula, &track.recorded);
+        Ok(track)
     }
 
     fn comparison(

@@ -274,7 +274,7 @@ fn meeting((h0, h1): (f64, f64), (g0, g1): (f64, f64)) -> f64 {
 }
 
 /// The value at an instant of the line through two points.
-fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> f64 {
+pub(super) fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> f64 {
     if time <= t0 || v0 == v1 {
         v0
     } else if time >= t1 {
@@ -300,7 +300,9 @@ impl<const N: usize> Piece<N> {
         push(points, (from, join(lines.map(|line| line.0))));
         let mut crossings = [f64::INFINITY; 3];
         let mut count = 0;
-        for (i, a) in lines.iter().enumerate() {
+        // At a jump there is nothing between the values before and after it.
+        let lasting = if from == to { &lines[..0] } else { &lines[..] };
+        for (i, a) in lasting.iter().enumerate() {
             for b in &lines[..i] {
                 let (before, after) = (a.0 - b.0, a.1 - b.1);
                 if before * after < 0.0 && (before - after).is_finite() {

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 pub mod curve;
+pub mod dense;
 
 use paracosm_oracles::{
     Arithmetic, Comparison, Connective, Expression, Formula, Interval, Modality, Sequence, Trace, Truth, flag, signal,

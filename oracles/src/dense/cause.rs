@@ -1,0 +1,355 @@
+//! What the robustness of a formula comes down to in dense time.
+//!
+//! An operator is worth what one of its operands is worth at some instant in sight, so that one gets from the formula down
+//! to a comparison, step by step. Of all instants it is the first whose worth is nearest: where lines were followed to where
+//! they cross, rounding leaves no two numbers the same. Of an operand that stays as it is for a while it is one in the midst
+//! of that, since at its ends two parts are worth the same, and one of them by chance. Where an operand jumps it matters on
+//! which side one stands, and time bounds are rounded, too; so one looks from a hair's breadth before an instant, or after it.
+
+use super::wave::{Wave, between};
+use crate::{Connective, Formula, Interval, Modality, Sequence};
+
+/// What worths and times may be rounded by, relative to their size: far more than a formula's sums are, far less than
+/// anything takes or is worth.
+const ROUNDING: f64 = 1e-12;
+
+/// How far beside an instant one looks from, on a trace of so many seconds.
+pub(super) fn hair(end: f64) -> f64 {
+    ROUNDING * end.max(1.0)
+}
+
+/// An instant, or what comes right after it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Moment {
+    time: f64,
+    after: bool,
+}
+
+impl Moment {
+    fn at(time: f64) -> Self {
+        Self { time, after: false }
+    }
+
+    fn after(time: f64) -> Self {
+        Self { time, after: true }
+    }
+}
+
+/// A part of the formula, when it counts, and what it is worth then.
+struct Step<'f> {
+    part: &'f Formula,
+    moment: Moment,
+    worth: f64,
+}
+
+/// The parts of a formula, each with what it is worth over time.
+pub(super) struct Causes<'f> {
+    /// The time of the last sample.
+    pub end: f64,
+    pub parts: Vec<(&'f Formula, Wave)>,
+}
+
+impl<'f> Causes<'f> {
+    /// The part on which it depends that the formula is worth this at time 0, and when that counts.
+    pub fn of(&self, formula: &'f Formula, worth: f64) -> (&'f Formula, f64) {
+        let mut step = Step { part: formula, moment: Moment::at(0.0), worth };
+        while let Some(next) = self.after(&step) {
+            step = next;
+        }
+        (step.part, step.moment.time)
+    }
+
+    /// The operand of a part, and when it counts; none of what has no operands, or sees nothing of them.
+    fn after(&self, step: &Step<'f>) -> Option<Step<'f>> {
+        let Step { moment, worth, .. } = *step;
+        match step.part {
+            Formula::Constant(_) | Formula::Flag(_) | Formula::Compare(..) => None,
+            Formula::Not(inner) => Some(Step { part: inner, moment, worth: -worth }),
+            Formula::Join(connective, left, right) => {
+                let left_worth = if *connective == Connective::Implies { -worth } else { worth };
+                let here = Moment::at(self.eye(moment));
+                let off = |part: &Formula, worth: f64| distance(self.reader(part).at(here), worth);
+                let is_left = off(left, left_worth) <= off(right, worth);
+                let (part, worth) = if is_left { (left, left_worth) } else { (right, worth) };
+                Some(Step { part, moment, worth })
+            }
+            Formula::Modal(modality, interval, inner) => {
+                let view = View {
+                    past: matches!(modality, Modality::Historically | Modality::Once),
+                    sign: if matches!(modality, Modality::Always | Modality::Historically) { -1.0 } else { 1.0 },
+                    ..self.view(*interval, moment)
+                };
+                let (_, moment) = view.responsible(None, self.reader(inner), worth)?;
+                Some(Step { part: inner, moment, worth })
+            }
+            Formula::Sequence(sequence, interval, hold, goal) => {
+                let view = View {
+                    past: *sequence == Sequence::Since,
+                    sign: if *sequence == Sequence::Release { -1.0 } else { 1.0 },
+                    ..self.view(*interval, moment)
+                };
+                let (is_goal, moment) = view.responsible(Some(self.reader(hold)), self.reader(goal), worth)?;
+                Some(Step { part: if is_goal { goal } else { hold }, moment, worth })
+            }
+        }
+    }
+
+    fn reader(&self, part: &Formula) -> Reader<'_> {
+        let kept = self.parts.iter().find(|(kept, _)| std::ptr::eq(*kept, part));
+        let points = kept.expect("every part was kept").1.points();
+        Reader { points, place: 0, is_plain: is_plain(part) }
+    }
+
+    /// From where one looks at a moment.
+    fn eye(&self, moment: Moment) -> f64 {
+        let hair = hair(self.end);
+        (if moment.after { moment.time + hair } else { moment.time - hair }).clamp(0.0, self.end)
+    }
+
+    fn view(&self, interval: Interval, moment: Moment) -> View {
+        View { interval, moment, eye: self.eye(moment), end: self.end, past: false, sign: 1.0 }
+    }
+}
+
+/// What a temporal operator sees at a moment, written by its sibling that takes maxima.
+struct View {
+    interval: Interval,
+    moment: Moment,
+    eye: f64,
+    end: f64,
+    past: bool,
+    /// What operands and operator are multiplied by for the sibling.
+    sign: f64,
+}
+
+impl View {
+    /// The moment at which the operator gets its worth, and whether from its goal rather than from what has to hold up to
+    /// then, if anything has to.
+    fn responsible(&self, hold: Option<Reader>, goal: Reader, worth: f64) -> Option<(bool, Moment)> {
+        let [from, to] = self.window();
+        if from > to {
+            return None;
+        }
+        let instants = self.instants([hold.as_ref(), Some(&goal)], [from, to]);
+        let mut scan = Scan {
+            window: [from, to],
+            hair: hair(self.end),
+            goal,
+            hold,
+            sign: self.sign,
+            weakest: Least { worth: f64::INFINITY, moment: self.moment, is_firm: false },
+            nearest: Nearest::to(self.sign * worth),
+        };
+        for (place, now) in instants.iter().enumerate() {
+            scan.be(Moment::at(*now));
+            let Some(next) = instants.get(place + 1) else { break };
+            let ends = if self.past {
+                [Moment::at(*now), Moment::after(*next)]
+            } else {
+                [Moment::after(*now), Moment::at(*next)]
+            };
+            scan.follow(ends);
+        }
+        let (is_goal, found) = scan.nearest.found?;
+        Some((is_goal, self.placed(found)))
+    }
+
+    /// Between which instants of the trace the operator looks.
+    fn window(&self) -> [f64; 2] {
+        let [first, last] = self.edges();
+        [first.min(last).max(0.0), first.max(last).min(self.end)]
+    }
+
+    /// The nearer and the farther edge of the window.
+    fn edges(&self) -> [f64; 2] {
+        let Interval { start, end, .. } = self.interval;
+        [start, end].map(|by| if self.past { self.eye - by } else { self.eye + by })
+    }
+
+    /// The instants from here to the far edge of the window between which operands are straight, going away from here.
+    fn instants(&self, operands: [Option<&Reader>; 2], [from, to]: [f64; 2]) -> Vec<f64> {
+        let [first, last] = [from.min(self.eye), to.max(self.eye)];
+        let mut instants = vec![self.eye, from, to];
+        for reader in operands.into_iter().flatten() {
+            let points = reader.points.iter().map(|point| point.0);
+            instants.extend(points.filter(|time| first < *time && *time < last));
+        }
+        instants.sort_by(f64::total_cmp);
+        instants.dedup();
+        if self.past {
+            instants.reverse();
+        }
+        instants
+    }
+
+    /// What was found where one looks from or at an edge of the window belongs to the moment beside which one looks.
+    fn placed(&self, found: Moment) -> Moment {
+        let aside = self.eye - self.moment.time;
+        let edge = self.eye == found.time || self.edges().contains(&found.time);
+        if aside == 0.0 || !edge {
+            return found;
+        }
+        Moment { time: (found.time - aside).max(0.0), after: self.moment.after }
+    }
+}
+
+/// The least that something came to, and when; `is_firm` unless another part may be worth the same then by chance.
+#[derive(Clone, Copy)]
+struct Least {
+    worth: f64,
+    moment: Moment,
+    is_firm: bool,
+}
+
+/// Going away from where an operator stands.
+struct Scan<'w> {
+    window: [f64; 2],
+    /// What takes no longer is but rounding.
+    hair: f64,
+    goal: Reader<'w>,
+    hold: Option<Reader<'w>>,
+    sign: f64,
+    /// Of what had to hold so far.
+    weakest: Least,
+    nearest: Nearest<(bool, Moment)>,
+}
+
+impl Scan<'_> {
+    /// What has to hold, and the goal.
+    fn worths(&mut self, moment: Moment) -> [f64; 2] {
+        let hold = self.hold.as_mut().map_or(f64::INFINITY, |hold| self.sign * hold.at(moment));
+        [hold, self.sign * self.goal.at(moment)]
+    }
+
+    /// Is at an instant. The goal may be reached before anything had to hold here.
+    fn be(&mut self, moment: Moment) {
+        let [hold, goal] = self.worths(moment);
+        self.reach(goal, moment, self.goal.is_plain);
+        self.hold(hold, moment, self.is_plain());
+    }
+
+    /// Follows a straight piece from its beginning to its end.
+    fn follow(&mut self, [near, far]: [Moment; 2]) {
+        let ends = [near, far].map(|moment| self.worths(moment));
+        let [[h0, g0], [h1, g1]] = ends;
+        let hair = self.hair;
+        let at = |share: f64| {
+            let time = near.time + (far.time - near.time) * share;
+            let end = [near, far].into_iter().find(|end| (time - end.time).abs() <= hair);
+            end.unwrap_or(Moment::at(time))
+        };
+        // Until then the hold is above the goal.
+        let meets = if g1 > h1 { (h0 - g0) / ((h0 - g0) + (g1 - h1)) } else { 1.0 };
+        self.pass(ends[0], near);
+        let [holds_still, goal_still] = [is_near(h0, h1), is_near(g0, g1)];
+        let lasts = (far.time - near.time).abs() > 4.0 * hair;
+        if holds_still && lasts {
+            self.hold(h0, at(0.5), true);
+        }
+        if goal_still && lasts && (h0 > g0 || h0.min(h1) >= g0) {
+            self.reach(g0, at(0.5 * meets), true);
+        }
+        // The greatest of a piece is at its ends, or where a falling hold meets a rising goal.
+        if !holds_still && !goal_still && h0 > g0 && g1 > h1 {
+            let meeting = g0 + (g1 - g0) * meets;
+            self.pass([meeting; 2], at(meets));
+        }
+        self.pass(ends[1], far);
+    }
+
+    fn pass(&mut self, [hold, goal]: [f64; 2], moment: Moment) {
+        self.hold(hold, moment, self.is_plain());
+        self.reach(goal, moment, self.goal.is_plain);
+    }
+
+    fn is_plain(&self) -> bool {
+        self.hold.as_ref().is_none_or(|hold| hold.is_plain)
+    }
+
+    /// Goes on past a moment at which something has to hold.
+    fn hold(&mut self, worth: f64, moment: Moment, is_firm: bool) {
+        let Least { worth: least, is_firm: was_firm, .. } = self.weakest;
+        if if is_near(worth, least) { is_firm && !was_firm } else { worth < least } {
+            self.weakest = Least { worth, moment, is_firm };
+        }
+    }
+
+    /// Reaches the goal at a moment, if that is in the window.
+    fn reach(&mut self, goal: f64, moment: Moment, is_firm: bool) {
+        let [from, to] = self.window;
+        if from <= moment.time && moment.time <= to {
+            let Least { worth, moment: when, is_firm: held_firmly } = self.weakest;
+            if goal <= worth {
+                self.nearest.offer(goal, is_firm, (true, moment));
+            } else {
+                self.nearest.offer(worth, held_firmly, (false, when));
+            }
+        }
+    }
+}
+
+/// The first of what is offered whose worth is nearest to the one that is sought, but for rounding; firm before others.
+struct Nearest<T> {
+    sought: f64,
+    distance: f64,
+    is_firm: bool,
+    found: Option<T>,
+}
+
+impl<T> Nearest<T> {
+    fn to(sought: f64) -> Self {
+        Self { sought, distance: f64::INFINITY, is_firm: false, found: None }
+    }
+
+    fn offer(&mut self, worth: f64, is_firm: bool, what: T) {
+        let distance = distance(worth, self.sought);
+        if distance < self.distance || distance == self.distance && is_firm && !self.is_firm {
+            *self = Self { distance, is_firm, found: Some(what), ..*self };
+        }
+    }
+}
+
+/// How far apart two worths are, but for rounding.
+fn distance(worth: f64, other: f64) -> f64 {
+    if is_near(worth, other) { 0.0 } else { (worth - other).abs() }
+}
+
+/// Whether two worths are the same but for rounding.
+fn is_near(worth: f64, other: f64) -> bool {
+    worth == other || (worth - other).abs() <= ROUNDING * other.abs().clamp(1.0, f64::MAX)
+}
+
+/// Whether only one thing can be worth what it is worth at an instant.
+fn is_plain(formula: &Formula) -> bool {
+    match formula {
+        Formula::Not(inner) => is_plain(inner),
+        Formula::Join(..) | Formula::Modal(..) | Formula::Sequence(..) => false,
+        _ => true,
+    }
+}
+
+/// Reads a function of time at one moment after the other; moments near each other are quickly found.
+struct Reader<'w> {
+    points: &'w [(f64, f64)],
+    place: usize,
+    is_plain: bool,
+}
+
+impl Reader<'_> {
+    /// The value there; at a jump, what it was before.
+    fn at(&mut self, moment: Moment) -> f64 {
+        let Moment { time, after } = moment;
+        let is_before = |point: &(f64, f64)| if after { point.0 <= time } else { point.0 < time };
+        while self.points.get(self.place).is_some_and(is_before) {
+            self.place += 1;
+        }
+        while self.place > 0 && !is_before(&self.points[self.place - 1]) {
+            self.place -= 1;
+        }
+        match (self.place.checked_sub(1).map(|before| self.points[before]), self.points.get(self.place)) {
+            (Some(before), Some(next)) => between(before, *next, time),
+            (Some(point), None) => point.1,
+            (None, _) => self.points[0].1,
+        }
+    }
+}
