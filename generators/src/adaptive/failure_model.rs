@@ -5,12 +5,15 @@
 use super::bend::is_failure;
 use super::cube::{Axis, axes, place};
 use super::fit::prior;
-use super::process::Posterior;
+use super::plausible::plausible;
+use super::process::{Draw, Posterior, Process};
 use super::telling::telling;
-use super::verdicts::{Fitter, Verdicts};
+use super::verdicts::{Fitter, Link, Verdicts};
 use super::{MOST_ROBUSTNESS, normal};
 use crate::seeded::{Purpose, seeded};
 use paracosm_coverage::{Point, Space};
+use rand::Rng;
+use std::ops::Range;
 
 /// So many tests the model sees.
 const MOST_TESTS: usize = 400;
@@ -20,6 +23,9 @@ const MOST_OTHERS: usize = 2048;
 
 /// So many times uncertain shares are drawn.
 const DRAWS: usize = 128;
+
+/// By so many kernels they are drawn.
+const KERNELS: usize = 8;
 
 /// So many places are looked at together.
 const TOGETHER: usize = 1024;
@@ -32,7 +38,23 @@ const TOGETHER: usize = 1024;
 /// fail of which it knows little, the others tell.
 pub struct FailureModel {
     axes: Vec<Axis>,
+    /// What the model has seen: places, and what became of them as the model takes it.
+    seen: Vec<Vec<f64>>,
+    values: Vec<f64>,
     verdicts: Verdicts,
+    /// How many tests there are, seen or not.
+    tests: usize,
+}
+
+/// One of the processes that are as plausible as the fitted one, with what is drawn by it.
+struct Belief {
+    process: Process,
+    link: Link,
+    /// Which tests of a group it is asked of: one sample.
+    tests: Range<usize>,
+    /// The draws, with a standard normal number for the error of sampling.
+    draws: Vec<Draw>,
+    errors: Vec<f64>,
 }
 
 /// What is known of the share of some tests that fail.
@@ -42,7 +64,9 @@ pub struct FailingShare {
     pub mean: f64,
     /// How far the share may be from it: one standard deviation.
     pub deviation: f64,
-    /// The probability that it is more than one half.
+    /// The probability that it is more than one half. As the model itself may be wrong, it is no nearer to 0 or 1 than so many
+    /// tests can tell: each of them counts as one observation, and there is one more for either side (Laplace's rule of
+    /// succession). With less than 18 tests it is between 0.05 and 0.95.
     pub above_half: f64,
 }
 
@@ -60,6 +84,7 @@ impl FailureModel {
         if places.len() < 2 {
             return None;
         }
+        let tests = places.len();
         let views: Vec<&[f64]> = places.iter().map(Vec::as_slice).collect();
         let failed: Vec<bool> = robustness.iter().map(|&robustness| is_failure(robustness)).collect();
         let chosen = telling(&prior(&axes), &views, &failed, MOST_TESTS);
@@ -71,7 +96,8 @@ impl FailureModel {
         let (places, robustness): (Vec<Vec<f64>>, Vec<f64>) =
             all().map(|&i| (places[i].clone(), robustness[i])).unzip();
         let verdicts = verdicts.calibrated(&places, &robustness, chosen.len());
-        Some(Self { axes, verdicts })
+        let values = told.iter().map(|&value| verdicts.bend.apply(value)).collect();
+        Some(Self { axes, seen, values, verdicts, tests })
     }
 
     /// The probability that each of these tests fails.
@@ -93,59 +119,120 @@ impl FailureModel {
     /// their shares differ is the error of having taken samples (Owen, "Monte Carlo theory, methods and examples", section
     /// 17.2), which is in the deviation too. With one sample the tests are all that there are.
     ///
-    /// The mean is exact; the deviation and what is above one half are of 128 draws of the process, always by the same
-    /// chance.
+    /// The mean is that of the fitted process. The deviation and what is above one half are of 128 draws, always by the same
+    /// chance, of eight processes whose lengths and links are as plausible as the fitted ones, with means and variances that
+    /// are no more certain than the tests make them: a few tests leave all of this open, and little is sure.
     pub fn shares(&self, groups: &[Vec<(Point, f64)>], samples: usize) -> Vec<FailingShare> {
         let all = groups.first().map_or(0, Vec::len);
         if samples == 0 || all < samples {
             return Vec::new();
         }
-        let mut rng = seeded(0, Purpose::Draws, 0);
-        let mut draws = |size: usize| -> Vec<f64> { (0..size).map(|_| normal(&mut rng)).collect() };
-        let of_sample = DRAWS.div_ceil(samples);
-        let draws: Vec<Vec<Vec<f64>>> =
-            (0..samples).map(|_| (0..of_sample).map(|_| draws(all / samples + 1)).collect()).collect();
+        let beliefs = self.beliefs(samples, all / samples);
         let mut shares = Vec::with_capacity(groups.len());
         for groups in groups.chunks((TOGETHER / all).max(1)) {
-            let places = groups.iter().flatten().map(|(test, _)| place(&self.axes, test)).collect();
-            let posterior = self.verdicts.process.posterior(places);
-            for (group, tests) in groups.iter().enumerate() {
+            let places = |tests: Range<usize>| -> Vec<Vec<f64>> {
+                let tests = groups.iter().flat_map(|group| &group[tests.clone()]);
+                tests.map(|(test, _)| place(&self.axes, test)).collect()
+            };
+            let posterior = self.verdicts.process.posterior(places(0..all));
+            let believed: Vec<Posterior> =
+                beliefs.iter().map(|belief| belief.process.posterior(places(belief.tests.clone()))).collect();
+            for (index, tests) in groups.iter().enumerate() {
+                let failure = |i| self.verdicts.failure(posterior.mean(i), posterior.deviation(i));
+                let failures: Vec<f64> = (index * all..(index + 1) * all).map(failure).collect();
                 let weights: Vec<f64> = tests.iter().map(|(_, weight)| *weight).collect();
-                shares.push(self.share(&posterior, group * all, &weights, &draws));
+                let group = Group::new(&failures, &weights, samples);
+                shares.push(self.share(&group, index, &beliefs, &believed));
             }
         }
         shares
     }
 
-    /// What is known of the share among the places from `first` on with these weights; of each sample there are draws, with a
-    /// number more in each than the sample has tests.
-    fn share(&self, posterior: &Posterior, first: usize, weights: &[f64], draws: &[Vec<Vec<f64>>]) -> FailingShare {
-        let failure = |i| self.verdicts.failure(posterior.mean(first + i), posterior.deviation(first + i));
-        let failures: Vec<f64> = (0..weights.len()).map(failure).collect();
-        let samples = draws.len();
-        let size = weights.len() / samples;
-        let weight = weights.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-        let mean = weights.iter().zip(&failures).map(|(weight, failure)| weight * failure).sum::<f64>() / weight;
-        let of = |sample: usize| sample * size..(sample + 1) * size;
-        let off = |sample: usize, value: &dyn Fn(usize) -> f64| {
-            of(sample).map(|i| weights[i] * value(i)).sum::<f64>() / weight * samples as f64
+    /// Processes with plausible lengths, each for one sample of so many tests.
+    fn beliefs(&self, samples: usize, size: usize) -> Vec<Belief> {
+        let mut rng = seeded(0, Purpose::Draws, 0);
+        let fitted = self.verdicts.process.kernel();
+        let kernels = plausible(fitted, &self.seen, &self.values, KERNELS, &mut rng);
+        let count = samples * KERNELS.div_ceil(samples);
+        let freedom = self.seen.len() - 1;
+        let mut belief = |index: usize| {
+            let process = Process::with_noise(&kernels[index % KERNELS], &self.seen, &self.values)?;
+            let link = self.verdicts.plausible_link(&mut rng);
+            let mut draw = || Draw {
+                values: (0..size).map(|_| normal(&mut rng)).collect(),
+                mean: normal(&mut rng),
+                spread: spread(freedom, &mut rng),
+            };
+            let draws: Vec<Draw> = (0..DRAWS.div_ceil(count)).map(|_| draw()).collect();
+            let errors = draws.iter().map(|_| normal(&mut rng)).collect();
+            let sample = index % samples;
+            Some(Belief { process, link, tests: sample * size..(sample + 1) * size, draws, errors })
         };
-        let error = |sample: usize| off(sample, &|i| failures[i] - mean);
-        let square = (0..samples).map(|sample| error(sample) * error(sample)).sum::<f64>();
-        let sampling = if samples > 1 { square / (samples * (samples - 1)) as f64 } else { 0.0 };
+        (0..count).filter_map(&mut belief).collect()
+    }
+
+    /// What is known of the share in the group with this index among those that the processes are asked of.
+    fn share(&self, group: &Group, index: usize, beliefs: &[Belief], believed: &[Posterior]) -> FailingShare {
+        let sampling = group.sampling();
         let (mut square, mut above, mut count) = (0.0, 0, 0);
-        for (sample, draws) in draws.iter().enumerate() {
-            let members: Vec<usize> = of(sample).map(|i| first + i).collect();
-            for (values, draw) in posterior.draws(&members, draws).into_iter().zip(draws) {
-                let begin = of(sample).start;
-                let step = off(sample, &|i| self.verdicts.of_value(values[i - begin]) - failures[i]);
+        for (belief, posterior) in beliefs.iter().zip(believed) {
+            let size = belief.tests.len();
+            let members: Vec<usize> = (index * size..(index + 1) * size).collect();
+            for (values, error) in posterior.draws(&members, &belief.draws).into_iter().zip(&belief.errors) {
+                let first = belief.tests.start;
+                let off = |i: usize| belief.link.of_value(values[i - first]) - group.failures[i];
+                let step = group.of(belief.tests.clone(), &off);
                 square += step * step;
-                above += usize::from(mean + step + sampling.sqrt() * draw[size] > 0.5);
+                above += usize::from(group.mean + step + sampling.sqrt() * error > 0.5);
                 count += 1;
             }
         }
-        let deviation = (square / f64::from(count) + sampling).sqrt();
-        FailingShare { mean, deviation, above_half: above as f64 / f64::from(count) }
+        let (count, tests) = (f64::from(count.max(1)), self.tests as f64);
+        FailingShare {
+            mean: group.mean,
+            deviation: (square / count + sampling).sqrt(),
+            above_half: (tests * above as f64 / count + 1.0) / (tests + 2.0),
+        }
+    }
+}
+
+/// How many times its most likely value a standard deviation may be that values with so many degrees of freedom tell: the
+/// root of n over a chi-squared number.
+fn spread(freedom: usize, rng: &mut impl Rng) -> f64 {
+    let squares: f64 = (0..freedom).map(|_| normal(rng)).map(|x| x * x).sum();
+    ((freedom + 1) as f64 / squares.max(f64::MIN_POSITIVE)).sqrt()
+}
+
+/// A group of tests as the fitted process sees it.
+struct Group<'a> {
+    failures: &'a [f64],
+    weights: &'a [f64],
+    weight: f64,
+    samples: usize,
+    mean: f64,
+}
+
+impl<'a> Group<'a> {
+    fn new(failures: &'a [f64], weights: &'a [f64], samples: usize) -> Self {
+        let weight = weights.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        let mean = weights.iter().zip(failures).map(|(weight, failure)| weight * failure).sum::<f64>() / weight;
+        Self { failures, weights, weight, samples, mean }
+    }
+
+    /// What a sample says of the weighted mean of something.
+    fn of(&self, sample: Range<usize>, value: &dyn Fn(usize) -> f64) -> f64 {
+        sample.map(|i| self.weights[i] * value(i)).sum::<f64>() / self.weight * self.samples as f64
+    }
+
+    /// The variance of the mean over all that the samples stand for.
+    fn sampling(&self) -> f64 {
+        if self.samples < 2 {
+            return 0.0;
+        }
+        let size = self.weights.len() / self.samples;
+        let error = |sample| self.of(sample * size..(sample + 1) * size, &|i| self.failures[i] - self.mean);
+        let square = (0..self.samples).map(error).map(|error| error * error).sum::<f64>();
+        square / (self.samples * (self.samples - 1)) as f64
     }
 }
 
@@ -221,7 +308,9 @@ mod tests {
         let at = |x: f64, y: f64| Point { continuous: vec![x, y], discrete: Vec::new() };
         let group = |x: [f64; 4]| x.map(|x| (at(x, 0.5), 1.0)).to_vec();
         let found = model.shares(&[group([0.1, 0.2, 0.3, 0.4]), group([0.2, 0.3, 0.4, 0.9]), group([0.9; 4])], 1);
-        let expected = [(0.0, 0.0), (0.25, 0.0), (1.0, 1.0)];
+        // As sure as a hundred tests can be.
+        let (never, always) = (1.0 / 102.0, 101.0 / 102.0);
+        let expected = [(0.0, never), (0.25, never), (1.0, always)];
         for (found, (mean, above)) in found.iter().zip(expected) {
             assert!(
                 (found.mean - mean).abs() < 0.02 && found.deviation < 0.05 && found.above_half == above,
@@ -259,6 +348,59 @@ mod tests {
         assert!((alike.mean - 0.5).abs() < 0.02 && alike.deviation < 0.05, "{alike:?}");
         let weighed = model.shares(&group([(0.1, 1.0), (0.9, 3.0), (0.2, 1.0), (0.8, 0.0)]), 1)[0];
         assert!((weighed.mean - 0.6).abs() < 0.02, "{weighed:?}");
+    }
+
+    /// Of places along two of some parameters, where tests pass on one side of a random plane: the share that is decided after
+    /// so many tests, and the share of it that is right.
+    fn decided(dimensions: usize, n: usize, planes: u64) -> (f64, f64) {
+        let (mut decided, mut right, mut places) = (0, 0, 0);
+        for plane in 0..planes {
+            let mut rng = seeded(plane, Purpose::Points, 77);
+            let slopes: Vec<f64> = (0..dimensions).map(|_| normal(&mut rng)).collect();
+            let space = Space::unit_cube(dimensions);
+            let worth = |at: &Point| {
+                let side: f64 = at.continuous.iter().zip(&slopes).map(|(u, slope)| slope * (u - 0.5)).sum();
+                side + 0.1
+            };
+            let known = Strategy::Random.build(&Request { seed: Some(plane), ..Request::new(&space, n) }).unwrap().ask(n);
+            let told: Vec<f64> = known.iter().map(worth).collect();
+            let failing = told.iter().filter(|told| **told < 0.0).count();
+            if failing == 0 || failing == n {
+                continue;
+            }
+            let model = FailureModel::fit(&space, &known, &told).unwrap();
+            let others = Request { seed: Some(plane + 1000), ..Request::new(&space, 128) };
+            let others = Strategy::Random.build(&others).unwrap().ask(128);
+            let at = |x: f64, y: f64| -> Vec<(Point, f64)> {
+                let place = |mut other: Point| {
+                    (other.continuous[0], other.continuous[1]) = (x, y);
+                    (other, 1.0)
+                };
+                others.iter().cloned().map(place).collect()
+            };
+            let groups: Vec<_> =
+                (0..25).map(|i| at(f64::from(i % 5) / 4.01, f64::from(i / 5) / 4.01)).collect();
+            for (group, share) in groups.iter().zip(model.shares(&groups, 8)) {
+                let fails = group.iter().filter(|(test, _)| worth(test) < 0.0).count() > 64;
+                places += 1;
+                if share.above_half >= 0.95 || share.above_half <= 0.05 {
+                    decided += 1;
+                    right += usize::from(fails == (share.above_half > 0.5));
+                }
+            }
+        }
+        (f64::from(decided) / f64::from(places), right as f64 / f64::from(decided.max(1)))
+    }
+
+    #[test]
+    fn a_few_tests_decide_nothing_and_what_more_tests_decide_is_right() {
+        for (dimensions, n) in [(10, 5), (10, 10), (2, 4)] {
+            assert_eq!(decided(dimensions, n, 10).0, 0.0, "{dimensions} axes, {n} tests");
+        }
+        for (dimensions, n, least) in [(3, 20, 0.7), (10, 50, 0.4)] {
+            let (share, right) = decided(dimensions, n, 20);
+            assert!(share > least && right > 0.97, "{dimensions} axes, {n} tests: {share}, {right} of it right");
+        }
     }
 
     #[test]
