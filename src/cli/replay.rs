@@ -1,6 +1,6 @@
 //! `paracosm-fuzz replay`: tests once more, one of a campaign's log or those in regression files.
 
-use super::draw::{Kind, Target};
+use super::draw::{Kind, Target, is_ours_to_write};
 use super::output::{Format, Table, digits, json, value_words};
 use super::{Failure, Found, Verbosity, on_interrupt, print, regressions};
 use crate::coverage::{did_you_mean, nearest};
@@ -24,10 +24,10 @@ pub(super) struct Options {
     /// Where to write the trace [default: DIR/trace-INDEX.csv]
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
-    /// Draw the run from above to a file that does not exist yet: as one picture (.svg, .png) or as a film (.gif)
+    /// Draw the run from above to a file: as one picture (.svg, .png) or as a film (.gif)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
-    /// Film what a camera sees, into a FILE.mp4, a FILE.gif or a FOLDER of PNG files that does not exist yet
+    /// Film what a camera sees, into a FILE.mp4, a FILE.gif, or a FOLDER of PNG files that does not exist yet
     #[arg(long, value_name = "FILE.mp4|FILE.gif|FOLDER")]
     camera: Option<PathBuf>,
     /// Film through a camera in this file; `paracosm-fuzz record --print-cameras` prints one [default: what the driver sees
@@ -40,7 +40,7 @@ pub(super) struct Options {
     /// How the tests in regression files are to end, whatever the files say
     #[arg(long, value_name = "VERDICT")]
     expect: Option<Ending>,
-    /// Write what became of the tests in regression files to this file, which does not exist yet, as CI systems read it
+    /// Write what became of the tests in regression files to this file, as CI systems read it
     #[arg(long, value_name = "FILE.xml")]
     junit: Option<PathBuf>,
     /// Exit with status 1 if a test violates a requirement; of regression files, if one does that is not expected to
@@ -94,6 +94,7 @@ impl Options {
             .as_ref()
             .map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif]))
             .transpose()?;
+        self.trace.as_deref().map_or(Ok(()), |file| is_ours_to_write("--trace", file))?;
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
         let given = self.cameras.as_deref().map(read_cameras).transpose()?;
         let given = given.map(|cameras| self.through(cameras.of_test(&logged.test))).transpose()?;
