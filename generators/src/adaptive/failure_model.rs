@@ -362,7 +362,8 @@ mod tests {
                 let side: f64 = at.continuous.iter().zip(&slopes).map(|(u, slope)| slope * (u - 0.5)).sum();
                 side + 0.1
             };
-            let known = Strategy::Random.build(&Request { seed: Some(plane), ..Request::new(&space, n) }).unwrap().ask(n);
+            let known =
+                Strategy::Random.build(&Request { seed: Some(plane), ..Request::new(&space, n) }).unwrap().ask(n);
             let told: Vec<f64> = known.iter().map(worth).collect();
             let failing = told.iter().filter(|told| **told < 0.0).count();
             if failing == 0 || failing == n {
@@ -378,8 +379,7 @@ mod tests {
                 };
                 others.iter().cloned().map(place).collect()
             };
-            let groups: Vec<_> =
-                (0..25).map(|i| at(f64::from(i % 5) / 4.01, f64::from(i / 5) / 4.01)).collect();
+            let groups: Vec<_> = (0..25).map(|i| at(f64::from(i % 5) / 4.01, f64::from(i / 5) / 4.01)).collect();
             for (group, share) in groups.iter().zip(model.shares(&groups, 8)) {
                 let fails = group.iter().filter(|(test, _)| worth(test) < 0.0).count() > 64;
                 places += 1;

@@ -66,9 +66,8 @@ mod tests {
 
     /// The deviation of the logarithms of the lengths that so many tests of a wave along one of two axes leave.
     fn spread(n: usize) -> [f64; 2] {
-        let places: Vec<Vec<f64>> = (0..n)
-            .map(|i| vec![(0.5 + i as f64 * 0.754_878).fract(), (0.5 + i as f64 * 0.569_840).fract()])
-            .collect();
+        let places: Vec<Vec<f64>> =
+            (0..n).map(|i| vec![(0.5 + i as f64 * 0.754_878).fract(), (0.5 + i as f64 * 0.569_840).fract()]).collect();
         let values: Vec<f64> = places.iter().map(|at| libm::sin(7.0 * at[0])).collect();
         let from = fit(&prior(&[Axis::Continuous; 2]), &places, &values, 40);
         let kernels = plausible(&from, &places, &values, 200, &mut seeded(0, Purpose::Draws, 0));
