@@ -1,6 +1,6 @@
 //! `paracosm-fuzz replay`: tests once more, one of a campaign's log or those in regression files.
 
-use super::draw::{Kind, Target, is_ours_to_write};
+use super::draw::{Kind, Target};
 use super::output::{Format, Table, digits, json, value_words};
 use super::{Failure, Found, Verbosity, on_interrupt, print, regressions};
 use crate::coverage::{did_you_mean, nearest};
@@ -94,7 +94,6 @@ impl Options {
             .as_ref()
             .map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif]))
             .transpose()?;
-        self.trace.as_deref().map_or(Ok(()), |file| is_ours_to_write("--trace", file))?;
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
         let given = self.cameras.as_deref().map(read_cameras).transpose()?;
         let given = given.map(|cameras| self.through(cameras.of_test(&logged.test))).transpose()?;

@@ -55,12 +55,15 @@ impl Story<'_> {
     }
 }
 
+/// What there is to say of a mode, if anything.
+type Difference<'a> = dyn Fn(&Mode) -> Option<String> + 'a;
+
 /// Adds to the words that several modes share what tells these apart: what they violate, by which part of it, and when,
 /// where and how fast the car was; and where nothing of that does, their names.
 pub(super) fn tell_apart(modes: &mut [Mode]) {
     let figure =
         |mode: &Mode, name: &str| mode.figures.iter().find(|(other, _)| *other == name).map(|(_, at)| span(*at));
-    let differences: [&dyn Fn(&Mode) -> Option<String>; 6] = [
+    let differences: [&Difference; 6] = [
         &|mode| Some(format!("violating {}", mode.violates.join(" and "))),
         &|mode| by_parts(mode.parts.iter().map(|(_, part)| part.as_str())),
         &|mode| figure(mode, "critical_time").map(|time| format!("{time} s after the start")),
