@@ -381,8 +381,7 @@ fn regressions_report_to_ci_as_well() {
     let replays = all.iter().filter(|element| attribute(element, "name") == "replay");
     assert!(replays.map(|element| attribute(element, "value")).eq(["paracosm-fuzz replay a.json"]));
     // A report is replaced by the next, in which every file has a case of its own.
-    let both = ["replay", "a.json", "expected-to-pass.json", "--junit", "report.xml"];
-    succeeds(fuzz(dir.path(), &both));
+    succeeds(fuzz(dir.path(), &["replay", "a.json", "expected-to-pass.json", "--junit", "report.xml"]));
     let all = elements(&fs::read_to_string(dir.path().join("report.xml")).unwrap());
     let cases: Vec<_> = all.iter().filter(|element| element.0 == "testcase").collect();
     let names: Vec<String> = cases.iter().map(|case| attribute(case, "name").to_owned()).collect();
