@@ -6,7 +6,7 @@
 //! `tests/check_certificate.py`, which shares nothing with this software, checks it.
 
 use crate::estimate::{Holes, KwiseWorst};
-use crate::folder::{is_new, write_whole};
+use crate::folder::write_whole;
 use crate::{Coverage, Error, Measure, Tests, Watch};
 use paracosm_coverage::dispersion::LargestEmptyBox;
 use paracosm_coverage::kwise_dispersion::projections;
@@ -119,17 +119,11 @@ impl Certificate {
     /// Writes it to a file, whole or not at all.
     ///
     /// # Errors
-    /// The file cannot be written, or exists.
+    /// The file cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        Self::is_new(path)?;
         let mut text = serde_json::to_vec(self).expect("a certificate is always JSON");
         text.push(b'\n');
         write_whole(path, &text)
-    }
-
-    /// Checks that a file does not exist yet.
-    pub(crate) fn is_new(path: &Path) -> Result<(), Error> {
-        is_new(path, "a certificate")
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! There is no standard, but one shape that all of them know: `testsuites`, in it a `testsuite` for each study and in that
 //! a `testcase` for each trial, with `failure`, `error` or `skipped` where it did not pass. Properties say what JUnit has no
-//! words for: requirements, parameters, the command that runs a test again. `time` is what was simulated, in seconds, as
-//! the time that it took would differ from run to run.
+//! words for: requirements, parameters, the simulated seconds, the command that runs a test again. There is no `time`: readers
+//! take it for what a test took, which differs from run to run.
 
 use crate::{Study, Subject, Trial};
 use paracosm_oracles::Verdict;
@@ -21,6 +21,8 @@ pub struct Suite<'a> {
 
 /// A trial as a test case.
 pub struct Case<'a> {
+    /// What it is called: no other of its suites is called so.
+    pub name: String,
     /// The trial.
     pub trial: &'a Trial,
     /// The command that runs it again.
@@ -56,7 +58,7 @@ impl<'a> Case<'a> {
             ),
             Verdict::Invalid => End::Skipped(format!("invalid: {error}")),
         };
-        Self { trial, replay, end, expected: None }
+        Self { name: format!("test {}", trial.index), trial, replay, end, expected: None }
     }
 }
 
@@ -74,9 +76,8 @@ pub fn document(suites: &[Suite]) -> String {
 
 impl Suite<'_> {
     fn write(&self, text: &mut String) {
-        let cases = self.cases.iter();
-        let time = cases.clone().filter_map(|case| self.seconds(case.trial)).reduce(|sum, seconds| sum + seconds);
-        let _ = writeln!(text, "  <testsuite name=\"{}\"{}{}>", escaped(&self.name), counts(cases), attribute(time));
+        let counts = counts(self.cases.iter());
+        let _ = writeln!(text, "  <testsuite name=\"{}\"{counts}>", escaped(&self.name));
         properties(text, "    ", &self.properties());
         for case in &self.cases {
             self.write_case(text, case);
@@ -103,14 +104,13 @@ impl Suite<'_> {
         all
     }
 
-    fn write_case(&self, text: &mut String, Case { trial, replay, end, expected }: &Case) {
+    fn write_case(&self, text: &mut String, Case { name, trial, replay, end, expected }: &Case) {
         let class = match &self.study.subject {
             Subject::Scenario(simulation) => simulation.scenario.as_str(),
             Subject::System(_) => "system",
         };
-        let time = attribute(self.seconds(trial));
-        let (class, index) = (escaped(class), trial.index);
-        let _ = writeln!(text, "    <testcase classname=\"{class}\" name=\"test {index}\"{time}>");
+        let (class, name) = (escaped(class), escaped(name));
+        let _ = writeln!(text, "    <testcase classname=\"{class}\" name=\"{name}\">");
         let mut all: Vec<(String, String)> =
             trial.test.iter().map(|(name, value)| (format!("parameter.{name}"), value.to_string())).collect();
         let became = |id: &str| match trial.robustness(id) {
@@ -119,6 +119,8 @@ impl Suite<'_> {
             Some(_) => "holds",
         };
         all.extend(trial.requirements().map(|id| (format!("requirement.{id}"), became(id).to_owned())));
+        // Milliseconds are enough, and hide how ticks add up.
+        all.extend(self.seconds(trial).map(|seconds| ("simulated_seconds".to_owned(), format!("{seconds:.3}"))));
         all.extend(expected.map(|expected| ("expected".to_owned(), expected.to_owned())));
         all.push(("replay".to_owned(), replay.clone()));
         properties(text, "      ", &all);
@@ -146,11 +148,6 @@ impl Suite<'_> {
             Subject::System(_) => None,
         }
     }
-}
-
-/// A time as an attribute, if it is known: milliseconds are enough, and hide how ticks add up.
-fn attribute(seconds: Option<f64>) -> String {
-    seconds.map(|seconds| format!(" time=\"{seconds:.3}\"")).unwrap_or_default()
 }
 
 /// What a trial violates, and by how much.

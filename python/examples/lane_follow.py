@@ -4,9 +4,14 @@
         --open approach_speed --open gap=40..60 --budget 20
 """
 
-import numpy as np
+from pathlib import Path
 
-from paracosm import Camera, Control, Driver
+try:
+    import numpy as np
+
+    from paracosm import Camera, Control, Driver
+except ModuleNotFoundError as missing:
+    raise SystemExit(f"lane_follow.py needs the package {missing.name}: pip install {Path(__file__).parents[1]}") from None
 
 ROWS = np.arange(48, 66)  # of the image, where the road is near
 LOOK_AHEAD = 12.0  # metres

@@ -103,14 +103,18 @@ impl Options {
         let blame = report.blame;
         write_whole(&self.dir.join("blame.json"), json(report).as_bytes())?;
         write_whole(&self.dir.join("blame.csv"), &blame.csv(study))?;
+        let mut written = vec!["blame.json", "blame.csv"];
         match axes {
             _ if blame.failures.is_empty() => {}
             None => verbosity.note("no map: it needs two continuous open parameters"),
             Some([x, y]) => {
                 let drawn = FailureMap::of_blame(study, trials, blame, [&x, &y])?;
                 map::write_as(&self.dir, "blame-map", &drawn)?;
+                written.extend(["blame-map.svg", "blame-map.png"]);
             }
         }
+        let written: Vec<String> = written.iter().map(|name| self.dir.join(name).display().to_string()).collect();
+        verbosity.note(format_args!("written to {}", written.join(", ")));
         Ok(())
     }
 

@@ -2,8 +2,10 @@
 
 use super::draw::{Kind, Target};
 use super::output::{Format, Table, digits, domain_words, json, value_words};
+use super::subject::Subject;
 use super::{Failure, Found, Verbosity, print};
-use crate::engine::{DEFAULT_DT, Declaration, Program, Run, Setup, picture};
+use crate::coverage::Value;
+use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup, picture};
 use crate::oracles::signal;
 use crate::{Error, Study, plot};
 use clap::Args;
@@ -13,13 +15,12 @@ use std::path::PathBuf;
 /// What `describe` takes.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// The scenario; `paracosm-fuzz list` shows them all
-    #[arg(default_value = "pedestrian-crossing")]
-    scenario: String,
+    #[command(flatten)]
+    subject: Subject,
     /// Print the graph of its streams in the language of Graphviz
     #[arg(long, conflicts_with = "format")]
     dot: bool,
-    /// Draw its world from above as it begins with nominal values, to a file that does not exist yet: .svg or .png
+    /// Draw its world from above as it begins with the values that are set, and nominal ones, to a file: .svg or .png
     #[arg(long, value_name = "FILE", conflicts_with_all = ["dot", "format"])]
     draw: Option<PathBuf>,
     /// How to print it [default: table on a terminal, json elsewhere]
@@ -29,12 +30,12 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        let study = Study::of(&self.scenario)?;
+        let study = self.subject.study(verbosity)?;
         let program = study.program()?;
         let declaration = program.declare()?;
         if let Some(file) = &self.draw {
             let target = Target::new("--draw", file, &[Kind::Svg, Kind::Png])?;
-            verbosity.note(target.write(|kind| draw(&program, &declaration, kind))?);
+            verbosity.note(target.write(|kind| draw(&study, &program, &declaration, kind))?);
             return Ok(Found::Nothing);
         }
         let text = match Format::or_fitting(self.format) {
@@ -47,8 +48,12 @@ impl Options {
 }
 
 /// The world from above.
-fn draw(program: &Program, declaration: &Declaration, kind: Kind) -> Result<Vec<u8>, Failure> {
-    let run = Run::new(program, &declaration.nominal(), Setup::asking_every(DEFAULT_DT))?;
+fn draw(study: &Study, program: &Program, declaration: &Declaration, kind: Kind) -> Result<Vec<u8>, Failure> {
+    let values = declaration.parameters.iter().map(|declared| {
+        let name = &declared.parameter.name;
+        (name.clone(), study.subject.fixed().get(name).cloned().unwrap_or_else(|| declared.nominal()))
+    });
+    let run = Run::new(program, &values.collect(), Setup::asking_every(DEFAULT_DT))?;
     let drawing = picture::world(&run, program.name);
     match kind {
         Kind::Svg => Ok(drawing.svg().into_bytes()),
@@ -61,10 +66,15 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
     table.heading(&format!("{}: {}; {} s", program.name, program.about, digits(declaration.duration)));
     table.heading("parameters");
     for declared in &declaration.parameters {
-        let parameter = &declared.parameter;
+        let opened = study.space.parameter(&declared.parameter.name).ok();
+        let parameter = opened.unwrap_or(&declared.parameter);
         let unit = parameter.unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
         let nominal = value_words(&declared.nominal());
-        let state = if declared.open { ", open" } else { ", unless opened" };
+        let state = match (opened, set(study, declared)) {
+            (Some(_), _) => ", open".to_owned(),
+            (None, Some(value)) => format!(", set to {}", value_words(value)),
+            (None, None) => ", unless opened".to_owned(),
+        };
         let signal = parameter.signal.map(|shape| format!(", {shape} over time")).unwrap_or_default();
         let domain = domain_words(&parameter.domain);
         table.row(&parameter.name, &format!("{domain}{unit}, nominally {nominal}{state}{signal}"));
@@ -81,6 +91,11 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
         table.row(object, &names.join(" "));
     }
     Ok(table.finish())
+}
+
+/// What a parameter is set to that is not its nominal value.
+fn set<'a>(study: &'a Study, declared: &Declared) -> Option<&'a Value> {
+    study.subject.fixed().get(&declared.parameter.name).filter(|value| **value != declared.nominal())
 }
 
 /// The signals of the scenario, as formulas name them.
@@ -106,7 +121,15 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
     let parameters: Vec<_> = declaration
         .parameters
         .iter()
-        .map(|declared| json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal()}))
+        .map(|declared| {
+            let opened = study.space.parameter(&declared.parameter.name).ok();
+            let parameter = opened.unwrap_or(&declared.parameter);
+            let mut said = json!({"parameter": parameter, "open": opened.is_some(), "nominal": declared.nominal()});
+            if let Some(value) = set(study, declared) {
+                said["set"] = json!(value);
+            }
+            said
+        })
         .collect();
     Ok(json(&json!({"name": program.name, "about": program.about, "duration": declaration.duration,
         "parameters": parameters, "requirements": study.requirements, "signals": signals(study)?})))

@@ -1,6 +1,8 @@
 //! The files that pictures are written to: `--draw` of `paracosm-fuzz describe` and `replay`, `--out` of `map`.
+//!
+//! What was drawn or reported before is replaced, as it can be had again; what belongs to a campaign is not.
 
-use crate::folder::{is_new, write_whole};
+use crate::folder::write_whole;
 use crate::{Error, Folder};
 use paracosm_coverage::{did_you_mean, nearest};
 use std::path::{Path, PathBuf};
@@ -25,7 +27,7 @@ impl Kind {
     }
 }
 
-/// A file for a picture or its numbers, which does not exist yet.
+/// A file for a picture or its numbers.
 #[derive(Debug)]
 pub(super) struct Target {
     path: PathBuf,
@@ -36,7 +38,7 @@ impl Target {
     /// Checks, before anything takes time, that a picture of one of these kinds can be written to the file of an option.
     ///
     /// # Errors
-    /// The file exists, belongs to a campaign, or has another ending.
+    /// The file belongs to a campaign, or has another ending.
     pub fn new(option: &str, path: &Path, kinds: &[Kind]) -> Result<Self, Error> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let Some(kind) = kinds.iter().find(|kind| kind.ending() == ending) else {
@@ -47,11 +49,7 @@ impl Target {
             let message = format!("{option} {path}: found {found}, expected {}{meant}", known.join(" or "));
             return Err(Error::Usage(message));
         };
-        is_new(path, "a picture")?;
-        if path.file_name().is_some_and(Folder::owns) {
-            let message = format!("{option} {} has the name of a campaign's own file", path.display());
-            return Err(Error::Usage(message));
-        }
+        is_ours_to_write(option, path)?;
         Ok(Self { path: path.to_owned(), kind: *kind })
     }
 
@@ -68,9 +66,17 @@ impl Target {
             message: error.to_string(),
         };
         let contents = drawn(self.kind).map_err(picture)?;
-        is_new(&self.path, "a picture")?;
         write_whole(&self.path, &contents)?;
         let what = if self.kind == Kind::Csv { "table" } else { "picture" };
         Ok(format!("{what} of {} kB written to {}", contents.len().div_ceil(1000), self.path.display()))
     }
+}
+
+/// Checks that the file of an option is none of a campaign's own, which nothing replaces.
+pub(super) fn is_ours_to_write(option: &str, path: &Path) -> Result<(), Error> {
+    if path.file_name().is_some_and(Folder::owns) {
+        let message = format!("{option} {} has the name of a campaign's own file", path.display());
+        return Err(Error::Usage(message));
+    }
+    Ok(())
 }

@@ -74,9 +74,10 @@ enum Verb {
     /// Show a scenario: its parameters and requirements, the graph of its streams, or its world from above
     #[command(
         after_help = "Examples:\n  paracosm-fuzz describe pedestrian-crossing --dot | dot -Tsvg > streams.svg\n  \
+                            paracosm-fuzz describe pedestrian-crossing --set friction=0.3 --open lanes\n  \
                             paracosm-fuzz describe pedestrian-crossing --draw world.svg"
     )]
-    Describe(describe::Options),
+    Describe(Box<describe::Options>),
     /// Draw the failure map of a campaign again, over other parameters: its tests, and how probable a failure is
     #[command(after_help = "Examples:\n  paracosm-fuzz map paracosm-out --x speed --y friction\n  \
                             paracosm-fuzz map paracosm-out --x distance --y friction --out slippery.svg")]

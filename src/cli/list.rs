@@ -2,7 +2,8 @@
 
 use super::output::{Format, digits, domain_words, json, value_words};
 use super::{Failure, Found, print};
-use crate::engine::driver;
+use crate::coverage::Parameter;
+use crate::engine::{Declaration, Declared, driver};
 use crate::generators::Strategy;
 use crate::scenarios;
 use clap::Args;
@@ -39,6 +40,7 @@ fn table() -> Result<String, Failure> {
     for program in scenarios::ALL {
         writeln!(text, "  {:<22}{}", program.name, program.about)?;
         let declaration = program.declare()?;
+        let widths = widths(&declaration);
         for declared in &declaration.parameters {
             let parameter = &declared.parameter;
             let state = match declared.open {
@@ -46,16 +48,12 @@ fn table() -> Result<String, Failure> {
                 false => format!("{} unless opened", value_words(&declared.nominal())),
             };
             let signal = parameter.signal.map(|shape| format!(", {shape}")).unwrap_or_default();
-            writeln!(
-                text,
-                "    {:<20}{:<12}{:<6}{state}{signal}",
-                parameter.name,
-                domain_words(&parameter.domain),
-                parameter.unit.as_deref().unwrap_or("")
-            )?;
+            let words = words(parameter);
+            let [name, domain, unit] = [0, 1, 2].map(|i| format!("{:<1$}", words[i], widths[i]));
+            writeln!(text, "    {name}{domain}{unit}{state}{signal}")?;
         }
         for requirement in &declaration.requirements {
-            writeln!(text, "    {:<20}{}", requirement.id, requirement.text)?;
+            writeln!(text, "    {:<2$}{}", requirement.id, requirement.text, widths[0])?;
         }
     }
     text.push_str("\nSTRATEGIES\n");
@@ -77,6 +75,21 @@ fn table() -> Result<String, Failure> {
     text.push_str(EXTERNAL);
     text.push_str("\nParameters: --open NAME[=LO..HI], --set NAME=VALUE. Settings: --set driver.NAME=VALUE.\n");
     Ok(text)
+}
+
+/// How wide the columns of a scenario's parameters are at least: names, domains and units.
+const COLUMNS: [usize; 3] = [20, 12, 6];
+
+/// The same where something is longer.
+fn widths(declaration: &Declaration) -> [usize; 3] {
+    let longest = |of: &dyn Fn(&Declared) -> usize| declaration.parameters.iter().map(of).max().unwrap_or(0);
+    let width = |i: usize| COLUMNS[i].max(1 + longest(&|declared| words(&declared.parameter)[i].chars().count()));
+    [0, 1, 2].map(width)
+}
+
+/// What there is in the columns of a parameter.
+fn words(parameter: &Parameter) -> [String; 3] {
+    [parameter.name.clone(), domain_words(&parameter.domain), parameter.unit.clone().unwrap_or_default()]
 }
 
 /// What there is to say of the latency of a driver that has none of its own.

@@ -20,8 +20,7 @@ pub(super) struct Options {
     dir: PathBuf,
     #[command(flatten)]
     axes: Axes,
-    /// Write to this file, which does not exist yet, .svg, .png or .csv [default: failure-map.svg, .png and .csv in DIR,
-    /// which are replaced]
+    /// Write to this file, .svg, .png or .csv [default: failure-map.svg, .png and .csv in DIR]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// How to print what the map says [default: table on a terminal, json elsewhere]
@@ -66,10 +65,15 @@ impl Options {
                     Some(estimate) => {
                         table.row("estimated failing", &percent(estimate.mean()));
                         if estimate.invalid() > 0.0 {
-                            table.row("estimated invalid", &format!("{} of the map", percent(estimate.invalid())));
+                            table.row(
+                                "estimated invalid",
+                                &format!(
+                                    "{} of the map, where most tests cannot be built",
+                                    percent(estimate.invalid())
+                                ),
+                            );
                         }
-                        let decided = percent(estimate.decided());
-                        table.row("decided", &format!("{decided} of the map, by this estimate"));
+                        table.row("decided", &decided(estimate.decided()));
                     }
                 }
                 table.finish()
@@ -98,6 +102,14 @@ impl Axes {
         failure_estimate::axes(study, [&x, &y])?;
         Ok(Some([x, y]))
     }
+}
+
+/// How much of a map is decided, in words.
+fn decided(share: f64) -> String {
+    if share == 0.0 {
+        return "nothing of the map: that takes more tests".to_owned();
+    }
+    format!("{} of the map, by this estimate", percent(share))
 }
 
 /// The map of a campaign that has ended, over its first two continuous coordinates; `None` where it has less.

@@ -1,8 +1,9 @@
 //! `paracosm-fuzz replay FILE...`: regression tests once more.
 
+use super::draw::is_ours_to_write;
 use super::output::{Format, digits, json, shell_word};
 use super::{Failure, Found, print};
-use crate::folder::{is_new, write_whole};
+use crate::folder::write_whole;
 use crate::junit::{self, Case, End, Suite};
 use crate::oracles::Verdict;
 use crate::{Error, Expectation, Regression, Replayed, Trial};
@@ -11,7 +12,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Runs regression files, all of them whatever becomes of one, and says what became of each. `expect` overrides what they
-/// say, and `junit` is written if it is a file that does not exist yet. A violation is found also where one
+/// say, and `junit` is written, in the place of an older report. A violation is found also where one
 /// was expected; the report for CI goes by what was expected. The first that broke, or did not repeat what the same software has
 /// recorded, is the failure in the end.
 pub(super) fn replay(
@@ -20,7 +21,7 @@ pub(super) fn replay(
     junit: Option<&Path>,
     format: Option<Format>,
 ) -> Result<Found, Failure> {
-    junit.map_or(Ok(()), |path| is_new(path, "a report"))?;
+    junit.map_or(Ok(()), is_report)?;
     let mut regressions = Vec::new();
     for file in files {
         let mut regression = Regression::read(file)?;
@@ -58,6 +59,15 @@ pub(super) fn replay(
     wrong.map_or(Ok(found), |message| Err(message.into()))
 }
 
+/// Checks that a report may be written there, and that it is no regression file that was taken for the option's.
+fn is_report(path: &Path) -> Result<(), Error> {
+    is_ours_to_write("--junit", path)?;
+    if path.extension().is_some_and(|ending| ending == "json") {
+        return Err(Error::Usage(format!("--junit {}: a report is XML, expected FILE.xml", path.display())));
+    }
+    Ok(())
+}
+
 /// How a test ends for CI: by what was expected of it, not by its verdict alone.
 fn end(replayed: &Replayed, words: String) -> End {
     match replayed {
@@ -73,7 +83,8 @@ fn suite<'a>(file: &Path, regression: &'a Regression, (trial, end): (&'a Trial, 
     let name = file.to_string_lossy().into_owned();
     let replay = format!("paracosm-fuzz replay {}", shell_word(&name));
     let expected = Some(if regression.expect == Expectation::Fail { "fail" } else { "pass" });
-    Suite { name, study: regression.study(), cases: vec![Case { trial, replay, end, expected }] }
+    let case = Case { name: name.clone(), trial, replay, end, expected };
+    Suite { name, study: regression.study(), cases: vec![case] }
 }
 
 /// What became of a test.

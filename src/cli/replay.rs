@@ -24,10 +24,10 @@ pub(super) struct Options {
     /// Where to write the trace [default: DIR/trace-INDEX.csv]
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
-    /// Draw the run from above to a file that does not exist yet: as one picture (.svg, .png) or as a film (.gif)
+    /// Draw the run from above to a file: as one picture (.svg, .png) or as a film (.gif)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
-    /// Film what a camera sees, into a FILE.mp4, a FILE.gif or a FOLDER of PNG files that does not exist yet
+    /// Film what a camera sees, into a FILE.mp4, a FILE.gif, or a FOLDER of PNG files that does not exist yet
     #[arg(long, value_name = "FILE.mp4|FILE.gif|FOLDER")]
     camera: Option<PathBuf>,
     /// Film through a camera in this file; `paracosm-fuzz record --print-cameras` prints one [default: what the driver sees
@@ -40,7 +40,7 @@ pub(super) struct Options {
     /// How the tests in regression files are to end, whatever the files say
     #[arg(long, value_name = "VERDICT")]
     expect: Option<Ending>,
-    /// Write what became of the tests in regression files to this file, which does not exist yet, as CI systems read it
+    /// Write what became of the tests in regression files to this file, as CI systems read it
     #[arg(long, value_name = "FILE.xml")]
     junit: Option<PathBuf>,
     /// Exit with status 1 if a test violates a requirement, expected or not

@@ -44,7 +44,8 @@ impl Report<'_> {
             let count = summary.count(verdict);
             if count > 0 || matches!(verdict, Verdict::Fail | Verdict::Pass) {
                 let share = percent(count as f64 / summary.tests().max(1) as f64);
-                table.row(&verdict.to_string(), &format!("{count:<6}{share}"));
+                let meaning = meaning(verdict);
+                table.row(&verdict.to_string(), &format!("{count:<6}{share}{meaning}"));
             }
         }
         for (i, judged) in summary.requirements().iter().enumerate() {
@@ -219,6 +220,16 @@ impl Report<'_> {
     fn command(&self, verb: &str, index: usize) -> String {
         let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
         format!("{} {verb} {} {index}", shell_word(&program), shell_word(&self.out.to_string_lossy()))
+    }
+}
+
+/// What a verdict says that is no answer.
+fn meaning(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Inconclusive => ", of which the situation never came about, or which ended too early",
+        Verdict::Invalid => ", whose world cannot be built: they cover nothing",
+        Verdict::Error => ", which broke: they cover nothing",
+        Verdict::Pass | Verdict::Fail => "",
     }
 }
 

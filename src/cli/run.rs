@@ -8,8 +8,10 @@ use super::sampling::Sampling;
 use super::subject::Subject;
 use super::suspects::Guilt;
 use super::{Failure, Found, Verbosity, on_interrupt, print};
+use crate::coverage::{did_you_mean, nearest};
 use crate::generators::Strategy;
 use crate::oracles::Verdict;
+use crate::scenarios;
 use crate::{Campaign, Coverage, Error, Explanation, Folder, Measure, Modes, Study, Tests, Trial};
 use clap::Args;
 use std::collections::BTreeMap;
@@ -91,6 +93,9 @@ impl Options {
         verbosity: Verbosity,
         prepare: impl FnOnce(Study) -> Result<Study, Error>,
     ) -> Result<Conducted, Failure> {
+        if self.resume {
+            self.is_no_folder()?;
+        }
         let study = self.study(prepare(self.subject.study(verbosity)?)?)?;
         if self.locate.is_some() && study.space.levels().is_empty() {
             let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
@@ -223,6 +228,31 @@ impl Options {
             Some(path) => study.extend(path),
             None => Ok(study),
         }
+    }
+
+    /// Checks that what is to be resumed is no folder in the place of a scenario.
+    fn is_no_folder(&self) -> Result<(), Error> {
+        let name = self.subject.name();
+        if self.subject.is_system() || scenarios::ALL.iter().any(|program| program.name == name) {
+            return Ok(());
+        }
+        let is_campaign = |folder: &Path| folder.join("campaign.json").exists();
+        let folder = Path::new(name);
+        let said = "--resume takes no folder, --out does";
+        if is_campaign(folder) {
+            let message = format!("{name} is no scenario but the folder of a campaign: {said}: --out {name} --resume");
+            return Err(Error::Usage(message));
+        }
+        let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
+        let there = std::fs::read_dir(parent.unwrap_or(Path::new("."))).into_iter().flatten().flatten();
+        let there = there.map(|entry| parent.map_or(entry.file_name().into(), |_| entry.path()));
+        let mut there: Vec<PathBuf> = there.filter(|folder| is_campaign(folder)).collect();
+        there.sort();
+        let names: Vec<String> = there.iter().map(|folder| folder.display().to_string()).collect();
+        let meant = nearest(name, names.iter().map(String::as_str)).map(|folder| format!("--out {folder} --resume"));
+        let scenario = nearest(name, scenarios::ALL.iter().map(|program| program.name)).map(str::to_owned);
+        let meant = did_you_mean(&meant.or(scenario));
+        Err(Error::Usage(format!("{name} is neither a campaign folder nor a scenario; {said}{meant}")))
     }
 
     fn strategy(&self) -> &str {

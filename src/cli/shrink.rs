@@ -17,7 +17,8 @@ pub(super) struct Options {
     /// How many tests to run at most
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
-    /// Keep to the failure mode as well: what the car touches, with which side, and whether it brakes then
+    /// Keep to the failure mode: violate nothing more, and touch the same with the same side, braking or not. Otherwise a
+    /// simpler test has to violate what the first one did, and may do it in another way, which is said
     #[arg(long)]
     same_mode: bool,
     /// Write the simplest test to a regression file that does not exist yet, which `replay` runs
@@ -60,6 +61,11 @@ fn table(study: &Study, shrunk: &Shrunk) -> String {
     for requirement in study.requirements.iter().filter(|requirement| shrunk.violates.contains(&requirement.id)) {
         let value = shrunk.trial.robustness(&requirement.id).map(digits).unwrap_or_default();
         table.row(&requirement.id, &format!("{value} {}", requirement.unit));
+    }
+    if !shrunk.same_mode {
+        let [before, after] = &shrunk.failures;
+        table.row("fails in another way", after);
+        table.row("  before", &format!("{before}; --same-mode keeps to that"));
     }
     let left = match shrunk.minimal {
         true => "no simpler one that fails is a step or two away",

@@ -22,7 +22,7 @@ is excluded from the design domain.";
 pub(super) struct Options {
     /// The folder of the campaign
     dir: PathBuf,
-    /// Write the matrix to this file, which does not exist yet
+    /// Write the matrix to this file
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
     /// How to print it [default: table on a terminal, json elsewhere]

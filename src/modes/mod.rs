@@ -93,6 +93,7 @@ impl Modes {
         }
         let mut modes: Vec<Mode> = kinds.iter().flat_map(|(kind, trials)| divided(study, kind, trials)).collect();
         modes.sort_by_key(|mode| (std::cmp::Reverse(mode.count), mode.trials[0]));
+        words::tell_apart(&mut modes);
         Self { failures: failing.len(), modes }
     }
 }

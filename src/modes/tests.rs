@@ -99,6 +99,21 @@ fn failures_of_a_system_are_told_apart_by_the_part_of_the_formula_and_the_time()
 }
 
 #[test]
+fn modes_with_the_same_words_are_told_apart_by_what_they_differ_in() {
+    let too_slow = contact(0, "front", "braking", 6.0, WALKER);
+    // The same contact, but the car has not come far enough either.
+    let line = serde_json::to_string(&contact(1, "front", "braking", 6.0, WALKER)).unwrap();
+    let line = line.replace("\"progress\":null", "\"progress\":-9");
+    let stuck: Trial = serde_json::from_str(&line).unwrap();
+    let told: Vec<String> = modes(&[too_slow, stuck]).modes.into_iter().map(|mode| mode.words).collect();
+    let words = "the car brakes at 6 m/s and hits the pedestrian with its front";
+    assert_eq!(
+        told,
+        [format!("{words}, violating no-collision"), format!("{words}, violating no-collision and progress")]
+    );
+}
+
+#[test]
 fn trials_of_which_only_the_violation_is_known_are_one_mode() {
     let line = |index: usize| {
         format!(

@@ -1,6 +1,6 @@
 //! What happens in a failure mode, in words.
 
-use super::Touch;
+use super::{Mode, Touch};
 use crate::Trial;
 use paracosm_engine::Metric;
 
@@ -51,9 +51,40 @@ impl Story<'_> {
 
     /// What of the formulas is not so.
     fn part(&self) -> Option<String> {
-        let parts: Vec<String> = self.parts.iter().map(|(_, part)| format!("`{part}`")).collect();
-        (!parts.is_empty()).then(|| format!("by {}", parts.join(" and ")))
+        by_parts(self.parts.iter().map(|(_, part)| *part))
     }
+}
+
+/// What there is to say of a mode, if anything.
+type Difference<'a> = dyn Fn(&Mode) -> Option<String> + 'a;
+
+/// Adds to the words that several modes share what tells these apart: what they violate, by which part of it, and when,
+/// where and how fast the car was; and where nothing of that does, their names.
+pub(super) fn tell_apart(modes: &mut [Mode]) {
+    let figure =
+        |mode: &Mode, name: &str| mode.figures.iter().find(|(other, _)| *other == name).map(|(_, at)| span(*at));
+    let differences: [&Difference; 6] = [
+        &|mode| Some(format!("violating {}", mode.violates.join(" and "))),
+        &|mode| by_parts(mode.parts.iter().map(|(_, part)| part.as_str())),
+        &|mode| figure(mode, "critical_time").map(|time| format!("{time} s after the start")),
+        &|mode| figure(mode, "critical_travelled").map(|place| format!("after {place} m")),
+        &|mode| figure(mode, "critical_speed").map(|speed| format!("at {speed} m/s")),
+        &|mode| Some(mode.name.clone()),
+    ];
+    for difference in differences {
+        let told: Vec<(String, Option<String>)> =
+            modes.iter().map(|mode| (mode.words.clone(), difference(mode))).collect();
+        for (mode, (words, own)) in modes.iter_mut().zip(&told) {
+            let differs = told.iter().any(|(others, theirs)| others == words && theirs != own);
+            own.iter().filter(|_| differs).for_each(|own| mode.words.push_str(&format!(", {own}")));
+        }
+    }
+}
+
+/// By which parts formulas are violated.
+fn by_parts<'a>(parts: impl Iterator<Item = &'a str>) -> Option<String> {
+    let parts: Vec<String> = parts.map(|part| format!("`{part}`")).collect();
+    (!parts.is_empty()).then(|| format!("by {}", parts.join(" and ")))
 }
 
 /// How the car and the other meet, after what the car does.

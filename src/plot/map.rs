@@ -1,6 +1,7 @@
 //! The failure map: every test a mark at the values of two of its parameters, as in the paper's Figure 9.
 
 use super::mark::{Drawn, Mark, ORDER};
+use super::wrapped::wrapped;
 use super::{GRID, HPos, INK, Tints, ink, level, shade};
 use crate::blame::Blame;
 use crate::failure_estimate::{self, Axes, FailureEstimate};
@@ -36,7 +37,7 @@ impl Axis {
 pub struct FailureMap {
     /// The first line above the map.
     pub title: String,
-    /// The second line, smaller.
+    /// What stands below it, smaller, in up to three lines.
     pub note: String,
     /// What varies too, though the map does not show it.
     pub others: Vec<String>,
@@ -54,6 +55,12 @@ pub struct FailureMap {
 
 /// How wide the bar of shades is with its numbers, in heights of the text.
 const BAR: f64 = 5.4;
+
+/// The size of the note, how far its lines are apart, both in heights of the text, and how many there are at most: what does
+/// not fit is in the campaign's files.
+const NOTE: f64 = 0.85;
+const LINE: f64 = 1.2;
+const NOTE_LINES: usize = 3;
 
 pub(super) type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
@@ -127,8 +134,12 @@ impl FailureMap {
         let px = |length: f64| (length * scale).round() as u32;
         let small = area.dim_in_pixel().0 < px(600.0);
         let (text, side) = if small { (14.0, 2.2) } else { (18.0, 3.2) };
-        let (header, body) = area.split_vertically(px(5.0 * text));
-        self.draw_header(&header, text * scale, side * scale, scale)?;
+        let width = area.dim_in_pixel().0 as f64 - 1.6 * text * scale;
+        let title = wrapped(area, &self.title, &ink(1.15 * text * scale), width, 1)?;
+        let note = wrapped(area, &self.note(), &ink(NOTE * text * scale), width, NOTE_LINES)?;
+        let more = LINE * (note.len() - 1) as f64;
+        let (header, body) = area.split_vertically(px((5.0 + more) * text));
+        self.draw_header(&header, [title, note], text * scale, side * scale, scale)?;
         let has_bar = self.estimate.is_some() || self.tints.is_some();
         let (body, bar) = if has_bar {
             let (body, bar) = body.split_horizontally(body.dim_in_pixel().0 - px(BAR * text));
@@ -186,14 +197,20 @@ impl FailureMap {
     fn draw_header<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
+        [title, note]: [Vec<String>; 2],
         text: f64,
         side: f64,
         scale: f64,
     ) -> Result<B> {
         let left = (0.8 * text) as i32;
-        area.draw(&Text::new(self.title.clone(), (left, (0.5 * text) as i32), ink(1.15 * text)))?;
-        area.draw(&Text::new(self.note(), (left, (1.95 * text) as i32), ink(0.85 * text)))?;
-        let line = (3.8 * text) as i32;
+        for line in title {
+            area.draw(&Text::new(line, (left, (0.5 * text) as i32), ink(1.15 * text)))?;
+        }
+        let at = |line: usize, first: f64| ((first + LINE * line as f64) * text) as i32;
+        let line = at(note.len() - 1, 3.8);
+        for (i, line) in note.into_iter().enumerate() {
+            area.draw(&Text::new(line, (left, at(i, 1.95)), ink(NOTE * text)))?;
+        }
         let mut at = left + side as i32;
         let of_faults = self.marks.iter().any(|mark| matches!(mark.2, Mark::Fault(_)));
         for mark in ORDER.into_iter().rev() {

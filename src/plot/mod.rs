@@ -20,6 +20,7 @@ mod shares;
 mod survival;
 mod symbol;
 mod tint;
+mod wrapped;
 
 pub use animation::film_gif;
 #[cfg(feature = "camera")]
@@ -169,11 +170,7 @@ impl Picture {
     where
         B::ErrorType: 'static,
     {
-        static REGISTERED: Once = Once::new();
-        REGISTERED.call_once(|| {
-            let registered = register_font(FAMILY, FontStyle::Normal, FONT);
-            assert!(registered.is_ok(), "the font in the program is a font");
-        });
+        with_font();
         let drawn: Result<(), DrawingAreaErrorKind<B::ErrorType>> = (|| {
             area.fill(&WHITE)?;
             let rows = self.panels.len().div_ceil(self.columns);
@@ -192,6 +189,15 @@ impl Picture {
         // The error borrows nothing, but plotters' type does not say so.
         drawn.map_err(|error| error.to_string().into())
     }
+}
+
+/// Makes the font of the program known.
+fn with_font() {
+    static REGISTERED: Once = Once::new();
+    REGISTERED.call_once(|| {
+        let registered = register_font(FAMILY, FontStyle::Normal, FONT);
+        assert!(registered.is_ok(), "the font in the program is a font");
+    });
 }
 
 /// The contents of a PNG file with these pixels, red, green and blue of each.

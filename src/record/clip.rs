@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Where a clip goes, which does not exist yet.
+/// Where a clip goes: a file, or a folder that does not exist yet.
 #[derive(Debug)]
 pub struct Clip {
     path: PathBuf,
@@ -80,7 +80,9 @@ impl Clip {
                 return Err(Error::Usage(message));
             }
         };
-        is_new(path, "a film")?;
+        if form == Form::Images {
+            is_new(path, "a film")?;
+        }
         Ok(Self { path: path.to_owned(), form, stop: Arc::default() })
     }
 

@@ -2,8 +2,8 @@
 //!
 //! Parameters go back to their nominal values where the test still fails without them, numbers become round and as near
 //! to nominal as that goes, signals get fewer pieces. A test counts as failing if it violates every requirement that the
-//! first one did; on the way the car may come to touch something else, or with another side, unless that is to
-//! [stay](Sameness) as it was. Shrinking is deterministic, and everything that it says has been run.
+//! first one did, as reducers of programs keep to one error; on the way the car may come to touch something else, or with
+//! another side, which is said, unless that is to [stay](Sameness) as it was. Shrinking is deterministic, and everything that it says has been run.
 
 mod delta;
 mod form;
@@ -12,7 +12,7 @@ mod search;
 #[cfg(test)]
 mod tests;
 
-use crate::{Campaign, Error, Study, Touch, Trial};
+use crate::{Campaign, Error, Modes, Study, Touch, Trial};
 use paracosm_coverage::{Domain, Parameter, Value, Values};
 use paracosm_engine::Declared;
 use search::Search;
@@ -26,6 +26,11 @@ pub struct Shrunk {
     pub index: usize,
     /// What it violates, and the shrunk test as well.
     pub violates: Vec<String>,
+    /// How the test of the campaign fails, and how the shrunk one does, in words.
+    pub failures: [String; 2],
+    /// Whether both fail in one mode: they violate the same by the same parts of their formulas, and the car touches the same
+    /// with the same side, doing the same.
+    pub same_mode: bool,
     /// What became of each open parameter.
     pub parameters: Vec<Change>,
     /// How many tests were run.
@@ -58,7 +63,8 @@ pub struct Change {
 pub enum Sameness {
     /// The requirements that are violated.
     Requirements,
-    /// Those, and what the car touches, with which side, and whether it drives on, brakes or stands then.
+    /// Those and no others, by the same parts of their formulas, and what the car touches, with which side, and whether it
+    /// drives on, brakes or stands then.
     Mode,
 }
 
@@ -82,10 +88,10 @@ impl Shrunk {
             })?;
             Ok::<_, Error>(ran.expect("a test that is run is shown"))
         };
-        let touch = Touch::of(trial);
+        let mode = mode(trial);
+        let same_mode = |trial: &Trial| self::mode(trial) == mode;
         let fails = |trial: &Trial| {
-            violates.iter().all(|id| trial.violates(id))
-                && (same == Sameness::Requirements || Touch::of(trial) == touch)
+            violates.iter().all(|id| trial.violates(id)) && (same == Sameness::Requirements || same_mode(trial))
         };
         let mut last = run(&trial.test)?;
         if !fails(&last) {
@@ -116,6 +122,8 @@ impl Shrunk {
         Ok(Self {
             index: trial.index,
             violates: violates.clone(),
+            failures: [trial, &last].map(|trial| in_words(study, trial)),
+            same_mode: same_mode(&last),
             parameters: parameters.collect(),
             // The test itself was run as well.
             runs: found.runs + 1,
@@ -148,6 +156,18 @@ impl Change {
             false => format!("{} varies as {}{unit}", self.name, self.after),
         }
     }
+}
+
+/// In which way a trial fails: what it violates, by which parts, and what the car touches.
+fn mode(trial: &Trial) -> (Vec<(&str, Option<&str>)>, Option<Touch>) {
+    let part = |id| (id, trial.cause(id).map(|(_, part)| part));
+    (trial.violated().map(part).collect(), Touch::of(trial))
+}
+
+/// How a failing trial fails.
+fn in_words(study: &Study, trial: &Trial) -> String {
+    let modes = Modes::of(study, std::slice::from_ref(trial)).modes;
+    modes.into_iter().map(|mode| mode.words).collect()
 }
 
 /// The nominal values of the open parameters: those that the scenario declares, or what of the domain comes nearest to

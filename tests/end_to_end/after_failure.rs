@@ -197,9 +197,24 @@ fn a_shrunk_test_fails_and_passes_with_any_of_its_parameters_nominal() {
 }
 
 #[test]
-fn shrinking_keeps_to_the_mode_where_that_is_asked_for() {
+fn shrinking_keeps_to_the_mode_where_that_is_asked_for_and_says_otherwise_when_it_does_not() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), OPEN);
+    let mut changed = 0;
+    for mode in read(dir.path(), "out/modes.json")["modes"].as_array().unwrap() {
+        let index = mode["representative"].to_string();
+        let shrunk = json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index]))));
+        assert!(shrunk["trial"]["robustness"]["no-collision"].as_f64().unwrap() < 0.0, "{shrunk}");
+        let metrics = &shrunk["trial"]["metrics"];
+        let same =
+            ["with", "face", "motion"].iter().all(|what| metrics[format!("contact_{what}")] == mode["contact"][what]);
+        assert_eq!(shrunk["same_mode"], same, "{shrunk}");
+        let table = stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--format", "table"])));
+        assert_eq!(table.contains("  fails in another way  the car "), !same, "{table}");
+        assert_eq!(table.contains("; --same-mode keeps to that\n"), !same, "{table}");
+        changed += usize::from(!same);
+    }
+    assert!(changed > 0);
     for mode in read(dir.path(), "out/modes.json")["modes"].as_array().unwrap() {
         let index = mode["representative"].to_string();
         let shrunk = json(&stdout(&succeeds(fuzz(dir.path(), &["shrink", "out", &index, "--same-mode"]))));

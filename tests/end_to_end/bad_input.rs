@@ -4,6 +4,18 @@ use crate::common::{cover, fuzz, refused, succeeds};
 use std::fs;
 
 #[test]
+fn a_folder_after_resume_is_taken_for_no_scenario() {
+    let dir = tempfile::tempdir().unwrap();
+    succeeds(fuzz(dir.path(), &["--budget", "2", "--out", "slippery", "-q"]));
+    let resume = |name: &str| fuzz(dir.path(), &["--resume", name]);
+    refused(&resume("slipery"), &["slipery is neither a campaign folder", "`--out slippery --resume`"]);
+    refused(&resume("slippery"), &["slippery is no scenario but the folder of a campaign", "--out slippery --resume"]);
+    refused(&resume("pedestrian-crosing"), &["nor a scenario", "`pedestrian-crossing`"]);
+    refused(&resume("nothing-like-it"), &["nothing-like-it", "--out does\n"]);
+    assert!(!dir.path().join("paracosm-out").exists());
+}
+
+#[test]
 fn wrong_campaigns_are_refused_with_the_nearest_valid_name() {
     let dir = tempfile::tempdir().unwrap();
     let cases: &[(&[&str], &[&str])] = &[

@@ -44,6 +44,16 @@ fn found_again(dir: &Path, more: &[&str]) -> Vec<Value> {
 }
 
 #[test]
+fn it_says_which_files_it_has_written() {
+    let dir = tempfile::tempdir().unwrap();
+    campaign(dir.path(), "out", &["--budget", "40"]);
+    let said = stderr(&succeeds(fuzz(dir.path(), &["blame", "out", "--driver", "ideal"])));
+    let written = "written to out/blame.json, out/blame.csv, out/blame-map.svg, out/blame-map.png";
+    assert!(said.contains(written), "{said}");
+    assert!(["json", "csv"].iter().all(|ending| dir.path().join(format!("out/blame.{ending}")).exists()));
+}
+
+#[test]
 fn faults_are_those_that_whole_campaigns_of_the_references_show() {
     for more in [&["--budget", "120"][..], &["cut-in", "--budget", "100"]] {
         let dir = tempfile::tempdir().unwrap();

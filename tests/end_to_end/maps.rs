@@ -39,10 +39,33 @@ fn a_map_over_other_parameters_says_what_is_known_of_every_place() {
     let share = decided as f64 / places as f64;
     let told: serde_json::Value = serde_json::from_str(&said).unwrap();
     assert!((told["decided"].as_f64().unwrap() - share).abs() < 1e-12, "{said} {share}");
-    // Drawn again it is the same, and a file of one's own is left alone.
+    // Drawn again it is the same, also in the place of what was drawn before.
+    fs::write(dir.path().join("mine.svg"), "older").unwrap();
     succeeds(fuzz(dir.path(), &[&map[..], &["--out", "mine.svg"]].concat()));
     assert!(fs::read_to_string(dir.path().join("mine.svg")).unwrap() == picture);
-    refused(&fuzz(dir.path(), &[&map[..], &["--out", "mine.svg"]].concat()), &["mine.svg exists"]);
+    refused(&fuzz(dir.path(), &[&map[..], &["--out", "out/failure-map.csv"]].concat()), &["a campaign's own file"]);
+}
+
+#[test]
+fn five_tests_in_ten_parameters_decide_nothing_of_a_map() {
+    let dir = tempfile::tempdir().unwrap();
+    let parameter =
+        |i: usize| format!("[[parameter]]\nname = \"a_parameter_with_a_name_{i}\"\ninterval = [0.0, 1.0]\n");
+    fs::write(dir.path().join("space.toml"), (0..10).map(parameter).collect::<String>()).unwrap();
+    // Fails in one test of two.
+    let system = "i=0; while read -r line; do echo \"{\\\"index\\\":$i,\\\"robustness\\\":{\\\"above\\\":$((1 - 2 * (i % 2)))}}\"; \
+        i=$((i + 1)); done";
+    fs::write(dir.path().join("system.sh"), system).unwrap();
+    let run =
+        ["--system", "sh system.sh", "--space", "space.toml", "--budget", "5", "--jobs", "1", "--out", "out", "-q"];
+    succeeds(fuzz(dir.path(), &run));
+    let said = stdout(&succeeds(fuzz(dir.path(), &["map", "out", "--format", "table"])));
+    assert!(said.contains("decided               nothing of the map: that takes more tests"), "{said}");
+    // What varies beside the axes is said in lines that are no longer than the picture is wide.
+    let picture = fs::read_to_string(dir.path().join("out/failure-map.svg")).unwrap();
+    let texts: Vec<&str> = picture.lines().filter(|line| !line.contains('<')).collect();
+    let note: Vec<&&str> = texts.iter().filter(|text| text.contains("a_parameter_with_a_name_")).collect();
+    assert!(note.len() == 4 && texts.iter().all(|text| text.len() < 140), "{texts:?}");
 }
 
 #[test]

@@ -83,19 +83,19 @@ fn the_same_film_is_the_same_file() {
 }
 
 #[test]
-fn a_picture_replaces_no_file_and_has_an_ending_that_is_known() {
+fn a_picture_replaces_what_was_drawn_before_and_has_an_ending_that_is_known() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path());
-    fs::write(dir.path().join("there.svg"), "mine").unwrap();
     for command in [&["describe", "pedestrian-crossing"][..], &["replay", "out", "0"]] {
         let drawing = |file: &str| fuzz(dir.path(), &[command, &["--draw", file]].concat());
-        refused(&drawing("there.svg"), &["there.svg exists", "does not replace"]);
+        fs::write(dir.path().join("there.svg"), "older").unwrap();
+        succeeds(drawing("there.svg"));
+        assert!(fs::read_to_string(dir.path().join("there.svg")).unwrap().starts_with("<svg"));
         refused(&drawing("picture.jpg"), &["picture.jpg", "`.jpg`", "expected .svg or .png"]);
         refused(&drawing("picture.svgg"), &["`.svgg`", "svg"]);
         refused(&drawing("picture"), &["picture", "no ending", ".svg"]);
         refused(&drawing("nowhere/picture.svg"), &["cannot write", "nowhere/picture.svg"]);
     }
-    assert_eq!(fs::read_to_string(dir.path().join("there.svg")).unwrap(), "mine");
     refused(&fuzz(dir.path(), &["describe", "--draw", "world.gif"]), &["`.gif`", "expected .svg or .png"]);
     fs::remove_file(dir.path().join("out/failure-map.svg")).unwrap();
     let own = fuzz(dir.path(), &["replay", "out", "0", "--draw", "out/failure-map.svg"]);

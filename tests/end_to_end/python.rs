@@ -169,3 +169,20 @@ def step(self, observation):
         assert_eq!(trial["error"], Value::Null);
     }
 }
+
+#[test]
+fn an_example_without_its_packages_says_how_to_install_them() {
+    let script = package().join("examples/lane_follow.py");
+    // Isolated, and without what was installed.
+    let ran = Command::new("python3").args(["-I", "-S"]).arg(script).output();
+    let Ok(ran) = ran else {
+        eprintln!("SKIPPED: no python3");
+        return;
+    };
+    let said = stderr(&ran);
+    assert!(
+        !ran.status.success() && said.starts_with("lane_follow.py needs the package numpy: pip install "),
+        "{said}"
+    );
+    assert!(said.trim_end().ends_with("python") && said.lines().count() == 1, "{said}");
+}

@@ -174,7 +174,9 @@ fn trace_shows_requirement_by_test_and_what_is_untested() {
         let failed: Vec<usize> = (0..20).filter(|i| &row[14 + i] == "failed").collect();
         assert_eq!(json!(failed), traced["violated_in"], "{row:?}");
     }
-    refused(&fuzz(dir.path(), &["trace", "out", "--csv", "matrix.csv"]), &["matrix.csv exists"]);
+    fs::write(dir.path().join("matrix.csv"), "older").unwrap();
+    succeeds(fuzz(dir.path(), &["trace", "out", "--csv", "matrix.csv"]));
+    assert_eq!(fs::read_to_string(dir.path().join("matrix.csv")).unwrap(), rows);
     refused(&fuzz(dir.path(), &["trace", "out", "--csv", "matrix.txt"]), &["matrix.txt", ".csv"]);
     refused(&fuzz(dir.path(), &["trace", "nowhere"]), &["nowhere"]);
 }
@@ -378,6 +380,20 @@ fn regressions_report_to_ci_as_well() {
     );
     let replays = all.iter().filter(|element| attribute(element, "name") == "replay");
     assert!(replays.map(|element| attribute(element, "value")).eq(["paracosm-fuzz replay a.json"]));
-    refused(&fuzz(dir.path(), &replay), &["report.xml exists"]);
+    // A report is replaced by the next, in which every file has a case of its own.
+    succeeds(fuzz(dir.path(), &["replay", "a.json", "expected-to-pass.json", "--junit", "report.xml"]));
+    let all = elements(&fs::read_to_string(dir.path().join("report.xml")).unwrap());
+    let cases: Vec<_> = all.iter().filter(|element| element.0 == "testcase").collect();
+    let names: Vec<String> = cases.iter().map(|case| attribute(case, "name").to_owned()).collect();
+    assert_eq!(names, ["a.json", "expected-to-pass.json"]);
+    // What was simulated is not what it took.
+    assert!(all.iter().all(|element| attribute(element, "time").is_empty()));
+    let seconds = all.iter().filter(|element| attribute(element, "name") == "simulated_seconds");
+    assert!(seconds.map(|element| attribute(element, "value").parse::<f64>().unwrap()).all(|seconds| seconds > 0.0));
+    let own = ["replay", "a.json", "--junit", "out/campaign.json"];
+    refused(&fuzz(dir.path(), &own), &["a campaign's own file"]);
+    // No regression file is taken for one.
+    let swallowed = ["replay", "--junit", "a.json", "mended.json"];
+    refused(&fuzz(dir.path(), &swallowed), &["--junit a.json", "expected FILE.xml"]);
     refused(&fuzz(dir.path(), &["replay", "out", "1", "--junit", "b.xml"]), &["--junit is for regression files"]);
 }

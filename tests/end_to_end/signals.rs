@@ -120,6 +120,21 @@ fn a_scenario_is_described_and_drawn() {
     let described = json(&describe(&["--format", "json"]));
     assert_eq!(described["parameters"][0]["parameter"]["name"], "speed");
     assert_eq!(described["requirements"][0]["id"], "no-collision");
+    // As it is set and opened for a campaign.
+    let changed = ["--set", "friction=0.3", "--set", "speed=2", "--open", "lanes=2,4", "--format"];
+    let told = describe(&[&changed[..], &["table"]].concat());
+    for line in [
+        "  speed                 0.5..10 m/s, nominally 1.4, set to 2\n",
+        "  friction              0.2..0.8, nominally 0.8, set to 0.3\n",
+        "  lanes                 2,4, nominally 2, open\n",
+        "  fog                   0..1, nominally 0, unless opened\n",
+    ] {
+        assert!(told.contains(line), "{told}");
+    }
+    let told = json(&describe(&[&changed[..], &["json"]].concat()));
+    assert_eq!((&told["parameters"][0]["open"], &told["parameters"][0]["set"]), (&false.into(), &2.into()));
+    let unknown = fuzz(dir.path(), &["describe", "--set", "fiction=0.3"]);
+    crate::common::refused(&unknown, &["`fiction`", "`friction`"]);
     let unknown = fuzz(dir.path(), &["describe", "pedestrian-crosing"]);
     refused(&unknown, &["`pedestrian-crossing`"]);
     assert!(stderr(&unknown).contains("paracosm-fuzz list"));

@@ -5,12 +5,15 @@
 use super::bend::is_failure;
 use super::cube::{Axis, axes, place};
 use super::fit::prior;
-use super::process::Posterior;
+use super::plausible::plausible;
+use super::process::{Draw, Posterior, Process};
 use super::telling::telling;
-use super::verdicts::{Fitter, Verdicts};
+use super::verdicts::{Fitter, Link, Verdicts};
 use super::{MOST_ROBUSTNESS, normal};
 use crate::seeded::{Purpose, seeded};
 use paracosm_coverage::{Point, Space};
+use rand::Rng;
+use std::ops::Range;
 
 /// So many tests the model sees.
 const MOST_TESTS: usize = 400;
@@ -20,6 +23,9 @@ const MOST_OTHERS: usize = 2048;
 
 /// So many times uncertain shares are drawn.
 const DRAWS: usize = 128;
+
+/// By so many kernels they are drawn.
+const KERNELS: usize = 8;
 
 /// So many places are looked at together.
 const TOGETHER: usize = 1024;
@@ -32,7 +38,23 @@ const TOGETHER: usize = 1024;
 /// fail of which it knows little, the others tell.
 pub struct FailureModel {
     axes: Vec<Axis>,
+    /// What the model has seen: places, and what became of them as the model takes it.
+    seen: Vec<Vec<f64>>,
+    values: Vec<f64>,
     verdicts: Verdicts,
+    /// How many tests there are, seen or not.
+    tests: usize,
+}
+
+/// One of the processes that are as plausible as the fitted one, with what is drawn by it.
+struct Belief {
+    process: Process,
+    link: Link,
+    /// Which tests of a group it is asked of: one sample.
+    tests: Range<usize>,
+    /// The draws, with a standard normal number for the error of sampling.
+    draws: Vec<Draw>,
+    errors: Vec<f64>,
 }
 
 /// What is known of the share of some tests that fail.
@@ -42,7 +64,9 @@ pub struct FailingShare {
     pub mean: f64,
     /// How far the share may be from it: one standard deviation.
     pub deviation: f64,
-    /// The probability that it is more than one half.
+    /// The probability that it is more than one half. As the model itself may be wrong, it is no nearer to 0 or 1 than so many
+    /// tests can tell: each of them counts as one observation, and there is one more for either side (Laplace's rule of
+    /// succession). With less than 18 tests it is between 0.05 and 0.95.
     pub above_half: f64,
 }
 
@@ -60,6 +84,7 @@ impl FailureModel {
         if places.len() < 2 {
             return None;
         }
+        let tests = places.len();
         let views: Vec<&[f64]> = places.iter().map(Vec::as_slice).collect();
         let failed: Vec<bool> = robustness.iter().map(|&robustness| is_failure(robustness)).collect();
         let chosen = telling(&prior(&axes), &views, &failed, MOST_TESTS);
@@ -71,7 +96,8 @@ impl FailureModel {
         let (places, robustness): (Vec<Vec<f64>>, Vec<f64>) =
             all().map(|&i| (places[i].clone(), robustness[i])).unzip();
         let verdicts = verdicts.calibrated(&places, &robustness, chosen.len());
-        Some(Self { axes, verdicts })
+        let values = told.iter().map(|&value| verdicts.bend.apply(value)).collect();
+        Some(Self { axes, seen, values, verdicts, tests })
     }
 
     /// The probability that each of these tests fails.
@@ -93,59 +119,120 @@ impl FailureModel {
     /// their shares differ is the error of having taken samples (Owen, "Monte Carlo theory, methods and examples", section
     /// 17.2), which is in the deviation too. With one sample the tests are all that there are.
     ///
-    /// The mean is exact; the deviation and what is above one half are of 128 draws of the process, always by the same
-    /// chance.
+    /// The mean is that of the fitted process. The deviation and what is above one half are of 128 draws, always by the same
+    /// chance, of eight processes whose lengths and links are as plausible as the fitted ones, with means and variances that
+    /// are no more certain than the tests make them: a few tests leave all of this open, and little is sure.
     pub fn shares(&self, groups: &[Vec<(Point, f64)>], samples: usize) -> Vec<FailingShare> {
         let all = groups.first().map_or(0, Vec::len);
         if samples == 0 || all < samples {
             return Vec::new();
         }
-        let mut rng = seeded(0, Purpose::Draws, 0);
-        let mut draws = |size: usize| -> Vec<f64> { (0..size).map(|_| normal(&mut rng)).collect() };
-        let of_sample = DRAWS.div_ceil(samples);
-        let draws: Vec<Vec<Vec<f64>>> =
-            (0..samples).map(|_| (0..of_sample).map(|_| draws(all / samples + 1)).collect()).collect();
+        let beliefs = self.beliefs(samples, all / samples);
         let mut shares = Vec::with_capacity(groups.len());
         for groups in groups.chunks((TOGETHER / all).max(1)) {
-            let places = groups.iter().flatten().map(|(test, _)| place(&self.axes, test)).collect();
-            let posterior = self.verdicts.process.posterior(places);
-            for (group, tests) in groups.iter().enumerate() {
+            let places = |tests: Range<usize>| -> Vec<Vec<f64>> {
+                let tests = groups.iter().flat_map(|group| &group[tests.clone()]);
+                tests.map(|(test, _)| place(&self.axes, test)).collect()
+            };
+            let posterior = self.verdicts.process.posterior(places(0..all));
+            let believed: Vec<Posterior> =
+                beliefs.iter().map(|belief| belief.process.posterior(places(belief.tests.clone()))).collect();
+            for (index, tests) in groups.iter().enumerate() {
+                let failure = |i| self.verdicts.failure(posterior.mean(i), posterior.deviation(i));
+                let failures: Vec<f64> = (index * all..(index + 1) * all).map(failure).collect();
                 let weights: Vec<f64> = tests.iter().map(|(_, weight)| *weight).collect();
-                shares.push(self.share(&posterior, group * all, &weights, &draws));
+                let group = Group::new(&failures, &weights, samples);
+                shares.push(self.share(&group, index, &beliefs, &believed));
             }
         }
         shares
     }
 
-    /// What is known of the share among the places from `first` on with these weights; of each sample there are draws, with a
-    /// number more in each than the sample has tests.
-    fn share(&self, posterior: &Posterior, first: usize, weights: &[f64], draws: &[Vec<Vec<f64>>]) -> FailingShare {
-        let failure = |i| self.verdicts.failure(posterior.mean(first + i), posterior.deviation(first + i));
-        let failures: Vec<f64> = (0..weights.len()).map(failure).collect();
-        let samples = draws.len();
-        let size = weights.len() / samples;
-        let weight = weights.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-        let mean = weights.iter().zip(&failures).map(|(weight, failure)| weight * failure).sum::<f64>() / weight;
-        let of = |sample: usize| sample * size..(sample + 1) * size;
-        let off = |sample: usize, value: &dyn Fn(usize) -> f64| {
-            of(sample).map(|i| weights[i] * value(i)).sum::<f64>() / weight * samples as f64
+    /// Processes with plausible lengths, each for one sample of so many tests.
+    fn beliefs(&self, samples: usize, size: usize) -> Vec<Belief> {
+        let mut rng = seeded(0, Purpose::Draws, 0);
+        let fitted = self.verdicts.process.kernel();
+        let kernels = plausible(fitted, &self.seen, &self.values, KERNELS, &mut rng);
+        let count = samples * KERNELS.div_ceil(samples);
+        let freedom = self.seen.len() - 1;
+        let mut belief = |index: usize| {
+            let process = Process::with_noise(&kernels[index % KERNELS], &self.seen, &self.values)?;
+            let link = self.verdicts.plausible_link(&mut rng);
+            let mut draw = || Draw {
+                values: (0..size).map(|_| normal(&mut rng)).collect(),
+                mean: normal(&mut rng),
+                spread: spread(freedom, &mut rng),
+            };
+            let draws: Vec<Draw> = (0..DRAWS.div_ceil(count)).map(|_| draw()).collect();
+            let errors = draws.iter().map(|_| normal(&mut rng)).collect();
+            let sample = index % samples;
+            Some(Belief { process, link, tests: sample * size..(sample + 1) * size, draws, errors })
         };
-        let error = |sample: usize| off(sample, &|i| failures[i] - mean);
-        let square = (0..samples).map(|sample| error(sample) * error(sample)).sum::<f64>();
-        let sampling = if samples > 1 { square / (samples * (samples - 1)) as f64 } else { 0.0 };
+        (0..count).filter_map(&mut belief).collect()
+    }
+
+    /// What is known of the share in the group with this index among those that the processes are asked of.
+    fn share(&self, group: &Group, index: usize, beliefs: &[Belief], believed: &[Posterior]) -> FailingShare {
+        let sampling = group.sampling();
         let (mut square, mut above, mut count) = (0.0, 0, 0);
-        for (sample, draws) in draws.iter().enumerate() {
-            let members: Vec<usize> = of(sample).map(|i| first + i).collect();
-            for (values, draw) in posterior.draws(&members, draws).into_iter().zip(draws) {
-                let begin = of(sample).start;
-                let step = off(sample, &|i| self.verdicts.of_value(values[i - begin]) - failures[i]);
+        for (belief, posterior) in beliefs.iter().zip(believed) {
+            let size = belief.tests.len();
+            let members: Vec<usize> = (index * size..(index + 1) * size).collect();
+            for (values, error) in posterior.draws(&members, &belief.draws).into_iter().zip(&belief.errors) {
+                let first = belief.tests.start;
+                let off = |i: usize| belief.link.of_value(values[i - first]) - group.failures[i];
+                let step = group.of(belief.tests.clone(), &off);
                 square += step * step;
-                above += usize::from(mean + step + sampling.sqrt() * draw[size] > 0.5);
+                above += usize::from(group.mean + step + sampling.sqrt() * error > 0.5);
                 count += 1;
             }
         }
-        let deviation = (square / f64::from(count) + sampling).sqrt();
-        FailingShare { mean, deviation, above_half: above as f64 / f64::from(count) }
+        let (count, tests) = (f64::from(count.max(1)), self.tests as f64);
+        FailingShare {
+            mean: group.mean,
+            deviation: (square / count + sampling).sqrt(),
+            above_half: (tests * above as f64 / count + 1.0) / (tests + 2.0),
+        }
+    }
+}
+
+/// How many times its most likely value a standard deviation may be that values with so many degrees of freedom tell: the
+/// root of n over a chi-squared number.
+fn spread(freedom: usize, rng: &mut impl Rng) -> f64 {
+    let squares: f64 = (0..freedom).map(|_| normal(rng)).map(|x| x * x).sum();
+    ((freedom + 1) as f64 / squares.max(f64::MIN_POSITIVE)).sqrt()
+}
+
+/// A group of tests as the fitted process sees it.
+struct Group<'a> {
+    failures: &'a [f64],
+    weights: &'a [f64],
+    weight: f64,
+    samples: usize,
+    mean: f64,
+}
+
+impl<'a> Group<'a> {
+    fn new(failures: &'a [f64], weights: &'a [f64], samples: usize) -> Self {
+        let weight = weights.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        let mean = weights.iter().zip(failures).map(|(weight, failure)| weight * failure).sum::<f64>() / weight;
+        Self { failures, weights, weight, samples, mean }
+    }
+
+    /// What a sample says of the weighted mean of something.
+    fn of(&self, sample: Range<usize>, value: &dyn Fn(usize) -> f64) -> f64 {
+        sample.map(|i| self.weights[i] * value(i)).sum::<f64>() / self.weight * self.samples as f64
+    }
+
+    /// The variance of the mean over all that the samples stand for.
+    fn sampling(&self) -> f64 {
+        if self.samples < 2 {
+            return 0.0;
+        }
+        let size = self.weights.len() / self.samples;
+        let error = |sample| self.of(sample * size..(sample + 1) * size, &|i| self.failures[i] - self.mean);
+        let square = (0..self.samples).map(error).map(|error| error * error).sum::<f64>();
+        square / (self.samples * (self.samples - 1)) as f64
     }
 }
 
@@ -156,143 +243,4 @@ fn thinned(all: Vec<usize>) -> Vec<usize> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Request, Strategy};
-
-    fn tests(space: &Space, n: usize) -> Vec<Point> {
-        Strategy::Halton.build(&Request::new(space, n)).unwrap().ask(n)
-    }
-
-    /// How much of 2,000 other tests the model tells right.
-    fn right(space: &Space, n: usize, robustness: impl Fn(&Point) -> f64) -> f64 {
-        let known = tests(space, n);
-        let told: Vec<f64> = known.iter().map(&robustness).collect();
-        let model = FailureModel::fit(space, &known, &told).unwrap();
-        let others = Strategy::Random.build(&Request::new(space, 2000)).unwrap().ask(2000);
-        let probabilities = model.probabilities(&others);
-        let right = others.iter().zip(probabilities).filter(|(at, p)| (*p > 0.5) == (robustness(at) < 0.0)).count();
-        right as f64 / 2000.0
-    }
-
-    fn ball(at: &Point) -> f64 {
-        let square = |u: &f64| (u - 0.45) * (u - 0.45);
-        at.continuous.iter().map(square).sum::<f64>().sqrt() - 0.3
-    }
-
-    #[test]
-    fn a_ball_is_known_after_few_tests_by_a_robustness_that_is_its_distance() {
-        assert!(right(&Space::unit_cube(3), 60, ball) > 0.98);
-    }
-
-    #[test]
-    fn where_the_robustness_jumps_it_knows_more_than_the_nearest_test() {
-        let jumping = |at: &Point| if ball(at) < 0.0 { -9.0 + 5.0 * at.continuous[0] } else { ball(at).min(0.1) };
-        let space = Space::unit_cube(2);
-        let known = tests(&space, 150);
-        let square = |a: &Point, b: &Point| -> f64 {
-            a.continuous.iter().zip(&b.continuous).map(|(a, b)| (a - b) * (a - b)).sum()
-        };
-        let others = Strategy::Random.build(&Request::new(&space, 2000)).unwrap().ask(2000);
-        let nearest = |at: &Point| known.iter().min_by(|a, b| square(a, at).total_cmp(&square(b, at))).unwrap();
-        let told = others.iter().filter(|at| (jumping(nearest(at)) < 0.0) == (jumping(at) < 0.0)).count();
-        let (nearest, model) = (told as f64 / 2000.0, right(&space, 150, jumping));
-        assert!(model > nearest, "{model} {nearest}");
-    }
-
-    #[test]
-    fn of_many_tests_it_sees_those_that_tell_most() {
-        assert!(right(&Space::unit_cube(2), 3000, |at| if ball(at) < 0.0 { -5.0 } else { 1.0 }) > 0.985);
-    }
-
-    #[test]
-    fn words_are_told_apart() {
-        let text = "parameter = [{ name = \"x\", interval = [0, 1] }, { name = \"sky\", choice = [\"day\", \"dusk\", \"night\"] }]";
-        let space = Space::from_toml(text).unwrap();
-        assert!(right(&space, 90, |at| if at.discrete[0] == 2 { at.continuous[0] - 0.5 } else { 1.0 }) > 0.95);
-    }
-
-    #[test]
-    fn the_share_of_tests_that_fail_is_known_as_well_as_they_are() {
-        let space = Space::unit_cube(2);
-        let known = tests(&space, 100);
-        let fails = |at: &Point| 0.6 - at.continuous[0];
-        let model = FailureModel::fit(&space, &known, &known.iter().map(fails).collect::<Vec<_>>()).unwrap();
-        let at = |x: f64, y: f64| Point { continuous: vec![x, y], discrete: Vec::new() };
-        let group = |x: [f64; 4]| x.map(|x| (at(x, 0.5), 1.0)).to_vec();
-        let found = model.shares(&[group([0.1, 0.2, 0.3, 0.4]), group([0.2, 0.3, 0.4, 0.9]), group([0.9; 4])], 1);
-        let expected = [(0.0, 0.0), (0.25, 0.0), (1.0, 1.0)];
-        for (found, (mean, above)) in found.iter().zip(expected) {
-            assert!(
-                (found.mean - mean).abs() < 0.02 && found.deviation < 0.05 && found.above_half == above,
-                "{found:?}"
-            );
-        }
-        // Between tests of which no more than the verdict is known nothing is sure; the mean is that of the probabilities.
-        let verdicts: Vec<f64> = known.iter().map(|at| 1.0_f64.copysign(fails(at))).collect();
-        let model = FailureModel::fit(&space, &known[..30], &verdicts[..30]).unwrap();
-        let (mut last, mut first) = (0.0_f64, 1.0_f64);
-        for test in &known[..30] {
-            let x = test.continuous[0];
-            if fails(test) < 0.0 { first = first.min(x) } else { last = last.max(x) }
-        }
-        let edge = [at(0.5 * (last + first), 0.5), at(0.5 * (last + first) + 1e-4, 0.5)];
-        let unsure = model.shares(&[edge.clone().map(|test| (test, 1.0)).to_vec()], 1)[0];
-        assert!(unsure.deviation > 0.1 && (0.05..0.95).contains(&unsure.above_half), "{unsure:?}");
-        let mean = model.probabilities(&edge).iter().sum::<f64>() / 2.0;
-        assert!((unsure.mean - mean).abs() < 1e-12);
-    }
-
-    #[test]
-    fn the_error_of_taking_samples_is_in_the_deviation_and_weights_count() {
-        let space = Space::unit_cube(2);
-        let known = tests(&space, 100);
-        let fails = |at: &Point| 0.6 - at.continuous[0];
-        let model = FailureModel::fit(&space, &known, &known.iter().map(fails).collect::<Vec<_>>()).unwrap();
-        let group = |tests: [(f64, f64); 4]| {
-            vec![tests.map(|(x, weight)| (Point { continuous: vec![x, 0.5], discrete: Vec::new() }, weight)).to_vec()]
-        };
-        // Two samples, one of which fails whole: the share is one half, give or take one half.
-        let apart = model.shares(&group([(0.1, 1.0), (0.2, 1.0), (0.8, 1.0), (0.9, 1.0)]), 2)[0];
-        assert!((apart.mean - 0.5).abs() < 0.02 && (apart.deviation - 0.5).abs() < 0.02, "{apart:?}");
-        let alike = model.shares(&group([(0.1, 1.0), (0.9, 1.0), (0.2, 1.0), (0.8, 1.0)]), 2)[0];
-        assert!((alike.mean - 0.5).abs() < 0.02 && alike.deviation < 0.05, "{alike:?}");
-        let weighed = model.shares(&group([(0.1, 1.0), (0.9, 3.0), (0.2, 1.0), (0.8, 0.0)]), 1)[0];
-        assert!((weighed.mean - 0.6).abs() < 0.02, "{weighed:?}");
-    }
-
-    #[test]
-    fn where_little_can_be_told_as_many_are_said_to_fail_as_do() {
-        // Of tests in six parameters one in eight fails, and hardly any parameter says which. The model sees 400 of them, but
-        // all that fail.
-        let space = Space::unit_cube(6);
-        let known = tests(&space, 600);
-        let told: Vec<f64> =
-            (0..600_u64).map(|i| if crate::seeded::mix(i).is_multiple_of(8) { -3.0 } else { 1.0 }).collect();
-        let counted = told.iter().filter(|told| **told < 0.0).count() as f64 / 600.0;
-        let model = FailureModel::fit(&space, &known, &told).unwrap();
-        let others = Strategy::Random.build(&Request::new(&space, 2000)).unwrap().ask(2000);
-        let mean = model.probabilities(&others).iter().sum::<f64>() / 2000.0;
-        assert!((mean - counted).abs() < 0.02, "{mean}, counted {counted}");
-    }
-
-    #[test]
-    fn whatever_it_is_told_there_are_probabilities_or_no_model() {
-        let space = Space::unit_cube(2);
-        let known = tests(&space, 12);
-        for told in [f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, 1e-300, 1e300, f64::NAN] {
-            let mixed: Vec<f64> = (0..12).map(|i| if i % 3 == 0 { -1.0 } else { told }).collect();
-            for told in [vec![told; 12], mixed] {
-                let Some(model) = FailureModel::fit(&space, &known, &told) else {
-                    assert!(told.iter().all(|told| told.is_nan()));
-                    continue;
-                };
-                assert!(model.probabilities(&known).iter().all(|p| (0.0..=1.0).contains(p)), "{told:?}");
-            }
-        }
-        assert!(FailureModel::fit(&space, &known[..1], &[1.0]).is_none());
-        let doubled: Vec<Point> = known.iter().chain(&known).cloned().collect();
-        let told: Vec<f64> = (0..24).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
-        assert!(FailureModel::fit(&space, &doubled, &told).is_some());
-    }
-}
+mod tests;

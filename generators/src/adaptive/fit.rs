@@ -32,32 +32,54 @@ pub(super) fn prior(axes: &[Axis]) -> Kernel {
     Kernel { axes: axes.to_vec(), lengths: vec![length; axes.len()], noise: NOISE }
 }
 
+/// The logarithms of a kernel's lengths, and last of its noise: what is fitted.
+pub(super) fn logarithms(kernel: &Kernel) -> Vec<f64> {
+    kernel.lengths.iter().chain([&kernel.noise]).map(|&x| libm::log(x)).collect()
+}
+
+/// The kernel with these logarithms.
+pub(super) fn of_logarithms(axes: &[Axis], at: &[f64]) -> Kernel {
+    let lengths = at[..axes.len()].iter().map(|&x| libm::exp(x)).collect();
+    Kernel { axes: axes.to_vec(), lengths, noise: libm::exp(at[axes.len()]) }
+}
+
+/// The bounds of the logarithm with this index.
+pub(super) fn bounds(axes: &[Axis], index: usize) -> (f64, f64) {
+    let (least, most) = if index < axes.len() { LENGTHS } else { NOISES };
+    (libm::log(least), libm::log(most))
+}
+
+/// How far each of the logarithms is from what is assumed of it, in deviations of that, and the deviation.
+fn off(axes: &[Axis], at: &[f64]) -> Vec<(f64, f64)> {
+    let middle = logarithms(&prior(axes));
+    let deviation = |index: usize| if index < axes.len() { LENGTH_DEVIATION } else { NOISE_DEVIATION };
+    let one = |index: usize| ((at[index] - middle[index]) / deviation(index), deviation(index));
+    (0..at.len()).map(one).collect()
+}
+
+/// The logarithm of how probable these logarithms are after the values, up to a constant; the first places have to tell.
+pub(super) fn log_posterior(axes: &[Axis], at: &[f64], places: &[Vec<f64>], values: &[f64]) -> f64 {
+    let n = places.len().min(MOST_TESTS);
+    let process = Process::new(of_logarithms(axes, at), places[..n].to_vec(), &values[..n], Mean::Unknown);
+    let prior: f64 = off(axes, at).iter().map(|(off, _)| -0.5 * off * off).sum();
+    process.map_or(f64::NEG_INFINITY, |process| process.log_likelihood() + prior)
+}
+
 /// A better kernel than `from` for these values, by so many steps.
 pub(super) fn fit(from: &Kernel, places: &[Vec<f64>], values: &[f64], steps: usize) -> Kernel {
     let n = places.len().min(MOST_TESTS);
     let (places, values) = (&places[..n], &values[..n]);
-    let axes = from.lengths.len();
-    let middle = prior(&from.axes);
-    let mut at: Vec<f64> = from.lengths.iter().chain([&from.noise]).map(|&x| libm::log(x)).collect();
-    let kernel_at = |at: &[f64]| Kernel {
-        axes: from.axes.clone(),
-        lengths: at[..axes].iter().map(|&x| libm::exp(x)).collect(),
-        noise: libm::exp(at[axes]),
-    };
-    let mut lengths = vec![FIRST_STEP; axes + 1];
-    let mut before = vec![0.0; axes + 1];
+    let axes = &from.axes;
+    let mut at = logarithms(from);
+    let mut lengths = vec![FIRST_STEP; at.len()];
+    let mut before = vec![0.0; at.len()];
     let mut best = (f64::NEG_INFINITY, from.clone());
     for _ in 0..steps {
-        let kernel = kernel_at(&at);
+        let kernel = of_logarithms(axes, &at);
         let Some(process) = Process::new(kernel.clone(), places.to_vec(), values, Mean::Unknown) else { break };
         let mut value = process.log_likelihood();
         let mut gradient = process.log_likelihood_gradient();
-        for (index, slope) in gradient.iter_mut().enumerate() {
-            let (mean, deviation) = match index {
-                _ if index < axes => (libm::log(middle.lengths[index]), LENGTH_DEVIATION),
-                _ => (libm::log(NOISE), NOISE_DEVIATION),
-            };
-            let off = (at[index] - mean) / deviation;
+        for (slope, (off, deviation)) in gradient.iter_mut().zip(off(axes, &at)) {
             value -= 0.5 * off * off;
             *slope -= off / deviation;
         }
@@ -72,9 +94,9 @@ pub(super) fn fit(from: &Kernel, places: &[Vec<f64>], values: &[f64], steps: usi
                 lengths[index] = (lengths[index] * 0.5).max(SHORTEST_STEP);
             }
             before[index] = slope;
-            let (least, most) = if index < axes { LENGTHS } else { NOISES };
+            let (least, most) = bounds(axes, index);
             let step = if slope == 0.0 { 0.0 } else { lengths[index].copysign(slope) };
-            at[index] = (at[index] + step).clamp(libm::log(least), libm::log(most));
+            at[index] = (at[index] + step).clamp(least, most);
         }
     }
     best.1

@@ -25,6 +25,7 @@ mod fit;
 mod log_ei;
 mod nelder_mead;
 mod opening;
+mod plausible;
 mod preselection;
 mod process;
 mod pso;

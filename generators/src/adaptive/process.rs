@@ -102,8 +102,22 @@ pub(super) struct Process {
     factor: Llt<f64>,
     /// The inverse of the correlations times what the mean leaves.
     pull: Vec<f64>,
+    /// The inverse of the correlations times ones.
+    ones: Vec<f64>,
     mean: f64,
+    /// The variance of the mean, in shares of the process's.
+    mean_share: f64,
     variance: f64,
+}
+
+/// What a draw of the process is left to chance.
+pub(super) struct Draw {
+    /// A standard normal number for each place.
+    pub values: Vec<f64>,
+    /// One for the mean.
+    pub mean: f64,
+    /// How many times the deviation is what it most likely is.
+    pub spread: f64,
 }
 
 impl Process {
@@ -123,11 +137,12 @@ impl Process {
         let factor = Mat::from_fn(n, n, entry).llt(Side::Lower).ok()?;
         let both = factor.solve(Mat::from_fn(n, 2, |i, j| if j == 0 { values[i] } else { 1.0 }));
         let sum = |column: usize| (0..n).map(|i| both[(i, column)]).sum::<f64>();
-        let mean = match mean {
-            Mean::Unknown => sum(0) / sum(1),
-            Mean::Known(mean) => mean,
+        let (mean, mean_share) = match mean {
+            Mean::Unknown => (sum(0) / sum(1), 1.0 / sum(1)),
+            Mean::Known(mean) => (mean, 0.0),
         };
-        let pull: Vec<f64> = (0..n).map(|i| both[(i, 0)] - mean * both[(i, 1)]).collect();
+        let ones: Vec<f64> = (0..n).map(|i| both[(i, 1)]).collect();
+        let pull: Vec<f64> = (0..n).map(|i| both[(i, 0)] - mean * ones[i]).collect();
         let variance = values.iter().zip(&pull).map(|(value, pull)| (value - mean) * pull).sum::<f64>() / n as f64;
         let variance = variance.max(LEAST_VARIANCE);
         (mean.is_finite() && variance.is_finite()).then_some(Self {
@@ -136,7 +151,9 @@ impl Process {
             pairs,
             factor,
             pull,
+            ones,
             mean,
+            mean_share,
             variance,
         })
     }
@@ -205,13 +222,13 @@ impl Process {
     pub(super) fn posterior(&self, places: Vec<Vec<f64>>) -> Posterior<'_> {
         let n = self.places.len();
         let mut whitened = Mat::from_fn(n, places.len(), |i, j| self.kernel.correlation(&self.places[i], &places[j]));
-        let mean = (0..places.len())
-            .map(|j| self.mean + (0..n).map(|i| whitened[(i, j)] * self.pull[i]).sum::<f64>())
-            .collect();
+        let along = |j: usize, of: &[f64]| (0..n).map(|i| whitened[(i, j)] * of[i]).sum::<f64>();
+        let mean = (0..places.len()).map(|j| self.mean + along(j, &self.pull)).collect();
+        let unexplained = (0..places.len()).map(|j| 1.0 - along(j, &self.ones)).collect();
         solve_lower_triangular_in_place(self.factor.L(), whitened.as_mut(), Par::Seq);
         let explained = |j: usize| (0..n).map(|i| whitened[(i, j)] * whitened[(i, j)]).sum::<f64>();
         let share = (0..places.len()).map(|j| (1.0 - explained(j)).max(LEAST_VARIANCE)).collect();
-        Posterior { process: self, places, mean, share, whitened, believed: Vec::new() }
+        Posterior { process: self, places, mean, unexplained, share, whitened, believed: Vec::new() }
     }
 }
 
@@ -220,6 +237,8 @@ pub(super) struct Posterior<'a> {
     process: &'a Process,
     places: Vec<Vec<f64>>,
     mean: Vec<f64>,
+    /// How much of the process's mean is in those, beside what the tests say.
+    unexplained: Vec<f64>,
     /// The variances, in shares of the process's.
     share: Vec<f64>,
     whitened: Mat<f64>,
@@ -244,8 +263,10 @@ impl Posterior<'_> {
         (self.share[index] * self.process.variance).sqrt()
     }
 
-    /// Values at some of the places together, by the process: one for each list of standard normal numbers.
-    pub(super) fn draws(&self, at: &[usize], normals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    /// Values at some of the places together, by the process: one list for each draw.
+    ///
+    /// The mean is no more certain than the tests make it (Rasmussen and Williams, equation 2.42), nor is the deviation.
+    pub(super) fn draws(&self, at: &[usize], draws: &[Draw]) -> Vec<Vec<f64>> {
         let kernel = &self.process.kernel;
         let share = |i: usize, j: usize| {
             if i == j {
@@ -258,15 +279,16 @@ impl Posterior<'_> {
         let shares = Mat::from_fn(at.len(), at.len(), |i, j| if j <= i { share(i, j) } else { 0.0 });
         let factor = shares.llt(Side::Lower).ok();
         let deviation = self.process.variance.sqrt();
-        let value = |normals: &[f64], i: usize| {
+        let value = |draw: &Draw, i: usize| {
             let step: f64 = match &factor {
-                Some(factor) => (0..=i).map(|j| factor.L()[(i, j)] * normals[j]).sum(),
+                Some(factor) => (0..=i).map(|j| factor.L()[(i, j)] * draw.values[j]).sum(),
                 // Rounding errors have made it no covariance: then they vary as one.
-                None => self.share[at[i]].sqrt() * normals[0],
+                None => self.share[at[i]].sqrt() * draw.values[0],
             };
-            self.mean[at[i]] + deviation * step
+            let of_mean = self.unexplained[at[i]] * self.process.mean_share.sqrt() * draw.mean;
+            self.mean[at[i]] + draw.spread * deviation * (step + of_mean)
         };
-        normals.iter().map(|normals| (0..at.len()).map(|i| value(normals, i)).collect()).collect()
+        draws.iter().map(|draw| (0..at.len()).map(|i| value(draw, i)).collect()).collect()
     }
 
     /// Believes that a test at one of the places comes out as expected (kriging believer; Ginsbourger et al. 2010): no mean

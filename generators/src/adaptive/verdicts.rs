@@ -22,6 +22,7 @@ use super::log_ei::normal_below;
 use super::process::{Kernel, Process};
 use super::surrogate::snapped;
 use crate::seeded::{Purpose, seeded};
+use rand::Rng;
 
 /// The slopes that are tried, as logarithms: from -2 to 8 in steps of a half.
 const LEAST_SLOPE: f64 = -2.0;
@@ -42,6 +43,9 @@ const LATER_FIT: (usize, usize) = (4, 8);
 const MOST_OFFSET: f64 = 4.0;
 const CUTS: usize = 18;
 
+/// Among so many offsets plausible ones are drawn.
+const OFFSETS: usize = 33;
+
 /// No verdict is less probable than this: one surprise is no end of the world.
 const LEAST_PROBABLE: f64 = 1e-6;
 
@@ -56,11 +60,20 @@ pub(super) struct Verdicts {
     pub bend: Bend,
     pub process: Process,
     link: Link,
+    left_out: LeftOut,
+}
+
+/// What became of tests, and what a process says of each that has not seen it.
+struct LeftOut {
+    values: Vec<f64>,
+    /// Mean and deviation.
+    told: Vec<(f64, f64)>,
+    weights: Vec<f64>,
 }
 
 /// How a value of the process becomes a probability.
 #[derive(Debug, Clone, Copy)]
-struct Link {
+pub(super) struct Link {
     slope: f64,
     offset: f64,
 }
@@ -85,10 +98,11 @@ impl Fitter {
             let values: Vec<f64> = robustness.iter().map(|&value| bend.apply(value)).collect();
             *kernel = fit(kernel, places, &values, steps);
             let Some(process) = Process::with_noise(kernel, places, &values) else { continue };
-            let left_out = process.leave_one_out(&values);
-            let (likelihood, link) = best_link(&values, &left_out, &weights, |_| 0.0);
+            let told = process.leave_one_out(&values);
+            let left_out = LeftOut { values, told, weights: weights.clone() };
+            let (likelihood, link) = left_out.best_link(|_| 0.0);
             if best.as_ref().is_none_or(|(other, _)| likelihood > *other) {
-                best = Some((likelihood, Verdicts { bend, process, link }));
+                best = Some((likelihood, Verdicts { bend, process, link, left_out }));
             }
         }
         best.map(|(_, verdicts)| verdicts)
@@ -96,9 +110,23 @@ impl Fitter {
 }
 
 impl Verdicts {
-    /// The probability that a test fails whose robustness, bent, is this.
-    pub(super) fn of_value(&self, value: f64) -> f64 {
-        normal_below(-self.link.of(value, 0.0))
+    /// A link that left-out tests leave as plausible as the best one, offsets being a priori standard normal.
+    pub(super) fn plausible_link(&self, rng: &mut impl Rng) -> Link {
+        let offset = |i: usize| MOST_OFFSET * (2.0 * i as f64 / (OFFSETS - 1) as f64 - 1.0);
+        let links = slopes().flat_map(|slope| (0..OFFSETS).map(move |i| Link { slope, offset: offset(i) }));
+        let links: Vec<Link> = links.collect();
+        // A weight tells of the whole space; together they count as many as there are tests.
+        let share = self.left_out.values.len() as f64 / self.left_out.weights.iter().sum::<f64>();
+        let log = |link: &Link| share * self.left_out.likelihood(*link) - 0.5 * link.offset * link.offset;
+        let logs: Vec<f64> = links.iter().map(log).collect();
+        let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let chances: Vec<f64> = logs.iter().map(|log| libm::exp(log - most)).collect();
+        let mut left = rng.random::<f64>() * chances.iter().sum::<f64>();
+        let drawn = chances.iter().position(|chance| {
+            left -= chance;
+            left < 0.0
+        });
+        drawn.map_or(self.link, |drawn| links[drawn])
     }
 
     /// The probability that a test fails whose robustness, bent, has this mean and deviation.
@@ -113,18 +141,24 @@ impl Verdicts {
     /// so the others have to say how many fail.
     pub(super) fn calibrated(mut self, places: &[Vec<f64>], robustness: &[f64], seen: usize) -> Self {
         let values: Vec<f64> = robustness.iter().map(|&value| self.bend.apply(value)).collect();
-        let mut left_out = self.process.leave_one_out(&values[..seen]);
+        let mut told = self.process.leave_one_out(&values[..seen]);
         for others in places[seen..].chunks(TOGETHER) {
             let posterior = self.process.posterior(others.to_vec());
-            left_out.extend((0..others.len()).map(|at| (posterior.mean(at), posterior.deviation(at))));
+            told.extend((0..others.len()).map(|at| (posterior.mean(at), posterior.deviation(at))));
         }
         let weights = weights(&self.process.kernel().axes, places);
-        self.link = best_link(&values, &left_out, &weights, best_offset).1;
+        self.left_out = LeftOut { values, told, weights };
+        self.link = self.left_out.best_link(best_offset).1;
         self
     }
 }
 
 impl Link {
+    /// The probability that a test fails whose robustness, bent, is this.
+    pub(super) fn of_value(self, value: f64) -> f64 {
+        normal_below(-self.of(value, 0.0))
+    }
+
     /// What is below 0 is rather a failure: the mean and deviation of a value, in standard deviations of what is to be known.
     fn of(self, mean: f64, deviation: f64) -> f64 {
         let spread = self.slope * deviation;
@@ -162,24 +196,29 @@ fn squared_distance_below(bound: f64, axes: &[Axis], a: &[f64], b: &[f64]) -> Op
     Some(sum)
 }
 
-/// By which link the verdicts of left-out tests are most likely, and how likely: the logarithm. For each slope `offset` finds
-/// the offset, given the likelihood of one.
-fn best_link(
-    values: &[f64],
-    left_out: &[(f64, f64)],
-    weights: &[f64],
-    offset: impl Fn(&dyn Fn(f64) -> f64) -> f64,
-) -> (f64, Link) {
-    let likelihood = |link: Link| -> f64 {
+/// The slopes that are tried.
+fn slopes() -> impl Iterator<Item = f64> {
+    (0..SLOPES).map(|i| libm::exp(LEAST_SLOPE + 0.5 * i as f64))
+}
+
+impl LeftOut {
+    /// How likely the verdicts are by a link: the logarithm.
+    fn likelihood(&self, link: Link) -> f64 {
         let one = |(&value, &(mean, deviation)): (&f64, &(f64, f64))| {
             let right = normal_below(1.0_f64.copysign(value) * link.of(mean, deviation));
             libm::log(right.max(LEAST_PROBABLE))
         };
-        values.iter().zip(left_out).map(one).zip(weights).map(|(log, weight)| weight * log).sum()
-    };
-    let slopes = (0..SLOPES).map(|i| libm::exp(LEAST_SLOPE + 0.5 * i as f64));
-    let links = slopes.map(|slope| Link { slope, offset: offset(&|offset| likelihood(Link { slope, offset })) });
-    links.map(|link| (likelihood(link), link)).max_by(|a, b| a.0.total_cmp(&b.0)).expect("there are slopes")
+        self.values.iter().zip(&self.told).map(one).zip(&self.weights).map(|(log, weight)| weight * log).sum()
+    }
+
+    /// By which link they are most likely, and how likely. For each slope `offset` finds the offset, given the likelihood of
+    /// one.
+    fn best_link(&self, offset: impl Fn(&dyn Fn(f64) -> f64) -> f64) -> (f64, Link) {
+        let best = |slope: f64| offset(&|offset| self.likelihood(Link { slope, offset }));
+        let links = slopes().map(|slope| Link { slope, offset: best(slope) });
+        let links = links.map(|link| (self.likelihood(link), link));
+        links.max_by(|a, b| a.0.total_cmp(&b.0)).expect("there are slopes")
+    }
 }
 
 /// The most probable offset for this logarithm of a likelihood, which has one peak, with a standard normal prior: where the

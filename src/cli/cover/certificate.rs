@@ -1,16 +1,10 @@
 //! The option `--certificate` of `paracosm-cover estimate`.
 
-use crate::certificate::Certificate;
 use crate::cli::Verbosity;
 use crate::cli::output::digits;
 use crate::{Coverage, Error, Measure, Tests, Watch};
 use std::path::Path;
 use std::time::Duration;
-
-/// Checks, before anything takes time, that there is no such file yet.
-pub(super) fn is_new(file: &Path) -> Result<(), Error> {
-    Certificate::is_new(file)
-}
 
 /// Measures tests and writes a certificate; says what it proves, and where that is less than what was measured.
 pub(super) fn write(

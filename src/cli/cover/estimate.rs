@@ -1,6 +1,7 @@
 //! `paracosm-cover estimate`: how well tests cover their space.
 
 use super::{certificate, open_loop, strength, time_limit};
+use crate::cli::draw::is_ours_to_write;
 use crate::cli::output::{Format, Table, json, short_bracket};
 use crate::cli::space_file::SpaceFile;
 use crate::cli::{Failure, Verbosity, print};
@@ -47,11 +48,10 @@ pub(super) struct Options {
     /// Time that the measuring may take, all together; what does not finish comes back as a bracket
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// Write a certificate of dispersion and k-wise dispersion, witnesses and proofs as JSON, to a file that does not
-    /// exist yet
+    /// Write a certificate of dispersion and k-wise dispersion, witnesses and proofs as JSON, to this file
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
-    /// Measure a point set of this strategy instead of tests in a file
+    /// Measure a point set of this strategy instead of tests in a file, in the same time limit
     #[arg(long, value_name = "S", requires_all = ["dims", "budget"])]
     strategy: Option<String>,
     /// The number of dimensions of the strategy's point set
@@ -74,7 +74,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let limit = time_limit("--time-limit", self.time_limit)?;
-        self.certificate.as_deref().map_or(Ok(()), certificate::is_new)?;
+        self.certificate.as_deref().map_or(Ok(()), |file| is_ours_to_write("--certificate", file))?;
         let (mut tests, source) = match &self.strategy {
             Some(name) => (self.generated(name)?, format!("strategy {name}")),
             None => self.read(verbosity)?,

@@ -119,8 +119,12 @@ proptest! {
         let posterior = process.posterior(at.clone());
         let all: Vec<usize> = (0..at.len()).collect();
         // With one normal number at a time a draw is a column of the covariance's factor.
-        let unit = |one: usize| (0..at.len()).map(|i| f64::from(u8::from(i == one))).collect();
-        let units: Vec<Vec<f64>> = all.iter().map(|&one| unit(one)).collect();
+        let unit = |one: usize| Draw {
+            values: (0..at.len()).map(|i| f64::from(u8::from(i == one))).collect(),
+            mean: 0.0,
+            spread: 1.0,
+        };
+        let units: Vec<Draw> = all.iter().map(|&one| unit(one)).collect();
         let columns = posterior.draws(&all, &units);
         for &i in &all {
             let off = |column: &Vec<f64>| column[i] - posterior.mean(i);
