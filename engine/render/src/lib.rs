@@ -7,6 +7,7 @@
 //! Coordinates are the engine's: x along the road, y to its left, z up, in metres. A mesh stands on z = 0, faces along
 //! x, and has its middle over the origin.
 
+mod atmosphere;
 mod boxes;
 mod camera;
 mod error;

@@ -3,22 +3,19 @@
 //! Light is linear, and 1 is about what a white surface sends back in full sun. Nothing adapts to the dark: that, like
 //! all else that lenses and sensors do, is for those who make a sensor's image of a frame.
 
+use crate::atmosphere::Daylight;
 use crate::{Air, ViewError};
 
 /// A colour, or the light of three colours: red, green and blue, linear.
 type Rgb = [f32; 3];
 
 const SUN: Rgb = [0.86, 0.82, 0.75];
-const LOW_SUN: Rgb = [0.80, 0.52, 0.28];
 const SKY: Rgb = [0.34, 0.38, 0.44];
 const GROUND: Rgb = [0.17, 0.16, 0.15];
 const HAZE: Rgb = [0.70, 0.75, 0.80];
 const ZENITH: Rgb = [0.17, 0.34, 0.68];
 /// What is left of the light of the sky in the night.
 const NIGHT: Rgb = [0.010, 0.011, 0.014];
-
-/// The sun is as bright as it gets from this sine of its elevation on.
-const HIGH_SUN: f32 = 0.3;
 
 /// The light that surfaces get.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,21 +35,22 @@ pub(crate) struct Light {
 impl Air {
     /// What the air itself looks like, in linear light: the colour of the horizon, and of what is hidden by fog. Fog
     /// turns the light `l` of what is `d` metres away into `l t + colour (1 - t)` with `t = exp(-extinction d)`
-    /// (Koschmieder).
+    /// (Koschmieder). It is pale and warm under a low sun, and goes dark after sunset.
     pub fn colour(&self) -> [f32; 3] {
-        dimmed(HAZE, self.light, 0.5)
+        dimmed(times(HAZE, Daylight::of(self.sun_elevation).horizon), self.light, 0.5)
     }
 
     pub(crate) fn lit(&self) -> Light {
-        let high = (libm::sinf(self.sun_elevation) / HIGH_SUN).clamp(0.0, 1.0);
-        // Below the horizon there is no sun; between there and full brightness it comes up within 3 degrees.
+        let daylight = Daylight::of(self.sun_elevation);
+        // Below the horizon there is no sun; it comes up within 3 degrees. Shadows on level ground go with it: there even
+        // the full sun of 3 degrees adds a few hundredths to what the sky sends.
         let risen = (libm::sinf(self.sun_elevation) * 20.0).clamp(0.0, 1.0) * self.light;
         Light {
-            sun: std::array::from_fn(|colour| risen * (LOW_SUN[colour] + high * (SUN[colour] - LOW_SUN[colour]))),
-            sky: dimmed(SKY, self.light, 1.0),
-            ground: dimmed(GROUND, self.light, 0.4),
-            zenith: dimmed(ZENITH, self.light, 0.2),
-            lamps: (1.0 - self.light / 0.6).clamp(0.0, 1.0),
+            sun: times(SUN, daylight.sun).map(|colour| risen * colour),
+            sky: dimmed(times(SKY, daylight.around), self.light, 1.0),
+            ground: dimmed(times(GROUND, daylight.around), self.light, 0.4),
+            zenith: dimmed(ZENITH.map(|colour| colour * daylight.zenith), self.light, 0.2),
+            lamps: (1.0 - self.light * daylight.risen / 0.6).clamp(0.0, 1.0),
         }
     }
 
@@ -80,7 +78,38 @@ impl Air {
     }
 }
 
+fn times(colour: Rgb, shares: [f32; 3]) -> Rgb {
+    std::array::from_fn(|part| colour[part] * shares[part])
+}
+
 /// By day this colour, in the night so much of [`NIGHT`].
 fn dimmed(day: Rgb, light: f32, night: f32) -> Rgb {
     std::array::from_fn(|colour| day[colour] * light + NIGHT[colour] * night)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sun_of_three_degrees_hardly_lights_level_ground_but_does_light_walls() {
+        let level = |degrees: f32| {
+            let air = Air { sun_elevation: degrees.to_radians(), ..Air::default() };
+            let Light { sun, sky, .. } = air.lit();
+            (sun[0] * libm::sinf(air.sun_elevation) / sky[0], sun[0] / sky[0])
+        };
+        let (ground, wall) = level(3.0);
+        assert!((0.03..0.1).contains(&ground), "shadows on the ground are {ground} darker");
+        assert!(wall > 1.0, "shadows on walls are {wall} darker");
+        assert!(level(20.0).0 > 0.5, "{:?}", level(20.0));
+        assert_eq!(level(-1.0), (0.0, 0.0));
+    }
+
+    #[test]
+    fn lamps_come_on_at_dusk_as_in_little_light() {
+        let lamps =
+            |degrees: f32, light: f32| Air { sun_elevation: degrees.to_radians(), light, ..Air::default() }.lit().lamps;
+        assert_eq!([lamps(51.6, 1.0), lamps(0.0, 1.0), lamps(0.0, 0.0)], [0.0, 0.0, 1.0]);
+        assert!(lamps(-3.0, 1.0) > 0.0 && lamps(-6.0, 1.0) > 0.9);
+    }
 }

@@ -43,7 +43,9 @@ pub struct Instance {
 pub struct Air {
     /// From 0, night, to 1, broad daylight.
     pub light: f32,
-    /// How high the sun stands, in radians above the horizon.
+    /// How high the sun stands, in radians above the horizon. Light is dimmer and warmer the lower that is, and below the
+    /// horizon there is dusk. Shadows on level ground fade towards the horizon: the sun of 3 degrees, with a twentieth of its
+    /// light on the level, adds less than a tenth to that of the sky.
     pub sun_elevation: f32,
     /// Where the sun stands, in radians counter-clockwise from x.
     pub sun_azimuth: f32,
