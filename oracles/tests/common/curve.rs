@@ -24,7 +24,7 @@ pub struct Curve {
 
 impl Curve {
     /// The function with these values, which is continuous and piecewise linear between these instants.
-    /// At an instant it is what it is there, whatever it is beside it.
+    /// At these it is what `value` says, which need not be near what it is beside them.
     pub fn new(end: f64, instants: impl IntoIterator<Item = f64>, value: impl Fn(f64) -> f64) -> Self {
         let mut instants: Vec<f64> = instants.into_iter().map(exact).collect();
         instants.retain(|time| *time > SAME && *time < end - SAME);
