@@ -81,11 +81,12 @@ impl Wave {
         Self(points)
     }
 
-    /// The function and, after its end, another one.
+    /// The function and, after its end, another one, of whose beginning only what comes right after it is left.
     pub fn followed_by(mut self, other: &Self) -> Self {
         let (end, value) = self.last();
-        let below = self.0[self.0.partition_point(|point| point.0 < end)].1;
-        self.0.truncate(self.0.partition_point(|point| point.0 < end));
+        let before = self.0.partition_point(|point| point.0 < end);
+        let below = self.0[before].1;
+        self.0.truncate(before);
         let later = other.0.partition_point(|point| point.0 <= 0.0);
         let above = other.0[later.saturating_sub(1)].1;
         [below, value, above].into_iter().for_each(|value| push(&mut self.0, (end, value)));
