@@ -14,8 +14,9 @@ pub enum Semantics {
     #[default]
     Sampled,
     /// Signals are straight lines from sample to sample, and formulas speak of every instant. A robustness of 0 is left
-    /// undecided. Where a robustness jumps, because an operator comes to see its first instant or loses sight of the
-    /// last one, it is at that instant what it was before.
+    /// undecided. Windows are closed as they are written, to the instant: where a robustness jumps, because an operator
+    /// comes to see the first instant of the trace or loses sight of the last one, it has a value at that very instant
+    /// beside the limits from before and after it.
     Dense,
 }
 

@@ -53,18 +53,32 @@ fn what_comes_after_the_last_sample_is_open_as_it_is_on_samples() {
 }
 
 #[test]
-fn where_two_jump_at_one_instant_both_are_still_what_they_were() {
+fn where_two_jump_at_one_instant_each_has_its_value_there() {
     let zeros = |dt: f64, ticks: usize| trace(dt, &vec![0.0; ticks], false);
-    let [inf, none] = [f64::INFINITY, f64::NEG_INFINITY];
+    let inf = f64::INFINITY;
     for (text, trace, lower, robustness) in [
-        ("once[1,inf] true release[0.5,1.25] true", zeros(0.5, 3), none, inf),
-        ("always[0,1.75] true until (true since[0.25,0.25] true)", zeros(1.0, 3), none, inf),
+        ("once[1,inf] true release[0.5,1.25] true", zeros(0.5, 3), inf, inf),
+        ("always[0,1.75] true until (true since[0.25,0.25] true)", zeros(1.0, 3), inf, inf),
         ("always[0,1] (true since ((x < 0) until[1,1] true))", zeros(1.0, 2), 0.0, 0.0),
         ("false until historically[0,0] always[1.25,1.5] true", zeros(0.5, 4), inf, inf),
     ] {
         let found = dense(text, &trace).unwrap();
         assert_eq!((found.lower, found.robustness), (lower, robustness), "{text}");
     }
+}
+
+#[test]
+fn windows_of_the_past_are_closed_where_they_reach_the_first_instant() {
+    let mut falling = Trace::new(0.5, vec!["a".to_owned(), "b".to_owned()]);
+    [[-1.0, 1.0], [1.0, 1.0], [1.0, 1.0]].iter().for_each(|row| falling.record(row));
+    falling.finish();
+    let found = dense("always (b > 0 -> not once[1,2] (a < 0))", &falling).unwrap();
+    assert_eq!((found.truth, found.robustness), (Truth::Violated, -1.0));
+    let found = dense("eventually[2,2] historically[2,5] (x < 0)", &trace(1.0, &[1.0, -1.0, -1.0], true)).unwrap();
+    assert_eq!((found.truth, found.robustness), (Truth::Violated, -1.0));
+    // The hold need not hold when the goal is reached.
+    let found = dense("(not once[1,2] (x > 0)) until[1,1] (x < 0)", &trace(1.0, &[2.0, -3.0], true)).unwrap();
+    assert_eq!((found.truth, found.robustness), (Truth::Holds, 3.0));
 }
 
 #[test]
@@ -116,7 +130,8 @@ fn unbounded(_: std::ops::Range<u8>) -> BoxedStrategy<Interval> {
 }
 
 /// Formulas in which operators of the past see the instant at which they stand, so that their robustness does not jump:
-/// at a jump, fine samples do not show what dense time has.
+/// where it does, a goal may be reached right after a sample and what has to hold may fail right after it as well, and
+/// no sample lies between.
 fn formulas(intervals: fn(std::ops::Range<u8>) -> BoxedStrategy<Interval>) -> impl Strategy<Value = Formula> {
     let x = || prop::sample::select(&SIGNALS[..]).prop_map(signal);
     let leaf = prop_oneof![
@@ -147,6 +162,24 @@ fn formulas(intervals: fn(std::ops::Range<u8>) -> BoxedStrategy<Interval>) -> im
     })
 }
 
+/// Formulas whose operators look anywhere. Their robustness jumps, but none of them asks what comes first.
+fn modal() -> impl Strategy<Value = Formula> {
+    let leaf =
+        (prop::sample::select(&SIGNALS[..]).prop_map(signal), -3..=3i8).prop_map(|(x, y)| x.below(f64::from(y) / 2.0));
+    leaf.prop_recursive(4, 10, 2, |inner| {
+        use Modality::*;
+        let modalities = vec![Always, Eventually, Historically, Once];
+        let pair = (inner.clone(), inner.clone());
+        prop_oneof![
+            1 => inner.clone().prop_map(|f| !f),
+            1 => pair.clone().prop_map(|(l, r)| l.and(r)),
+            1 => pair.prop_map(|(l, r)| l.or(r)),
+            5 => (prop::sample::select(modalities), bounded(0..5), inner)
+                .prop_map(|(modality, i, f)| Formula::Modal(modality, i, Box::new(f))),
+        ]
+    })
+}
+
 fn traces(ticks: std::ops::Range<usize>) -> impl Strategy<Value = Trace> {
     let row = prop::array::uniform3((-3..=3i8).prop_map(f64::from));
     prop::collection::vec(row, ticks).prop_map(|rows| {
@@ -172,6 +205,14 @@ proptest! {
 
     #[test]
     fn fine_samples_come_close_to_dense_time((formula, trace) in formulas(bounded).prop_flat_map(|formula| {
+        let ticks = formula.horizon().ceil() as usize + 1;
+        (Just(formula), traces(ticks..ticks + 3))
+    })) {
+        check(&formula, &trace)?;
+    }
+
+    #[test]
+    fn fine_samples_come_close_to_dense_time_where_it_jumps((formula, trace) in modal().prop_flat_map(|formula| {
         let ticks = formula.horizon().ceil() as usize + 1;
         (Just(formula), traces(ticks..ticks + 3))
     })) {

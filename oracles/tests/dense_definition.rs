@@ -87,10 +87,14 @@ fn outside(interval: Interval, past: bool, trace: &Trace, beyond: Beyond) -> Opt
     beyond.value().filter(|_| !ends)
 }
 
-/// The values that count between two instants, both included: those at instants and, at jumps, those that follow.
+/// The values that count between two instants, both included: those at instants and the limits on their sides.
 fn values(curve: &Curve, [from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
     let instants = Curve::instants(&[curve], [from, to]);
-    instants.into_iter().flat_map(move |time| [Some(curve.at(time)), (time < to).then(|| curve.right(time))]).flatten()
+    let around = move |time: f64| {
+        let limits = [(from < time).then(|| curve.left(time)), (time < to).then(|| curve.right(time))];
+        limits.into_iter().flatten().chain([curve.at(time)])
+    };
+    instants.into_iter().flat_map(around)
 }
 
 /// Which way an operator looks, how far, and what it sees where nothing was recorded.
@@ -171,7 +175,7 @@ impl Sight {
             // Both are straight from here to there.
             let limits = |curve: &Curve| {
                 let (early, late) = (now.min(next), now.max(next));
-                let limits = [curve.right(early), curve.at(late)];
+                let limits = [curve.right(early), curve.left(late)];
                 if self.past { [limits[1], limits[0]] } else { limits }
             };
             let ([h0, h1], [g0, g1]) = (limits(hold), limits(goal));

@@ -3,8 +3,9 @@
 //! An operator is worth what one of its operands is worth at some instant in sight, so that one gets from the formula down
 //! to a comparison, step by step. Of all instants it is the first whose worth is nearest: where lines were followed to where
 //! they cross, rounding leaves no two numbers the same. Of an operand that stays as it is for a while it is one in the midst
-//! of that, since at its ends two parts are worth the same, and one of them by chance. Where an operand jumps it matters on
-//! which side one stands, and time bounds are rounded, too; so one looks from a hair's breadth before an instant, or after it.
+//! of that, since at its ends two parts are worth the same, and one of them by chance. Where an operand jumps it matters
+//! whether one stands at that instant or on which side of it, and time bounds are rounded, too; so one looks from the instant
+//! itself or from a hair's breadth before or after it, and what is far nearer than that is the same instant.
 
 use super::wave::{Wave, between};
 use crate::{Connective, Formula, Interval, Modality, Sequence};
@@ -18,20 +19,36 @@ pub(super) fn hair(end: f64) -> f64 {
     ROUNDING * end.max(1.0)
 }
 
-/// An instant, or what comes right after it.
+/// How near instants are that are the same, on a trace of so many seconds.
+fn same(end: f64) -> f64 {
+    0.25 * hair(end)
+}
+
+/// What comes right before an instant, the instant itself, or what comes right after it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Side {
+    Before,
+    At,
+    After,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Moment {
     time: f64,
-    after: bool,
+    side: Side,
 }
 
 impl Moment {
+    fn before(time: f64) -> Self {
+        Self { time, side: Side::Before }
+    }
+
     fn at(time: f64) -> Self {
-        Self { time, after: false }
+        Self { time, side: Side::At }
     }
 
     fn after(time: f64) -> Self {
-        Self { time, after: true }
+        Self { time, side: Side::After }
     }
 }
 
@@ -67,8 +84,7 @@ impl<'f> Causes<'f> {
             Formula::Not(inner) => Some(Step { part: inner, moment, worth: -worth }),
             Formula::Join(connective, left, right) => {
                 let left_worth = if *connective == Connective::Implies { -worth } else { worth };
-                let here = Moment::at(self.eye(moment));
-                let off = |part: &Formula, worth: f64| distance(self.reader(part).at(here), worth);
+                let off = |part: &Formula, worth: f64| distance(self.reader(part).at(moment), worth);
                 let is_left = off(left, left_worth) <= off(right, worth);
                 let (part, worth) = if is_left { (left, left_worth) } else { (right, worth) };
                 Some(Step { part, moment, worth })
@@ -97,13 +113,18 @@ impl<'f> Causes<'f> {
     fn reader(&self, part: &Formula) -> Reader<'_> {
         let kept = self.parts.iter().find(|(kept, _)| std::ptr::eq(*kept, part));
         let points = kept.expect("every part was kept").1.points();
-        Reader { points, place: 0, is_plain: is_plain(part) }
+        Reader { points, same: same(self.end), place: 0, is_plain: is_plain(part) }
     }
 
     /// From where one looks at a moment.
     fn eye(&self, moment: Moment) -> f64 {
         let hair = hair(self.end);
-        (if moment.after { moment.time + hair } else { moment.time - hair }).clamp(0.0, self.end)
+        let aside = match moment.side {
+            Side::Before => -hair,
+            Side::At => 0.0,
+            Side::After => hair,
+        };
+        (moment.time + aside).clamp(0.0, self.end)
     }
 
     fn view(&self, interval: Interval, moment: Moment) -> View {
@@ -134,6 +155,7 @@ impl View {
         let mut scan = Scan {
             window: [from, to],
             hair: hair(self.end),
+            same: same(self.end),
             goal,
             hold,
             sign: self.sign,
@@ -144,9 +166,9 @@ impl View {
             scan.be(Moment::at(*now));
             let Some(next) = instants.get(place + 1) else { break };
             let ends = if self.past {
-                [Moment::at(*now), Moment::after(*next)]
+                [Moment::before(*now), Moment::after(*next)]
             } else {
-                [Moment::after(*now), Moment::at(*next)]
+                [Moment::after(*now), Moment::before(*next)]
             };
             scan.follow(ends);
         }
@@ -163,7 +185,11 @@ impl View {
     /// The nearer and the farther edge of the window.
     fn edges(&self) -> [f64; 2] {
         let Interval { start, end, .. } = self.interval;
-        [start, end].map(|by| if self.past { self.eye - by } else { self.eye + by })
+        [start, end].map(|by| {
+            let edge = if self.past { self.eye - by } else { self.eye + by };
+            let ends = [0.0, self.end];
+            ends.into_iter().find(|end| (edge - end).abs() <= same(self.end)).unwrap_or(edge)
+        })
     }
 
     /// The instants from here to the far edge of the window between which operands are straight, going away from here.
@@ -175,7 +201,7 @@ impl View {
             instants.extend(points.filter(|time| first < *time && *time < last));
         }
         instants.sort_by(f64::total_cmp);
-        instants.dedup();
+        instants.dedup_by(|later, earlier| *later - *earlier <= same(self.end));
         if self.past {
             instants.reverse();
         }
@@ -189,7 +215,7 @@ impl View {
         if aside == 0.0 || !edge {
             return found;
         }
-        Moment { time: (found.time - aside).max(0.0), after: self.moment.after }
+        Moment { time: (found.time - aside).max(0.0), side: self.moment.side }
     }
 }
 
@@ -206,6 +232,8 @@ struct Scan<'w> {
     window: [f64; 2],
     /// What takes no longer is but rounding.
     hair: f64,
+    /// Instants so near are the same.
+    same: f64,
     goal: Reader<'w>,
     hold: Option<Reader<'w>>,
     sign: f64,
@@ -274,10 +302,19 @@ impl Scan<'_> {
         }
     }
 
+    fn sees(&self, Moment { time, side }: Moment) -> bool {
+        let [from, to] = self.window;
+        let by = self.same;
+        match side {
+            Side::Before => from + by < time && time <= to + by,
+            Side::At => from - by <= time && time <= to + by,
+            Side::After => from - by <= time && time < to - by,
+        }
+    }
+
     /// Reaches the goal at a moment, if that is in the window.
     fn reach(&mut self, goal: f64, moment: Moment, is_firm: bool) {
-        let [from, to] = self.window;
-        if from <= moment.time && moment.time <= to {
+        if self.sees(moment) {
             let Least { worth, moment: when, is_firm: held_firmly } = self.weakest;
             if goal <= worth {
                 self.nearest.offer(goal, is_firm, (true, moment));
@@ -331,20 +368,25 @@ fn is_plain(formula: &Formula) -> bool {
 /// Reads a function of time at one moment after the other; moments near each other are quickly found.
 struct Reader<'w> {
     points: &'w [(f64, f64)],
+    /// Instants so near are the same.
+    same: f64,
     place: usize,
     is_plain: bool,
 }
 
 impl Reader<'_> {
-    /// The value there; at a jump, what it was before.
-    fn at(&mut self, moment: Moment) -> f64 {
-        let Moment { time, after } = moment;
-        let is_before = |point: &(f64, f64)| if after { point.0 <= time } else { point.0 < time };
+    fn at(&mut self, Moment { time, side }: Moment) -> f64 {
+        let [from, to] = [time - self.same, time + self.same];
+        let is_before = |point: &(f64, f64)| if side == Side::After { point.0 <= to } else { point.0 < from };
         while self.points.get(self.place).is_some_and(is_before) {
             self.place += 1;
         }
         while self.place > 0 && !is_before(&self.points[self.place - 1]) {
             self.place -= 1;
+        }
+        let here = self.points[self.place..].iter().take_while(|point| point.0 <= to).count();
+        if side == Side::At && here > 0 {
+            return self.points[self.place + here / 2].1;
         }
         match (self.place.checked_sub(1).map(|before| self.points[before]), self.points.get(self.place)) {
             (Some(before), Some(next)) => between(before, *next, time),

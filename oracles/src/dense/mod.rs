@@ -2,10 +2,13 @@
 //!
 //! Every sub-formula becomes a piecewise linear function of time, from the comparisons up. Comparisons must be
 //! piecewise linear for that: sums, differences, `abs`, `min`, `max`, and products with and quotients by constants.
+//! Robustness jumps where a window comes to see the first instant of a trace or loses sight of the last one; then it has
+//! a value at that very instant beside the limits on both sides, and all three count in what looks there.
 
 mod cause;
 mod track;
 mod wave;
+mod window;
 
 use crate::expression::Arithmetic;
 use crate::{
@@ -15,6 +18,7 @@ use crate::{Trace, Truth};
 use cause::{Causes, hair};
 use track::{Track, reaches};
 use wave::Wave;
+use window::Window;
 
 /// What a formula is worth at the beginning of a trace that has samples.
 pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, EvaluationError> {
@@ -255,38 +259,30 @@ impl Scope {
         let Interval { start, end, .. } = self.interval;
         let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
         if end.is_finite() {
-            return self.greatest(wave, [start, end], self.needed, outside);
+            return wave.greatest(Window::closed(start, end), self.needed, outside);
         }
         if self.needed == 0.0 && start == 0.0 && !self.past {
             return Wave::constant(wave.greatest_of_all().max(outside), 0.0);
         }
         let now = wave.greatest_from_now(outside);
-        if start == 0.0 { now } else { self.greatest(now, [start, start], self.needed, outside) }
+        if start == 0.0 { now } else { now.greatest(Window::closed(start, start), self.needed, outside) }
     }
 
     fn until(&self, hold: Wave, goal: Wave) -> Wave {
         let Interval { start, end, .. } = self.interval;
         let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
-        let mut until = Wave::until(&hold, &goal, self.past, outside);
+        let mut until = Wave::until(&hold, &goal, outside);
         if end.is_finite() {
             // The goal is in sight, and it is reached, in sight or not: then it is reached in sight.
             let needed = self.asked.min(self.needed + start);
-            until = until.min(&self.greatest(goal, [0.0, end - start], needed, outside));
+            until = until.min(&goal.greatest(Window::closed(0.0, end - start), needed, outside));
         }
         if start > 0.0 {
             let fails = self.outside.map_or(f64::NEG_INFINITY, |worth| -worth);
-            let before = self.greatest(hold.scaled(-1.0), [0.0, start], self.needed, fails).scaled(-1.0);
-            until = before.min(&self.greatest(until, [start, start], self.needed, outside));
+            let before = hold.scaled(-1.0).greatest(Window::before(start), self.needed, fails).scaled(-1.0);
+            until = before.min(&until.greatest(Window::closed(start, start), self.needed, outside));
         }
         until
-    }
-
-    /// The greatest that is in sight.
-    fn greatest(&self, wave: Wave, [start, end]: [f64; 2], needed: f64, outside: f64) -> Wave {
-        let (time, last) = wave.last();
-        let greatest = wave.greatest(start, end, needed, outside);
-        // Of the past, the first instant of the trace sees itself and nothing else, whatever follows it.
-        if self.past && start == 0.0 && time == needed { greatest.ending(last) } else { greatest }
     }
 }
 

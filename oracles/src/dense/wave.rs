@@ -1,15 +1,17 @@
 //! Piecewise linear functions of time, and what operators make of them.
 //!
 //! The algorithms are those of Donzé, Ferrère and Maler ("Efficient robust monitoring for STL", CAV 2013): maxima over
-//! a moving window by a monotone wedge (Lemire, 2006) of breakpoints beside the values at the window's two ends, and
-//! `until` segment by segment from the end. All take time linear in the number of breakpoints.
+//! a moving window by a monotone wedge of breakpoints beside the values at the window's two ends, and `until` segment by
+//! segment from the end. All take time linear in the number of breakpoints. Where a function jumps it has a value of its
+//! own beside the limits on both sides, so that windows are closed as they are written.
 
-use std::collections::VecDeque;
+use super::window::{Sliding, Window};
 
 /// How far beyond its end a function may be asked because of rounded sums of time bounds, relative to that time.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
-/// A piecewise linear function from time 0 on, as its breakpoints. It jumps where two follow at one instant, and may be
+/// A piecewise linear function from time 0 on, as its breakpoints. Where it jumps three follow at one instant: the limit
+/// from below, the value, and the limit from above; at its beginning and end the missing limit is the value. It may be
 /// infinite from one breakpoint to the next.
 #[derive(Debug, Clone)]
 pub(super) struct Wave(Vec<(f64, f64)>);
@@ -38,13 +40,6 @@ impl Wave {
         self.last().0
     }
 
-    /// The function with this value at its end.
-    pub fn ending(mut self, value: f64) -> Self {
-        let end = self.end();
-        push(&mut self.0, (end, value));
-        self
-    }
-
     /// The value at time 0.
     pub fn first(&self) -> f64 {
         self.0[0].1
@@ -64,13 +59,13 @@ impl Wave {
         self
     }
 
-    /// The function up to an instant and before a jump there.
+    /// The function up to an instant.
     pub fn cut(mut self, end: f64) -> Self {
         let within = self.0.partition_point(|point| point.0 < end);
-        if let Some(next) = self.0.get(within).copied() {
-            let value = within.checked_sub(1).map_or(next.1, |before| between(self.0[before], next, end));
+        if within < self.0.len() {
+            let [below, value, _] = self.around(within, end);
             self.0.truncate(within);
-            self.0.push((end, value));
+            [below, value, value].into_iter().for_each(|value| push(&mut self.0, (end, value)));
         }
         self
     }
@@ -78,25 +73,35 @@ impl Wave {
     /// The function from an instant on, counted from there.
     pub fn after(&self, time: f64) -> Self {
         let from = self.0.partition_point(|point| point.0 < time);
-        let later = self.0[from..].iter().map(|point| (point.0 - time, point.1));
-        let mut points = Vec::with_capacity(later.len() + 1);
-        match (from.checked_sub(1).map(|before| self.0[before]), self.0.get(from)) {
-            (Some(before), Some(next)) if next.0 > time => points.push((0.0, between(before, *next, time))),
-            (Some(before), None) => points.push((0.0, before.1)),
-            _ => {}
-        }
-        points.extend(later);
+        let [_, value, above] = self.around(from, time);
+        let later = self.0.partition_point(|point| point.0 <= time);
+        let mut points = Vec::with_capacity(self.0.len() - later + 3);
+        [value, value, above].into_iter().for_each(|value| push(&mut points, (0.0, value)));
+        points.extend(self.0[later..].iter().map(|point| (point.0 - time, point.1)));
         Self(points)
     }
 
-    /// The function and, after its end, another one.
+    /// The function and, after its end, another one, of whose beginning only what comes right after it is left.
     pub fn followed_by(mut self, other: &Self) -> Self {
-        let end = self.end();
-        // What the other is at its very beginning this one is at its end.
-        let after = other.0.partition_point(|point| point.0 <= 0.0).saturating_sub(1);
-        let later = other.0[after..].iter().map(|point| (end + point.0, point.1));
-        later.for_each(|point| push(&mut self.0, point));
+        let (end, value) = self.last();
+        let before = self.0.partition_point(|point| point.0 < end);
+        let below = self.0[before].1;
+        self.0.truncate(before);
+        let later = other.0.partition_point(|point| point.0 <= 0.0);
+        let above = other.0[later.saturating_sub(1)].1;
+        [below, value, above].into_iter().for_each(|value| push(&mut self.0, (end, value)));
+        self.0.extend(other.0[later..].iter().map(|point| (end + point.0, point.1)));
         self
+    }
+
+    /// The limit from below, the value and the limit from above at an instant, before which there are so many breakpoints.
+    fn around(&self, before: usize, time: f64) -> [f64; 3] {
+        let here = self.0[before..].iter().take_while(|point| point.0 <= time).count();
+        if here > 0 {
+            return [0, here / 2, here - 1].map(|place| self.0[before + place].1);
+        }
+        let next = self.0[before.min(self.0.len() - 1)];
+        [before.checked_sub(1).map_or(next.1, |last| between(self.0[last], next, time)); 3]
     }
 
     /// The greatest value of all.
@@ -113,10 +118,7 @@ impl Wave {
     /// The sum of two functions.
     pub fn sum(&self, other: &Self) -> Self {
         let mut result = Vec::with_capacity(self.0.len() + other.0.len());
-        self.together(other, |Piece { from, to, lines: [a, b] }| {
-            push(&mut result, (from, a.0 + b.0));
-            push(&mut result, (to, a.1 + b.1));
-        });
+        self.together(other, |Piece { to, lines: [a, b], .. }| push(&mut result, (to, a.1 + b.1)));
         Self(result)
     }
 
@@ -135,19 +137,42 @@ impl Wave {
         self.joined(other, |[a, b]| a.min(b))
     }
 
-    /// The pieces over which two functions are both linear, before them the instant 0.
+    /// The pieces over which two functions are both linear, before them the instant 0. Where one jumps there are two that
+    /// take no time, from the limit from below to the value and on to the limit from above.
     fn together(&self, other: &Self, mut visit: impl FnMut(Piece<2>)) {
         let (mut i, mut j) = (0, 0);
-        let mut from = 0.0;
-        visit(Piece { from, to: from, lines: [(self.first(), self.first()), (other.first(), other.first())] });
+        let mut now = 0.0;
+        visit(Piece { from: now, to: now, lines: [(self.first(), self.first()), (other.first(), other.first())] });
         loop {
-            let ends = [self.0.get(i + 1), other.0.get(j + 1)];
-            let Some(to) = ends.into_iter().flatten().map(|point| point.0).min_by(f64::total_cmp) else { return };
-            visit(Piece { from, to, lines: [self.line(i, from, to), other.line(j, from, to)] });
-            i += usize::from(ends[0].is_some_and(|point| point.0 <= to));
-            j += usize::from(ends[1].is_some_and(|point| point.0 <= to));
-            from = to;
+            let next = self.time(i + 1).min(other.time(j + 1));
+            if next <= now {
+                let (a, b) = (self.leap(&mut i, now), other.leap(&mut j, now));
+                visit(Piece { from: now, to: now, lines: [(a[0], a[1]), (b[0], b[1])] });
+                visit(Piece { from: now, to: now, lines: [(a[1], a[2]), (b[1], b[2])] });
+                continue;
+            }
+            if next == f64::INFINITY {
+                return;
+            }
+            visit(Piece { from: now, to: next, lines: [self.line(i, now, next), other.line(j, now, next)] });
+            i += usize::from(self.time(i + 1) <= next);
+            j += usize::from(other.time(j + 1) <= next);
+            now = next;
         }
+    }
+
+    /// The time of breakpoint `i`, of which there may be none.
+    fn time(&self, i: usize) -> f64 {
+        self.0.get(i).map_or(f64::INFINITY, |point| point.0)
+    }
+
+    /// Goes on from breakpoint `i` to the last at this instant, and tells what the function is around it.
+    fn leap(&self, i: &mut usize, time: f64) -> [f64; 3] {
+        let around = self.around(*i + usize::from(self.0[*i].0 < time), time);
+        while self.time(*i + 1) <= time {
+            *i += 1;
+        }
+        around
     }
 
     /// The values at two instants of the piece that begins with breakpoint `i`.
@@ -155,75 +180,41 @@ impl Wave {
         let first = self.0[i];
         match self.0.get(i + 1) {
             None => (first.1, first.1),
-            Some(second) if first.0 == second.0 => (first.1, second.1),
             Some(second) => (between(first, *second, from), between(first, *second, to)),
         }
     }
 
-    /// The greatest value over `[t + start, t + end]`, for `t` from 0 to `needed`; beyond the end it is `outside`.
-    pub fn greatest(mut self, start: f64, end: f64, needed: f64, outside: f64) -> Self {
-        let last = self.end();
-        if needed + end > last + TOLERANCE * last.max(1.0) {
-            self.0.extend([(last, outside), (needed + end + 1.0, outside)]);
+    /// The greatest value over a window, seen from the instants from 0 to `needed`; beyond the end it is `outside`.
+    pub fn greatest(mut self, window: Window, needed: f64, outside: f64) -> Self {
+        let (last, value) = self.last();
+        if needed + window.end > last + TOLERANCE * last.max(1.0) {
+            self.0.extend([(last, value), (last, outside), (needed + window.end + 1.0, outside)]);
         }
-        let points = &self.0;
-        let mut wedge: VecDeque<usize> = VecDeque::new();
-        let (mut entered, mut left) = (0, 0);
-        let enter = |wedge: &mut VecDeque<usize>, entered: &mut usize| {
-            while wedge.back().is_some_and(|i| points[*i].1 <= points[*entered].1) {
-                wedge.pop_back();
-            }
-            wedge.push_back(*entered);
-            *entered += 1;
-        };
-        let leave = |wedge: &mut VecDeque<usize>, left: &mut usize| {
-            if wedge.front() == Some(left) {
-                wedge.pop_front();
-            }
-            *left += 1;
-        };
-        let highest = |wedge: &VecDeque<usize>| wedge.front().map_or(f64::NEG_INFINITY, |i| points[*i].1);
-        let at = |next: usize, time: f64| match (next.checked_sub(1), points.get(next)) {
-            (Some(before), Some(point)) => between(points[before], *point, time),
-            (None, Some(point)) => point.1,
-            _ => points[points.len() - 1].1,
-        };
-        // The very first window ends before a jump at its end.
-        while points.get(entered).is_some_and(|point| point.0 - end < 0.0) {
-            enter(&mut wedge, &mut entered);
-        }
-        while points.get(left).is_some_and(|point| point.0 - start < 0.0) {
-            leave(&mut wedge, &mut left);
-        }
-        let mut result = Vec::with_capacity(2 * points.len());
-        result.push((0.0, highest(&wedge).max(at(left, start)).max(at(entered, end))));
-        let mut from = 0.0;
+        let mut sliding = Sliding::new(&self.0, window);
+        let mut result = Vec::with_capacity(2 * self.0.len());
+        let mut now = 0.0;
         loop {
-            while points.get(entered).is_some_and(|point| point.0 - end <= from) {
-                enter(&mut wedge, &mut entered);
+            let leap = sliding.pass(now);
+            if result.is_empty() {
+                result.push((now, leap.map_or_else(|| sliding.value(now), |[value, _]| value)));
             }
-            while points.get(left).is_some_and(|point| point.0 - start <= from) {
-                leave(&mut wedge, &mut left);
+            if let Some([value, above]) = leap {
+                push(&mut result, (now, value));
+                push(&mut result, (now, if now < needed { above } else { value }));
             }
-            if from >= needed {
+            if now >= needed {
                 return Self(result);
             }
-            let mut to = needed;
-            to = points.get(entered).map_or(to, |point| to.min(point.0 - end));
-            to = points.get(left).map_or(to, |point| to.min(point.0 - start));
-            let first = (at(left, from + start), at(left, to + start));
-            let last = (at(entered, from + end), at(entered, to + end));
-            let inner = highest(&wedge);
-            let piece = Piece { from, to, lines: [first, last, (inner, inner)] };
+            let piece = sliding.piece(now, needed);
             piece.push(&mut result, |[a, b, c]| a.max(b).max(c));
-            from = to;
+            now = piece.to;
         }
     }
 
     /// The greatest value from each instant on, that beyond the end included.
     pub fn greatest_from_now(self, outside: f64) -> Self {
         let mut result = Vec::with_capacity(self.0.len());
-        let (end, last) = self.0[self.0.len() - 1];
+        let (end, last) = self.last();
         let mut rest = outside.max(last);
         result.push((end, rest));
         for ends in self.0.windows(2).rev() {
@@ -236,20 +227,18 @@ impl Wave {
         Self(result)
     }
 
-    /// What `hold until goal` is worth at each instant, however late the goal; beyond the end it is `outside`. Time may run
-    /// `back`: then what a function is at a jump is what it jumps to.
-    pub fn until(hold: &Self, goal: &Self, back: bool, outside: f64) -> Self {
+    /// What `hold until goal` is worth at each instant, however late the goal; beyond the end it is `outside`.
+    pub fn until(hold: &Self, goal: &Self, outside: f64) -> Self {
         let mut pieces = Vec::with_capacity(hold.0.len() + goal.0.len());
         hold.together(goal, |piece| pieces.push(piece));
         let mut result = Vec::with_capacity(pieces.len());
-        let mut rest = outside;
-        for Piece { from, to, lines: [(h0, h1), (g0, g1)] } in pieces.into_iter().rev() {
+        let Piece { to, lines: [hold, goal], .. } = pieces[pieces.len() - 1];
+        let mut rest = goal.1.max(hold.1.min(outside));
+        result.push((to, rest));
+        for Piece { from, to, lines: [(h0, h1), (g0, g1)] } in pieces.drain(1..).rev() {
             // The best goal that is reached within this piece or after it, as far as `hold` is not what limits it.
-            let (hold, best) = if from == to {
-                // What comes after a jump is reached only by way of what `hold` jumps to, but for the jump's own instant.
-                ((h1, h0), if back { g1.max(rest) } else { h1.min(rest) })
-            } else if h1 > h0 {
-                ((h1, h0), g1.max(rest))
+            let (hold, best) = if h1 > h0 || from == to {
+                ((h1, h0), rest)
             } else {
                 // `hold` is least where the goal is reached.
                 let meeting = if g1 > g0 { meeting((h0, h1), (g0, g1)) } else { f64::NEG_INFINITY };
@@ -258,6 +247,10 @@ impl Wave {
             let piece = Piece { from: to, to: from, lines: [(g1, g0), hold, (best, best)] };
             piece.push(&mut result, |[goal, hold, best]| goal.max(hold.min(best)));
             rest = result[result.len() - 1].1;
+            if from != to {
+                // What comes after an instant is reached only by way of what `hold` is right after it.
+                rest = rest.min(h0);
+            }
         }
         result.reverse();
         Self(result)
@@ -284,23 +277,22 @@ pub(super) fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> 
     }
 }
 
-/// Lines from one instant to another, which may be the earlier one.
+/// Lines from one instant to another, which may be the earlier one, or from one value to another at the same instant.
 #[derive(Debug, Clone, Copy)]
-struct Piece<const N: usize> {
-    from: f64,
-    to: f64,
-    lines: [(f64, f64); N],
+pub(super) struct Piece<const N: usize> {
+    pub from: f64,
+    pub to: f64,
+    pub lines: [(f64, f64); N],
 }
 
 impl<const N: usize> Piece<N> {
-    /// Appends what `join` makes of the lines, with a breakpoint wherever two of them cross.
+    /// Appends what `join` makes of the lines after their beginning, with a breakpoint wherever two of them cross.
     #[inline]
     fn push(self, points: &mut Vec<(f64, f64)>, join: impl Fn([f64; N]) -> f64) {
         let Self { from, to, lines } = self;
-        push(points, (from, join(lines.map(|line| line.0))));
         let mut crossings = [f64::INFINITY; 3];
         let mut count = 0;
-        // At a jump there is nothing between the values before and after it.
+        // At a jump there is nothing between the values.
         let lasting = if from == to { &lines[..0] } else { &lines[..] };
         for (i, a) in lasting.iter().enumerate() {
             for b in &lines[..i] {
@@ -314,23 +306,32 @@ impl<const N: usize> Piece<N> {
         if count > 1 {
             crossings[..count].sort_by(f64::total_cmp);
         }
+        let mut last = from;
         for share in &crossings[..count] {
-            let values = lines.map(|(v0, v1)| if v0 == v1 { v0 } else { v0 + (v1 - v0) * share });
-            push(points, (from + (to - from) * share, join(values)));
+            let time = from + (to - from) * share;
+            // Rounding may leave it no instant of its own.
+            if time != last && time != to {
+                let values = lines.map(|(v0, v1)| if v0 == v1 { v0 } else { v0 + (v1 - v0) * share });
+                push(points, (time, join(values)));
+                last = time;
+            }
         }
         push(points, (to, join(lines.map(|line| line.1))));
     }
 }
 
-/// Appends a breakpoint, unless there is none.
+/// Appends a breakpoint. Of those between equal values none is kept, and of three at an instant one if it is no jump.
 fn push(points: &mut Vec<(f64, f64)>, point: (f64, f64)) {
     if let [.., before, last] = points[..]
         && before.1 == point.1
         && last.1 == point.1
     {
-        points.pop();
+        if last.0 != point.0 && before.0 != last.0 {
+            points.pop();
+        } else if last.0 == point.0 && before.0 == last.0 {
+            points.pop();
+            return;
+        }
     }
-    if points.last() != Some(&point) {
-        points.push(point);
-    }
+    points.push(point);
 }

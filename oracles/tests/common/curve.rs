@@ -11,26 +11,27 @@ fn exact(time: f64) -> f64 {
     if (time - eighth).abs() <= SAME { eighth } else { time }
 }
 
-/// A piecewise linear function from 0 to its end. Where it jumps, it is at that instant what it was before.
+/// A piecewise linear function from 0 to its end, at its instants and between them.
 #[derive(Debug, Clone)]
 pub struct Curve {
     /// The ends of its pieces, from 0 on.
     pub times: Vec<f64>,
-    /// The value at 0.
-    start: f64,
+    /// The values at these.
+    values: Vec<f64>,
     /// The limits at both ends of each piece.
     pieces: Vec<(f64, f64)>,
 }
 
 impl Curve {
     /// The function with these values, which is continuous and piecewise linear between these instants.
+    /// At these it is what `value` says, which need not be near what it is beside them.
     pub fn new(end: f64, instants: impl IntoIterator<Item = f64>, value: impl Fn(f64) -> f64) -> Self {
         let mut instants: Vec<f64> = instants.into_iter().map(exact).collect();
         instants.retain(|time| *time > SAME && *time < end - SAME);
         instants.extend([0.0, end]);
         instants.sort_by(f64::total_cmp);
         instants.dedup_by(|later, earlier| *later - *earlier <= SAME);
-        let mut curve = Self { times: vec![0.0], start: value(0.0), pieces: Vec::new() };
+        let mut curve = Self { times: vec![0.0], values: vec![value(0.0)], pieces: Vec::new() };
         for ends in instants.windows(2) {
             curve.discover(&value, [ends[0], ends[1]], 0);
         }
@@ -55,7 +56,7 @@ impl Curve {
                 .iter()
                 .all(|share| near(value(at(*share)), on(early, *share)));
         if is_line || to - from <= 4.0 * SAME {
-            return self.push(to, (on(early, 0.0), on(late, 1.0)));
+            return self.push(to, value(to), (on(early, 0.0), on(late, 1.0)));
         }
         assert!(depth < 60, "not piecewise linear from {from} to {to}");
         let meeting = (late.0 - early.0) / (early.1 - late.1);
@@ -66,18 +67,23 @@ impl Curve {
     }
 
     /// Appends a piece, or makes the last one longer if both are one.
-    fn push(&mut self, to: f64, piece: (f64, f64)) {
-        if let ([.., before, from], Some(last)) = (&self.times[..], self.pieces.last_mut()) {
+    fn push(&mut self, to: f64, value: f64, piece: (f64, f64)) {
+        if let ([.., before, from], [.., here], Some(last)) =
+            (&self.times[..], &mut self.values[..], self.pieces.last_mut())
+        {
             let slope = |piece: (f64, f64), length: f64| (piece.1 - piece.0) / length;
-            let joins = last.1 == piece.0 || (last.1 - piece.0).abs() <= 1e-12;
+            let near = |a: f64, b: f64| a == b || (a - b).abs() <= 1e-12;
+            let joins = near(last.1, piece.0) && near(last.1, *here);
             let straight = (slope(*last, from - before) - slope(piece, to - from)).abs() <= 1e-10;
             if joins && (straight || *last == piece) {
                 last.1 = piece.1;
+                *here = value;
                 *self.times.last_mut().unwrap() = to;
                 return;
             }
         }
         self.times.push(to);
+        self.values.push(value);
         self.pieces.push(piece);
     }
 
@@ -87,8 +93,14 @@ impl Curve {
 
     /// The value at an instant.
     pub fn at(&self, time: f64) -> f64 {
+        let place = self.times.partition_point(|end| *end < time);
+        if self.times[place] == time { self.values[place] } else { self.on(place - 1, time) }
+    }
+
+    /// The limit from below; at 0 the value.
+    pub fn left(&self, time: f64) -> f64 {
         match self.times.partition_point(|end| *end < time) {
-            0 => self.start,
+            0 => self.values[0],
             piece => self.on(piece - 1, time),
         }
     }
