@@ -8,11 +8,12 @@ use paracosm::coverage::dispersion::dispersion;
 use paracosm::coverage::extreme::extreme_discrepancy;
 use paracosm::coverage::fill::fill;
 use paracosm::coverage::kwise_dispersion::kwise_dispersion;
-use paracosm::coverage::rules::Rules;
 use paracosm::coverage::star::star_discrepancy;
-use paracosm::coverage::{Deadline, Point, PointSet, Space, l2};
+use paracosm::coverage::{Deadline, PointSet, l2};
 use paracosm::generators::covering::{CoveringRequest, covering_array};
 use paracosm::generators::{Request, Strategy};
+use paracosm::space::rules::Rules;
+use paracosm::space::{Point, Space};
 
 fn main() {
     divan::main();
@@ -24,7 +25,7 @@ fn points(strategy: Strategy, dims: usize, n: usize) -> Vec<Point> {
 }
 
 fn halton(dims: usize, n: usize) -> PointSet {
-    PointSet::new(dims, points(Strategy::Halton, dims, n).iter().map(|point| &point.continuous)).unwrap()
+    PointSet::new(dims, points(Strategy::HALTON, dims, n).iter().map(|point| &point.continuous)).unwrap()
 }
 
 /// Halton points: dimensions and number.
@@ -37,7 +38,7 @@ fn exact_dispersion(bencher: Bencher, (dims, n): (usize, usize)) {
 /// Points of the Sobol sequence, exact.
 #[divan::bench(args = [(10, 1_024)], sample_count = 3)]
 fn exact_dispersion_of_sobol(bencher: Bencher, (dims, n): (usize, usize)) {
-    let points = PointSet::new(dims, points(Strategy::Sobol, dims, n).iter().map(|point| &point.continuous)).unwrap();
+    let points = PointSet::new(dims, points(Strategy::SOBOL, dims, n).iter().map(|point| &point.continuous)).unwrap();
     bencher.bench(|| dispersion(black_box(&points), Deadline::never()));
 }
 
@@ -71,7 +72,7 @@ fn l2_family(bencher: Bencher, (dims, n): (usize, usize)) {
 /// 1,000 points in 20 dimensions: 190 projections on two coordinates, 1,140 on three.
 #[divan::bench(args = [2, 3], sample_count = 3)]
 fn kwise_dispersion_of_20_dimensions(bencher: Bencher, k: usize) {
-    let (rules, points) = (Rules::free(&[]), points(Strategy::Halton, 20, 1_000));
+    let (rules, points) = (Rules::free(&[]), points(Strategy::HALTON, 20, 1_000));
     bencher.bench(|| kwise_dispersion(20, &rules, black_box(&points), k, Deadline::never()));
 }
 

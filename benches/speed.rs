@@ -8,35 +8,41 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::Vector2;
 use paracosm::Study;
-use paracosm::coverage::Space;
 use paracosm::engine::driver::reference;
 use paracosm::engine::kinematic::CutIn;
-use paracosm::engine::road::{Network, Place, grid_city};
+use paracosm::engine::road::{Place, RoadNetwork, grid_city};
 use paracosm::engine::sensor::{Chance, Lidar, LidarSettings, Scan, Sensor};
 use paracosm::engine::traffic::{Traffic, TrafficCar};
-use paracosm::engine::vehicle::{Model, Pedals, Vehicle};
+use paracosm::engine::vehicle::{Pedals, Vehicle, VehicleModel};
 use paracosm::engine::{
     AutonomousVehicle, DEFAULT_DT, Pose, Program, RoadSegment, Run, Scenario, Setup, Step, Stream, driver, simulate,
 };
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Monitor, Semantics, Trace};
+use paracosm::space::Space;
 
 fn main() {
     divan::main();
+}
+
+fn study(scenario: &str) -> Study {
+    Study::of(paracosm::catalogue().find(scenario).unwrap()).build().unwrap()
 }
 
 /// Tests of `pedestrian-crossing`: 25 simulated seconds at 100 Hz, but for those that a contact ends.
 #[divan::bench(args = ["aeb", "cruise"], sample_count = 20)]
 fn tests(bencher: Bencher, driver: &str) {
     const TESTS: usize = 100;
-    let study = Study::of("pedestrian-crossing").unwrap();
+    let study = study("pedestrian-crossing");
     let program = study.program().unwrap();
-    let points = study.generator().unwrap().ask(TESTS);
-    let tests: Vec<_> = points.iter().map(|point| study.complete(&study.space.decode(point))).collect();
+    let points = study.generator(&[]).unwrap().ask(TESTS);
+    let tests: Vec<_> = points.iter().map(|point| study.complete(&study.space().decode(point))).collect();
     let mut driver = driver::find(driver).unwrap().build(&[]).unwrap();
     bencher.counter(ItemsCount::new(TESTS)).bench_local(|| {
         for test in &tests {
-            black_box(simulate(&program, test, Model::SingleTrack, driver.as_mut()).trace.map(|trace| trace.hash()));
+            black_box(
+                simulate(program, test, VehicleModel::SingleTrack, driver.as_mut()).trace.map(|trace| trace.hash()),
+            );
         }
     });
 }
@@ -45,14 +51,14 @@ fn tests(bencher: Bencher, driver: &str) {
 #[divan::bench(sample_count = 20)]
 fn jointed_tests(bencher: Bencher) {
     const TESTS: usize = 20;
-    let study = Study::of("pedestrian-crossing").unwrap();
+    let study = study("pedestrian-crossing");
     let program = study.program().unwrap();
-    let points = study.generator().unwrap().ask(TESTS);
-    let tests: Vec<_> = points.iter().map(|point| study.complete(&study.space.decode(point))).collect();
+    let points = study.generator(&[]).unwrap().ask(TESTS);
+    let tests: Vec<_> = points.iter().map(|point| study.complete(&study.space().decode(point))).collect();
     let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
     bencher.counter(ItemsCount::new(TESTS)).bench_local(|| {
         for test in &tests {
-            black_box(simulate(&program, test, Model::Jointed, driver.as_mut()).trace.map(|trace| trace.hash()));
+            black_box(simulate(program, test, VehicleModel::Jointed, driver.as_mut()).trace.map(|trace| trace.hash()));
         }
     });
 }
@@ -60,11 +66,12 @@ fn jointed_tests(bencher: Bencher) {
 /// Simulated seconds of `grid-traffic`: a car under test on its way among a hundred.
 #[divan::bench(sample_count = 20)]
 fn grid_traffic(bencher: Bencher) {
-    let study = Study::of("grid-traffic").unwrap();
+    let study = study("grid-traffic");
     let program = study.program().unwrap();
     let test = program.declare().unwrap().nominal();
     let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
-    let mut run = || simulate(&program, &test, Model::SingleTrack, driver.as_mut()).trace.map(|trace| trace.len());
+    let mut run =
+        || simulate(program, &test, VehicleModel::SingleTrack, driver.as_mut()).trace.map(|trace| trace.len());
     let seconds = run().unwrap() as f64 * 0.02;
     bencher.counter(ItemsCount::new(seconds as usize)).bench_local(run);
 }
@@ -73,11 +80,11 @@ fn grid_traffic(bencher: Bencher) {
 #[divan::bench(sample_count = 20)]
 fn lidar_scans(bencher: Bencher) {
     const SCANS: usize = 10;
-    let study = Study::of("grid-traffic").unwrap();
+    let study = study("grid-traffic");
     let program = study.program().unwrap();
     let test = program.declare().unwrap().nominal();
     let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
-    let mut run = Run::new(&program, &test, Setup::asking_every(driver.period())).unwrap();
+    let mut run = Run::new(program, &test, Setup::asking_every(driver.period())).unwrap();
     driver.reset(&run.briefing()).unwrap();
     while run.time() < 30.0 {
         let Step::Need(observation) = run.advance() else { panic!("the car has come to its end") };
@@ -98,7 +105,7 @@ fn lidar_scans(bencher: Bencher) {
 fn cut_ins(bencher: Bencher, driver: &str) {
     const CUT_INS: usize = 30_000;
     let (_, drive) = reference::ALL.into_iter().find(|(name, _)| *name == driver).unwrap();
-    let points = Strategy::Halton.build(&Request::new(&Space::unit_cube(4), 3 * CUT_INS)).unwrap().ask(3 * CUT_INS);
+    let points = Strategy::HALTON.build(&Request::new(&Space::unit_cube(4), 3 * CUT_INS)).unwrap().ask(3 * CUT_INS);
     let valid = points.into_iter().filter_map(|point| CutIn::from_unit(point.continuous.try_into().unwrap()));
     let encounters: Vec<_> = valid.map(|cut_in| cut_in.encounter()).take(CUT_INS).collect();
     assert_eq!(encounters.len(), CUT_INS);
@@ -108,8 +115,8 @@ fn cut_ins(bencher: Bencher, driver: &str) {
 }
 
 /// Ways of a car over 10 seconds at 100 Hz, with throttle, brakes and steering.
-#[divan::bench(args = Model::ALL, sample_count = 20)]
-fn ways(bencher: Bencher, model: Model) {
+#[divan::bench(args = VehicleModel::ALL, sample_count = 20)]
+fn ways(bencher: Bencher, model: VehicleModel) {
     const WAYS: usize = 10;
     let start = Pose { position: Vector2::zeros(), heading: 0.0 };
     bencher.counter(ItemsCount::new(WAYS)).bench(|| {
@@ -143,7 +150,7 @@ fn stream_nodes(bencher: Bencher) {
         }
         s.place(chain.for_each(|x| assert!(x.is_finite())));
     }
-    let program = Program { name: "streams", about: "many nodes", build };
+    let program = Program::new("streams", "many nodes", build);
     let test = program.declare().unwrap().nominal();
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
     bencher
@@ -154,9 +161,9 @@ fn stream_nodes(bencher: Bencher) {
 
 /// Points in five dimensions, the building of the generator included. `greedy`, which thinks for milliseconds about
 /// each, is asked for fewer.
-#[divan::bench(args = Strategy::ALL.into_iter().filter(|s| s.dims().contains(&5) && !s.is_adaptive()), sample_count = 20)]
+#[divan::bench(args = Strategy::all().filter(|s| s.dims().contains(&5) && !s.is_adaptive()), sample_count = 20)]
 fn points(bencher: Bencher, strategy: Strategy) {
-    let points = if strategy == Strategy::Greedy { 100 } else { 10_000 };
+    let points = if strategy == Strategy::GREEDY { 100 } else { 10_000 };
     let space = Space::unit_cube(5);
     bencher.counter(ItemsCount::new(points)).bench(|| {
         let request = Request { seed: Some(1), ..Request::new(&space, points) };
@@ -236,7 +243,7 @@ fn parse(bencher: Bencher) {
 }
 
 /// The city of the paper's Figure 3: 20 x 20 junctions, 5,848 lanes.
-fn figure_3() -> std::sync::Arc<Network> {
+fn figure_3() -> std::sync::Arc<RoadNetwork> {
     grid_city(20, 20, 80.0, 2).build().unwrap()
 }
 

@@ -4,10 +4,10 @@
 //! to drive backwards), each driven by every reference driver in the plain kinematic world, and by one that never brakes.
 //! What a driver does not avoid although `ideal` does is its own fault.
 
-use paracosm::coverage::Space;
 use paracosm::engine::driver::reference::{self, Drive, Ideal};
 use paracosm::engine::kinematic::{CutIn, Encounter, Ended, Face, Unbraked};
 use paracosm::generators::{Request, Strategy};
+use paracosm::space::Space;
 use std::error::Error;
 use std::fmt::Write;
 
@@ -17,7 +17,7 @@ const POINTS: usize = 2 * CUT_INS;
 
 fn cut_ins() -> Result<Vec<Encounter>, Box<dyn Error>> {
     let space = Space::unit_cube(4);
-    let mut generator = Strategy::Random.build(&Request { seed: Some(1), ..Request::new(&space, POINTS) })?;
+    let mut generator = Strategy::RANDOM.build(&Request { seed: Some(1), ..Request::new(&space, POINTS) })?;
     let points = generator.ask(POINTS).into_iter();
     let cut_ins = points.filter_map(|point| {
         let unit = <[f64; 4]>::try_from(point.continuous).expect("the cube has four dimensions");

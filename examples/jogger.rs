@@ -22,12 +22,9 @@ fn jogger(s: &mut Scenario) {
 }
 
 fn main() -> Result<(), Error> {
-    let study =
-        Study::new(Program { name: "jogger", about: "a jogger crosses the road", build: jogger })?.budget(100)?;
-    Campaign::new(&study)?.run(|trial| {
-        if trial.is_failure() {
-            println!("{}", serde_json::to_string(&trial.test).expect("a test is always JSON"));
-        }
-        Ok(())
-    })
+    let study = Study::of(Program::new("jogger", "a jogger crosses the road", jogger)).budget(100).build()?;
+    for failure in Campaign::new(&study)?.into_log()?.trials().iter().filter(|trial| trial.is_failure()) {
+        println!("{}", serde_json::to_string(&failure.test).expect("a test is always JSON"));
+    }
+    Ok(())
 }

@@ -5,10 +5,10 @@
 //! covering array is made, a fault is hidden in a pair of values, and the pair is found again.
 
 use paracosm::coverage::kwise::kwise_coverage;
-use paracosm::coverage::rules::Rules;
 use paracosm::coverage::suspects::{JudgedTest, Locator, suspects};
-use paracosm::coverage::{Domain, Parameter, Space, SpaceError, Value};
 use paracosm::generators::covering::{CoveringRequest, covering_array};
+use paracosm::space::rules::Rules;
+use paracosm::space::{Domain, Parameter, Space, SpaceError, Value};
 use std::error::Error;
 use std::fmt::Write;
 

@@ -1,10 +1,10 @@
-//! How near the estimates of `paracosm::likelihood` come to probabilities that are known, and how often their intervals
+//! How near the estimates of `paracosm::analysis::likelihood` come to probabilities that are known, and how often their intervals
 //! cover these: 100 runs of each.
 //!
 //!     cargo run --release --example likelihood
 
-use paracosm::coverage::distribution::normal_quantile;
-use paracosm::likelihood::{Likelihood, Method, Question, estimate};
+use paracosm::analysis::likelihood::{Likelihood, Method, Question, estimate};
+use paracosm::space::distribution::normal_quantile;
 
 type System = (&'static str, usize, f64, fn(&[f64]) -> f64);
 
@@ -66,5 +66,5 @@ fn show(method: Method, budget: usize, (name, dims, truth, robustness): System) 
 fn median(values: impl Iterator<Item = f64>) -> f64 {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
-    paracosm::statistics::quantile(&values, 0.5)
+    paracosm::analysis::statistics::quantile(&values, 0.5)
 }

@@ -1,110 +1,56 @@
 //! PARACOSM: coverage-driven testing and falsification of autonomous driving systems.
 //!
-//! A [`Study`] says what is tested how: a scenario, a driver, the open parameters, a strategy and a budget. A
-//! [`Campaign`] runs it, test by test on all cores, and writes every [`Trial`] down; [`Coverage`] says how well
-//! the tests cover the space, and a [`FailureMap`] shows where they fail. The crates below each do one thing:
-//! [`coverage`] measures, [`generators`] propose, [`engine`] simulates, [`oracles`] judge, [`scenarios`] are
-//! the worlds.
+//! A [`Study`] says what is tested how: a scenario, a driver, the open parameters, a strategy and a budget. [`run_into`] runs it,
+//! test by test on all cores, and writes into a folder every [`Trial`], how well the tests cover the space, where they fail
+//! and in which ways. The crates below each do one thing: [`space`] has parameters and constraints, [`coverage`] measures,
+//! [`generators`] propose, [`engine`] simulates, [`oracles`] judge, [`scenarios`] are the worlds, [`campaign`] runs,
+//! [`analysis`] learns, [`report`] shows.
 //!
 //! ```
-//! use paracosm::{Campaign, Study};
+//! use paracosm::{Campaign, Study, Trial, catalogue};
 //!
-//! let study = Study::of("pedestrian-crossing")?.driver("aeb", &[])?.strategy("halton")?.budget(20)?;
+//! let study = Study::of(catalogue().find("pedestrian-crossing")?).driver("aeb").budget(20).build()?;
 //! let mut failures = 0;
-//! Campaign::new(&study)?.run(|trial| {
-//!     failures += usize::from(trial.is_failure());
-//!     Ok(())
-//! })?;
+//! Campaign::new(&study)?.run(&mut [&mut |trial: &Trial| failures += usize::from(trial.is_failure())])?;
 //! assert!(failures > 0);
 //! # Ok::<(), paracosm::Error>(())
 //! ```
 
-pub mod bench;
-mod black_box;
-pub mod blame;
-mod campaign;
-pub mod certificate;
-pub mod compare;
-#[cfg(feature = "camera")]
-mod darkroom;
-#[cfg(not(feature = "camera"))]
-#[path = "darkroom/none.rs"]
-mod darkroom;
-mod drivers;
-mod error;
-mod estimate;
-mod executor;
-mod expected;
-mod explanation;
-mod extension;
-mod failure_estimate;
-mod folder;
-mod json;
-pub mod junit;
-pub mod likelihood;
-mod live;
-mod modes;
-mod older;
-mod plan;
-mod plot;
-mod process;
-mod promise;
-#[cfg(feature = "camera")]
-pub mod record;
-mod regression;
-mod scales;
-mod shrink;
-mod simulator;
-pub mod statistics;
-mod steering;
-mod study;
-mod summary;
-mod suspects;
-mod tests_file;
-mod trace_file;
-mod traceability;
-mod trial;
-mod worker;
-mod write_up;
-
 #[cfg(feature = "cli")]
 pub mod cli;
+mod lists;
+mod runner;
 
-pub use black_box::BlackBox;
-pub use campaign::Campaign;
-pub use error::Error;
-pub use estimate::{
-    Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measure, Strength, Tests, Watch,
+pub use lists::Lists;
+pub use paracosm_campaign::{
+    Campaign, Catalogue, Error, Finish, Folder, Log, Observer, Sampling, Study, StudyBuilder, Trial,
 };
-pub use explanation::{Accuracy, Explanation, Rule};
-pub use extension::Extension;
-pub use failure_estimate::FailureEstimate;
-pub use folder::Folder;
-pub use live::LiveCoverage;
-pub use modes::{Extent, Mode, Modes, Touch};
-pub use plan::{Guarantee, Need, Plan};
-pub use plot::{Axis, FailureMap, HeatMap, Lines, Mark, Picture, Tints, drawing_png, film_gif};
-pub use promise::Promise;
-pub use regression::{Expectation, Regression, Replayed};
-pub use shrink::{Change, Sameness, Shrunk};
-pub use study::{Attribute, DriverChoice, Odd, RequirementText, Simulation, Study, Subject};
-pub use summary::{Judged, Summary, Worst};
-pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
-pub use trace_file::{read_trace, write_trace};
-pub use traceability::{Became, Gap, Traceability, Traced, Tried};
-pub use trial::Trial;
-pub use worker::Worker;
+pub use runner::{NothingToLocate, Report, Runner, run_into};
 
+pub use paracosm_analysis as analysis;
+pub use paracosm_campaign as campaign;
 pub use paracosm_coverage as coverage;
 pub use paracosm_engine as engine;
 pub use paracosm_generators as generators;
 pub use paracosm_oracles as oracles;
 #[cfg(feature = "camera")]
 pub use paracosm_render as render;
+pub use paracosm_report as report;
 pub use paracosm_rpc as rpc;
 pub use paracosm_scenarios as scenarios;
+pub use paracosm_space as space;
+
+/// Every scenario that can be named: those that come with the software.
+pub fn catalogue() -> Catalogue {
+    Catalogue::of(scenarios::ALL)
+}
 
 /// The examples of the README, as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+/// The examples of the page on extending the software, as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../docs/extending.md")]
+struct Extending;

@@ -1,7 +1,25 @@
 //! The extreme discrepancy: how far the share of points in an axis-parallel box is from the box's volume, at worst.
 
+use crate::measure::{Compare, Descriptor, Measure, Method};
 use crate::star::{Sides, largest_difference};
 use crate::{Bracket, Deadline, PointSet};
+
+impl Measure {
+    /// The extreme discrepancy.
+    pub const EXTREME: Self = Self::of(&Descriptor {
+        name: "extreme",
+        key: "extreme_discrepancy",
+        label: "extreme discrepancy",
+        title: "extreme discrepancy",
+        about: "the largest difference of volume and share of tests over all boxes",
+        pace: 7,
+        compare: Compare::WhereQuick(|dims, points| libm::pow(points as f64, dims as f64) <= QUICK),
+        method: Method::Bracket(extreme_discrepancy),
+    });
+}
+
+/// The search takes milliseconds for so many combinations of coordinates.
+const QUICK: f64 = 4e6;
 
 /// The extreme discrepancy: the largest of `vol (a,b) - #{a < x < b} / n` and `#{a <= x <= b} / n - vol [a,b]`
 /// over all axis-parallel boxes in the unit cube (Niederreiter, Random Number Generation and Quasi-Monte Carlo

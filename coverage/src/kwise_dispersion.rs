@@ -12,10 +12,26 @@
 
 use crate::dispersion::{LargestEmptyBox, larger_than};
 use crate::kwise::{KwiseCoverage, KwiseError, advance, kwise_coverage, tuple};
-use crate::rules::Rules;
-use crate::{Bracket, Deadline, Point, PointSet};
+use crate::measure::{Compare, Descriptor, Measure, Method};
+use crate::{Bracket, Deadline, PointSet};
+use paracosm_space::Point;
+use paracosm_space::rules::Rules;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
+
+impl Measure {
+    /// The largest dispersion that any k parameters show.
+    pub const K_WISE_DISPERSION: Self = Self::of(&Descriptor {
+        name: "k-wise-dispersion",
+        key: "k_wise_dispersion",
+        label: "k-wise dispersion",
+        title: "k-wise dispersion",
+        about: "the largest hole that any k parameters show, discrete and continuous ones together",
+        pace: 9,
+        compare: Compare::BeyondK,
+        method: Method::KwiseHole,
+    });
+}
 
 /// How many projections make a block.
 const BLOCK: usize = 64;

@@ -13,8 +13,65 @@
 //! `None` for a set without points, whose mean does not exist, or where the deadline passes first.
 
 use crate::bracket::Watch;
+use crate::measure::{Compare, Descriptor, Measure, Method};
 use crate::{Deadline, PointSet};
 use rayon::prelude::*;
+
+impl Measure {
+    /// The L2-star discrepancy.
+    pub const L2_STAR: Self = Self::of(&Descriptor {
+        name: "l2_star",
+        key: "l2_star",
+        label: "L2-star",
+        title: "L2-star discrepancy",
+        about: "the root mean square difference of volume and share of tests over boxes at the origin",
+        pace: 0,
+        compare: Compare::Always,
+        method: Method::Number(l2_star),
+    });
+}
+
+impl Measure {
+    /// The centered discrepancy, squared.
+    pub const CENTERED: Self = Self::of(&Descriptor {
+        name: "centered",
+        key: "centered",
+        label: "centered, squared",
+        title: "centered discrepancy, squared",
+        about: "the mean square difference over boxes from a test to its nearest corner",
+        pace: 1,
+        compare: Compare::Always,
+        method: Method::Number(centered),
+    });
+}
+
+impl Measure {
+    /// The wraparound discrepancy, squared.
+    pub const WRAPAROUND: Self = Self::of(&Descriptor {
+        name: "wraparound",
+        key: "wraparound",
+        label: "wraparound, squared",
+        title: "wraparound discrepancy, squared",
+        about: "the mean square difference over boxes that may cross the border",
+        pace: 2,
+        compare: Compare::Always,
+        method: Method::Number(wraparound),
+    });
+}
+
+impl Measure {
+    /// The mixture discrepancy, squared.
+    pub const MIXTURE: Self = Self::of(&Descriptor {
+        name: "mixture",
+        key: "mixture",
+        label: "mixture, squared",
+        title: "mixture discrepancy, squared",
+        about: "the mean square difference over boxes of both kinds",
+        pace: 3,
+        compare: Compare::Always,
+        method: Method::Number(mixture),
+    });
+}
 
 /// The squared centered L2 discrepancy, by boxes between each point and its nearest corner of the cube;
 /// `scipy.stats.qmc.discrepancy(method="CD")`. Source: Hickernell 1998, as above.

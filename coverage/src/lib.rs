@@ -1,44 +1,55 @@
-//! Parameter spaces, and how well a set of tests covers them.
+//! How well a set of tests covers a parameter space.
 //!
-//! A [`Space`] is the ordered list of the parameters a study leaves open. Tests are points of it, and this
-//! crate says how much of the space such points have looked at: the discrete half by [`kwise`] coverage, the
-//! continuous half by [`dispersion`] (the largest box no test has entered: the paper's measure), by [`fill`] (the
-//! largest ball) and by discrepancy ([`star`], [`extreme`], [`l2`]), and both halves together by
-//! [`kwise_dispersion`]. [`empty_boxes`] knows the holes as tests arrive one by one, and [`proof`] proves that there are
-//! no larger ones. [`theory`] holds the bounds that are known without looking at any point.
+//! Tests are points of a [`Space`](paracosm_space::Space), and this crate says how much of the space they have looked at: the
+//! discrete half by [`kwise`] coverage, the continuous half by [`dispersion`] (the largest box that no test has entered: the
+//! paper's measure), by [`fill`] (the largest ball) and by discrepancy ([`star`], [`extreme`], [`l2`]), and both halves
+//! together by [`kwise_dispersion`]. Each is described as a [`Measure`]. [`empty_boxes`] keeps the holes up to date as tests arrive one by one, and [`proof`]
+//! proves that there are no larger ones. [`theory`] holds the bounds that are known without looking at any point. Where tests
+//! failed, [`suspects`] says which combinations of discrete values are behind the failures.
 //!
-//! How likely parameters have which values is a [`Distribution`]. Where tests failed, [`suspects`] says which combinations of discrete values are behind it.
+//! ```
+//! use paracosm_coverage::{Deadline, PointSet, dispersion::dispersion};
 //!
-//! Which tests make sense is said by constraints: [`constraint`] is their language, [`rules`] what follows from
-//! them, and [`pict`] reads spaces and constraints from the model files of PICT. What tests are to cover beyond all
-//! combinations of k values is a [`demand`].
+//! let points = PointSet::new(2, [[0.25, 0.5], [0.75, 0.5]])?;
+//! let largest = dispersion(&points, Deadline::never());
+//! assert!(largest.volume.is_exact());
+//! assert_eq!(largest.volume.lower, 0.5);
+//! # Ok::<(), paracosm_coverage::PointSetError>(())
+//! ```
 //!
-//! The crate computes: it opens no file and runs no simulation. Numbers called exact are exact; what a time
-//! limit cut short comes back as a certified [`Bracket`].
+//! The crate opens no file and runs no simulation. Numbers called exact are exact. A measure that a time limit cuts short
+//! comes back as a certified [`Bracket`].
 
 mod bracket;
-pub mod constraint;
-pub mod demand;
 pub mod dispersion;
-pub mod distribution;
 pub mod empty_boxes;
 pub mod extreme;
 pub mod fill;
 pub mod kwise;
 pub mod kwise_dispersion;
 pub mod l2;
-mod names;
-pub mod pict;
+pub mod measure;
 mod points;
 pub mod proof;
-pub mod rules;
-mod space;
 pub mod star;
 pub mod suspects;
 pub mod theory;
+mod witness;
 
 pub use bracket::{Bracket, Deadline};
-pub use distribution::Distribution;
-pub use names::{did_you_mean, nearest};
+pub use measure::{Measure, UnknownMeasure};
 pub use points::{PointSet, PointSetError};
-pub use space::{Coordinate, Domain, Parameter, Point, Record, Shape, Space, SpaceError, Value, Values};
+
+/// The measures, in the order in which they are shown.
+const MEASURES: &[Measure] = &[
+    Measure::DISPERSION,
+    Measure::STAR,
+    Measure::EXTREME,
+    Measure::FILL,
+    Measure::L2_STAR,
+    Measure::CENTERED,
+    Measure::WRAPAROUND,
+    Measure::MIXTURE,
+    Measure::K_WISE,
+    Measure::K_WISE_DISPERSION,
+];

@@ -11,9 +11,24 @@ mod cell;
 mod search;
 mod sides;
 
+use crate::measure::{Compare, Descriptor, Measure, Method};
 use crate::{Bracket, Deadline, PointSet};
 pub(crate) use search::largest_difference;
 pub(crate) use sides::Sides;
+
+impl Measure {
+    /// The star discrepancy.
+    pub const STAR: Self = Self::of(&Descriptor {
+        name: "star",
+        key: "star_discrepancy",
+        label: "star discrepancy",
+        title: "star discrepancy",
+        about: "the largest difference of volume and share of tests over boxes at the origin",
+        pace: 6,
+        compare: Compare::Always,
+        method: Method::Bracket(star_discrepancy),
+    });
+}
 
 /// The star discrepancy: the largest of `vol [0,y) - #{x < y} / n` and `#{x <= y} / n - vol [0,y)` over all `y`
 /// in the unit cube (Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, 1992, section 2.1).

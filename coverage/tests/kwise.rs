@@ -1,12 +1,13 @@
 //! k-wise coverage against counting in sets, and the sizes of random families against exact probabilities.
 
+#[path = "../../space/tests/models/mod.rs"]
 mod models;
 
 use models::{all_tests, keeps, models};
-use paracosm_coverage::demand::Kind;
 use paracosm_coverage::kwise::{KwiseCounter, KwiseError, MISSING_LISTED, coverage_of_kinds, kwise_coverage};
-use paracosm_coverage::rules::{Clause, Rules};
 use paracosm_coverage::theory::rows::{RandomRows, proposition_3_2};
+use paracosm_space::demand::TestKind;
+use paracosm_space::rules::{Clause, Rules};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
@@ -127,7 +128,7 @@ proptest! {
         let few = |test: &&Vec<usize>| negatives.iter().filter(|(p, l)| test[*p] == *l).count() <= 1;
         let every = all_tests(&levels);
         let every: Vec<&Vec<usize>> = every.iter().filter(kept).filter(few).collect();
-        let Ok(kinds) = Kind::all(&levels, &constraints, &negatives) else {
+        let Ok(kinds) = TestKind::all(&levels, &constraints, &negatives) else {
             prop_assert!(every.is_empty());
             return Ok(());
         };

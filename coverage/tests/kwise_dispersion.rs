@@ -2,8 +2,9 @@
 
 use paracosm_coverage::dispersion::dispersion;
 use paracosm_coverage::kwise_dispersion::kwise_dispersion;
-use paracosm_coverage::rules::Rules;
-use paracosm_coverage::{Bracket, Deadline, Point, PointSet};
+use paracosm_coverage::{Bracket, Deadline, PointSet};
+use paracosm_space::Point;
+use paracosm_space::rules::Rules;
 use proptest::prelude::*;
 
 /// The largest dispersion over the projections on two of the parameters, discrete ones after continuous ones.

@@ -1,10 +1,11 @@
 //! Locating guilty combinations that the test knows and the locator does not.
 
+#[path = "../../space/tests/models/mod.rs"]
 mod models;
 
 use models::{all_tests, keeps, models};
-use paracosm_coverage::rules::{Clause, Literal, Rules};
 use paracosm_coverage::suspects::{JudgedTest, LocateError, Located, Locator, Standing};
+use paracosm_space::rules::{Clause, Literal, Rules};
 use proptest::prelude::*;
 
 type Values = Vec<(usize, usize)>;
@@ -276,7 +277,7 @@ fn tests_that_cannot_be_compared_are_refused() {
     let forbidden = vec![Clause { literals: vec![Literal { parameter: 0, levels: vec![0] }] }];
     let rules = Rules::new(&[2, 2], &[forbidden]).unwrap();
     assert_eq!(Locator::new(&rules, &[0, 0], &[0, 0]).unwrap_err(), LocateError::Same);
-    assert_eq!(Locator::new(&rules, &[1, 0], &[0, 0]).unwrap_err(), LocateError::Invalid("failing"));
+    assert_eq!(Locator::new(&rules, &[1, 0], &[0, 0]).unwrap_err(), LocateError::Invalid { role: "failing" });
     let message = Locator::new(&rules, &[0, 0], &[0]).unwrap_err().to_string();
     assert_eq!(message, "test 1 has 1 levels, expected 2");
 }

@@ -3,8 +3,9 @@
 use paracosm_coverage::dispersion::dispersion;
 use paracosm_coverage::kwise_dispersion::kwise_dispersion;
 use paracosm_coverage::proof::{Budget, MARGIN, Proof, Proved, Scope, prove};
-use paracosm_coverage::rules::Rules;
-use paracosm_coverage::{Bracket, Deadline, Point, PointSet};
+use paracosm_coverage::{Bracket, Deadline, PointSet};
+use paracosm_space::Point;
+use paracosm_space::rules::Rules;
 use proptest::prelude::*;
 
 const PLENTY: Budget = Budget { pivots: 1_000_000, deadline: Deadline::never() };

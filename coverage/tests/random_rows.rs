@@ -1,11 +1,12 @@
 //! Random tests under constraints and what is promised of them, against listing every test and against drawing.
 
+#[path = "../../space/tests/models/mod.rs"]
 mod models;
 
 use models::{all_tests, keeps, models};
 use paracosm_coverage::kwise::kwise_coverage;
-use paracosm_coverage::rules::{Clause, Literal, Rules, UniformTests};
 use paracosm_coverage::theory::rows::RandomRows;
+use paracosm_space::rules::{Clause, Literal, Rules, UniformTests};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,10 +1,11 @@
 //! Suspect combinations, against looking at every combination of every size.
 
+#[path = "../../space/tests/models/mod.rs"]
 mod models;
 
 use models::{all_tests, keeps, models};
-use paracosm_coverage::rules::Rules;
 use paracosm_coverage::suspects::{JudgedTest, Suspects, suspects};
+use paracosm_space::rules::Rules;
 use proptest::prelude::*;
 
 type Values = Vec<(usize, usize)>;

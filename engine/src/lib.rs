@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario};
-//! use paracosm_engine::{driver, eventually, simulate, vehicle::Model};
+//! use paracosm_engine::{driver, eventually, simulate, vehicle::VehicleModel};
 //!
 //! fn empty_road(s: &mut Scenario) {
 //!     let speed = s.interval("speed", 5.0..=20.0).unit("m/s");
@@ -17,11 +17,11 @@
 //!     s.require("progress", eventually(car.travelled().at_least(40.0))).unit("m").scale(10.0);
 //! }
 //!
-//! let program = Program { name: "empty-road", about: "a car alone", build: empty_road };
+//! let program = Program::new("empty-road", "a car alone", empty_road);
 //! let test = program.declare()?.nominal();
 //! let mut driver = driver::find("cruise")?.build(&[])?;
-//! let outcome = simulate(&program, &test, Model::SingleTrack, driver.as_mut());
-//! assert_eq!(outcome.verdict, paracosm_oracles::Verdict::Pass);
+//! let outcome = simulate(&program, &test, VehicleModel::SingleTrack, driver.as_mut());
+//! assert_eq!(outcome.verdict(), paracosm_oracles::Verdict::Pass);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -29,35 +29,45 @@
 //! speeds in m/s, times in s.
 
 mod actor;
+mod chance;
+mod contact;
 pub mod driver;
+mod geometry;
 pub mod kinematic;
 mod monitor;
 pub mod object;
 mod observation;
 mod outcome;
 pub mod picture;
+mod problem;
 mod program;
 pub mod road;
 mod run;
 mod scenario;
 pub mod sensor;
 pub mod stream;
+mod test;
 pub mod traffic;
+mod upset;
 pub mod vehicle;
+mod weather;
 mod world;
 
-pub use actor::{
-    Actor, AutonomousVehicle, Car, EnvironmentCars, Fixture, Fleet, Mover, Pedestrian, Roadside, Walk, Walker,
-};
+pub use actor::{Actor, EnvironmentCars, Fixture, Fleet, Mover, Pedestrian, Roadside, Walk, Walker};
+pub use contact::{Contact, Face, Motion};
+pub use geometry::{Line, Pose, Side};
 pub use monitor::Monitor;
 pub use observation::{Ahead, Briefing, Control, Observation, Other, Way};
-pub use outcome::{Metric, Outcome, violation_metrics};
-pub use paracosm_coverage::Shape;
-pub use program::{Declaration, Declared, Program, ProgramError, Test};
+pub use outcome::{Breakdown, Ending, Invalid, Judgement, Measured, Outcome, Violation};
+pub use paracosm_space::Shape;
+pub use program::{Declaration, Program, ProgramError};
 pub use road::RoadSegment;
-pub use run::{DEFAULT_DT, Run, Setup, Step, simulate, watch};
+pub use run::{Run, Setup, Step, simulate, watch};
 pub use scenario::{
-    Conditions, Draft, Environment, Line, Param, Paved, Place, Pose, Road, Scenario, Side, Streets, Temporal, Weather,
-    always, eventually, never,
+    AutonomousVehicle, Car, Conditions, DEFAULT_DT, Environment, ObjectDraft, Param, Paved, Place, RequirementDraft,
+    Road, Scenario, Streets, Temporal, always, eventually, never,
 };
 pub use stream::{Forward, Stream};
+pub use test::{Declared, Test};
+pub use upset::Upset;
+pub use weather::Weather;

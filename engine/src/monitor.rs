@@ -15,11 +15,11 @@
 //!     s.monitor(Monitor::lane_keeping(&car)).text("The car stays in its lane, even in the bend.");
 //!     s.monitor(Monitor::new("quiet", never(car.speed().above(14.0)), "m/s", 5.0));
 //! }
-//! # Program { name: "quiet", about: "a quiet street", build: quiet }.declare().unwrap();
+//! # Program::new("quiet", "a quiet street", quiet).declare().unwrap();
 //! ```
 
-use crate::actor::Car;
-use crate::scenario::{Draft, Scenario, Temporal, always, eventually, never};
+use crate::scenario::Car;
+use crate::scenario::{RequirementDraft, Scenario, Temporal, always, eventually, never};
 
 /// A requirement that is not stated yet.
 #[derive(Debug, Clone)]
@@ -119,7 +119,7 @@ impl Monitor {
 
 impl Scenario {
     /// States what a monitor asks of every run. What it returns says other texts, units and scales.
-    pub fn monitor(&mut self, monitor: Monitor) -> Draft {
+    pub fn monitor(&mut self, monitor: Monitor) -> RequirementDraft {
         let Monitor { id, statement, text, unit, scale } = monitor;
         let draft = self.require(&id, statement).unit(unit).scale(scale);
         match text {

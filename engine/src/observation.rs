@@ -1,7 +1,7 @@
 //! What passes between a run and the system under test.
 
+use crate::geometry::Pose;
 use crate::object::{Class, Outline};
-use crate::scenario::Pose;
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
 

@@ -1,39 +1,45 @@
 //! A scenario as the function that it is, and what it declares when it is run without a test.
 
 use crate::scenario::Scenario;
-use crate::sensor::{hashed, mixed};
-use paracosm_coverage::{Domain, Parameter, Shape, Space, SpaceError, Value, Values};
+use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
+use paracosm_space::{Space, SpaceError, Values};
+use std::borrow::Cow;
+use std::fmt;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// A scenario: a named function from a test to a world.
-#[derive(Debug, Clone, Copy)]
+///
+/// ```
+/// use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario};
+///
+/// fn empty_road(s: &mut Scenario) {
+///     let road = s.place(RoadSegment::new(300.0));
+///     s.place(AutonomousVehicle::at(road.on_lane(1, 10.0)).speed(10.0));
+/// }
+///
+/// const PROGRAM: Program = Program::new("empty-road", "a car alone", empty_road);
+/// assert!(PROGRAM.declare()?.parameters.is_empty());
+/// # Ok::<(), paracosm_engine::ProgramError>(())
+/// ```
+#[derive(Debug, Clone)]
 pub struct Program {
-    /// The name by which it is called.
-    pub name: &'static str,
-    /// What it is about, in one line.
-    pub about: &'static str,
-    /// The function.
-    pub build: fn(&mut Scenario),
+    name: Cow<'static, str>,
+    about: Cow<'static, str>,
+    build: Build,
 }
 
-/// A parameter that a program asks for.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Declared {
-    /// Name, domain, unit and nominal value.
-    pub parameter: Parameter,
-    /// Whether a test varies it where a study says nothing else.
-    pub open: bool,
+/// The function of a program.
+#[derive(Clone)]
+enum Build {
+    Function(fn(&mut Scenario)),
+    Shared(Arc<dyn Fn(&mut Scenario) + Send + Sync>),
 }
 
-impl Declared {
-    /// Its nominal value; the middle of an interval or the first level of a choice where none is declared.
-    pub fn nominal(&self) -> Value {
-        self.parameter.default.clone().unwrap_or_else(|| match &self.parameter.domain {
-            Domain::Interval { lo, hi } => Value::Number(0.5 * (lo + hi)),
-            // A choice of nothing is refused as soon as the program has returned.
-            Domain::Choice(levels) => levels.first().cloned().unwrap_or(Value::Number(f64::NAN)),
-        })
+impl fmt::Debug for Build {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Build")
     }
 }
 
@@ -50,47 +56,6 @@ pub struct Declaration {
     pub dt: f64,
 }
 
-/// The values that a test gives to all parameters of a program, and how those vary that do.
-///
-/// Mere values are a test too: their parameters vary as the program declares.
-#[derive(Debug, Clone, Copy)]
-pub struct Test<'a> {
-    pub(crate) values: &'a Values,
-    space: Option<&'a Space>,
-}
-
-impl<'a> Test<'a> {
-    /// These values, of which those of the parameters of `space` vary as it says.
-    pub fn new(values: &'a Values, space: &'a Space) -> Self {
-        Self { values, space: Some(space) }
-    }
-
-    /// A number that another test hardly has: a hash of the values by their names, whatever their order.
-    pub(crate) fn key(&self) -> u64 {
-        self.values.iter().map(|(name, value)| entry(name, value)).fold(0, u64::wrapping_add)
-    }
-
-    /// How a parameter varies, if the test says so.
-    pub(crate) fn signal(&self, name: &str) -> Option<Option<Shape>> {
-        self.space?.parameter(name).ok().map(|parameter| parameter.signal)
-    }
-}
-
-impl<'a> From<&'a Values> for Test<'a> {
-    fn from(values: &'a Values) -> Self {
-        Self { values, space: None }
-    }
-}
-
-/// What a value adds to the key of its test.
-pub(crate) fn entry(name: &str, value: &Value) -> u64 {
-    let scalar = |hash: u64, value: &Value| {
-        let bits = value.number().map_or_else(|| hashed(&value.to_string()), f64::to_bits);
-        mixed(hash ^ bits)
-    };
-    value.scalars().iter().fold(hashed(name), scalar)
-}
-
 impl Declaration {
     /// The test in which every parameter has its nominal value.
     pub fn nominal(&self) -> Values {
@@ -99,13 +64,13 @@ impl Declaration {
 }
 
 /// Why a program cannot be run.
-#[derive(Debug, Error, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq)]
 pub enum ProgramError {
     /// Its parameters form no space.
     #[error("scenario `{program}`: {source}")]
     Parameters {
         /// The scenario.
-        program: &'static str,
+        program: String,
         /// What is wrong with them.
         source: SpaceError,
     },
@@ -113,7 +78,7 @@ pub enum ProgramError {
     #[error("scenario `{program}`: {}", problems.join("; "))]
     World {
         /// The scenario.
-        program: &'static str,
+        program: String,
         /// What is wrong with it.
         problems: Vec<String>,
     },
@@ -121,7 +86,7 @@ pub enum ProgramError {
     #[error("scenario `{program}` asked for other parameters than it was given: {}", names.join(", "))]
     OtherParameters {
         /// The scenario.
-        program: &'static str,
+        program: String,
         /// The parameters that are on one side only.
         names: Vec<String>,
     },
@@ -131,6 +96,39 @@ pub enum ProgramError {
 const MOST_TICKS: f64 = 1e7;
 
 impl Program {
+    /// The scenario of this name that a function builds; what it is about is said in one line.
+    pub const fn new(name: &'static str, about: &'static str, build: fn(&mut Scenario)) -> Self {
+        Self { name: Cow::Borrowed(name), about: Cow::Borrowed(about), build: Build::Function(build) }
+    }
+
+    /// The same of a function that holds something: what a file says, or an interpreter.
+    pub fn of(
+        name: impl Into<String>,
+        about: impl Into<String>,
+        build: impl Fn(&mut Scenario) + Send + Sync + 'static,
+    ) -> Self {
+        let (name, about) = (Cow::Owned(name.into()), Cow::Owned(about.into()));
+        Self { name, about, build: Build::Shared(Arc::new(build)) }
+    }
+
+    /// The name by which it is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What it is about, in one line.
+    pub fn about(&self) -> &str {
+        &self.about
+    }
+
+    /// Builds its world in a scenario: what a program does that goes on where another one ends.
+    pub fn build(&self, scenario: &mut Scenario) {
+        match &self.build {
+            Build::Function(build) => build(scenario),
+            Build::Shared(build) => build(scenario),
+        }
+    }
+
     /// Runs the program without a test: what parameters and requirements it has.
     ///
     /// # Errors
@@ -139,7 +137,7 @@ impl Program {
         let scenario = self.built(None)?;
         let parameters = scenario.parameters.borrow().clone();
         Space::new(parameters.iter().map(|declared| declared.parameter.clone()).collect())
-            .map_err(|source| ProgramError::Parameters { program: self.name, source })?;
+            .map_err(|source| ProgramError::Parameters { program: self.name().to_owned(), source })?;
         let requirements = scenario.requirements.borrow().iter().map(|stated| stated.requirement.clone()).collect();
         Ok(Declaration { parameters, requirements, duration: scenario.duration, dt: scenario.dt })
     }
@@ -157,13 +155,13 @@ impl Program {
     /// # Errors
     /// The world cannot be built with nominal values.
     pub fn dot(&self) -> Result<String, ProgramError> {
-        Ok(self.built(None)?.dot(self.name))
+        Ok(self.built(None)?.dot(self.name()))
     }
 
     /// Runs the program, with a test or without, and checks what it built.
     pub(crate) fn built(&self, test: Option<Test>) -> Result<Scenario, ProgramError> {
         let mut scenario = Scenario::new(test.as_ref());
-        (self.build)(&mut scenario);
+        self.build(&mut scenario);
         if let Some(test) = test {
             self.check_names(&scenario, test.values)?;
         }
@@ -214,7 +212,11 @@ impl Program {
             }
         }
         drop(requirements);
-        if problems.is_empty() { Ok(scenario) } else { Err(ProgramError::World { program: self.name, problems }) }
+        if problems.is_empty() {
+            Ok(scenario)
+        } else {
+            Err(ProgramError::World { program: self.name().to_owned(), problems })
+        }
     }
 
     fn check_names(&self, scenario: &Scenario, test: &Values) -> Result<(), ProgramError> {
@@ -223,6 +225,10 @@ impl Program {
         let not_given = asked.clone().filter(|name| test.get(name).is_none());
         let not_asked = test.iter().map(|(name, _)| name).filter(|name| !asked.clone().any(|asked| asked == *name));
         let names: Vec<String> = not_given.chain(not_asked).map(str::to_owned).collect();
-        if names.is_empty() { Ok(()) } else { Err(ProgramError::OtherParameters { program: self.name, names }) }
+        if names.is_empty() {
+            Ok(())
+        } else {
+            Err(ProgramError::OtherParameters { program: self.name().to_owned(), names })
+        }
     }
 }

@@ -1,10 +1,10 @@
 //! Once a run has begun, its streams allocate nothing.
 
-use paracosm_coverage::Shape;
 use paracosm_engine::{
     AutonomousVehicle, Control, Environment, Program, RoadSegment, Run, Scenario, Setup, Step, Stream,
 };
 use paracosm_engine::{eventually, never};
+use paracosm_space::Shape;
 
 /// Every combinator there is.
 fn everything(s: &mut Scenario) {
@@ -33,7 +33,7 @@ fn everything(s: &mut Scenario) {
 
 #[test]
 fn no_tick_allocates() {
-    let program = Program { name: "everything", about: "every combinator", build: everything };
+    let program = Program::new("everything", "every combinator", everything);
     let test = program.declare().unwrap().nominal();
     let mut run = Run::new(&program, &test, Setup::asking_every(0.05)).unwrap();
     let mut go = |questions: usize| {

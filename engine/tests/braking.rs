@@ -1,11 +1,11 @@
 //! The car of a whole run brakes as the friction of its road allows, at any tick and in any weather.
 
-use paracosm_coverage::Values;
 use paracosm_engine::driver::{Driver, Fault};
 use paracosm_engine::{
     AutonomousVehicle, Briefing, Control, Environment, Observation, Outcome, Program, RoadSegment, Run, Scenario,
     Setup, Stream, eventually,
 };
+use paracosm_space::Values;
 
 /// Puts on the brakes and keeps them on.
 struct FullBrakes;
@@ -34,7 +34,7 @@ fn road(s: &mut Scenario) {
     s.require("stops", eventually(car.speed().at_most(0.0)));
 }
 
-const PROGRAM: Program = Program { name: "brakes", about: "a car that stops", build: road };
+const PROGRAM: Program = Program::new("brakes", "a car that stops", road);
 
 fn outcome(friction: f64, dt: f64, driver: &mut dyn Driver) -> Outcome {
     in_rain(0.0, friction, dt, driver)
@@ -98,8 +98,8 @@ fn a_control_out_of_range_ends_the_run_with_an_error_that_says_so() {
     }
     for throttle in [1.5, f64::NAN] {
         let outcome = outcome(0.8, 0.01, &mut Wild(throttle));
-        assert_eq!(outcome.verdict, paracosm_oracles::Verdict::Error);
-        let error = outcome.error.unwrap();
+        assert_eq!(outcome.verdict(), paracosm_oracles::Verdict::Error);
+        let error = outcome.ending.message().unwrap();
         assert!(error.contains(&throttle.to_string()) && error.contains("1.000 s"), "{error}");
     }
 }
@@ -177,7 +177,7 @@ fn swelling(s: &mut Scenario, sky_first: bool, by_road: bool) {
 #[test]
 fn rain_is_a_stream_and_makes_roads_slippery_in_whatever_order_a_world_is_placed() {
     let stopped = |build: fn(&mut Scenario)| {
-        let program = Program { name: "rain", about: "a car that stops in rain", build };
+        let program = Program::new("rain", "a car that stops in rain", build);
         let mut rains = Vec::new();
         let mut run = Run::new(&program, &Values::default(), Setup::asking_every(0.05)).unwrap();
         let outcome = run.watch(&mut FullBrakes, |run| rains.push((run.time(), run.weather().rain)));

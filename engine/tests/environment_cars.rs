@@ -1,21 +1,21 @@
 //! Environment cars in a scenario: what they can be told, what can be read of them, and what they stop for.
 
 use nalgebra::Vector2;
-use paracosm_coverage::Values;
 use paracosm_engine::object::BodyState;
 use paracosm_engine::road::{RoadSegment, grid_city};
 use paracosm_engine::traffic::TrafficCar;
-use paracosm_engine::vehicle::Model;
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
     AutonomousVehicle, Control, Environment, EnvironmentCars, Fleet, Outcome, Pedestrian, Program, Road, Run, Scenario,
     Setup, Side, Step, Stream, eventually, never,
 };
 use paracosm_oracles::Verdict;
+use paracosm_space::Values;
 
 /// Runs a program in which the car under test only rolls: the bodies of the others tick by tick, and how it ended.
 fn run(build: fn(&mut Scenario)) -> (Vec<Vec<BodyState>>, Outcome) {
-    let program = Program { name: "environment-cars", about: "environment cars", build };
-    let setup = Setup { model: Model::SingleTrack, ..Setup::asking_every(0.01) };
+    let program = Program::new("environment-cars", "environment cars", build);
+    let setup = Setup { model: VehicleModel::SingleTrack, ..Setup::asking_every(0.01) };
     let mut run = Run::new(&program, &Values::default(), setup).unwrap_or_else(|error| panic!("{error}"));
     let mut seen = Vec::new();
     loop {
@@ -32,12 +32,12 @@ fn run(build: fn(&mut Scenario)) -> (Vec<Vec<BodyState>>, Outcome) {
 }
 
 fn refusal(build: fn(&mut Scenario)) -> String {
-    let program = Program { name: "environment-cars", about: "environment cars", build };
+    let program = Program::new("environment-cars", "environment cars", build);
     program.declare().expect_err("it is refused").to_string()
 }
 
 fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.error));
+    let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.ending.message()));
     trace.signal(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals())).collect()
 }
 
@@ -91,7 +91,7 @@ fn a_car_changes_lanes_when_something_happens() {
         fleet.change_lane(0, Side::Right, 3.0, &there);
         s.require("there", eventually(there));
     });
-    assert_eq!(outcome.verdict, Verdict::Pass, "{:?}", outcome.error);
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?}", outcome.ending.message());
     let y = |tick: usize| seen[tick][0].pose.position.y;
     assert!((y(300) + 1.75).abs() < 0.01, "{}", y(300));
     assert!((y(453) + 3.5).abs() < 0.2, "{}", y(453));
@@ -124,7 +124,7 @@ fn cars_stop_for_the_car_under_test_and_for_who_stands_on_the_road() {
         s.duration(25.0);
         s.require("no-collision", never(car.collides()));
     });
-    assert_eq!(outcome.verdict, Verdict::Pass, "{:?}", outcome.error);
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?}", outcome.ending.message());
     let last = seen.last().unwrap();
     let gaps = [100.0 - 2.254 - 2.25, 200.0 - 0.25 - 2.25];
     for (body, at) in last[1..].iter().zip(gaps) {

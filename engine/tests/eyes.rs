@@ -1,16 +1,16 @@
 //! Runs with cameras in them, which nobody draws here: when moments arrive, and that none of them depends on what else the
 //! car carries.
 
-use paracosm_coverage::Values;
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
-use paracosm_engine::sensor::{Cameras, Delivery, Image, Imu, ImuSettings, Moment, Mounted, Rig, Sample, Shutters};
-use paracosm_engine::vehicle::Model;
+use paracosm_engine::sensor::{CameraSpec, Cameras, Delivery, Image, Imu, ImuSettings, Moment, Rig, Sample, Shutters};
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
     AutonomousVehicle, Briefing, Control, Observation, Outcome, Program, RoadSegment, Run, Scenario, Setup, simulate,
 };
 use paracosm_oracles::Verdict;
+use paracosm_space::Values;
 
-const PROGRAM: Program = Program { name: "empty-road", about: "a car alone", build: empty_road };
+const PROGRAM: Program = Program::new("empty-road", "a car alone", empty_road);
 
 fn empty_road(s: &mut Scenario) {
     let road = s.place(RoadSegment::new(300.0));
@@ -51,20 +51,25 @@ impl Driver for Equipped {
     }
 
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
-        if observation.time >= self.until {
-            Err(Fault("it is enough".to_owned()))
-        } else {
-            self.driver.step(observation)
-        }
+        if observation.time >= self.until { Err(Fault::new("it is enough")) } else { self.driver.step(observation) }
     }
 }
 
-fn camera(rate: f64, latency: f64, dropped: f64) -> Mounted {
+fn camera(rate: f64, latency: f64, dropped: f64) -> CameraSpec {
     let (resolution, position) = ([8, 4], [0.3, 0.0, 1.35]);
-    Mounted { resolution, focal_mm: 24.0, sensor_mm: 36.0, position, rate, latency, dropped, ..Mounted::default() }
+    CameraSpec {
+        resolution,
+        focal_mm: 24.0,
+        sensor_mm: 36.0,
+        position,
+        rate,
+        latency,
+        dropped,
+        ..CameraSpec::default()
+    }
 }
 
-fn cameras(all: &[(&str, Mounted)]) -> Cameras {
+fn cameras(all: &[(&str, CameraSpec)]) -> Cameras {
     Cameras { seed: 1, all: all.iter().map(|(name, camera)| ((*name).to_owned(), camera.clone())).collect() }
 }
 
@@ -146,9 +151,9 @@ fn every_test_loses_images_of_its_own_and_the_same_ones_each_time() {
 #[test]
 fn a_driver_that_cannot_drive_says_why() {
     let told = |mut driver: Equipped| {
-        let outcome = simulate(&PROGRAM, &PROGRAM.declare().unwrap().nominal(), Model::default(), &mut driver);
-        assert_eq!(outcome.verdict, Verdict::Error);
-        outcome.error.unwrap()
+        let outcome = simulate(&PROGRAM, &PROGRAM.declare().unwrap().nominal(), VehicleModel::default(), &mut driver);
+        assert_eq!(outcome.verdict(), Verdict::Error);
+        outcome.ending.message().unwrap()
     };
     let blind = told(driver(cameras(&[("front", camera(10.0, 0.0, 0.0))]), false));
     assert!(blind.contains("camera `front`") && blind.contains("nothing draws"), "{blind}");
@@ -175,7 +180,7 @@ fn seed(program: &Program, changes: &[(&str, f64)]) -> u64 {
 
 #[test]
 fn what_is_asked_for_later_leaves_the_noise_of_tests_in_which_it_is_nominal_alone() {
-    let later = Program { build: later_road, ..PROGRAM };
+    let later = Program::new("empty-road", "a car alone", later_road);
     for speed in [("speed", 10.0), ("speed", 7.0)] {
         assert_eq!(seed(&later, &[speed]), seed(&PROGRAM, &[speed]));
         assert_ne!(seed(&later, &[speed, ("wind", 0.25)]), seed(&PROGRAM, &[speed]));

@@ -1,17 +1,17 @@
 //! Monitors: what each says of a drive that is known beforehand.
 
-use paracosm_coverage::Values;
 use paracosm_engine::road::{Path, RoadSegment, TIntersection};
-use paracosm_engine::vehicle::Model;
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
     AutonomousVehicle, Car, Control, Monitor, Mover, Outcome, Program, Run, Scenario, Setup, Step, driver, simulate,
 };
 use paracosm_oracles::Verdict;
+use paracosm_space::Values;
 
 /// Runs a program with throttle and steering over time.
 fn drive(build: fn(&mut Scenario), control: impl Fn(f64) -> (f64, f64)) -> Outcome {
-    let program = Program { name: "monitors", about: "monitors", build };
-    let setup = Setup { model: Model::SingleTrack, ..Setup::asking_every(0.01) };
+    let program = Program::new("monitors", "monitors", build);
+    let setup = Setup { model: VehicleModel::SingleTrack, ..Setup::asking_every(0.01) };
     let mut run = Run::new(&program, &Values::default(), setup).unwrap_or_else(|error| panic!("{error}"));
     loop {
         let time = match run.advance() {
@@ -28,8 +28,7 @@ fn coast(_: f64) -> (f64, f64) {
 }
 
 fn robustness(outcome: &Outcome, id: &str) -> f64 {
-    let found = outcome.robustness.iter().find(|(other, _)| other == id);
-    found.unwrap_or_else(|| panic!("{id}: {outcome:?}")).1.unwrap_or_else(|| panic!("{id} is undecided"))
+    outcome.robustness(id).unwrap_or_else(|| panic!("{id} is undecided or unknown: {outcome:?}"))
 }
 
 /// A car that begins at 10 m/s on a road of 300 m, for 5 s.
@@ -77,11 +76,11 @@ fn activity_is_violated_by_a_car_that_stands_too_long_and_not_by_one_that_goes_o
         s.monitor(Monitor::activity(&car, 2.0));
     }
     let stops = drive(build, |_| (-1.0, 0.0));
-    assert_eq!(stops.verdict, Verdict::Fail);
+    assert_eq!(stops.verdict(), Verdict::Fail);
     let standing = 5.0 - 10.0 / (0.8 * 9.80665);
-    assert!((robustness(&stops, "activity") - (2.0 - standing)).abs() < 0.05, "{:?}", stops.robustness);
+    assert!((robustness(&stops, "activity") - (2.0 - standing)).abs() < 0.05, "{:?}", stops.judgements);
     let goes_on = drive(build, |time| if time < 2.5 { (-1.0, 0.0) } else { (0.5, 0.0) });
-    assert_eq!(goes_on.verdict, Verdict::Pass, "{:?}", goes_on.robustness);
+    assert_eq!(goes_on.verdict(), Verdict::Pass, "{:?}", goes_on.judgements);
     assert!(robustness(&goes_on, "activity") > 0.0);
 }
 
@@ -118,7 +117,7 @@ fn lane_keeping_is_what_is_left_of_the_lane_beside_the_car() {
     assert_near(robustness(&straight, "lane-keeping"), 0.5 * (3.5 - 1.61));
     assert_near(robustness(&straight, "on-its-way"), 0.5);
     let swerves = drive(build, |time| (0.0, if time < 1.0 { -0.05 } else { 0.0 }));
-    assert_eq!(swerves.verdict, Verdict::Fail);
+    assert_eq!(swerves.verdict(), Verdict::Fail);
     assert!(robustness(&swerves, "lane-keeping") < 0.0 && robustness(&swerves, "on-its-way") < 0.0);
 }
 
@@ -151,14 +150,14 @@ fn tee(s: &mut Scenario, away: f64) {
 #[test]
 fn the_right_of_way_is_taken_from_who_comes_soon_and_not_from_who_is_gone() {
     let run = |build: fn(&mut Scenario)| {
-        let program = Program { name: "tee", about: "a T", build };
+        let program = Program::new("tee", "a T", build);
         let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
-        simulate(&program, &Values::default(), Model::SingleTrack, driver.as_mut())
+        simulate(&program, &Values::default(), VehicleModel::SingleTrack, driver.as_mut())
     };
     let soon = run(|s| tee(s, 85.0));
-    assert_eq!(soon.verdict, Verdict::Fail, "{:?} {:?}", soon.robustness, soon.error);
+    assert_eq!(soon.verdict(), Verdict::Fail, "{:?} {:?}", soon.judgements, soon.ending.message());
     let gone = run(|s| tee(s, 20.0));
-    assert_eq!(gone.verdict, Verdict::Pass, "{:?} {:?}", gone.robustness, gone.error);
+    assert_eq!(gone.verdict(), Verdict::Pass, "{:?} {:?}", gone.judgements, gone.ending.message());
 }
 
 #[test]
@@ -172,7 +171,7 @@ fn a_car_that_has_just_begun_to_stand_is_not_inactive() {
         },
         |time| (if time < 1.0 { 0.0 } else { 0.5 }, 0.0),
     );
-    assert_eq!(outcome.verdict, Verdict::Pass, "{:?}", outcome.robustness);
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?}", outcome.judgements);
     assert!((robustness(&outcome, "activity") - 1.0).abs() < 0.1);
 }
 
@@ -187,7 +186,7 @@ fn a_car_that_is_just_to_go_straight_on_completes_no_route() {
         },
         coast,
     );
-    assert_eq!(outcome.verdict, Verdict::Fail);
+    assert_eq!(outcome.verdict(), Verdict::Fail);
 }
 
 #[test]
@@ -201,5 +200,5 @@ fn a_run_that_a_contact_ends_before_anything_is_decided_is_inconclusive() {
         },
         coast,
     );
-    assert_eq!((outcome.verdict, outcome.robustness[0].1), (Verdict::Inconclusive, None));
+    assert_eq!((outcome.verdict(), outcome.judgements[0].robustness), (Verdict::Inconclusive, None));
 }

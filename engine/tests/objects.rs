@@ -1,30 +1,30 @@
 //! Objects as programs place them: people's own, those along paths, those that the physics moves, roads and weather.
 
 use nalgebra::Vector2;
-use paracosm_coverage::Values;
-use paracosm_engine::object::{Body, BodyState, Class, Input, Output, Outputs, Physical, Tick};
+use paracosm_engine::object::{Body, BodyState, Class, Input, InputError, Output, Outputs, Physical, Tick};
 use paracosm_engine::road::{CrossIntersection, Path, RoadSegment};
-use paracosm_engine::vehicle::Model;
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
-    AutonomousVehicle, Car, Environment, Fixture, Metric, Mover, Outcome, Pedestrian, Place, Pose, Program, Road, Run,
-    Scenario, Setup, Side, Stream, Temporal, Weather, always, driver, eventually, never, simulate,
+    AutonomousVehicle, Car, Environment, Face, Fixture, Motion, Mover, Outcome, Pedestrian, Place, Pose, Program, Road,
+    Run, Scenario, Setup, Side, Stream, Temporal, Weather, always, driver, eventually, never, simulate,
 };
 use paracosm_oracles::Verdict;
+use paracosm_space::Values;
 
 fn run(build: fn(&mut Scenario)) -> Outcome {
-    let program = Program { name: "objects", about: "objects", build };
+    let program = Program::new("objects", "objects", build);
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
-    simulate(&program, &Values::default(), Model::SingleTrack, driver.as_mut())
+    simulate(&program, &Values::default(), VehicleModel::SingleTrack, driver.as_mut())
 }
 
 fn refusal(build: fn(&mut Scenario)) -> String {
-    let program = Program { name: "objects", about: "objects", build };
+    let program = Program::new("objects", "objects", build);
     program.declare().expect_err("it is refused").to_string()
 }
 
 /// The samples of a signal.
 fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.error));
+    let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.ending.message()));
     trace.signal(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals())).collect()
 }
 
@@ -43,7 +43,7 @@ fn an_actor_follows_its_path_at_the_speed_that_its_input_says_and_stops_at_its_e
         let other = s.place(Mover::car(road.path(2)).starting(280.0).speed(car.speed() * 0.5));
         s.require("there", eventually(other.arrived()));
     });
-    assert_eq!(outcome.verdict, Verdict::Pass, "{:?}", outcome.robustness);
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?}", outcome.judgements);
     let (x, speed) = (signal(&outcome, "other.x"), signal(&outcome, "other.speed"));
     assert!((x[0], *x.last().unwrap()) == (280.0, 300.0) && (x[100] - 285.0).abs() < 1e-9);
     assert!((speed[100] - 5.0).abs() < 1e-9 && *speed.last().unwrap() == 0.0);
@@ -57,7 +57,7 @@ fn an_actor_that_changes_lanes_faces_where_it_goes() {
         let other = s.place(Mover::car(road.path(2)).starting(50.0).speed(10.0).offset(offset));
         s.require("beside", eventually(other.position().y().at_least(-1.75)));
     });
-    assert_eq!(outcome.verdict, Verdict::Pass, "{:?}", outcome.robustness);
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?}", outcome.judgements);
     let y = signal(&outcome, "other.y");
     assert!((y[0] + 5.25).abs() < 1e-9 && (y.last().unwrap() + 1.75).abs() < 1e-9);
 }
@@ -69,20 +69,20 @@ fn the_car_collides_with_another_car_by_the_side_that_meets_it() {
         s.place(Mover::truck(road.path(1)).starting(50.0).speed(2.0));
         s.require("no-collision", never(car.collides()));
     });
-    assert_eq!(outcome.verdict, Verdict::Fail);
+    assert_eq!(outcome.verdict(), Verdict::Fail);
     // 40 m less the halves of both, at 8 m/s; what was missing is what stops 8 m/s.
     let clearance = signal(&outcome, "car.clearance");
     assert!((clearance[0] - (40.0 - 5.0 - 2.254)).abs() < 1e-9);
-    assert!((outcome.robustness[0].1.unwrap() + 64.0 / (2.0 * 0.8 * 9.80665)).abs() < 0.1);
-    let metric = |name: &str| outcome.metrics.iter().find(|(other, _)| other == name).unwrap().1.clone();
-    let words =
-        ["contact_face", "contact_with", "contact_class", "contact_motion"].map(|name| metric(name).to_string());
-    assert_eq!(words, ["front", "truck", "truck", "driving"]);
-    assert!(matches!(metric("other_speed"), Metric::Number(speed) if (speed - 2.0).abs() < 1e-9));
+    assert!((outcome.judgements[0].robustness.unwrap() + 64.0 / (2.0 * 0.8 * 9.80665)).abs() < 0.1);
+    let measured = outcome.measured.as_ref().expect("it was run");
+    let contact = measured.contact.as_ref().expect("they touch");
+    assert_eq!((contact.face, contact.with.as_str()), (Face::Front, "truck"));
+    assert_eq!((contact.class, contact.motion), (Class::Truck, Motion::Driving));
+    assert!((contact.other_speed - 2.0).abs() < 1e-9);
     // The contact is what the violation comes down to, and the last that was recorded.
-    assert_eq!(metric("critical_time.no-collision"), Metric::Number((clearance.len() - 1) as f64 * 0.01));
-    assert_eq!(metric("critical_speed.no-collision"), metric("impact_speed"));
-    assert_eq!(metric("critical_travelled.no-collision"), metric("travelled"));
+    let violation = outcome.judgements[0].violation.as_ref().expect("it is violated");
+    assert_eq!(violation.time, (clearance.len() - 1) as f64 * 0.01);
+    assert_eq!((violation.speed, violation.travelled), (Some(contact.speed), Some(measured.travelled)));
 }
 
 #[test]
@@ -92,13 +92,14 @@ fn a_violation_without_a_contact_has_its_time_and_place_and_what_holds_has_none(
         s.require("slow", always(car.travelled().below(7.0)));
         s.require("far", eventually(car.travelled().at_least(7.0)));
     });
-    let metric = |name: &str| outcome.metrics.iter().find(|(other, _)| other == name).map(|(_, metric)| metric.clone());
     // It goes on to the end, where it is farthest over the line.
     let travelled = signal(&outcome, "car.travelled");
-    assert_eq!(metric("critical_time.slow"), Some(Metric::Number((travelled.len() - 1) as f64 * 0.01)));
-    assert_eq!(metric("critical_travelled.slow"), Some(Metric::Number(*travelled.last().unwrap())));
-    assert_eq!(metric("critical_time.far"), None);
-    assert_eq!(metric("contact_with"), Some(Metric::Word(None)));
+    let [slow, far] = &outcome.judgements[..] else { panic!("two requirements were stated") };
+    let violation = slow.violation.as_ref().expect("it is violated");
+    assert_eq!(violation.time, (travelled.len() - 1) as f64 * 0.01);
+    assert_eq!(violation.travelled, Some(*travelled.last().unwrap()));
+    assert_eq!(far.violation, None);
+    assert_eq!(outcome.measured.unwrap().contact, None);
 }
 
 /// A ball that is kicked for half a second.
@@ -117,7 +118,7 @@ impl Physical for Rolling {
         outputs.set(&self.position, body.pose.position);
     }
 
-    fn push(&mut self, _: &BodyState, tick: &Tick<'_>) -> Result<Vector2<f64>, String> {
+    fn push(&mut self, _: &BodyState, tick: &Tick<'_>) -> Result<Vector2<f64>, InputError> {
         Ok(Vector2::new(0.0, tick.number(&self.kick)?))
     }
 }
@@ -145,7 +146,7 @@ fn the_physics_moves_what_is_physical() {
         s.require("rolls", eventually((ball.y() + 8.0).named("way").at_least(5.0)));
         s.require("no-collision", never(car.collides()));
     });
-    assert_eq!(outcome.verdict, Verdict::Pass, "{:?} {:?}", outcome.robustness, outcome.error);
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?} {:?}", outcome.judgements, outcome.ending.message());
     let way = signal(&outcome, "way");
     assert!(way.windows(2).skip(1).all(|pair| pair[1] >= pair[0] - 1e-4), "a ball rolls on");
 }
@@ -168,7 +169,7 @@ fn a_network_is_placed_and_spoken_of_by_its_elements() {
         s.require("turns", eventually(other.arrived()));
         s.require("north", eventually(other.position().y().at_least(50.0)));
     });
-    assert_eq!(outcome.verdict, Verdict::Pass, "{:?} {:?}", outcome.robustness, outcome.error);
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?} {:?}", outcome.judgements, outcome.ending.message());
 }
 
 #[test]
@@ -179,7 +180,7 @@ fn conditions_are_streams_that_anything_can_read() {
         let world = s.place(Environment::new().light(&falling).fog(0.2).friction(0.5));
         s.require("dark", always((&world.light - &world.fog).named("sight").above(0.25)));
     });
-    assert_eq!(outcome.verdict, Verdict::Pass, "{:?} {:?}", outcome.robustness, outcome.error);
+    assert_eq!(outcome.verdict(), Verdict::Pass, "{:?} {:?}", outcome.judgements, outcome.ending.message());
     assert!((signal(&outcome, "sight")[500] - 0.299).abs() < 1e-9);
 }
 
@@ -194,7 +195,7 @@ fn dusk(s: &mut Scenario) {
 
 #[test]
 fn a_run_says_its_weather_and_how_far_bodies_have_come() {
-    let program = Program { name: "dusk", about: "dusk", build: dusk };
+    let program = Program::new("dusk", "dusk", dusk);
     let mut run = Run::new(&program, &Values::default(), Setup::asking_every(0.5)).unwrap();
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
     let mut ways = Vec::new();
@@ -212,7 +213,7 @@ fn a_run_says_its_weather_and_how_far_bodies_have_come() {
 
 #[test]
 fn without_an_environment_it_is_broad_daylight() {
-    let program = Program { name: "day", about: "day", build: |s| drop(rolling(s)) };
+    let program = Program::new("day", "day", |s| drop(rolling(s)));
     let run = Run::new(&program, &Values::default(), Setup::asking_every(0.5)).unwrap();
     assert_eq!(run.weather(), Weather::default());
 }
@@ -225,7 +226,7 @@ fn a_statement_of_several_streams_keeps_its_robustness() {
         s.require("quick", always(&quick));
         s.require("still", never(Temporal::from(car.speed().below(4.0)).historically(0.0..=1.0)));
     });
-    let robustness: Vec<f64> = outcome.robustness.iter().map(|(_, value)| value.unwrap()).collect();
+    let robustness: Vec<f64> = outcome.judgements.iter().map(|judgement| judgement.robustness.unwrap()).collect();
     assert!((robustness[0] - 3.0).abs() < 0.5 && (robustness[1] - 6.0).abs() < 0.5, "{robustness:?}");
 }
 
@@ -276,19 +277,19 @@ fn what_is_no_number_is_a_mistake_and_no_panic() {
         s.place(Environment::new().fog(car.speed()));
         s.require("some", eventually(car.speed().above(1.0)));
     });
-    assert_eq!(fog.error.unwrap(), "the fog is 10, expected 0 to 1 at 0.000 s");
+    assert_eq!(fog.ending.message().unwrap(), "the fog is 10, expected 0 to 1 at 0.000 s");
     let rain = run(|s| {
         let (_, car) = rolling(s);
         s.place(Environment::new().rain(car.speed()));
         s.require("some", eventually(car.speed().above(1.0)));
     });
-    assert_eq!(rain.error.unwrap(), "the rain is 10, expected 0 to 1 at 0.000 s");
+    assert_eq!(rain.ending.message().unwrap(), "the rain is 10, expected 0 to 1 at 0.000 s");
     let sun = run(|s| {
         let (_, car) = rolling(s);
         s.place(Environment::new().sun(2.0, 0.0));
         s.require("some", eventually(car.speed().above(1.0)));
     });
-    assert_eq!(sun.error.unwrap(), "the sun's elevation is 2, expected -pi/2 to pi/2 at 0.000 s");
+    assert_eq!(sun.ending.message().unwrap(), "the sun's elevation is 2, expected -pi/2 to pi/2 at 0.000 s");
 }
 
 #[test]
@@ -297,7 +298,7 @@ fn time_is_that_of_the_run_whatever_the_tick() {
         let (_, car) = rolling(s);
         s.require("late", eventually((Stream::time() + car.travelled() * 0.0).named("clock").at_least(4.995)));
     }
-    let program = Program { name: "clock", about: "a clock", build: clock };
+    let program = Program::new("clock", "a clock", clock);
     for dt in [0.01, 0.002, 0.05] {
         let setup = Setup { dt: Some(dt), ..Setup::asking_every(0.05) };
         let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
@@ -314,8 +315,8 @@ fn an_input_that_makes_no_sense_ends_the_run_with_its_name() {
         s.place(Mover::car(road.path(2)).starting(50.0).speed(car.speed() - 20.0));
         s.require("some", eventually(car.speed().above(1.0)));
     });
-    assert_eq!(outcome.verdict, Verdict::Error);
-    assert_eq!(outcome.error.unwrap(), "`other.speed` is -10, expected a number from 0 on at 0.000 s");
+    assert_eq!(outcome.verdict(), Verdict::Error);
+    assert_eq!(outcome.ending.message().unwrap(), "`other.speed` is -10, expected a number from 0 on at 0.000 s");
 }
 
 #[test]

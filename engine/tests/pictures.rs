@@ -1,16 +1,16 @@
 //! Pictures of worlds and runs: that they show what there is, where it is, large enough.
 
 use nalgebra::Vector2;
-use paracosm_coverage::Values;
 use paracosm_engine::object::{Body, Class};
 use paracosm_engine::picture::{Anchor, Drawing, Film, Mark, Record, Segment, world};
 use paracosm_engine::road::{Curve, Path, Roundabout};
-use paracosm_engine::vehicle::Model;
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
     AutonomousVehicle, Fixture, Mover, Pedestrian, Pose, Program, RoadSegment, Run, Scenario, Setup, Side, driver,
     never, watch,
 };
 use paracosm_oracles::Verdict;
+use paracosm_space::Values;
 use proptest::prelude::*;
 
 const VERMILION: [u8; 3] = [0xd5, 0x5e, 0x00];
@@ -58,7 +58,7 @@ fn round(s: &mut Scenario) {
 }
 
 fn program(build: fn(&mut Scenario)) -> Program {
-    Program { name: "test", about: "a test", build }
+    Program::new("test", "a test", build)
 }
 
 fn begun(build: fn(&mut Scenario)) -> Run {
@@ -70,8 +70,8 @@ fn seen(build: fn(&mut Scenario), name: &str) -> (Record, Verdict) {
     let mut driver = driver::find(name).unwrap().build(&[]).unwrap();
     let mut record = Record::default();
     let outcome =
-        watch(&program(build), &Values::default(), Model::SingleTrack, driver.as_mut(), |run| record.see(run));
-    (record, outcome.verdict)
+        watch(&program(build), &Values::default(), VehicleModel::SingleTrack, driver.as_mut(), |run| record.see(run));
+    (record, outcome.verdict())
 }
 
 /// All marks, those of insets where they are on the whole picture.
@@ -219,8 +219,8 @@ fn a_run_tells_when_and_what_it_ended_at() {
         times.push(run.time());
         ends += usize::from(run.is_over());
     });
-    let trace = outcome.trace.unwrap();
-    assert_eq!((outcome.verdict, ends), (Verdict::Fail, 1));
+    let trace = outcome.trace.as_ref().unwrap();
+    assert_eq!((outcome.verdict(), ends), (Verdict::Fail, 1));
     assert_eq!(run.touched(), Some(1), "the car drove into the one ahead");
     assert_eq!(run.time(), (trace.len() - 1) as f64 * paracosm_engine::DEFAULT_DT);
     assert_eq!((times[0], *times.last().unwrap()), (0.0, run.time()));
@@ -232,7 +232,7 @@ fn watching_a_run_changes_nothing() {
     let outcome = |watched: bool| {
         let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
         let mut record = Record::default();
-        let outcome = watch(&program(busy), &Values::default(), Model::SingleTrack, driver.as_mut(), |run| {
+        let outcome = watch(&program(busy), &Values::default(), VehicleModel::SingleTrack, driver.as_mut(), |run| {
             if watched {
                 record.see(run);
             }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use paracosm_engine::driver::{Driver, Fault, find};
-use paracosm_engine::vehicle::Model;
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
     AutonomousVehicle, Briefing, Control, Mover, Observation, Outcome, Pedestrian, Program, RoadSegment, Scenario,
     Side, Stream, never, simulate,
@@ -23,12 +23,12 @@ fn crossing(s: &mut Scenario) {
     s.require("no-collision", never(car.collides()));
 }
 
-const PROGRAM: Program = Program { name: "crossing", about: "somebody crosses", build: crossing };
+const PROGRAM: Program = Program::new("crossing", "somebody crosses", crossing);
 
 fn outcome(driver: &mut dyn Driver, pace: f64) -> Outcome {
     let mut test = PROGRAM.declare().unwrap().nominal();
     test.set("pace", pace);
-    simulate(&PROGRAM, &test, Model::SingleTrack, driver)
+    simulate(&PROGRAM, &test, VehicleModel::SingleTrack, driver)
 }
 
 /// A car stands 60 m ahead of one that comes at 12 m/s, and drives on with 5 m/s when it has stood long enough.
@@ -42,12 +42,12 @@ fn standing(s: &mut Scenario) {
     s.require("no-collision", never(car.collides()));
 }
 
-const STANDING: Program = Program { name: "standing", about: "a car stands in the way", build: standing };
+const STANDING: Program = Program::new("standing", "a car stands in the way", standing);
 
 fn behind_a_standing_car(name: &str, leaves: f64) -> Outcome {
     let mut test = STANDING.declare().unwrap().nominal();
     test.set("leaves", leaves);
-    simulate(&STANDING, &test, Model::SingleTrack, find(name).unwrap().build(&[]).unwrap().as_mut())
+    simulate(&STANDING, &test, VehicleModel::SingleTrack, find(name).unwrap().build(&[]).unwrap().as_mut())
 }
 
 /// Seconds from one sample to the next.
@@ -66,10 +66,10 @@ fn speeds(outcome: &Outcome) -> Vec<f64> {
 fn every_reference_driver_spares_somebody_who_crosses_slowly_and_would_be_hit() {
     // 2.75 m from the middle of the lane.
     let pace = 0.4;
-    assert_eq!(driven_by("cruise", pace).verdict, Verdict::Fail);
+    assert_eq!(driven_by("cruise", pace).verdict(), Verdict::Fail);
     for name in NAMES {
         let outcome = driven_by(name, pace);
-        assert_eq!(outcome.verdict, Verdict::Pass, "{name}");
+        assert_eq!(outcome.verdict(), Verdict::Pass, "{name}");
         assert!(speeds(&outcome).into_iter().any(|speed| speed < 11.0), "{name} did not brake");
     }
 }
@@ -78,7 +78,7 @@ fn every_reference_driver_spares_somebody_who_crosses_slowly_and_would_be_hit() 
 fn every_reference_driver_waits_behind_a_standing_car_for_as_long_as_it_stands() {
     for name in NAMES {
         let outcome = behind_a_standing_car(name, 100.0);
-        assert_eq!(outcome.verdict, Verdict::Pass, "{name}");
+        assert_eq!(outcome.verdict(), Verdict::Pass, "{name}");
         let speeds = speeds(&outcome);
         let stops = speeds.iter().position(|speed| *speed < 1e-3).unwrap_or_else(|| panic!("{name} does not stop"));
         let waits = &speeds[stops..];
@@ -91,7 +91,7 @@ fn every_reference_driver_waits_behind_a_standing_car_for_as_long_as_it_stands()
 fn every_reference_driver_follows_a_car_that_drives_on_and_does_not_run_into_it() {
     for name in NAMES {
         let outcome = behind_a_standing_car(name, 40.0);
-        assert_eq!(outcome.verdict, Verdict::Pass, "{name}");
+        assert_eq!(outcome.verdict(), Verdict::Pass, "{name}");
         let speeds = speeds(&outcome);
         let waits = (30.0 / TICK) as usize..(40.0 / TICK) as usize;
         assert!(speeds[waits].iter().all(|speed| *speed < 1e-3), "{name} does not wait");

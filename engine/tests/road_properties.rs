@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::picture::RoadPicture;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, Curve, Lane, LaneId, Network, Place, RoadSegment, Roundabout, TIntersection,
+    Composite, CrossIntersection, Curve, Lane, LaneId, Place, RoadNetwork, RoadSegment, Roundabout, TIntersection,
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -41,7 +41,7 @@ fn additions(most: usize) -> impl Strategy<Value = Vec<Addition>> {
 }
 
 /// A network of those of the additions that find room.
-fn grown(additions: &[Addition], lanes: i32, place: Pose) -> Arc<Network> {
+fn grown(additions: &[Addition], lanes: i32, place: Pose) -> Arc<RoadNetwork> {
     let mut all = additions[0].element(lanes).at(place);
     for addition in &additions[1..] {
         let free = all.free_points();
@@ -60,7 +60,7 @@ fn grown(additions: &[Addition], lanes: i32, place: Pose) -> Arc<Network> {
 
 /// A network that prints as what it has grown from.
 struct Grown {
-    net: Arc<Network>,
+    net: Arc<RoadNetwork>,
     from: String,
 }
 
@@ -71,9 +71,9 @@ impl std::fmt::Debug for Grown {
 }
 
 impl std::ops::Deref for Grown {
-    type Target = Network;
+    type Target = RoadNetwork;
 
-    fn deref(&self) -> &Network {
+    fn deref(&self) -> &RoadNetwork {
         &self.net
     }
 }

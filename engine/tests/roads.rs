@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use paracosm_engine::picture::RoadPicture;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, LaneKind, Network, Place, RoadError, RoadSegment, Roundabout, Strip, Surface,
+    Composite, CrossIntersection, LaneKind, Place, RoadError, RoadNetwork, RoadSegment, Roundabout, Strip, Surface,
     TIntersection, grid_city,
 };
 use paracosm_engine::{Pose, Side};
@@ -250,12 +250,12 @@ fn an_intersection_of_two_lane_roads_has_twelve_ways_and_the_stem_of_a_t_none_ah
 fn the_stem_of_a_t_and_who_enters_a_roundabout_give_way_and_where_roads_cross_right_goes_before_left() {
     let tee = TIntersection::new().named("it").build().unwrap();
     let cross = CrossIntersection::new().named("it").build().unwrap();
-    let gives_way = |net: &Network, (from, to): (&str, &str), (other_from, other_to): (&str, &str)| {
+    let gives_way = |net: &RoadNetwork, (from, to): (&str, &str), (other_from, other_to): (&str, &str)| {
         let lane = net.lane_between("it", from, to, 1).unwrap();
         let other = net.lane_between("it", other_from, other_to, 1).unwrap();
         net.lane(lane).conflicts.iter().find(|conflict| conflict.with == other).map(|conflict| conflict.gives_way)
     };
-    let both = |net: &Network, way, other| (gives_way(net, way, other), gives_way(net, other, way));
+    let both = |net: &RoadNetwork, way, other| (gives_way(net, way, other), gives_way(net, other, way));
     let (first, second, none) = ((Some(false), Some(true)), (Some(true), Some(false)), (None, None));
     // East, south, west, north are one, two, three, four.
     assert_eq!(both(&tee, ("two", "three"), ("three", "one")), second);

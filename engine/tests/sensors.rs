@@ -28,7 +28,7 @@ struct Heard {
 }
 
 fn drive(equipped: bool) -> (Heard, Outcome) {
-    let program = Program { name: "blocked", about: "a car in the way", build: blocked };
+    let program = Program::new("blocked", "a car in the way", blocked);
     let test = program.declare().unwrap().nominal();
     let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
     let mut run = Run::new(&program, &test, Setup::asking_every(driver.period())).unwrap();

@@ -1,9 +1,9 @@
 //! Streams as scenarios use them: feedback, cycles, signals, and the graph as a picture.
 
-use paracosm_coverage::{Domain, Parameter, Shape, Space, Value, Values};
-use paracosm_engine::vehicle::Model;
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{AutonomousVehicle, Car, Pedestrian, Program, RoadSegment, Scenario, Side, Stream, Test};
 use paracosm_engine::{driver, eventually, never, simulate};
+use paracosm_space::{Domain, Parameter, Shape, Space, Value, Values};
 use std::cell::RefCell;
 
 /// A car that rolls along for a second.
@@ -24,14 +24,14 @@ thread_local! {
 }
 
 fn run<'a>(build: fn(&mut Scenario), test: impl Into<Test<'a>>) -> Result<Vec<f64>, String> {
-    let program = Program { name: "streams", about: "streams", build };
+    let program = Program::new("streams", "streams", build);
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
-    let outcome = simulate(&program, test, Model::SingleTrack, driver.as_mut());
-    outcome.error.map_or_else(|| Ok(SEEN.take()), Err)
+    let outcome = simulate(&program, test, VehicleModel::SingleTrack, driver.as_mut());
+    outcome.ending.message().map_or_else(|| Ok(SEEN.take()), Err)
 }
 
 fn refusal(build: fn(&mut Scenario)) -> String {
-    let program = Program { name: "streams", about: "streams", build };
+    let program = Program::new("streams", "streams", build);
     program.declare().expect_err("it is refused").to_string()
 }
 
@@ -170,7 +170,7 @@ fn declared(s: &mut Scenario) {
 
 #[test]
 fn a_program_declares_signals_and_reads_them_as_any_parameter() {
-    let program = Program { name: "streams", about: "streams", build: declared };
+    let program = Program::new("streams", "streams", declared);
     let declaration = program.declare().unwrap();
     let signals: Vec<_> = declaration.parameters.iter().map(|declared| declared.parameter.signal).collect();
     assert_eq!(signals, [100, 2].map(|pieces| Some(Shape::PiecewiseConstant { pieces })));
@@ -214,12 +214,12 @@ fn a_comparison_of_two_streams_is_worth_their_difference() {
         let limit = s.interval("limit", 0.0..=20.0).signal(Shape::PiecewiseLinear { pieces: 1 });
         s.require("limit", never(car.speed().above(limit)));
     }
-    let program = Program { name: "streams", about: "streams", build };
+    let program = Program::new("streams", "streams", build);
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
     let mut test = Values::default();
     test.set("limit", [12.0, 11.0]);
-    let outcome = simulate(&program, &test, Model::SingleTrack, driver.as_mut());
-    assert!((outcome.robustness[0].1.unwrap() - 1.0).abs() < 1e-9, "{:?}", outcome.robustness);
+    let outcome = simulate(&program, &test, VehicleModel::SingleTrack, driver.as_mut());
+    assert!((outcome.judgements[0].robustness.unwrap() - 1.0).abs() < 1e-9, "{:?}", outcome.judgements);
 }
 
 #[test]
@@ -244,7 +244,7 @@ fn streams_that_a_trace_could_not_tell_apart_are_refused() {
         s.require("half", never((car.speed() * 2.0).above(60.0)));
         s.require("other", never(car.speed().map(|speed| speed).named("other").above(50.0)));
     };
-    let declaration = Program { name: "streams", about: "streams", build: fine }.declare().unwrap();
+    let declaration = Program::new("streams", "streams", fine).declare().unwrap();
     assert_eq!(declaration.requirements.len(), 5);
 }
 
@@ -261,7 +261,7 @@ fn the_graph_is_drawn_in_dot() {
         walker.walk(road.on_sidewalk(Side::Right, 100.0), speed).skip_until(&near);
         s.require("late", never(count.above(1e9)));
     }
-    let dot = Program { name: "a \"picture\"", about: "", build }.dot().unwrap();
+    let dot = Program::new("a \"picture\"", "", build).dot().unwrap();
     let expected = r#"digraph "a \"picture\"" {
   rankdir=LR;
   n0 [label="0.8", shape=plaintext];

@@ -1,12 +1,13 @@
 //! After how many simulations each strategy falsifies the automatic transmission: five requirements of the benchmark, 30
 //! seeds each, in batches as campaigns have them, and one at a time. A run without a failure counts as all that it may take.
 
+use crate::system::{InputFlaw, inputs};
 use crate::transmission::{SAMPLES_PER_SECOND, run as simulate};
-use crate::{Done, print, system, write};
+use crate::{Done, print, write};
 use indicatif::ProgressBar;
-use paracosm::coverage::{Point, Space};
 use paracosm::generators::{Request, Strategy};
 use paracosm::oracles::{Formula, Trace, Truth};
+use paracosm::space::{Point, Space};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -30,17 +31,17 @@ const REQUIREMENTS: [(&str, &str); 5] = [
 
 /// Where tests come from: `random-corners` is the control.
 const STRATEGIES: [Strategy; 11] = [
-    Strategy::Random,
-    Strategy::Halton,
-    Strategy::RandomCorners,
-    Strategy::Anneal,
-    Strategy::Pso,
-    Strategy::NelderMead,
-    Strategy::Cmaes,
-    Strategy::GpCmaes,
-    Strategy::Bayes,
-    Strategy::Boundary,
-    Strategy::Auto,
+    Strategy::RANDOM,
+    Strategy::HALTON,
+    Strategy::RANDOM_CORNERS,
+    Strategy::ANNEAL,
+    Strategy::PSO,
+    Strategy::NELDER_MEAD,
+    Strategy::CMAES,
+    Strategy::GP_CMAES,
+    Strategy::BAYES,
+    Strategy::BOUNDARY,
+    Strategy::AUTO,
 ];
 
 /// The simulations that a run took, of one strategy for one requirement.
@@ -128,8 +129,8 @@ fn first_failure(
     Ok(None)
 }
 
-fn trace(space: &Space, test: &Point) -> Result<Trace, String> {
-    let [throttle, brake] = system::inputs(&space.decode(test))?;
+fn trace(space: &Space, test: &Point) -> Result<Trace, InputFlaw> {
+    let [throttle, brake] = inputs(&space.decode(test))?;
     let mut trace = Trace::new(1.0 / SAMPLES_PER_SECOND, ["speed", "rpm", "gear"].map(str::to_owned).to_vec());
     for sample in simulate(&throttle, &brake) {
         trace.record(&[sample.speed, sample.rpm, sample.gear as f64]);

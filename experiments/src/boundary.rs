@@ -5,17 +5,17 @@
 //! the verdict of the nearest test, or by the Gaussian-process model of its verdicts. The share of it that is told right is
 //! the accuracy; what saying "passes" of every place would have is printed beside it.
 
-use crate::{Done, print, write};
+use crate::{Done, print, scenario, write};
 use indicatif::ProgressBar;
-use paracosm::coverage::Point;
-use paracosm::generators::FailureModel;
-use paracosm::statistics::quantile;
+use paracosm::analysis::statistics::quantile;
+use paracosm::generators::{FailureModel, Strategy};
+use paracosm::space::Point;
 use paracosm::{Campaign, Error, Study};
 use std::path::Path;
 
 const SIZES: [usize; 5] = [25, 50, 100, 200, 400];
 const SEEDS: u64 = 10;
-const STRATEGIES: [&str; 3] = ["boundary", "halton", "random"];
+const STRATEGIES: [Strategy; 3] = [Strategy::BOUNDARY, Strategy::HALTON, Strategy::RANDOM];
 /// The tests of the map, and the seed they come from.
 const MAP: usize = 20_000;
 const MAP_SEED: u64 = 1_000_000;
@@ -31,7 +31,7 @@ struct Tests {
 
 /// How much of the map a campaign tells right.
 struct Sample {
-    strategy: &'static str,
+    strategy: Strategy,
     seed: u64,
     tests: usize,
     failures: usize,
@@ -46,13 +46,15 @@ struct Sample {
 
 pub(crate) fn run(out: &Path, bar: &ProgressBar) -> Done {
     bar.set_length(1 + STRATEGIES.len() as u64 * SEEDS);
-    let map = campaign("random", MAP_SEED, MAP)?;
+    let map = campaign(Strategy::RANDOM, MAP_SEED, MAP)?;
     bar.inc(1);
     let mut samples = Vec::new();
     for strategy in STRATEGIES {
         for seed in 0..SEEDS {
             let tests = campaign(strategy, seed, SIZES[SIZES.len() - 1])?;
-            samples.extend(SIZES.map(|size| sample(strategy, seed, &tests.first(size), &map)));
+            for size in SIZES {
+                samples.push(sample(strategy, seed, &tests.first(size), &map)?);
+            }
             bar.inc(1);
         }
     }
@@ -62,16 +64,17 @@ pub(crate) fn run(out: &Path, bar: &ProgressBar) -> Done {
     print(&format!("{}always \"passes\": {:.3}\n", table(&samples), passing as f64 / MAP as f64))
 }
 
-fn campaign(strategy: &str, seed: u64, budget: usize) -> Result<Tests, Error> {
-    let study = Study::of("pedestrian-crossing")?.open("friction", None)?.strategy(strategy)?;
-    let study = study.budget(budget)?.seed(Some(seed));
-    let mut tests = Tests::default();
-    Campaign::new(&study)?.run(|trial| {
-        tests.points.push(study.space.encode(&trial.test)?);
-        tests.robustness.push(study.objective(trial).unwrap_or(f64::NAN));
-        Ok(())
-    })?;
-    Ok(tests)
+fn study(strategy: Strategy, seed: u64, budget: usize) -> Result<Study, Error> {
+    scenario("pedestrian-crossing")?.open("friction").strategy(strategy).seed(seed).budget(budget).build()
+}
+
+fn campaign(strategy: Strategy, seed: u64, budget: usize) -> Result<Tests, Error> {
+    let study = study(strategy, seed, budget)?;
+    let log = Campaign::new(&study)?.into_log()?;
+    let objective = |trial| log.scales().objective(trial).unwrap_or(f64::NAN);
+    let points = log.test_set()?.points;
+    assert_eq!(points.len(), log.trials().len(), "every test of the pedestrian study ends with a verdict");
+    Ok(Tests { points, robustness: log.trials().iter().map(objective).collect() })
 }
 
 impl Tests {
@@ -80,10 +83,9 @@ impl Tests {
     }
 }
 
-fn sample(strategy: &'static str, seed: u64, tests: &Tests, map: &Tests) -> Sample {
-    let space =
-        Study::of("pedestrian-crossing").and_then(|study| study.open("friction", None)).expect("as before").space;
-    let model = FailureModel::fit(&space, &tests.points, &tests.robustness).expect("there are tests");
+fn sample(strategy: Strategy, seed: u64, tests: &Tests, map: &Tests) -> Result<Sample, Error> {
+    let study = study(strategy, seed, tests.points.len())?;
+    let model = FailureModel::fit(study.space(), &tests.points, &tests.robustness).expect("there are tests");
     let probabilities = model.probabilities(&map.points);
     let fails = |robustness: &f64| robustness.is_sign_negative();
     let share = |right: usize| right as f64 / map.points.len() as f64;
@@ -104,7 +106,7 @@ fn sample(strategy: &'static str, seed: u64, tests: &Tests, map: &Tests) -> Samp
     };
     let nearest = share(map.points.iter().zip(&map.robustness).filter(|(at, r)| nearest(at) == fails(r)).count());
     let failures = tests.robustness.iter().filter(|robustness| fails(robustness)).count();
-    Sample { strategy, seed, tests: tests.points.len(), failures, nearest, model, brier, sure, sure_right }
+    Ok(Sample { strategy, seed, tests: tests.points.len(), failures, nearest, model, brier, sure, sure_right })
 }
 
 fn write_samples(path: &Path, samples: &[Sample]) -> Done {
@@ -131,7 +133,8 @@ fn table(samples: &[Sample]) -> String {
             };
             let range = |[median, worst, best]: [f64; 3]| format!("{median:.3} ({worst:.3}..{best:.3})");
             text += &format!(
-                "{strategy:<10}{size:>6}{:>10}{:>24}{:>24}{:>8.4}{:>8.3}{:>8.3}\n",
+                "{:<10}{size:>6}{:>10}{:>24}{:>24}{:>8.4}{:>8.3}{:>8.3}\n",
+                strategy.to_string(),
                 of(|sample| sample.failures as f64)[0],
                 range(of(|sample| sample.nearest)),
                 range(of(|sample| sample.model)),

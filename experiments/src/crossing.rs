@@ -9,8 +9,7 @@ use paracosm::engine::{
 };
 
 /// A pedestrian crosses the road in front of the car.
-pub const PROGRAM: Program =
-    Program { name: "crossing", about: "a pedestrian crosses the road, and the test ends", build };
+pub const PROGRAM: Program = Program::new("crossing", "a pedestrian crosses the road, and the test ends", build);
 
 /// Where the walker crosses, and how far before it the car begins: metres.
 const CROSSING: f64 = 100.0;

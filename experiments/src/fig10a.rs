@@ -6,11 +6,11 @@
 
 use crate::cloning::exam::{self, EXAMINED};
 use crate::cloning::{FOLLOW, trials};
-use crate::{Done, print, write};
+use crate::{Done, logged, print, scenario, write};
 use indicatif::ProgressBar;
-use paracosm::coverage::Value;
-use paracosm::engine::Metric;
-use paracosm::{FailureMap, Picture, Study, Tints, Trial};
+use paracosm::Trial;
+use paracosm::report::{FailureMap, Picture, Tints};
+use paracosm::space::Value;
 use std::path::Path;
 
 /// How many tests over fog and light.
@@ -20,16 +20,17 @@ const LEADER: f64 = 6.0;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let passed = exam::passing(&trials(&FOLLOW.drives(exam::tests(&FOLLOW)?)?, bar)?);
+    let passed = exam::passing(&trials(&FOLLOW.drives(exam::tests(&FOLLOW)?).build()?, bar)?);
 
-    let study = FOLLOW.drives(Study::of("follow-leader")?)?.open("fog", None)?.open("light", None)?;
-    let study = study.set("leader_speed", Value::Number(LEADER))?.budget(TESTS)?;
-    let trials = trials(&study, bar)?;
+    let study = FOLLOW.drives(scenario("follow-leader")?).open("fog").open("light");
+    let study = study.fix("leader_speed", LEADER).budget(TESTS).build()?;
+    let log = logged(&study, bar)?;
+    let trials = log.trials();
     bar.finish_and_clear();
     let collided: Vec<bool> = trials.iter().map(|trial| trial.violates("no-collision")).collect();
     let covered: Vec<f64> = trials.iter().map(travelled).collect();
 
-    let mut map = FailureMap::of(&study, &trials).expect("fog and light are open");
+    let mut map = FailureMap::of(&log).expect("fog and light are open");
     map.title = "Figure 10a: a cloned driver behind a slow leader".to_owned();
     map.note = format!(
         "{TESTS} Halton tests of 15 s; trained at light 1 without fog, where {passed} of {EXAMINED} tests pass"
@@ -77,8 +78,5 @@ fn number(trial: &Trial, name: &str) -> f64 {
 
 /// Metres.
 fn travelled(trial: &Trial) -> f64 {
-    match trial.metric("travelled") {
-        Some(Metric::Number(metres)) => *metres,
-        _ => f64::NAN,
-    }
+    trial.measured.as_ref().map_or(f64::NAN, |measured| measured.travelled)
 }

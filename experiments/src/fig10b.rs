@@ -5,13 +5,16 @@
 //! steers in low, medium and high fog.
 
 use crate::cloning::LOOP;
-use crate::{Done, print, write};
+use crate::{Done, print, scenario, write};
 use indicatif::ProgressBar;
-use paracosm::coverage::{Value, Values};
+use paracosm::campaign::{Problem, Worker};
 use paracosm::oracles::{Trace, Verdict};
-use paracosm::{Axis, Lines, Picture, Study, Worker};
+use paracosm::report::{Axis, Lines, Picture};
+use paracosm::space::{Value, Values};
 use rayon::prelude::*;
 use std::path::Path;
+use std::sync::Arc;
+use thiserror::Error;
 
 /// So many tests, from no fog to the thickest.
 const TESTS: usize = 21;
@@ -43,23 +46,33 @@ struct Drive {
     steering: Vec<[f64; 3]>,
 }
 
+/// A test that nobody drove.
+#[derive(Debug, Error)]
+enum Undriven {
+    /// There is nobody to run it.
+    #[error(transparent)]
+    Worker(Arc<paracosm::Error>),
+    /// It came to nothing.
+    #[error("{}", .0.as_ref().map_or("", |problem| &problem.message))]
+    Test(Option<Problem>),
+}
+
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let study = LOOP.drives(Study::of("t-loop")?)?.open("fog", None)?;
-    let study = study.set("speed", Value::Number(SPEED))?.set("friction", Value::Number(0.8))?;
+    let study = LOOP.drives(scenario("t-loop")?).open("fog").fix("speed", SPEED).fix("friction", 0.8).build()?;
     bar.set_length(TESTS as u64);
     let drives: Vec<Drive> = (0..TESTS)
         .into_par_iter()
         .map_init(
-            || Worker::new(&study),
+            || Worker::new(&study).map_err(Arc::new),
             |worker, i| {
-                let worker = worker.as_mut().map_err(|error| error.to_string())?;
+                let worker = worker.as_mut().map_err(|error| Undriven::Worker(Arc::clone(error)))?;
                 let drive = drive(worker, i, i as f64 / (TESTS - 1) as f64);
                 bar.inc(1);
                 drive
             },
         )
-        .collect::<Result<_, _>>()?;
+        .collect::<Result<_, Undriven>>()?;
     bar.finish_and_clear();
 
     let picture = Picture::of_lines(vec![times(&drives), steering(&drives)]);
@@ -83,10 +96,10 @@ fn shown(fog: f64) -> bool {
     SHOWN.iter().any(|shown| (shown.1 - fog).abs() < 1e-9)
 }
 
-fn drive(worker: &mut Worker<'_>, index: usize, fog: f64) -> Result<Drive, String> {
+fn drive(worker: &mut Worker<'_>, index: usize, fog: f64) -> Result<Drive, Undriven> {
     let test: Values = [("fog".to_owned(), Value::Number(fog))].into_iter().collect();
     let (trial, trace) = worker.run(index, &test);
-    let trace = trace.ok_or_else(|| trial.error.clone().unwrap_or_default())?;
+    let trace = trace.ok_or_else(|| Undriven::Test(trial.problem.clone()))?;
     let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().collect() };
     let first = |name: &str, above: f64| {
         let tick = signal(name).iter().position(|value| *value > above);

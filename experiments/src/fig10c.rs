@@ -6,14 +6,15 @@
 use crate::cloning::FOLLOW;
 use crate::{Done, print, write};
 use indicatif::ProgressBar;
-use paracosm::coverage::{Value, Values};
+use paracosm::Study;
+use paracosm::campaign::Worker;
 use paracosm::engine::object::{Body, Colour};
 use paracosm::engine::{AutonomousVehicle, Environment, Monitor, Mover, Program, RoadSegment, Scenario};
-use paracosm::{Axis, Lines, Picture, Study, Worker};
+use paracosm::report::{Axis, Lines, Picture};
+use paracosm::space::{Value, Values};
 use std::path::Path;
 
-const PROGRAM: Program =
-    Program { name: "fig10c", about: "a leader of either colour, with or without a car that comes", build };
+const PROGRAM: Program = Program::new("fig10c", "a leader of either colour, with or without a car that comes", build);
 
 const RED: Colour = [190, 25, 30];
 const WHITE: Colour = [235, 235, 235];
@@ -54,7 +55,7 @@ const SHOWN: f64 = 8.0;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, _: &ProgressBar) -> Done {
-    let study = FOLLOW.drives(Study::new(PROGRAM)?)?;
+    let study = FOLLOW.drives(Study::of(PROGRAM)).build()?;
     let mut worker = Worker::new(&study)?;
     let mut curves = Vec::new();
     let mut table =
@@ -66,7 +67,7 @@ pub fn run(out: &Path, _: &ProgressBar) -> Done {
             let test = words.map(|(name, word)| (name.to_owned(), Value::Word(word.to_owned())));
             let test: Values = [("leader_speed".to_owned(), Value::Number(speed))].into_iter().chain(test).collect();
             let (trial, trace) = worker.run(0, &test);
-            let trace = trace.ok_or_else(|| trial.error.clone().unwrap_or_default())?;
+            let trace = trace.ok_or_else(|| trial.error().unwrap_or_default().to_owned())?;
             let signal = |name: &str| -> Vec<f64> { trace.signal(name).into_iter().flatten().step_by(5).collect() };
             let time = |i: usize| 5.0 * i as f64 * trace.dt();
             let points: Vec<(f64, f64)> =

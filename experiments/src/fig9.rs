@@ -4,10 +4,9 @@
 //! spread out, most of all when there are few. Here the driver is `aeb`, and there is time for a map of 10,000 tests and for
 //! 30 random samples.
 
-use crate::Done;
 use crate::sampling::{Comparison, marks, reference_map};
+use crate::{Done, scenario};
 use indicatif::ProgressBar;
-use paracosm::Study;
 use std::path::Path;
 
 const SIZES: [usize; 3] = [25, 100, 500];
@@ -17,7 +16,7 @@ const SIDE: usize = 100;
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let study = Study::of("pedestrian-crossing")?;
+    let study = scenario("pedestrian-crossing")?.build()?;
     bar.set_length((SIDE * SIDE) as u64);
     let map = marks(&study, &reference_map(&study, SIDE, out, bar)?)?;
     let comparison = Comparison { study: &study, sizes: &SIZES, seeds: SEEDS, map: &map };

@@ -10,7 +10,7 @@ use crate::recovery::Mark;
 use crate::sampling::{Comparison, grid, reference_map};
 use crate::{Done, crossing, print, write};
 use indicatif::ProgressBar;
-use paracosm::coverage::{Value, Values};
+use paracosm::space::{Value, Values};
 use paracosm::{Study, Trial};
 use std::path::Path;
 
@@ -23,7 +23,7 @@ const OTHERS: [&str; 3] = ["expert", "aeb", "cruise"];
 const MAP: &str = include_str!("../data/fig9-cnn-reference.csv");
 
 fn study() -> Result<Study, paracosm::Error> {
-    STOP.drives(Study::new(crossing::PROGRAM)?)
+    STOP.drives(Study::of(crossing::PROGRAM)).build()
 }
 
 /// Makes the reference map and those of other drivers, and writes them to a folder.
@@ -36,7 +36,7 @@ pub fn reference(out: &Path, bar: &ProgressBar) -> Done {
     let mut text = format!("of {} tests fail\n  {:<10}{:>6}\n", map.len(), "the network", total(&network));
     let mut columns = Vec::new();
     for name in OTHERS {
-        let other = failing(&grid(&Study::new(crossing::PROGRAM)?.driver(name, &[])?, SIDE, bar)?);
+        let other = failing(&grid(&Study::of(crossing::PROGRAM).driver(name).build()?, SIDE, bar)?);
         let both: Vec<bool> = other.iter().zip(&network).map(|(one, other)| *one && *other).collect();
         text += &format!("  {name:<10}{:>6}, and both {:>5}\n", total(&other), total(&both));
         columns.push(other);
@@ -71,7 +71,7 @@ fn shipped(study: &Study) -> Result<Vec<Mark>, Box<dyn std::error::Error + Send 
         let test: Option<Values> =
             ["speed", "distance"].into_iter().map(|name| Some((name.to_owned(), number(name)?))).collect();
         let test = test.ok_or("the reference map has a row without a test")?;
-        let point = study.space.encode(&test)?.continuous;
+        let point = study.space().encode(&test)?.continuous;
         Ok(([point[0], point[1]], cell("verdict") == Some("fail")))
     };
     csv.records().map(|row| mark(row?)).collect()

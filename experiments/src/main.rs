@@ -28,7 +28,9 @@ mod transmission;
 
 use clap::Parser;
 use indicatif::ProgressBar;
-use paracosm::coverage::{did_you_mean, nearest};
+use paracosm::campaign::Learned;
+use paracosm::space::{did_you_mean, nearest};
+use paracosm::{Campaign, Log, StudyBuilder, Trial};
 use std::error::Error;
 use std::fs;
 use std::io::{self, Write};
@@ -36,6 +38,22 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 type Done = Result<(), Box<dyn Error + Send + Sync>>;
+
+/// A study of a scenario that comes with the software.
+fn scenario(name: &str) -> Result<StudyBuilder, paracosm::Error> {
+    Ok(paracosm::Study::of(paracosm::catalogue().find(name)?))
+}
+
+/// Runs the tests of a study. The bar moves by one for each.
+fn logged(study: &paracosm::Study, bar: &ProgressBar) -> Result<Log, paracosm::Error> {
+    let mut trials = Vec::new();
+    let mut note = |trial: &Trial| {
+        bar.inc(1);
+        trials.push(trial.clone());
+    };
+    Campaign::new(study)?.run(&mut [&mut note])?;
+    Ok(Log::new(study.clone(), Learned::new(), None, trials))
+}
 
 /// A study that can be run.
 struct Study {

@@ -3,24 +3,25 @@
 
 use crate::{Done, print};
 use indicatif::ProgressBar;
-use paracosm::compare::Comparison;
+use paracosm::analysis::compare::Comparison;
 use paracosm::generators::Strategy;
+use paracosm::report;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::thread::available_parallelism;
 
-/// All but `halton-shifted`, which is what `halton` is with a seed, and `lhs-centred`, which is nearly `lhs`.
+/// All but `lhs-centred`, which is nearly `lhs`.
 const STRATEGIES: [Strategy; 10] = [
-    Strategy::Random,
-    Strategy::Lhs,
-    Strategy::Halton,
-    Strategy::HaltonScrambled,
-    Strategy::Sobol,
-    Strategy::SobolOwen,
-    Strategy::Kronecker,
-    Strategy::Hammersley,
-    Strategy::Fibonacci,
-    Strategy::Greedy,
+    Strategy::RANDOM,
+    Strategy::LHS,
+    Strategy::HALTON,
+    Strategy::HALTON_SCRAMBLED,
+    Strategy::SOBOL,
+    Strategy::SOBOL_OWEN,
+    Strategy::KRONECKER,
+    Strategy::HAMMERSLEY,
+    Strategy::FIBONACCI,
+    Strategy::GREEDY,
 ];
 
 /// Runs the study and writes it to a folder.
@@ -33,7 +34,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
         Ok(())
     })?;
     bar.finish_and_clear();
-    compared.write(out)?;
+    report::compare::write(&compared, out)?;
     let notes: String = compared.notes.iter().map(|note| format!("{note}\n")).collect();
-    print(&(compared.table() + &notes))
+    print(&(report::compare::table(&compared) + &notes))
 }

@@ -5,18 +5,26 @@
 //! is drawn is neither a lucky nor an unlucky one.
 
 use crate::recovery::{Mark, Recovery, failing, nearest_neighbour, recovery, straight_line};
-use crate::{Done, print, write};
+use crate::{Done, logged, print, write};
 use indicatif::ProgressBar;
-use paracosm::coverage::{Point, Values};
-use paracosm::statistics::quantile;
-use paracosm::{Campaign, Error, FailureMap, Measure, Picture, Study, Tests, Trial};
+use paracosm::analysis::Coverage;
+use paracosm::analysis::statistics::quantile;
+use paracosm::campaign::Learned;
+use paracosm::coverage::Measure;
+use paracosm::generators::Strategy;
+use paracosm::report::{FailureMap, Picture};
+use paracosm::space::{Point, Values};
+use paracosm::{Campaign, Error, Log, Sampling, Study, Trial};
 use std::path::Path;
+
+/// The strategies that are compared, in the order of the rows.
+const STRATEGIES: [Strategy; 2] = [Strategy::RANDOM, Strategy::HALTON];
 
 /// One sample of one strategy.
 struct Panel {
-    strategy: &'static str,
+    strategy: Strategy,
     seed: Option<u64>,
-    trials: Vec<Trial>,
+    log: Log,
     dispersion: f64,
     star: f64,
     recovery: Recovery,
@@ -50,36 +58,32 @@ impl Comparison<'_> {
         bar.finish_and_clear();
         let typical = self.typical_seed(&panels);
         let shown = |panel: &&Panel| panel.seed.is_none_or(|seed| Some(seed) == typical);
-        let rows = ["random", "halton"].into_iter();
+        let rows = STRATEGIES.into_iter();
         let figure: Vec<&Panel> =
             rows.flat_map(|strategy| panels.iter().filter(shown).filter(move |p| p.strategy == strategy)).collect();
-        let maps = figure.iter().map(|panel| panel.draw(self.study)).collect::<Result<_, _>>()?;
+        let maps = figure.iter().map(|panel| panel.draw()).collect();
         draw(out, name, &Picture::grid(self.sizes.len(), maps))?;
 
         write_panels(&out.join("panels.csv"), &panels)?;
         write_tests(&out.join("tests.csv"), self.study, &figure)?;
         let summary = self.summary(&panels);
         write_csv(&out.join("summary.csv"), &summary)?;
-        let halton = panels.iter().find(|panel| panel.seed.is_none() && panel.trials.len() == self.most());
+        let halton = panels.iter().find(|panel| panel.seed.is_none() && panel.log.trials().len() == self.most());
         let halton = halton.expect("Halton has a panel of every size");
-        write_csv(&out.join("shape.csv"), &shape(self.map, &marks(self.study, &halton.trials)?))?;
+        write_csv(&out.join("shape.csv"), &shape(self.map, &marks(self.study, halton.log.trials())?))?;
         print(&self.table(&summary))
     }
 
     fn panels(&self, bar: &ProgressBar) -> Result<Vec<Panel>, Error> {
         let mut panels = Vec::new();
         for seed in [None].into_iter().chain((1..=self.seeds).map(Some)) {
-            let strategy = if seed.is_none() { "halton" } else { "random" };
-            let sample = self.study.clone().strategy(strategy)?.seed(seed).budget(self.most())?;
-            let mut trials = Vec::new();
-            Campaign::new(&sample)?.run(|trial| {
-                bar.inc(1);
-                trials.push(trial.clone());
-                Ok(())
-            })?;
+            let strategy = if seed.is_none() { Strategy::HALTON } else { Strategy::RANDOM };
+            let sampling = Sampling { strategy, seed, budget: self.most(), ..self.study.sampling().clone() };
+            let log = logged(&self.study.sampled(sampling)?, bar)?;
             // Both are sequences: the smaller samples are the beginning of the largest.
             for &size in self.sizes {
-                panels.push(panel(&sample, strategy, seed, &trials[..size], self.map)?);
+                let sample = log.with_trials(log.trials()[..size].to_vec());
+                panels.push(panel(sample, strategy, seed, self.map)?);
             }
         }
         Ok(panels)
@@ -87,7 +91,7 @@ impl Comparison<'_> {
 
     /// The seed whose smallest sample has the median dispersion, the upper one of two.
     fn typical_seed(&self, panels: &[Panel]) -> Option<u64> {
-        let smallest = panels.iter().filter(|panel| panel.seed.is_some() && panel.trials.len() == self.sizes[0]);
+        let smallest = panels.iter().filter(|panel| panel.seed.is_some() && panel.log.trials().len() == self.sizes[0]);
         let mut smallest: Vec<&Panel> = smallest.collect();
         smallest.sort_by(|a, b| a.dispersion.total_cmp(&b.dispersion));
         smallest[smallest.len() / 2].seed
@@ -98,10 +102,11 @@ impl Comparison<'_> {
         let of = |name: &str| [name.to_owned(), format!("{name}_lower_quartile"), format!("{name}_upper_quartile")];
         let measures = MEASURED.iter().flat_map(|(name, _)| of(name));
         let mut rows = vec![["strategy", "tests", "seeds"].map(str::to_owned).into_iter().chain(measures).collect()];
-        for strategy in ["random", "halton"] {
+        for strategy in STRATEGIES {
             for &size in self.sizes {
-                let samples = panels.iter().filter(|panel| panel.strategy == strategy && panel.trials.len() == size);
-                let what = [strategy.to_owned(), size.to_string(), samples.clone().count().to_string()];
+                let samples =
+                    panels.iter().filter(|panel| panel.strategy == strategy && panel.log.trials().len() == size);
+                let what = [strategy.to_string(), size.to_string(), samples.clone().count().to_string()];
                 let numbers = MEASURED.iter().flat_map(|(_, measure)| {
                     let mut values: Vec<f64> = samples.clone().map(measure).collect();
                     values.sort_by(f64::total_cmp);
@@ -135,7 +140,7 @@ pub fn grid(study: &Study, side: usize, bar: &ProgressBar) -> Result<Vec<Trial>,
     let middle = |i: usize| (i as f64 + 0.5) / side as f64;
     let cells = (0..side * side).map(|i| vec![middle(i % side), middle(i / side)]);
     let tests: Vec<Values> =
-        cells.map(|continuous| study.space.decode(&Point { continuous, discrete: Vec::new() })).collect();
+        cells.map(|continuous| study.space().decode(&Point { continuous, discrete: Vec::new() })).collect();
     let mut trials = Vec::with_capacity(tests.len());
     Campaign::new(study)?.run_tests(&tests, 0, |trial| {
         bar.inc(1);
@@ -148,7 +153,7 @@ pub fn grid(study: &Study, side: usize, bar: &ProgressBar) -> Result<Vec<Trial>,
 /// Runs the tests of a grid, draws them and writes them as `reference-map`.
 pub fn reference_map(study: &Study, side: usize, out: &Path, bar: &ProgressBar) -> Result<Vec<Trial>, Failure> {
     let trials = grid(study, side, bar)?;
-    let mut map = failure_map(study, &trials)?;
+    let mut map = failure_map(&Log::new(study.clone(), Learned::new(), None, trials.clone()));
     map.title = format!("Reference map: {side} x {side} tests");
     map.note = "the middle of every cell of a grid".into();
     draw(out, "reference-map", &Picture::of(map))?;
@@ -161,53 +166,46 @@ type Failure = Box<dyn std::error::Error + Send + Sync>;
 /// Where the tests are in the unit square, and whether they fail.
 pub fn marks(study: &Study, trials: &[Trial]) -> Result<Vec<Mark>, Error> {
     let mark = |trial: &Trial| {
-        let point = study.space.encode(&trial.test)?.continuous;
+        let point = study.space().encode(&trial.test)?.continuous;
         Ok(([point[0], point[1]], trial.is_failure()))
     };
     trials.iter().map(mark).collect()
 }
 
-fn panel(
-    study: &Study,
-    strategy: &'static str,
-    seed: Option<u64>,
-    trials: &[Trial],
-    map: &[Mark],
-) -> Result<Panel, Error> {
-    let tests = Tests::of_trials(study, trials)?;
-    let coverage = tests.measure(&[Measure::Dispersion, Measure::Star], None, None)?;
+fn panel(log: Log, strategy: Strategy, seed: Option<u64>, map: &[Mark]) -> Result<Panel, Error> {
+    let coverage = Coverage::of(&log.test_set()?, &[Measure::DISPERSION, Measure::STAR], None, None)?;
     let measured = coverage.continuous.expect("the study has two continuous parameters");
     Ok(Panel {
         strategy,
         seed,
-        trials: trials.to_vec(),
-        dispersion: measured.dispersion.expect("it was asked for").volume.lower,
-        star: measured.star_discrepancy.expect("it was asked for").lower,
-        recovery: recovery(&marks(study, trials)?, map),
+        dispersion: measured.bracket(Measure::DISPERSION).expect("it was asked for").lower,
+        star: measured.bracket(Measure::STAR).expect("it was asked for").lower,
+        recovery: recovery(&marks(log.study(), log.trials())?, map),
+        log,
     })
 }
 
 impl Panel {
     fn failures(&self) -> usize {
-        self.trials.iter().filter(|trial| trial.is_failure()).count()
+        self.log.trials().iter().filter(|trial| trial.is_failure()).count()
     }
 
-    fn draw(&self, study: &Study) -> Result<FailureMap, Error> {
-        let mut map = failure_map(study, &self.trials)?;
+    fn draw(&self) -> FailureMap {
+        let mut map = failure_map(&self.log);
         let seed = self.seed.map_or(String::new(), |seed| format!(" (seed {seed})"));
-        map.title = format!("{}{seed}, {} tests", self.strategy, self.trials.len());
+        map.title = format!("{}{seed}, {} tests", self.strategy, self.log.trials().len());
         map.note = format!(
             "dispersion {:.4}, star discrepancy {:.4}, map accuracy {:.1} %",
             self.dispersion,
             self.star,
             100.0 * self.recovery.accuracy
         );
-        Ok(map)
+        map
     }
 }
 
-fn failure_map(study: &Study, trials: &[Trial]) -> Result<FailureMap, Error> {
-    FailureMap::of(study, trials).ok_or_else(|| Error::Usage("the study has no two continuous parameters".into()))
+fn failure_map(log: &Log) -> FailureMap {
+    FailureMap::of(log).expect("the study has two continuous parameters")
 }
 
 fn draw(out: &Path, name: &str, picture: &Picture) -> Done {
@@ -239,7 +237,7 @@ fn write_panels(path: &Path, panels: &[Panel]) -> Done {
     let header = ["strategy", "seed", "tests"].into_iter().chain(MEASURED.map(|(name, _)| name));
     let row = |panel: &Panel| {
         let seed = panel.seed.map_or(String::new(), |seed| seed.to_string());
-        let what = [panel.strategy.to_owned(), seed, panel.trials.len().to_string()];
+        let what = [panel.strategy.to_string(), seed, panel.log.trials().len().to_string()];
         what.into_iter().chain(MEASURED.map(|(_, measure)| measure(panel).to_string())).collect()
     };
     let rows: Vec<_> = [header.map(str::to_owned).collect()].into_iter().chain(panels.iter().map(row)).collect();
@@ -276,8 +274,8 @@ fn write_tests(path: &Path, study: &Study, figure: &[&Panel]) -> Done {
     let header = ["strategy", "tests", "index"].map(str::to_owned).into_iter().chain(header(study));
     let mut rows: Vec<Vec<String>> = vec![header.collect()];
     for panel in figure {
-        for trial in &panel.trials {
-            let what = [panel.strategy.to_owned(), panel.trials.len().to_string(), trial.index.to_string()];
+        for trial in panel.log.trials() {
+            let what = [panel.strategy.to_string(), panel.log.trials().len().to_string(), trial.index.to_string()];
             rows.push(what.into_iter().chain(row(trial)).collect());
         }
     }
@@ -292,7 +290,7 @@ fn write_trials(path: &Path, study: &Study, trials: &[Trial]) -> Done {
 }
 
 fn header(study: &Study) -> impl Iterator<Item = String> {
-    let names = study.space.parameters().iter().map(|parameter| parameter.name.clone());
+    let names = study.space().parameters().iter().map(|parameter| parameter.name.clone());
     names.chain(["verdict", "violated"].map(str::to_owned))
 }
 

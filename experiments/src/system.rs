@@ -3,9 +3,10 @@
 
 use crate::transmission::{SAMPLES_PER_SECOND, Sample, run};
 use crate::{Done, print};
-use paracosm::coverage::{Value, Values};
-use serde::{Deserialize, Serialize};
+use paracosm::space::{Value, Values};
+use serde::{Deserialize, Serialize, Serializer};
 use std::io::{self, BufRead};
+use thiserror::Error;
 
 /// The name by which it is asked for.
 pub const NAME: &str = "automatic-transmission";
@@ -27,8 +28,29 @@ struct Answer {
 #[derive(Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Outcome {
-    Trace { time: Vec<f64>, speed: Vec<f64>, rpm: Vec<f64>, gear: Vec<usize> },
-    Error(String),
+    Trace {
+        time: Vec<f64>,
+        speed: Vec<f64>,
+        rpm: Vec<f64>,
+        gear: Vec<usize>,
+    },
+    #[serde(serialize_with = "in_words")]
+    Error(InputFlaw),
+}
+
+/// A test that the system cannot run.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum InputFlaw {
+    /// An input is missing.
+    #[error("the test has no `{name}`")]
+    Missing { name: &'static str },
+    /// An input is neither a number nor a list of numbers.
+    #[error("`{name}` is {value}, expected a number or a list of numbers")]
+    NoNumbers { name: &'static str, value: Value },
+}
+
+fn in_words<S: Serializer>(flaw: &InputFlaw, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(flaw)
 }
 
 /// Answers until there are no more questions.
@@ -47,7 +69,7 @@ pub fn answer(line: &str) -> Result<String, serde_json::Error> {
     let Question { index, test } = serde_json::from_str(line)?;
     let outcome = match inputs(&test) {
         Ok([throttle, brake]) => trace(&run(&throttle, &brake)),
-        Err(message) => Outcome::Error(message),
+        Err(flaw) => Outcome::Error(flaw),
     };
     serde_json::to_string(&Answer { index, outcome })
 }
@@ -56,12 +78,12 @@ pub fn answer(line: &str) -> Result<String, serde_json::Error> {
 ///
 /// # Errors
 /// One of them is missing, or has no number or one that is none.
-pub fn inputs(test: &Values) -> Result<[Vec<f64>; 2], String> {
-    let signal = |name: &str| {
-        let value = test.get(name).ok_or_else(|| format!("the test has no `{name}`"))?;
+pub fn inputs(test: &Values) -> Result<[Vec<f64>; 2], InputFlaw> {
+    let signal = |name: &'static str| {
+        let value = test.get(name).ok_or(InputFlaw::Missing { name })?;
         let numbers: Option<Vec<f64>> = value.scalars().iter().map(Value::number).collect();
         let numbers = numbers.filter(|numbers| !numbers.is_empty() && numbers.iter().all(|number| number.is_finite()));
-        numbers.ok_or_else(|| format!("`{name}` is {value}, expected a number or a list of numbers"))
+        numbers.ok_or_else(|| InputFlaw::NoNumbers { name, value: value.clone() })
     };
     Ok([signal("throttle")?, signal("brake")?])
 }

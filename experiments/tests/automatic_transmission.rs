@@ -1,7 +1,9 @@
 //! The automatic transmission, tested from outside as the system that it is.
 
-use paracosm::coverage::Space;
-use paracosm::{BlackBox, Campaign, Study};
+use paracosm::campaign::BlackBox;
+use paracosm::generators::Strategy;
+use paracosm::space::Space;
+use paracosm::{Campaign, Study, Trial};
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
@@ -21,14 +23,13 @@ fn a_campaign_falsifies_its_speed_limit_in_the_opening() {
     let command = format!("'{PROGRAM}' system automatic-transmission");
     let space = Space::from_toml(include_str!("../systems/automatic-transmission.toml")).unwrap();
     let study = Study::of_system(BlackBox::new(&command, None).unwrap(), space);
-    let study = study.spec("always[0,20] (speed < 120)").unwrap().strategy("auto").unwrap().budget(20).unwrap();
+    let study = study.spec("always[0,20] (speed < 120)").strategy(Strategy::AUTO).budget(20).build().unwrap();
     let mut failures = Vec::new();
-    let run = Campaign::new(&study).unwrap().run(|trial| {
-        assert_eq!((trial.error.as_deref(), trial.ticks), (None, 300));
+    let mut note = |trial: &Trial| {
+        assert_eq!((trial.error(), trial.ticks), (None, 300));
         failures.extend(trial.is_failure().then_some(trial.index));
-        Ok(())
-    });
-    run.unwrap();
+    };
+    Campaign::new(&study).unwrap().run(&mut [&mut note]).unwrap();
     assert!(failures.first().is_some_and(|first| *first < 4), "{failures:?}");
 }
 

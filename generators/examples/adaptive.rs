@@ -6,9 +6,9 @@
 //! Functions with a known set of failures (values below 0), which another seed puts elsewhere; a run ends after 300 tests
 //! and then counts as 300. Medians, and how many of the runs found a failure.
 
-use paracosm_coverage::{Point, Space};
 use paracosm_generators::functions::Function;
 use paracosm_generators::{Request, Strategy};
+use paracosm_space::{Point, Space};
 use std::time::Instant;
 
 const BUDGET: usize = 300;
@@ -54,10 +54,10 @@ fn bowl(test: &Point) -> f64 {
 fn print_times(batch: usize, dims: usize) {
     let space = Space::unit_cube(dims);
     let mut all: Vec<f64> =
-        Strategy::Random.build(&Request::new(&space, 1000)).expect("a generator").ask(1000).iter().map(bowl).collect();
+        Strategy::RANDOM.build(&Request::new(&space, 1000)).expect("a generator").ask(1000).iter().map(bowl).collect();
     all.sort_by(f64::total_cmp);
     let begun = Instant::now();
-    for strategy in Strategy::ALL.into_iter().filter(|strategy| strategy.is_adaptive()) {
+    for strategy in Strategy::all().filter(|strategy| strategy.is_adaptive()) {
         for (failing, offset) in [("nothing", 0.1), ("a fifth", -all[200])] {
             let mut generator = strategy.build(&Request::new(&space, 1000)).expect("a generator");
             let (mut done, mut times) = (0, Vec::new());
@@ -91,9 +91,9 @@ fn main() {
         let dims = if dims.is_empty() { vec![5] } else { dims };
         return dims.into_iter().for_each(|dims| print_times(batch, dims));
     }
-    let strategies: Vec<Strategy> = [Strategy::Random, Strategy::Halton]
+    let strategies: Vec<Strategy> = [Strategy::RANDOM, Strategy::HALTON]
         .into_iter()
-        .chain(Strategy::ALL.into_iter().filter(|strategy| strategy.is_adaptive()))
+        .chain(Strategy::all().filter(|strategy| strategy.is_adaptive()))
         .collect();
     print!("| function |");
     strategies.iter().for_each(|strategy| print!(" `{strategy}` |"));

@@ -3,8 +3,8 @@
 //!
 //! Medians over seeds, each of which puts the failure elsewhere; a run ends after 300 tests and then counts as 300.
 
-use paracosm_coverage::{Point, Space};
 use paracosm_generators::{Bandit, Generator, Request, Strategy};
+use paracosm_space::{Point, Space};
 
 const BUDGET: usize = 300;
 
@@ -39,7 +39,7 @@ const CASES: [(&str, Requirements); 5] = [
 fn main() {
     let mut arguments = std::env::args().skip(1).filter_map(|argument| argument.parse().ok());
     let (batch, seeds) = (arguments.next().unwrap_or(16), arguments.next().unwrap_or(20));
-    let strategies = [Strategy::Anneal, Strategy::Pso, Strategy::NelderMead, Strategy::Cmaes, Strategy::Bayes];
+    let strategies = [Strategy::ANNEAL, Strategy::PSO, Strategy::NELDER_MEAD, Strategy::CMAES, Strategy::BAYES];
     println!("{:<14}{:<14}{:>8}{:>8}", "case", "strategy", "worst", "bandit");
     for (name, requirements) in CASES {
         for strategy in strategies {
@@ -58,7 +58,7 @@ fn main() {
 fn first_failure(strategy: Strategy, requirements: Requirements, seed: u64, batch: usize, arms: usize) -> usize {
     let space = Space::unit_cube(5);
     let hidden =
-        Strategy::Random.build(&Request { seed: Some(seed + 1000), ..Request::new(&space, 1) }).unwrap().ask(1);
+        Strategy::RANDOM.build(&Request { seed: Some(seed + 1000), ..Request::new(&space, 1) }).unwrap().ask(1);
     let hidden = Point { continuous: hidden[0].continuous.iter().map(|u| 0.2 + 0.6 * u).collect(), ..Point::default() };
     let request = Request { seed: Some(seed), ..Request::new(&space, BUDGET) };
     let searches: Vec<Box<dyn Generator>> = (0..arms).map(|_| strategy.build(&request).unwrap()).collect();

@@ -6,8 +6,8 @@
 
 use paracosm_coverage::Deadline;
 use paracosm_coverage::kwise::kwise_coverage;
-use paracosm_coverage::rules::{Clause, Literal, Rules};
 use paracosm_generators::covering::{CoveringRequest, covering_array, optimise};
+use paracosm_space::rules::{Clause, Literal, Rules};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

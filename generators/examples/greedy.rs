@@ -2,8 +2,9 @@
 //! `cargo run --release -p paracosm-generators --example greedy`, under a minute.
 
 use paracosm_coverage::dispersion::dispersion;
-use paracosm_coverage::{Deadline, PointSet, Space};
+use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::{Request, Strategy};
+use paracosm_space::Space;
 use std::time::Instant;
 
 const SEEDS: u64 = 20;
@@ -18,9 +19,9 @@ fn main() {
             PointSet::new(dims, points.iter().map(|point| &point.continuous)).expect("points of the cube")
         };
         let volume = |points: &PointSet| dispersion(points, Deadline::never()).volume.lower;
-        let halton = volume(&points(Strategy::Halton, None));
+        let halton = volume(&points(Strategy::HALTON, None));
         let begun = Instant::now();
-        let sets: Vec<PointSet> = (0..SEEDS).map(|seed| points(Strategy::Greedy, Some(seed))).collect();
+        let sets: Vec<PointSet> = (0..SEEDS).map(|seed| points(Strategy::GREEDY, Some(seed))).collect();
         let each = begun.elapsed().as_secs_f64() * 1e3 / (SEEDS as usize * n) as f64;
         let mut ratios: Vec<f64> = sets.iter().map(|set| volume(set) / halton).collect();
         ratios.sort_by(f64::total_cmp);

@@ -9,7 +9,7 @@
 //! has brought nothing new, so that a search that has come to rest gives way.
 
 use crate::Generator;
-use paracosm_coverage::Point;
+use paracosm_space::Point;
 
 /// What is added to the mean worth of an arm that had few turns, in multiples of what UCB1 adds.
 const CURIOSITY: f64 = 0.2;
@@ -89,7 +89,7 @@ impl Arm {
 mod tests {
     use super::*;
     use crate::{Request, Strategy};
-    use paracosm_coverage::Space;
+    use paracosm_space::Space;
 
     /// Proposes its own number for ever, and remembers what it was told.
     struct Fixed(f64);
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn what_is_told_may_be_anything() {
         let space = Space::unit_cube(2);
-        let search = |_| Strategy::Cmaes.build(&Request::new(&space, 50)).unwrap();
+        let search = |_| Strategy::CMAES.build(&Request::new(&space, 50)).unwrap();
         let mut bandit = Bandit::new((0..3).map(search).collect());
         let odd = [None, Some(f64::NAN), Some(f64::INFINITY), Some(f64::NEG_INFINITY), Some(1e300), Some(-0.0)];
         for round in 0..20 {

@@ -1,7 +1,7 @@
 //! Why a generator cannot be built; every message says what was found and what would have been right.
 
 use crate::covering::CoveringError;
-use paracosm_coverage::{SpaceError, did_you_mean};
+use paracosm_space::{SpaceError, did_you_mean};
 use thiserror::Error;
 
 /// Why a generator cannot be built.

@@ -4,7 +4,7 @@
 //! is good at one place by luck; values below 0 are failures.
 
 use crate::{Request, Strategy};
-use paracosm_coverage::{Domain, Parameter, Point, Space, Value};
+use paracosm_space::{Domain, Parameter, Point, Space, Value};
 
 /// The radius of a ball whose volume is a thousandth of the unit cube of five dimensions.
 const BALL: f64 = 0.1801;
@@ -82,7 +82,7 @@ impl Function {
         let space = self.space();
         // Far from the seeds of the strategies, or a random test would be it.
         let request = Request { seed: Some(seed.wrapping_add(1_000_000)), ..Request::new(&space, 300) };
-        let test = Strategy::Random.build(&request).map(|mut random| random.ask(1).remove(0));
+        let test = Strategy::RANDOM.build(&request).map(|mut random| random.ask(1).remove(0));
         let mut hidden = test.expect("every space has a random test");
         hidden.continuous.iter_mut().for_each(|u| *u = 0.19 + 0.62 * *u);
         // The first row of a family hardly depends on its seed.
@@ -166,7 +166,7 @@ mod tests {
     fn the_ball_has_a_thousandth_of_the_volume() {
         let ball = Function::ALL[1];
         let space = ball.space();
-        let mut random = Strategy::Random.build(&Request::new(&space, 100_000)).unwrap();
+        let mut random = Strategy::RANDOM.build(&Request::new(&space, 100_000)).unwrap();
         let placed = ball.placed(3);
         let inside = random.ask(100_000).iter().filter(|test| placed.robustness(test).unwrap() < 0.0).count();
         // 100 expected, with a deviation of 10.

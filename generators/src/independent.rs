@@ -8,7 +8,8 @@
 
 use crate::seeded::{Purpose, seeded};
 use crate::{Generator, GeneratorError, Request, Strategy};
-use paracosm_coverage::{Point, rules::UniformTests};
+use paracosm_space::Point;
+use paracosm_space::rules::UniformTests;
 use rand::Rng;
 use std::collections::BTreeSet;
 

@@ -11,11 +11,11 @@
 //! (`anneal`) where the mathematical library of the system is the same.
 //!
 //! ```
-//! use paracosm_coverage::Space;
+//! use paracosm_space::Space;
 //! use paracosm_generators::{Request, Strategy};
 //!
 //! let space = Space::unit_cube(2);
-//! let mut generator = Strategy::Halton.build(&Request::new(&space, 500))?;
+//! let mut generator = Strategy::HALTON.build(&Request::new(&space, 500))?;
 //! let tests = generator.ask(2);
 //! assert_eq!(tests[0].continuous, [1.0 / 2.0, 1.0 / 3.0]);
 //! assert_eq!(tests[1].continuous, [1.0 / 4.0, 2.0 / 3.0]);
@@ -23,11 +23,14 @@
 //! ```
 
 mod adaptive;
+mod aim;
+mod all;
 mod bandit;
+mod build;
 pub mod covering;
 mod deal;
+mod discrete;
 mod error;
-mod existing;
 mod family;
 pub mod functions;
 mod greedy;
@@ -40,14 +43,14 @@ mod spread;
 mod strategy;
 
 pub use adaptive::{FailingShare, FailureModel};
+pub use aim::Aim;
 pub use bandit::Bandit;
+pub use discrete::DiscreteFamily;
 pub use error::GeneratorError;
-pub use family::DiscreteFamily;
-pub use greedy::Aim;
 pub use request::Request;
-pub use strategy::Strategy;
+pub use strategy::{BuildOwn, Descriptor, Look, Method, Shape, Strategy};
 
-use paracosm_coverage::Point;
+use paracosm_space::Point;
 
 /// A source of tests that may learn from how they went.
 pub trait Generator: Send {

@@ -3,7 +3,7 @@
 //! A test is computed from its number alone, by way of [`Deal`]; all there is to remember is which comes next.
 
 use crate::{Generator, deal::Deal, family::Family, sequence::Sequence};
-use paracosm_coverage::Point;
+use paracosm_space::Point;
 
 /// The tests of a family and a sequence.
 pub(crate) struct Mixed {

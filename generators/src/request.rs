@@ -1,12 +1,13 @@
 //! What a generator is built for: the space, the budget, the seed, and what is asked of the tests.
 
-use crate::{DiscreteFamily, greedy::Aim};
-use paracosm_coverage::{Deadline, Point, Space};
+use crate::{Aim, DiscreteFamily};
+use paracosm_coverage::Deadline;
+use paracosm_space::{Point, Space};
 
 /// What a generator is built for.
 ///
 /// ```
-/// # use paracosm_coverage::Space;
+/// # use paracosm_space::Space;
 /// # use paracosm_generators::Request;
 /// # let space = Space::unit_cube(2);
 /// let request = Request { seed: Some(7), ..Request::new(&space, 500) };
@@ -21,7 +22,7 @@ pub struct Request<'a> {
     /// The source of all chance. None is the plain set where a strategy has one (`halton sobol kronecker
     /// hammersley fibonacci`) and seed 0 in all else, such as the copies of a plain set for further rows.
     pub seed: Option<u64>,
-    /// The index of a sequence's first point, from 0. None is 0, but 1 for `halton` and `halton-shifted`: point 0
+    /// The index of a sequence's first point, from 0. None is 0, but 1 for `halton`: point 0
     /// of Halton is the corner of the cube.
     pub skip: Option<u64>,
     /// How discrete parameters are covered.

@@ -1,14 +1,14 @@
 //! What adaptive strategies are for: failures found with far fewer tests than at random, on functions whose failures are
 //! known. The margins are wide; the figures are in BENCHMARKS.md.
 
-use paracosm_coverage::{Domain, Parameter, Point, Space, Value};
 use paracosm_generators::{Generator, Request, Strategy};
+use paracosm_space::{Domain, Parameter, Point, Space, Value};
 
 const SEEDS: u64 = 10;
 const BUDGET: usize = 300;
 
 fn adaptive() -> impl Iterator<Item = Strategy> {
-    Strategy::ALL.into_iter().filter(|strategy| strategy.is_adaptive())
+    Strategy::all().filter(|strategy| strategy.is_adaptive())
 }
 
 fn generator(strategy: Strategy, space: &Space, seed: u64) -> Box<dyn Generator> {
@@ -99,7 +99,7 @@ fn a_narrow_valley_is_followed_to_its_end() {
         let (a, b) = (4.0 * test.continuous[0] - 2.0, 4.0 * test.continuous[1] - 1.0);
         100.0 * (b - a * a) * (b - a * a) + (1.0 - a) * (1.0 - a) - 0.04
     };
-    for strategy in [Strategy::NelderMead, Strategy::GpCmaes, Strategy::Bayes, Strategy::Boundary, Strategy::Auto] {
+    for strategy in [Strategy::NELDER_MEAD, Strategy::GP_CMAES, Strategy::BAYES, Strategy::BOUNDARY, Strategy::AUTO] {
         let tests = first_failures(strategy, &space, valley);
         assert!(tests[6] < BUDGET, "{strategy}: {tests:?}");
     }
@@ -121,7 +121,7 @@ fn one_combination_of_words_in_sixty_four_with_a_disc_is_found() {
         let wrong = test.discrete.iter().zip([2, 0, 3]).filter(|(a, b)| **a != *b).count();
         0.2 * wrong as f64 + distance(test, &[0.35, 0.6]) - 0.15
     };
-    let random = first_failures(Strategy::Random, &space, robustness);
+    let random = first_failures(Strategy::RANDOM, &space, robustness);
     for strategy in adaptive() {
         let tests = first_failures(strategy, &space, robustness);
         assert!(tests[4] < BUDGET, "{strategy}: {tests:?}");
@@ -135,7 +135,7 @@ fn where_nothing_is_continuous_the_one_failing_row_in_a_thousand_is_found_by_its
     let robustness =
         |test: &Point| test.discrete.iter().zip([1, 3, 0, 2, 2]).filter(|(a, b)| **a != *b).count() as f64 - 0.5;
     let strategies =
-        [Strategy::Anneal, Strategy::Cmaes, Strategy::GpCmaes, Strategy::Bayes, Strategy::Boundary, Strategy::Auto];
+        [Strategy::ANNEAL, Strategy::CMAES, Strategy::GP_CMAES, Strategy::BAYES, Strategy::BOUNDARY, Strategy::AUTO];
     for strategy in strategies {
         let tests = first_failures(strategy, &space, robustness);
         assert!(tests[5] < 200, "{strategy}: {tests:?}");
@@ -146,7 +146,7 @@ fn where_nothing_is_continuous_the_one_failing_row_in_a_thousand_is_found_by_its
 fn models_learn_where_tests_end_in_errors_and_keep_away() {
     let space = Space::unit_cube(3);
     let robustness = |test: &Point| (test.continuous[0] < 0.6).then(|| distance(test, &[0.55, 0.5, 0.5]));
-    for strategy in [Strategy::Bayes, Strategy::GpCmaes] {
+    for strategy in [Strategy::BAYES, Strategy::GP_CMAES] {
         let tests = run(strategy, &space, 1, 150, robustness);
         let errors = tests[50..].iter().filter(|test| test.1.is_none()).count();
         assert!(errors <= 30, "{strategy}: {errors} of 100 tests ended in an error");
@@ -160,7 +160,7 @@ fn samples_that_a_model_chooses_find_a_failure_in_half_the_tests_of_all_samples(
     let space = Space::unit_cube(5);
     let robustness = |test: &Point| distance(test, &[0.35, 0.6, 0.45, 0.7, 0.3]) - 0.18;
     let tests = |strategy| first_failures(strategy, &space, robustness).iter().sum::<usize>();
-    let (all, chosen) = (tests(Strategy::Cmaes), tests(Strategy::GpCmaes));
+    let (all, chosen) = (tests(Strategy::CMAES), tests(Strategy::GP_CMAES));
     assert!(2 * chosen < all, "{chosen}, of all samples {all}");
 }
 
@@ -184,7 +184,7 @@ fn boundary_tests_both_sides_of_the_boundary_close_to_it() {
         away.sort_by(f64::total_cmp);
         away[40]
     };
-    let (boundary, halton) = (median(Strategy::Boundary), median(Strategy::Halton));
+    let (boundary, halton) = (median(Strategy::BOUNDARY), median(Strategy::HALTON));
     assert!(3.0 * boundary < halton, "{boundary} {halton}");
 }
 
@@ -196,8 +196,8 @@ fn adaptive_tests_cluster_where_they_fail() {
         let tests = run(strategy, &space, 4, 150, robustness);
         tests.iter().filter(|test| test.1 < Some(0.0)).count()
     };
-    let random = failed(Strategy::Random);
-    for strategy in adaptive().filter(|strategy| *strategy != Strategy::Boundary) {
+    let random = failed(Strategy::RANDOM);
+    for strategy in adaptive().filter(|strategy| *strategy != Strategy::BOUNDARY) {
         assert!(failed(strategy) > 5 * random.max(2), "{strategy}: {}, at random {random}", failed(strategy));
     }
 }

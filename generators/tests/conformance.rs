@@ -1,9 +1,10 @@
 //! What every strategy promises, in every kind of space and for every discrete family.
 //!
-//! The suite runs over `Strategy::ALL`; a new strategy is tested by being listed there.
+//! The suite runs over `Strategy::all()` and over a strategy that only the suite knows. A new strategy is tested by being
+//! listed there.
 
-use paracosm_coverage::{Domain, Parameter, Point, Shape, Space, Value};
-use paracosm_generators::{DiscreteFamily, Generator, Request, Strategy};
+use paracosm_generators::{Descriptor, DiscreteFamily, Generator, Look, Method, Request, Shape as Mark, Strategy};
+use paracosm_space::{Domain, Parameter, Point, Shape, Space, Value};
 use proptest::prelude::*;
 
 const BUDGET: usize = 60;
@@ -33,6 +34,19 @@ fn choice(name: &str, levels: u32) -> Parameter {
     Parameter::new(name, Domain::Choice((0..levels).map(|level| Value::Number(level.into())).collect()))
 }
 
+/// A strategy that only this suite knows: what is said of all strategies is said of it, too.
+static SCRATCH: Descriptor = Descriptor {
+    name: "scratch",
+    about: "random points under another name: a strategy of this test",
+    dims: 1..=usize::MAX,
+    look: Look::filled(0x12_3456, Mark::Circle),
+    method: Method::own(|request| Strategy::RANDOM.build(request)),
+};
+
+fn strategies() -> impl Iterator<Item = Strategy> {
+    Strategy::all().chain([Strategy::of(&SCRATCH)])
+}
+
 /// Every strategy with every space that it covers and every family.
 fn cases(spaces: &[Space]) -> impl Iterator<Item = (Strategy, Request<'_>)> {
     let requests = spaces
@@ -40,7 +54,7 @@ fn cases(spaces: &[Space]) -> impl Iterator<Item = (Strategy, Request<'_>)> {
         .flat_map(|space| FAMILIES.map(|discrete| Request { seed: Some(3), discrete, ..Request::new(space, BUDGET) }));
     let covers = |strategy: &Strategy, dims| dims == 0 || strategy.dims().contains(&dims);
     requests.flat_map(move |request| {
-        let strategies = Strategy::ALL.into_iter().filter(move |strategy| covers(strategy, request.space.dims()));
+        let strategies = strategies().filter(move |strategy| covers(strategy, request.space.dims()));
         strategies.map(move |strategy| (strategy, request))
     })
 }
@@ -131,7 +145,7 @@ fn whatever_it_is_told_it_goes_on_inside_the_domains() {
                 tests.reverse();
                 generator.tell(&tests, &told[..tests.len()]);
                 generator.tell(&tests[..tests.len().min(1)], &told[1..2]);
-                let foreign = build(Strategy::Random, &Request { seed: Some(round as u64), ..request }).ask(1);
+                let foreign = build(Strategy::RANDOM, &Request { seed: Some(round as u64), ..request }).ask(1);
                 generator.tell(&foreign, &told[2..3]);
             }
             let more = generator.ask(6);
@@ -209,7 +223,7 @@ fn constraints_are_kept_whatever_a_strategy_learns() {
         parameter = [{ name = \"lanes\", choice = [2, 4, 6] }, { name = \"x\", interval = [0, 9] },
         { name = \"weather\", choice = [\"clear\", \"rain\", \"fog\"] }, { name = \"cars\", choice = [1, 3, 5, 7] }]";
     let space = Space::from_toml(text).expect("a valid space");
-    for strategy in Strategy::ALL.into_iter().filter(|strategy| strategy.dims().contains(&1)) {
+    for strategy in strategies().filter(|strategy| strategy.dims().contains(&1)) {
         let tests = run(&mut *build(strategy, &Request { seed: Some(1), ..Request::new(&space, BUDGET) }), BUDGET);
         assert!(tests.iter().all(|test| space.allows(test)), "{strategy}");
     }

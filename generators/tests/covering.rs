@@ -1,12 +1,12 @@
 //! Covering arrays against trying every test.
 
-#[path = "../../coverage/tests/models/mod.rs"]
+#[path = "../../space/tests/models/mod.rs"]
 mod models;
 
 use models::{all_tests, keeps, models};
 use paracosm_coverage::Deadline;
-use paracosm_coverage::rules::{Clause, Literal, Rules};
 use paracosm_generators::covering::{CoveringArray, CoveringError, CoveringRequest, covering_array, optimise};
+use paracosm_space::rules::{Clause, Literal, Rules};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;

@@ -1,13 +1,13 @@
 //! Covering arrays of mixed strength and with negative values against trying every test.
 
-#[path = "../../coverage/tests/models/mod.rs"]
+#[path = "../../space/tests/models/mod.rs"]
 mod models;
 
 use models::{all_tests, keeps, models};
 use paracosm_coverage::Deadline;
-use paracosm_coverage::demand::Kind;
-use paracosm_coverage::rules::{Clause, Rules};
 use paracosm_generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
+use paracosm_space::demand::TestKind;
+use paracosm_space::rules::{Clause, Rules};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -133,7 +133,7 @@ proptest! {
 
     #[test]
     fn groups_and_negative_values_are_covered_in_an_order_that_covers_most_first(asked in asked()) {
-        let Ok(kinds) = Kind::all(&asked.levels, &asked.constraints, &asked.negatives) else {
+        let Ok(kinds) = TestKind::all(&asked.levels, &asked.constraints, &asked.negatives) else {
             prop_assert!(asked.sound().is_empty());
             return Ok(());
         };
@@ -159,7 +159,7 @@ proptest! {
 #[test]
 fn each_level_of_one_parameter_needs_an_array_of_the_others() {
     let rules = Rules::free(&[4, 2, 2, 2, 2]);
-    let kinds = Kind::all(&[4, 2, 2, 2, 2], &[], &[]).unwrap();
+    let kinds = TestKind::all(&[4, 2, 2, 2, 2], &[], &[]).unwrap();
     let array = covering_array(&CoveringRequest { kinds: &kinds, ..CoveringRequest::new(&rules, 3) }).unwrap();
     // Five tests show all pairs of four binary parameters, and four do not.
     assert_eq!(array.lower_bound, 4 * 5);
@@ -170,7 +170,7 @@ fn each_level_of_one_parameter_needs_an_array_of_the_others() {
 fn a_negative_value_is_shown_with_every_other_value_and_hides_them_from_each_other() {
     let rules = Rules::free(&[3, 3, 3]);
     let array = |k: usize, negatives: &[(usize, usize)]| {
-        let kinds = Kind::all(&[3, 3, 3], &[], negatives).unwrap();
+        let kinds = TestKind::all(&[3, 3, 3], &[], negatives).unwrap();
         let array = covering_array(&CoveringRequest { kinds: &kinds, ..CoveringRequest::new(&rules, k) }).unwrap();
         (array.rows.len(), array.lower_bound)
     };

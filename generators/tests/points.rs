@@ -1,7 +1,9 @@
 //! The points themselves: against published ones, and against what the theory says of where they lie.
 
-use paracosm_coverage::{Deadline, PointSet, Space, dispersion::dispersion};
+use paracosm_coverage::dispersion::dispersion;
+use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::{Request, Strategy};
+use paracosm_space::Space;
 use std::{collections::BTreeSet, fs};
 
 fn points(strategy: Strategy, dims: usize, n: usize, seed: Option<u64>) -> Vec<Vec<f64>> {
@@ -33,7 +35,7 @@ fn plain_points_equal_the_reference_points() {
     let text = fs::read_to_string(path).expect("the reference data");
     let reference: serde_json::Value = serde_json::from_str(&text).expect("valid JSON");
     for (strategy, sets) in
-        [(Strategy::Halton, 6), (Strategy::Sobol, 3), (Strategy::Fibonacci, 1), (Strategy::Hammersley, 1)]
+        [(Strategy::HALTON, 6), (Strategy::SOBOL, 3), (Strategy::FIBONACCI, 1), (Strategy::HAMMERSLEY, 1)]
     {
         let prefix = format!("{strategy}_");
         let named = |set: &&serde_json::Value| set["name"].as_str().is_some_and(|name| name.starts_with(&prefix));
@@ -76,20 +78,20 @@ fn kronecker_equals_the_points_of_its_author() {
     // z = (0.5 + g^-(j+1) i) % 1 from i = 1, as published.
     let expected =
         [[0.254_877_666_246_692_7, 0.069_840_290_998_053_2], [0.009_755_332_493_385_5, 0.639_680_581_996_106_4]];
-    let ours = points_from(Strategy::Kronecker, 2, 2, None, Some(1));
+    let ours = points_from(Strategy::KRONECKER, 2, 2, None, Some(1));
     for (ours, expected) in ours.iter().flatten().zip(expected.as_flattened()) {
         assert!((ours - expected).abs() < 1e-14, "{ours} is not {expected}");
     }
-    assert_eq!(points(Strategy::Kronecker, 7, 1, None), [[0.5; 7]]);
+    assert_eq!(points(Strategy::KRONECKER, 7, 1, None), [[0.5; 7]]);
 }
 
 #[test]
 fn a_power_of_two_of_sobol_points_of_the_plane_is_a_net_however_randomised() {
     for m in 0..=12 {
-        assert_net(&points(Strategy::Sobol, 2, 1 << m, None), "plain");
+        assert_net(&points(Strategy::SOBOL, 2, 1 << m, None), "plain");
         for seed in 0..4 {
-            assert_net(&points(Strategy::Sobol, 2, 1 << m, Some(seed)), "shifted");
-            assert_net(&points(Strategy::SobolOwen, 2, 1 << m, Some(seed)), "scrambled");
+            assert_net(&points(Strategy::SOBOL, 2, 1 << m, Some(seed)), "shifted");
+            assert_net(&points(Strategy::SOBOL_OWEN, 2, 1 << m, Some(seed)), "scrambled");
         }
     }
 }
@@ -97,7 +99,7 @@ fn a_power_of_two_of_sobol_points_of_the_plane_is_a_net_however_randomised() {
 #[test]
 fn later_stretches_of_sobol_points_are_nets_too() {
     for start in [3 << 8, 1 << 30, (1 << 53) - (1 << 8)] {
-        for strategy in [Strategy::Sobol, Strategy::SobolOwen] {
+        for strategy in [Strategy::SOBOL, Strategy::SOBOL_OWEN] {
             assert_net(&points_from(strategy, 2, 1 << 8, Some(1), Some(start)), strategy.name());
         }
     }
@@ -107,9 +109,9 @@ fn later_stretches_of_sobol_points_are_nets_too() {
 fn each_of_a_thousand_sobol_coordinates_is_stratified() {
     let n = 1 << 10;
     let sets = [
-        points(Strategy::Sobol, 1000, n, None),
-        points(Strategy::Sobol, 1000, n, Some(9)),
-        points(Strategy::SobolOwen, 1000, n, None),
+        points(Strategy::SOBOL, 1000, n, None),
+        points(Strategy::SOBOL, 1000, n, Some(9)),
+        points(Strategy::SOBOL_OWEN, 1000, n, None),
     ];
     for set in &sets {
         for axis in 0..1000 {
@@ -126,7 +128,7 @@ fn each_of_a_thousand_sobol_coordinates_is_stratified() {
 
 #[test]
 fn sobol_reaches_its_last_dimension() {
-    let set = points(Strategy::Sobol, 21_201, 3, None);
+    let set = points(Strategy::SOBOL, 21_201, 3, None);
     assert_eq!(set, [vec![0.0; 21_201], vec![0.5; 21_201], [vec![0.75], set[2][1..].to_vec()].concat()]);
     assert!(set[2].iter().all(|u| [0.25, 0.75].contains(u)));
 }
@@ -137,7 +139,7 @@ fn any_stretch_of_scrambled_halton_fills_the_intervals_of_every_base() {
         for power in 1..=3 {
             let n = base.pow(power);
             for (seed, start) in [(0, 0), (1, 17), (2, 1 << 40), (3, (1 << 53) - n as u64)] {
-                let set = points_from(Strategy::HaltonScrambled, 6, n, Some(seed), Some(start));
+                let set = points_from(Strategy::HALTON_SCRAMBLED, 6, n, Some(seed), Some(start));
                 let cells: BTreeSet<usize> = set.iter().map(|point| (point[axis] * n as f64) as usize).collect();
                 assert_eq!(cells.len(), n, "base {base}, seed {seed}, from {start}");
             }
@@ -154,15 +156,15 @@ fn scrambling_takes_the_stripes_out_of_halton_s_large_bases() {
         };
         moment(|x, y| x * y) / (moment(|x, _| x * x) * moment(|_, y| y * y)).sqrt()
     };
-    assert!(correlation(&points(Strategy::Halton, 12, 30, None)) > 0.9);
-    let scrambled = (0..40).map(|seed| correlation(&points(Strategy::HaltonScrambled, 12, 30, Some(seed))));
+    assert!(correlation(&points(Strategy::HALTON, 12, 30, None)) > 0.9);
+    let scrambled = (0..40).map(|seed| correlation(&points(Strategy::HALTON_SCRAMBLED, 12, 30, Some(seed))));
     // As of 40 independent correlations, each of standard deviation 1/sqrt(29).
     assert!((scrambled.sum::<f64>() / 40.0).abs() < 5.0 / (29.0 * 40.0_f64).sqrt());
 }
 
 #[test]
 fn every_randomised_coordinate_is_uniform_over_the_seeds() {
-    let randomised = [Strategy::HaltonShifted, Strategy::HaltonScrambled, Strategy::Sobol, Strategy::SobolOwen];
+    let randomised = [Strategy::HALTON, Strategy::HALTON_SCRAMBLED, Strategy::SOBOL, Strategy::SOBOL_OWEN];
     for strategy in randomised {
         let seeds = 2000;
         let mut cells = [[0_u32; 10]; 3];
@@ -179,14 +181,14 @@ fn every_randomised_coordinate_is_uniform_over_the_seeds() {
 #[test]
 fn fibonacci_is_about_as_even_between_fibonacci_numbers() {
     let n_dispersion = |n: usize| {
-        let set = PointSet::new(2, points(Strategy::Fibonacci, 2, n, None)).expect("points of the cube");
+        let set = PointSet::new(2, points(Strategy::FIBONACCI, 2, n, None)).expect("points of the cube");
         n as f64 * dispersion(&set, Deadline::never()).volume.upper
     };
     let classical = [34, 55, 89, 144].map(n_dispersion).into_iter().fold(0.0, f64::max);
     let between = (34..144).map(n_dispersion).fold(0.0, f64::max);
     assert!(between < 1.2 * classical, "{between} against {classical}");
     let halton = |n| {
-        let set = PointSet::new(2, points(Strategy::Halton, 2, n, None)).expect("points of the cube");
+        let set = PointSet::new(2, points(Strategy::HALTON, 2, n, None)).expect("points of the cube");
         n as f64 * dispersion(&set, Deadline::never()).volume.upper
     };
     assert!(between < halton(144), "{between} against {}", halton(144));

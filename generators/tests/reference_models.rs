@@ -4,8 +4,8 @@
 //! the folder `$PARACOSM_REFERENCE`; where there is no such file they are skipped, and the tests say so.
 
 use paracosm_coverage::Deadline;
-use paracosm_coverage::rules::{Clause, Literal, Rules};
 use paracosm_generators::covering::{CoveringRequest, covering_array, optimise};
+use paracosm_space::rules::{Clause, Literal, Rules};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::time::Duration;

@@ -1,18 +1,19 @@
 //! Tests that are spread over the rows where holes are largest, against equal shares of contiguous blocks.
 
 use paracosm_coverage::dispersion::dispersion;
-use paracosm_coverage::{Deadline, Point, PointSet, Space};
+use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::{Aim, DiscreteFamily, Request, Strategy};
+use paracosm_space::{Point, Space};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 const STRATEGIES: [Strategy; 6] = [
-    Strategy::Halton,
-    Strategy::HaltonScrambled,
-    Strategy::Sobol,
-    Strategy::Kronecker,
-    Strategy::Random,
-    Strategy::Greedy,
+    Strategy::HALTON,
+    Strategy::HALTON_SCRAMBLED,
+    Strategy::SOBOL,
+    Strategy::KRONECKER,
+    Strategy::RANDOM,
+    Strategy::GREEDY,
 ];
 
 /// A space of that many continuous parameters and discrete ones with these many levels.
@@ -53,7 +54,7 @@ proptest! {
     ) {
         let space = mixed(dims, &levels);
         // Greedy has rows only where it is to make each of them good.
-        let aim = (strategy == Strategy::Greedy).then_some(Aim::Dispersion);
+        let aim = (strategy == Strategy::GREEDY).then_some(Aim::Dispersion);
         let equal = Request { seed, discrete, aim, ..Request::new(&space, budget) };
         let spread = Request { epsilon: Some(1e-9), ..equal };
         let (dealt, spread) = (tests(strategy, &equal), tests(strategy, &spread));
@@ -81,7 +82,7 @@ proptest! {
 fn three_rows_that_were_once_worse_than_dealt_are_better() {
     let space = mixed(2, &[3]);
     for (budget, dealt) in [(3, 8.0 / 9.0), (45, 7.0 / 36.0)] {
-        let tests = tests(Strategy::Halton, &Request { epsilon: Some(1e-9), ..Request::new(&space, budget) });
+        let tests = tests(Strategy::HALTON, &Request { epsilon: Some(1e-9), ..Request::new(&space, budget) });
         let worst = worst_row(2, &tests);
         assert!(worst < dealt, "{budget}: {worst}");
     }
@@ -90,7 +91,7 @@ fn three_rows_that_were_once_worse_than_dealt_are_better() {
 #[test]
 fn stopped_early_the_tests_have_looked_at_every_row_and_at_the_worst_first() {
     let space = mixed(2, &[3, 2]);
-    let tests = tests(Strategy::Halton, &Request { epsilon: Some(1e-9), ..Request::new(&space, 120) });
+    let tests = tests(Strategy::HALTON, &Request { epsilon: Some(1e-9), ..Request::new(&space, 120) });
     let rows = |tests: &[Point]| tests.iter().map(|test| test.discrete.clone()).collect::<BTreeSet<_>>().len();
     assert_eq!(rows(&tests[..6]), 6);
     for stop in [12, 30, 60] {
@@ -102,10 +103,10 @@ fn stopped_early_the_tests_have_looked_at_every_row_and_at_the_worst_first() {
 fn a_budget_that_epsilon_does_not_need_is_left() {
     let space = mixed(2, &[3, 2]);
     let request = Request { epsilon: Some(0.2), ..Request::new(&space, usize::MAX) };
-    let enough = tests(Strategy::Halton, &request);
+    let enough = tests(Strategy::HALTON, &request);
     assert!(worst_row(2, &enough) <= 0.2);
     let most = Request { budget: enough.len() + 100, ..request };
-    let under_a_budget = tests(Strategy::Halton, &most);
+    let under_a_budget = tests(Strategy::HALTON, &most);
     assert!(under_a_budget.len() < most.budget, "{}", under_a_budget.len());
     assert!(worst_row(2, &under_a_budget) <= 0.2);
 }
@@ -124,7 +125,7 @@ fn every_row_gets_as_many_points_as_it_takes_and_no_more() {
 #[test]
 fn points_that_are_there_count() {
     let space = mixed(2, &[3, 2, 2]);
-    for strategy in [Strategy::Greedy, Strategy::Halton] {
+    for strategy in [Strategy::GREEDY, Strategy::HALTON] {
         let request = Request { epsilon: Some(0.1), ..Request::new(&space, usize::MAX) };
         let all = tests(strategy, &request);
         let existing = &all[..all.len() - 5];
@@ -141,7 +142,7 @@ fn where_a_sequence_ends_the_tests_do() {
     let space = mixed(1, &[2]);
     let last = (1 << 53) - 1;
     let request = Request { epsilon: Some(0.1), skip: Some(last), ..Request::new(&space, usize::MAX) };
-    assert!(tests(Strategy::Sobol, &request).len() <= 2);
-    let refused = Strategy::Sobol.build(&Request { skip: Some(last + 1), ..request }).err();
+    assert!(tests(Strategy::SOBOL, &request).len() <= 2);
+    let refused = Strategy::SOBOL.build(&Request { skip: Some(last + 1), ..request }).err();
     assert!(matches!(refused, Some(paracosm_generators::GeneratorError::IndexLimit { .. })), "{refused:?}");
 }

@@ -1,6 +1,6 @@
 //! Comparisons with their signals found in the rows of a trace.
 
-use crate::expression::Arithmetic;
+use crate::Arithmetic;
 use crate::worth::Worth;
 use crate::{Comparison, EvaluationError, Expression, Formula};
 

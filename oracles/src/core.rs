@@ -7,7 +7,7 @@
 //! parts share their operands, and so the nodes form an acyclic graph, operands first.
 
 use crate::atom::Atom;
-use crate::interval::FOREVER;
+use crate::ticks::FOREVER;
 use crate::worth::Worth;
 use crate::{Connective, EvaluationError, Formula, Modality, Sequence};
 
@@ -26,7 +26,7 @@ pub(crate) struct Sight {
 }
 
 #[derive(Debug, Clone)]
-pub(crate) enum Kind {
+pub(crate) enum CoreKind {
     Atom(Atom),
     /// The greater of the two.
     Or(Id, Id),
@@ -46,7 +46,7 @@ pub(crate) enum Kind {
 
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
-    pub kind: Kind,
+    pub kind: CoreKind,
     /// Operands and result are negated.
     pub dual: bool,
 }
@@ -54,10 +54,10 @@ pub(crate) struct Node {
 impl Node {
     pub fn operands(&self) -> impl Iterator<Item = Id> + use<> {
         let operands = match self.kind {
-            Kind::Atom(_) => [None, None],
-            Kind::Or(left, right) => [Some(left), Some(right)],
-            Kind::Any { operand, .. } => [Some(operand), None],
-            Kind::Until { hold, goal, .. } => [Some(hold), Some(goal)],
+            CoreKind::Atom(_) => [None, None],
+            CoreKind::Or(left, right) => [Some(left), Some(right)],
+            CoreKind::Any { operand, .. } => [Some(operand), None],
+            CoreKind::Until { hold, goal, .. } => [Some(hold), Some(goal)],
         };
         operands.into_iter().flatten()
     }
@@ -112,7 +112,7 @@ impl Core {
         for (id, node) in self.nodes.iter().enumerate().rev() {
             let own = needed[id];
             let ahead = match node.kind {
-                Kind::Any { sight, .. } | Kind::Until { sight, .. } if !sight.past => sight.end,
+                CoreKind::Any { sight, .. } | CoreKind::Until { sight, .. } if !sight.past => sight.end,
                 _ => 0,
             };
             for operand in node.operands() {
@@ -131,7 +131,7 @@ struct Builder<'s, 'f> {
 }
 
 impl<'f> Builder<'_, 'f> {
-    fn push(&mut self, part: &'f Formula, kind: Kind, dual: bool) -> Id {
+    fn push(&mut self, part: &'f Formula, kind: CoreKind, dual: bool) -> Id {
         self.nodes.push(Node { kind, dual });
         self.parts.push(part);
         self.nodes.len() - 1
@@ -141,14 +141,14 @@ impl<'f> Builder<'_, 'f> {
         match formula {
             Formula::Constant(_) | Formula::Flag(_) | Formula::Compare(..) => {
                 let atom = Atom::resolve(formula, negated, self.signals)?;
-                Ok(self.push(formula, Kind::Atom(atom), false))
+                Ok(self.push(formula, CoreKind::Atom(atom), false))
             }
             Formula::Not(inner) => self.add(inner, !negated),
             Formula::Join(connective, left, right) => {
                 let left = self.add(left, negated ^ (*connective == Connective::Implies))?;
                 let right = self.add(right, negated)?;
                 let dual = negated ^ (*connective == Connective::And);
-                Ok(self.push(formula, Kind::Or(left, right), dual))
+                Ok(self.push(formula, CoreKind::Or(left, right), dual))
             }
             Formula::Modal(modality, interval, inner) => {
                 let (start, end) = interval.ticks(self.dt)?;
@@ -156,7 +156,7 @@ impl<'f> Builder<'_, 'f> {
                 let dual = negated ^ matches!(modality, Modality::Always | Modality::Historically);
                 let past = matches!(modality, Modality::Historically | Modality::Once);
                 let sight = Sight { past, end: end.unwrap_or(FOREVER), endless: end.is_none() };
-                Ok(self.push(formula, Kind::Any { operand, start, sight }, dual))
+                Ok(self.push(formula, CoreKind::Any { operand, start, sight }, dual))
             }
             Formula::Sequence(sequence, interval, hold, goal) => {
                 let (start, end) = interval.ticks(self.dt)?;
@@ -166,14 +166,14 @@ impl<'f> Builder<'_, 'f> {
                 let past = *sequence == Sequence::Since;
                 let sight = |end| Sight { past, end, endless: interval.end.is_infinite() };
                 let length = end.map_or(FOREVER, |end| end - start);
-                let until = self.push(formula, Kind::Until { hold, goal, sight: sight(length) }, dual);
+                let until = self.push(formula, CoreKind::Until { hold, goal, sight: sight(length) }, dual);
                 if start == 0 {
                     return Ok(until);
                 }
-                let before = Kind::Any { operand: hold, start: 0, sight: sight(start - 1) };
+                let before = CoreKind::Any { operand: hold, start: 0, sight: sight(start - 1) };
                 let before = self.push(formula, before, !dual);
-                let then = self.push(formula, Kind::Any { operand: until, start, sight: sight(start) }, dual);
-                Ok(self.push(formula, Kind::Or(before, then), !dual))
+                let then = self.push(formula, CoreKind::Any { operand: until, start, sight: sight(start) }, dual);
+                Ok(self.push(formula, CoreKind::Or(before, then), !dual))
             }
         }
     }

@@ -37,8 +37,11 @@ pub enum EvaluationError {
     },
     /// An expression that is not piecewise linear where its signals are, or a truth that has no distance to the other:
     /// neither can be followed between samples.
-    #[error("`{0}` is no piecewise linear function of its signals, as dense time asks for")]
-    NotLinear(String),
+    #[error("`{formula}` is no piecewise linear function of its signals, as dense time asks for")]
+    NotLinear {
+        /// The part of the formula.
+        formula: String,
+    },
     /// Bounds that are no interval; only formulas built in Rust can have them.
     #[error("the time bounds [{},{}] are no interval, expected 0 <= start <= end in seconds", .0.start, .0.end)]
     Interval(Interval),
@@ -53,7 +56,9 @@ impl EvaluationError {
                 nearest.as_ref().is_some_and(|nearest| is_slip(name, nearest))
             }
             EvaluationError::NoValue { .. } => false,
-            EvaluationError::TimeBound { .. } | EvaluationError::NotLinear(_) | EvaluationError::Interval(_) => true,
+            EvaluationError::TimeBound { .. } | EvaluationError::NotLinear { .. } | EvaluationError::Interval(_) => {
+                true
+            }
         }
     }
 

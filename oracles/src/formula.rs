@@ -13,7 +13,11 @@
 //! assert_eq!(built.to_string(), "always (near -> eventually[0,5] (speed < 0.1))");
 //! ```
 
-use crate::{Comparison, Expression, Interval};
+mod expression;
+
+pub use expression::{Arithmetic, Expression, signal};
+
+use crate::{Comparison, Interval};
 use std::ops::Not;
 
 /// How two formulas are joined at one instant.

@@ -5,7 +5,7 @@
 //! the last ticks of a column only, as far as the operators look ahead; for these the worst and the best that could
 //! have followed are worked out beside what was recorded.
 
-use crate::core::{Beyond, Core, Kind, Node, Sight};
+use crate::core::{Beyond, Core, CoreKind, Node, Sight};
 use crate::fold::{Clamp, Fold, windows};
 use crate::worth::Worth;
 use crate::{EvaluationError, Trace};
@@ -58,15 +58,15 @@ pub(crate) fn columns(core: &Core, trace: &Trace, kept: bool) -> Result<Vec<Colu
             if users[id] == 0 { std::mem::take(&mut columns[id]) } else { columns[id].clone() }
         };
         let column = match &node.kind {
-            Kind::Atom(atom) => Column::settled(atom.column(trace.rows().take(ticks), trace.dt())?),
-            Kind::Or(left, right) => or([operand(*left), operand(*right)], ticks, node.dual),
-            Kind::Any { operand: id, start, sight } => {
+            CoreKind::Atom(atom) => Column::settled(atom.column(trace.rows().take(ticks), trace.dt())?),
+            CoreKind::Or(left, right) => or([operand(*left), operand(*right)], ticks, node.dual),
+            CoreKind::Any { operand: id, start, sight } => {
                 let scope = Scope { node, sight: *sight, complete: trace.is_complete(), ticks };
                 scope.temporal([operand(*id)], |[column], ticks, outside| {
                     any(column, ticks, *start, *sight, node.dual, outside)
                 })
             }
-            Kind::Until { hold, goal, sight } => {
+            CoreKind::Until { hold, goal, sight } => {
                 let scope = Scope { node, sight: *sight, complete: trace.is_complete(), ticks };
                 scope.temporal([operand(*hold), operand(*goal)], |[hold, goal], ticks, outside| {
                     until(hold, goal, ticks, *sight, node.dual, outside)

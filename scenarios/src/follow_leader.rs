@@ -8,11 +8,8 @@ use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::Body;
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario, Shape};
 
-pub(crate) const PROGRAM: Program = Program {
-    name: "follow-leader",
-    about: "the car follows a leader whose speed varies over the run",
-    build: follow_leader,
-};
+pub(crate) const PROGRAM: Program =
+    Program::new("follow-leader", "the car follows a leader whose speed varies over the run", follow_leader);
 
 fn follow_leader(s: &mut Scenario) {
     let leader_speed =

@@ -2,14 +2,14 @@
 //! drives along a long way through it; it has to cope with junctions at which others may have the right of way.
 
 use crate::surroundings::{later_weather, roadside};
-use paracosm_engine::road::{Network, grid_city};
+use paracosm_engine::road::{RoadNetwork, grid_city};
 use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program =
-    Program { name: "grid-traffic", about: "a way through a city with a hundred cars", build: grid_traffic };
+    Program::new("grid-traffic", "a way through a city with a hundred cars", grid_traffic);
 
-static CITY: LazyLock<Arc<Network>> =
+static CITY: LazyLock<Arc<RoadNetwork>> =
     LazyLock::new(|| grid_city(6, 6, 80.0, 2).build().expect("the streets meet at the junctions"));
 
 fn grid_traffic(s: &mut Scenario) {

@@ -6,22 +6,19 @@
 
 use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::Colour;
-use paracosm_engine::road::{CrossIntersection, Network, RoadSegment};
+use paracosm_engine::road::{CrossIntersection, RoadNetwork, RoadSegment};
 use paracosm_engine::traffic::TrafficCar;
 use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario, Stream};
 use std::sync::{Arc, LazyLock};
 
-pub(crate) const PROGRAM: Program = Program {
-    name: "highway-traffic",
-    about: "six lanes of traffic, and a truck that crosses them",
-    build: highway_traffic,
-};
+pub(crate) const PROGRAM: Program =
+    Program::new("highway-traffic", "six lanes of traffic, and a truck that crosses them", highway_traffic);
 
 const WHITE: Colour = [245, 245, 245];
 /// The roads with traffic, and the cars on each of their lanes: 40 m apart.
 const TRAFFIC: [(&str, i32); 2] = [("west", 6), ("east", 3)];
 
-static ROADS: LazyLock<Arc<Network>> = LazyLock::new(|| {
+static ROADS: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| {
     let arm = |name: &str, length: f64| RoadSegment::new(length).lanes(6).named(name);
     CrossIntersection::new()
         .lanes(6)

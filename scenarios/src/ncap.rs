@@ -14,23 +14,16 @@ use paracosm_engine::{
     AutonomousVehicle, Car, Fixture, Monitor, Mover, Param, Pose, Program, Road, RoadSegment, Scenario, Stream,
 };
 
-pub(crate) const CPNA: Program = Program {
-    name: "ncap-cpna",
-    about: "an adult walks from the near side (Euro NCAP CPNA-25 and CPNA-75)",
-    build: cpna,
-};
-pub(crate) const CPFA: Program =
-    Program { name: "ncap-cpfa", about: "an adult runs from the far side (Euro NCAP CPFA-50)", build: cpfa };
-pub(crate) const CPNCO: Program = Program {
-    name: "ncap-cpnco",
-    about: "a child runs from behind parked cars at the near side (Euro NCAP CPNCO-50)",
-    build: cpnco,
-};
-pub(crate) const CCR: Program = Program {
-    name: "ncap-ccr",
-    about: "the car comes upon a car that stands, drives slowly or brakes (Euro NCAP CCRs, CCRm, CCRb)",
-    build: ccr,
-};
+pub(crate) const CPNA: Program =
+    Program::new("ncap-cpna", "an adult walks from the near side (Euro NCAP CPNA-25 and CPNA-75)", cpna);
+pub(crate) const CPFA: Program = Program::new("ncap-cpfa", "an adult runs from the far side (Euro NCAP CPFA-50)", cpfa);
+pub(crate) const CPNCO: Program =
+    Program::new("ncap-cpnco", "a child runs from behind parked cars at the near side (Euro NCAP CPNCO-50)", cpnco);
+pub(crate) const CCR: Program = Program::new(
+    "ncap-ccr",
+    "the car comes upon a car that stands, drives slowly or brakes (Euro NCAP CCRs, CCRm, CCRb)",
+    ccr,
+);
 
 /// Seconds from the beginning to the impact.
 const TIME: f64 = 6.0;

@@ -5,11 +5,11 @@ use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::{Body, Colour};
 use paracosm_engine::{AutonomousVehicle, Monitor, Mover, Program, RoadSegment, Scenario};
 
-pub(crate) const PROGRAM: Program = Program {
-    name: "oncoming-distractor",
-    about: "the car follows a leader while another car comes the other way",
-    build: oncoming_distractor,
-};
+pub(crate) const PROGRAM: Program = Program::new(
+    "oncoming-distractor",
+    "the car follows a leader while another car comes the other way",
+    oncoming_distractor,
+);
 
 /// The colour of leaders.
 pub(crate) const RED: Colour = [190, 25, 30];

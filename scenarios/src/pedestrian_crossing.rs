@@ -11,11 +11,11 @@
 use crate::surroundings::{roadside, weather};
 use paracosm_engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never};
 
-pub(crate) const PROGRAM: Program = Program {
-    name: "pedestrian-crossing",
-    about: "a pedestrian crosses the road when the car is nearer than a distance",
-    build: pedestrian_crossing,
-};
+pub(crate) const PROGRAM: Program = Program::new(
+    "pedestrian-crossing",
+    "a pedestrian crosses the road when the car is nearer than a distance",
+    pedestrian_crossing,
+);
 
 fn pedestrian_crossing(s: &mut Scenario) {
     let speed = s.interval("speed", 0.5..=10.0).unit("m/s").default(1.4);

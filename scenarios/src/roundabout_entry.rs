@@ -4,18 +4,15 @@
 //! by how many seconds it would be there before the car if neither changed its speed; it slows down only for who is in its way.
 
 use crate::surroundings::{later_weather, roadside};
-use paracosm_engine::road::{Network, RoadSegment, Roundabout};
+use paracosm_engine::road::{RoadNetwork, RoadSegment, Roundabout};
 use paracosm_engine::traffic::TrafficCar;
 use paracosm_engine::{AutonomousVehicle, EnvironmentCars, Monitor, Program, Scenario};
 use std::sync::{Arc, LazyLock};
 
-pub(crate) const PROGRAM: Program = Program {
-    name: "roundabout-entry",
-    about: "the car enters a roundabout in which another car is",
-    build: roundabout_entry,
-};
+pub(crate) const PROGRAM: Program =
+    Program::new("roundabout-entry", "the car enters a roundabout in which another car is", roundabout_entry);
 
-static ROUNDABOUT: LazyLock<Arc<Network>> = LazyLock::new(|| {
+static ROUNDABOUT: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| {
     let arm = |name: &str| RoadSegment::new(120.0).named(name);
     Roundabout::new()
         .named("circus")

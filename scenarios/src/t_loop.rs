@@ -4,19 +4,19 @@
 //! road runs into the houses around it. The run takes 200 s, some twenty turns.
 
 use crate::surroundings::{roadside, weather};
-use paracosm_engine::road::{Composite, Network, Path, RoadSegment, TIntersection};
+use paracosm_engine::road::{Composite, Path, RoadNetwork, RoadSegment, TIntersection};
 use paracosm_engine::{AutonomousVehicle, Fixture, Monitor, Pose, Program, Scenario, Side};
 use std::sync::{Arc, LazyLock};
 
 pub(crate) const PROGRAM: Program =
-    Program { name: "t-loop", about: "a loop of T-intersections, turning right at each of them", build: t_loop };
+    Program::new("t-loop", "a loop of T-intersections, turning right at each of them", t_loop);
 
 /// The length of a side between two intersections, in metres.
 const SIDE: f64 = 60.0;
 /// How often the car goes round at most in 200 s.
 const LAPS: usize = 10;
 
-static LOOP: LazyLock<Arc<Network>> = LazyLock::new(|| {
+static LOOP: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| {
     let side = |i: usize| RoadSegment::new(SIDE).named(format!("side {i}"));
     let tee = |i: usize| TIntersection::new().named(format!("tee {i}"));
     let mut all = Composite::from(tee(1));

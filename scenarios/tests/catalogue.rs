@@ -1,13 +1,13 @@
 //! Every scenario of the catalogue: that it can be run, is the same whenever it is run, and is what its documentation says.
 
-use paracosm_coverage::{Domain, Value, Values};
 use paracosm_engine::object::{BodyState, Class};
-use paracosm_engine::vehicle::{Model, Vehicle};
-use paracosm_engine::{Metric, Outcome, Program, Run, Setup, Step, driver, simulate, watch};
+use paracosm_engine::vehicle::{Vehicle, VehicleModel};
+use paracosm_engine::{Face, Outcome, Program, Run, Setup, Step, driver, simulate, watch};
 use paracosm_oracles::Verdict;
 use paracosm_scenarios::{ALL, find};
+use paracosm_space::{Domain, Value, Values};
 
-fn run(program: &Program, test: &Values, model: Model, driver: &str) -> Outcome {
+fn run(program: &Program, test: &Values, model: VehicleModel, driver: &str) -> Outcome {
     let mut driver = driver::find(driver).unwrap().build(&[]).unwrap();
     simulate(program, test, model, driver.as_mut())
 }
@@ -22,7 +22,7 @@ fn nominal(program: &Program, changes: &[(&str, Value)]) -> Values {
 
 /// The samples of a signal.
 fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.error));
+    let trace = outcome.trace.as_ref().unwrap_or_else(|| panic!("there is no trace: {:?}", outcome.ending.message()));
     trace.signal(name).unwrap_or_else(|| panic!("no `{name}` in {:?}", trace.signals())).collect()
 }
 
@@ -30,11 +30,11 @@ fn signal(outcome: &Outcome, name: &str) -> Vec<f64> {
 fn every_scenario_runs_with_every_driver() {
     for program in ALL {
         // Nothing is drawn here for those that see.
-        let blind = |kind: &&driver::Kind| kind.build(&[]).unwrap().equipment().cameras.all.is_empty();
-        for kind in driver::ALL.into_iter().filter(blind) {
-            let outcome = run(program, &nominal(program, &[]), Model::SingleTrack, kind.name);
-            assert_eq!(outcome.error, None, "{} with {}", program.name, kind.name);
-            assert!(!matches!(outcome.verdict, Verdict::Error | Verdict::Invalid));
+        let blind = |kind: &&driver::Descriptor| kind.build(&[]).unwrap().equipment().cameras.all.is_empty();
+        for kind in driver::ALL.iter().copied().filter(blind) {
+            let outcome = run(program, &nominal(program, &[]), VehicleModel::SingleTrack, kind.name);
+            assert_eq!(outcome.ending.message(), None, "{} with {}", program.name(), kind.name);
+            assert!(!matches!(outcome.verdict(), Verdict::Error | Verdict::Invalid));
         }
     }
 }
@@ -42,8 +42,8 @@ fn every_scenario_runs_with_every_driver() {
 #[test]
 fn every_scenario_runs_with_a_jointed_car() {
     for program in ALL {
-        let outcome = run(program, &nominal(program, &[]), Model::Jointed, "aeb");
-        assert_eq!(outcome.error, None, "{}", program.name);
+        let outcome = run(program, &nominal(program, &[]), VehicleModel::Jointed, "aeb");
+        assert_eq!(outcome.ending.message(), None, "{}", program.name());
     }
 }
 
@@ -68,20 +68,20 @@ fn the_same_test_has_the_same_trace_in_every_run_and_on_every_thread() {
     for program in ALL {
         let count = if program.declare().unwrap().duration > 50.0 { 4 } else { 20 };
         let values = diagonal(program, count);
-        let hash = |test: &Values| run(program, test, Model::SingleTrack, "aeb").trace.map(|trace| trace.hash());
+        let hash = |test: &Values| run(program, test, VehicleModel::SingleTrack, "aeb").trace.map(|trace| trace.hash());
         let alone: Vec<_> = values.iter().map(hash).collect();
         let again: Vec<_> = std::thread::scope(|scope| {
             let threads: Vec<_> = values.iter().map(|test| scope.spawn(move || hash(test))).collect();
             threads.into_iter().map(|thread| thread.join().unwrap()).collect()
         });
-        assert_eq!(alone, again, "{}", program.name);
+        assert_eq!(alone, again, "{}", program.name());
         tests += alone.iter().flatten().count();
     }
     assert!(tests > 200, "{tests} tests have a trace");
 }
 
 /// Goes through runs in turns, a question to a driver at a time, as a batch would: the hash of each.
-fn in_turns(program: &Program, tests: &[Values], model: Model) -> Vec<Option<String>> {
+fn in_turns(program: &Program, tests: &[Values], model: VehicleModel) -> Vec<Option<String>> {
     let kind = driver::find("aeb").unwrap();
     let mut drivers: Vec<_> = tests.iter().map(|_| kind.build(&[]).unwrap()).collect();
     let setup = Setup { model, ..Setup::asking_every(drivers[0].period()) };
@@ -110,11 +110,11 @@ fn in_turns(program: &Program, tests: &[Values], model: Model) -> Vec<Option<Str
 
 #[test]
 fn runs_that_go_on_in_turns_are_those_that_go_on_alone() {
-    for program in ALL.into_iter().filter(|program| program.declare().unwrap().duration < 50.0) {
-        for model in Model::ALL {
+    for program in ALL.iter().filter(|program| program.declare().unwrap().duration < 50.0) {
+        for model in VehicleModel::ALL {
             let tests = diagonal(program, 4);
             let alone = tests.iter().map(|test| run(program, test, model, "aeb").trace.map(|trace| trace.hash()));
-            assert_eq!(in_turns(program, &tests, model), alone.collect::<Vec<_>>(), "{} {model}", program.name);
+            assert_eq!(in_turns(program, &tests, model), alone.collect::<Vec<_>>(), "{} {model}", program.name());
         }
     }
 }
@@ -128,7 +128,7 @@ fn a_car_that_does_not_brake_comes_upon_the_other_after_six_seconds_with_the_ove
             ("overlap", Value::Number(f64::from(overlap))),
             ("target", Value::Word(target.to_owned())),
         ];
-        let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+        let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
         let time = outcome.trace.as_ref().unwrap().len() as f64 * 0.01;
         assert!((time - 6.0).abs() < 0.05, "{target} at {speed} km/h: {time} s");
         let last = |name: &str| *signal(&outcome, name).last().unwrap();
@@ -138,15 +138,15 @@ fn a_car_that_does_not_brake_comes_upon_the_other_after_six_seconds_with_the_ove
         assert!(overlap == 100 || aside.signum() == f64::from(overlap).signum());
     }
     let changes = [("ego_speed", Value::Number(15.0)), ("target", Value::Word("moving".to_owned()))];
-    let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
-    assert_eq!(outcome.verdict, Verdict::Invalid);
+    let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
+    assert_eq!(outcome.verdict(), Verdict::Invalid);
 }
 
 #[test]
 fn the_leader_of_a_cut_out_leaves_its_lane_at_the_gap_before_the_car_that_stands() {
     let program = find("cut-out").unwrap();
     let test = nominal(program, &[("gap", Value::Number(25.0)), ("ego_speed", Value::Number(36.0))]);
-    let outcome = run(program, &test, Model::SingleTrack, "cruise");
+    let outcome = run(program, &test, VehicleModel::SingleTrack, "cruise");
     let (x, y) = (signal(&outcome, "leader.x"), signal(&outcome, "leader.y"));
     let leaves = y.iter().position(|y| (y - y_of_lane_2()).abs() > 1e-9).expect("it leaves");
     // 10 m + 2 s at 10 m/s + the halves of two cars is where it begins, and it drives 3 s straight on.
@@ -179,12 +179,12 @@ fn a_car_that_does_not_brake_takes_the_pedestrian_where_the_protocol_says_to_a_c
         for speed in (10..=60).step_by(5) {
             let mut changes = vec![("ego_speed", Value::Number(f64::from(speed)))];
             changes.extend(choice.map(|impact| ("impact", Value::Number(f64::from(impact)))));
-            let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
-            assert_eq!(outcome.verdict, Verdict::Fail, "{scenario} at {speed} km/h");
+            let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
+            assert_eq!(outcome.verdict(), Verdict::Fail, "{scenario} at {speed} km/h");
             let missed = (impact(&outcome, name) - share).abs() * Vehicle::BMW_320I.width;
             assert!(missed < 0.01, "{scenario} at {speed} km/h: {missed} m beside {share}");
-            let face = outcome.metrics.iter().find(|(metric, _)| metric == "contact_face").map(|(_, face)| face);
-            assert_eq!(face, Some(&Metric::Word(Some("front".to_owned()))));
+            let face = outcome.measured.and_then(|measured| measured.contact).map(|contact| contact.face);
+            assert_eq!(face, Some(Face::Front));
             let time = outcome.trace.as_ref().unwrap().len() as f64 * 0.002;
             assert!((time - 6.0).abs() < 0.01, "{scenario} at {speed} km/h: the impact is at {time} s");
         }
@@ -195,7 +195,7 @@ fn a_car_that_does_not_brake_takes_the_pedestrian_where_the_protocol_says_to_a_c
 fn pedestrians_reach_their_speed_over_the_distance_that_the_protocol_says() {
     for (scenario, name, run_up, km_h) in [("ncap-cpna", "adult", 1.0, 5.0), ("ncap-cpfa", "adult", 1.5, 8.0)] {
         let program = find(scenario).unwrap();
-        let outcome = run(program, &nominal(program, &[]), Model::SingleTrack, "cruise");
+        let outcome = run(program, &nominal(program, &[]), VehicleModel::SingleTrack, "cruise");
         let (y, speed) = (signal(&outcome, &format!("{name}.y")), signal(&outcome, &format!("{name}.speed")));
         let walks = speed.iter().position(|speed| *speed > km_h / 3.6 - 1e-6).expect("it reaches its speed");
         let way = (y[walks] - y[0]).abs();
@@ -208,7 +208,7 @@ fn a_cut_in_begins_at_the_gap_from_bumper_to_bumper_and_moves_across_as_fast_as_
     let program = find("cut-in").unwrap();
     let changes = [("gap", 30.0), ("lateral_speed", 1.5), ("ego_speed", 60.0), ("relative_speed", -10.0)];
     let changes = changes.map(|(name, value)| (name, Value::Number(value)));
-    let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
+    let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
     let clearance = signal(&outcome, "car.clearance")[0];
     let beside: f64 = 3.5 - 0.5 * (Vehicle::BMW_320I.width + 1.8);
     assert!((clearance - (beside * beside + 30.0 * 30.0).sqrt()).abs() < 1e-9, "{clearance}");
@@ -220,17 +220,17 @@ fn a_cut_in_begins_at_the_gap_from_bumper_to_bumper_and_moves_across_as_fast_as_
 fn a_world_that_cannot_be_is_invalid() {
     let program = find("cut-in").unwrap();
     let changes = [("ego_speed", 20.0), ("relative_speed", -50.0)].map(|(name, value)| (name, Value::Number(value)));
-    let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
-    assert_eq!(outcome.verdict, Verdict::Invalid);
-    assert!(outcome.error.unwrap().contains("the other car would drive backwards"));
+    let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
+    assert_eq!(outcome.verdict(), Verdict::Invalid);
+    assert!(outcome.ending.message().unwrap().contains("the other car would drive backwards"));
 }
 
 #[test]
 fn the_loop_is_gone_round_on_its_way() {
     let program = find("t-loop").unwrap();
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         let outcome = run(program, &nominal(program, &[]), model, "cruise");
-        assert_eq!(outcome.verdict, Verdict::Pass, "{model}: {:?}", outcome.robustness);
+        assert_eq!(outcome.verdict(), Verdict::Pass, "{model}: {:?}", outcome.judgements);
         let travelled = *signal(&outcome, "car.travelled").last().unwrap();
         assert!(travelled > 1000.0, "{model}: {travelled} m");
     }
@@ -290,7 +290,7 @@ fn in_the_roundabout_the_other_car_keeps_its_speed_where_nobody_is_in_its_way() 
         let test = nominal(program, &[("lead", Value::Number(lead)), ("other_speed", Value::Number(other))]);
         let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
         let mut seen = 0;
-        let _ = watch(program, &test, Model::SingleTrack, driver.as_mut(), |run| {
+        let _ = watch(program, &test, VehicleModel::SingleTrack, driver.as_mut(), |run| {
             let body = run.bodies()[1];
             // Until both would be there, 60 m after 8 m/s.
             if run.time() < 7.5 - lead {
@@ -315,12 +315,12 @@ fn in_the_roundabout_nobody_runs_into_the_car_from_behind() {
         for (speed, other) in [(4.0, 9.0), (6.0, 9.0), (8.0, 9.0), (8.0, 6.0)] {
             let changes = [("lead", lead), ("approach_speed", speed), ("other_speed", other)];
             let changes = changes.map(|(name, value)| (name, Value::Number(value)));
-            let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "cruise");
-            if outcome.verdict == Verdict::Invalid {
+            let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "cruise");
+            if outcome.verdict() == Verdict::Invalid {
                 continue;
             }
-            let face = outcome.metrics.iter().find(|(metric, _)| metric == "contact_face").map(|(_, face)| face);
-            assert_ne!(face, Some(&Metric::Word(Some("rear".to_owned()))), "{changes:?}");
+            let face = outcome.measured.and_then(|measured| measured.contact).map(|contact| contact.face);
+            assert_ne!(face, Some(Face::Rear), "{changes:?}");
             within += 1;
         }
     }
@@ -348,7 +348,7 @@ fn on_the_highway_the_truck_drives_through_nobody() {
         let test = nominal(program, &changes.map(|(name, value)| (name, Value::Number(value))));
         let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
         let mut y = f64::INFINITY;
-        let _ = watch(program, &test, Model::SingleTrack, driver.as_mut(), |run| {
+        let _ = watch(program, &test, VehicleModel::SingleTrack, driver.as_mut(), |run| {
             let (truck, others) = (&run.bodies()[1], &run.bodies()[2..]);
             let through = others.iter().find(|other| other.present && overlap(truck, other));
             assert_eq!(through, None, "after {} s of {changes:?}", run.time());
@@ -364,8 +364,8 @@ fn the_expert_stops_for_who_crosses_at_one_metre_a_second_and_goes_on() {
     let program = find("pedestrian-crossing").unwrap();
     for distance in [5.0, 15.0, 25.0, 30.0, 40.0, 50.0, 60.0] {
         let changes = [("speed", Value::Number(1.0)), ("distance", Value::Number(distance))];
-        let outcome = run(program, &nominal(program, &changes), Model::SingleTrack, "expert");
-        assert_eq!(outcome.verdict, Verdict::Pass, "from {distance} m on");
+        let outcome = run(program, &nominal(program, &changes), VehicleModel::SingleTrack, "expert");
+        assert_eq!(outcome.verdict(), Verdict::Pass, "from {distance} m on");
         let least = signal(&outcome, "car.speed").into_iter().fold(f64::INFINITY, f64::min);
         assert_eq!(least < 0.5, distance > 20.0, "{least} m/s from {distance} m on");
     }

@@ -9,7 +9,7 @@ fn every_scenario_has_its_picture_in_the_catalogue() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let catalogue = std::fs::read_to_string(folder.join("README.md")).unwrap();
     for program in ALL {
-        let name = program.name;
+        let name = program.name();
         let run = Run::new(program, &program.declare().unwrap().nominal(), Setup::asking_every(0.01)).unwrap();
         let svg = picture::world(&run, name).svg();
         let file = folder.join(format!("pictures/{name}.svg"));

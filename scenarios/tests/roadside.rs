@@ -1,22 +1,22 @@
 //! What stands beside the roads: in every scenario, out of everybody's way, and the same in the same test.
 
 use nalgebra::Vector2;
-use paracosm_coverage::{Domain, Value, Values};
 use paracosm_engine::object::{BodyState, Class};
-use paracosm_engine::road::{Network, Strip, Surface};
-use paracosm_engine::vehicle::Model;
+use paracosm_engine::road::{RoadNetwork, Strip, Surface};
+use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
     AutonomousVehicle, Outcome, Place, Program, Road, RoadSegment, Roadside, Run, Scenario, Setup, driver, simulate,
     watch,
 };
 use paracosm_oracles::Trace;
 use paracosm_scenarios::{ALL, find};
+use paracosm_space::{Domain, Value, Values};
 
 /// The test with nominal values, but for these.
 fn test(program: &Program, changes: &[(&str, f64)]) -> Values {
     let mut test = program.declare().unwrap_or_else(|error| panic!("{error}")).nominal();
     for (name, value) in changes {
-        assert!(test.get(name).is_some(), "{} has no `{name}`", program.name);
+        assert!(test.get(name).is_some(), "{} has no `{name}`", program.name());
         test.set(*name, *value);
     }
     test
@@ -44,7 +44,7 @@ fn on(strip: &Strip, point: Vector2<f64>) -> bool {
     local.x.abs() < 1e-6 && (strip.right..=strip.left).contains(&local.y)
 }
 
-fn on_roads(network: &Network, state: &BodyState) -> bool {
+fn on_roads(network: &RoadNetwork, state: &BodyState) -> bool {
     let roads = network.strips();
     let mut roads = roads.iter().filter(|strip| matches!(strip.surface, Surface::Carriageway | Surface::Sidewalk));
     roads.any(|strip| points(state).any(|point| on(strip, point)))
@@ -66,9 +66,9 @@ fn things_stand_beside_the_roads_of_every_scenario_and_never_on_them() {
     for program in ALL {
         let (before, bodies, run) = beginning(program, 1.0);
         let things = &bodies[before..];
-        assert!(things.len() > 20, "{}: {} things", program.name, things.len());
+        assert!(things.len() > 20, "{}: {} things", program.name(), things.len());
         for thing in things {
-            assert!(!on_roads(run.network(), thing), "{}: {thing:?}", program.name);
+            assert!(!on_roads(run.network(), thing), "{}: {thing:?}", program.name());
         }
         let half = beginning(program, 0.5).1.len() - before;
         assert!((things.len() / 4..3 * things.len() / 4).contains(&half), "{half} of {}", things.len());
@@ -89,7 +89,7 @@ fn a_road_without_sidewalks_and_one_that_bends_have_room_for_things() {
         |s| built(s, RoadSegment::arc(40.0, -3.0).lanes(4)),
     ];
     for (number, build) in roads.into_iter().enumerate() {
-        let program = Program { name: "road", about: "a road", build };
+        let program = Program::new("road", "a road", build);
         let run = Run::new(&program, &Values::default(), Setup::asking_every(0.1)).unwrap();
         let things = &run.bodies()[1..];
         assert!(things.len() > 10, "road {number}: {} things", things.len());
@@ -110,12 +110,12 @@ fn all_kinds_of_things_stand_there() {
 
 #[test]
 fn nothing_that_moves_comes_near_what_stands_beside_the_road() {
-    for program in ALL.into_iter().filter(|program| program.name != "grid-traffic") {
+    for program in ALL.iter().filter(|program| program.name() != "grid-traffic") {
         let (before, ..) = beginning(program, 0.0);
         let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
         let test = test(program, &[("roadside", 1.0)]);
         let mut looks = 0;
-        let _ = watch(program, &test, Model::SingleTrack, driver.as_mut(), |run| {
+        let _ = watch(program, &test, VehicleModel::SingleTrack, driver.as_mut(), |run| {
             looks += 1;
             if looks % 10 == 0 {
                 let (own, things) = run.bodies().split_at(before);
@@ -125,11 +125,11 @@ fn nothing_that_moves_comes_near_what_stands_beside_the_road() {
                         (thing.pose.position - moves.pose.position).norm() > reach(thing) + reach(moves)
                     };
                     let touched = things.iter().find(|thing| !far(thing) && overlap(thing, moves));
-                    assert_eq!(touched, None, "{}: {moves:?}", program.name);
+                    assert_eq!(touched, None, "{}: {moves:?}", program.name());
                 }
             }
         });
-        assert!(looks > 50, "{}: {looks} looks", program.name);
+        assert!(looks > 50, "{}: {looks} looks", program.name());
     }
 }
 
@@ -137,7 +137,7 @@ fn nothing_that_moves_comes_near_what_stands_beside_the_road() {
 fn the_same_test_has_the_same_things_and_another_test_has_others() {
     for program in ALL {
         let (before, first, _) = beginning(program, 0.6);
-        assert_eq!(first, beginning(program, 0.6).1, "{}", program.name);
+        assert_eq!(first, beginning(program, 0.6).1, "{}", program.name());
         let declared = program.declare().unwrap().parameters;
         let other = declared.iter().find_map(|declared| match &declared.parameter.domain {
             Domain::Interval { lo, hi } if declared.open => {
@@ -148,13 +148,13 @@ fn the_same_test_has_the_same_things_and_another_test_has_others() {
         let values = test(program, &[("roadside", 0.6), other.expect("an interval is open")]);
         let other = Run::new(program, &values, Setup::asking_every(0.1)).unwrap();
         let places = |bodies: &[BodyState]| bodies[before..].iter().map(|thing| thing.pose).collect::<Vec<_>>();
-        assert_ne!(places(&first), places(other.bodies()), "{}", program.name);
+        assert_ne!(places(&first), places(other.bodies()), "{}", program.name());
     }
 }
 
 fn driven(program: &Program, driver: &str, changes: &[(&str, f64)]) -> Outcome {
     let mut driver = driver::find(driver).unwrap().build(&[]).unwrap();
-    simulate(program, &test(program, changes), Model::SingleTrack, driver.as_mut())
+    simulate(program, &test(program, changes), VehicleModel::SingleTrack, driver.as_mut())
 }
 
 #[test]
@@ -163,8 +163,13 @@ fn for_a_driver_that_does_not_see_by_cameras_the_test_is_the_same() {
         for driver in ["aeb", "expert"] {
             let [bare, full] = [0.0, 1.0].map(|fullness| driven(program, driver, &[("roadside", fullness)]));
             let hash = |outcome: &Outcome| outcome.trace.as_ref().map(Trace::hash);
-            assert!(hash(&bare).is_some(), "{} with {driver}: {:?}", program.name, bare.error);
-            assert_eq!((bare.verdict, hash(&bare)), (full.verdict, hash(&full)), "{} with {driver}", program.name);
+            assert!(hash(&bare).is_some(), "{} with {driver}: {:?}", program.name(), bare.ending.message());
+            assert_eq!(
+                (bare.verdict(), hash(&bare)),
+                (full.verdict(), hash(&full)),
+                "{} with {driver}",
+                program.name()
+            );
         }
     }
 }
@@ -176,7 +181,7 @@ fn who_leaves_the_road_runs_into_what_stands_there() {
     let test = test(program, &[("roadside", 1.0), ("friction", 0.2), ("speed", 12.0)]);
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();
     let mut touched = None;
-    let _ = watch(program, &test, Model::SingleTrack, driver.as_mut(), |run| touched = run.touched());
+    let _ = watch(program, &test, VehicleModel::SingleTrack, driver.as_mut(), |run| touched = run.touched());
     assert!(touched.is_some_and(|body| body >= before), "{touched:?} of {before}");
 }
 

@@ -1,15 +1,15 @@
 //! What every scenario has around it: it can be opened in all of them, may vary over time, and changes nothing where it is
 //! closed.
 
-use paracosm_coverage::{Parameter, Shape, Space, Value, Values};
 use paracosm_engine::{Program, Run, Setup, Step, Test, Weather};
 use paracosm_scenarios::ALL;
+use paracosm_space::{Parameter, Shape, Space, Value, Values};
 
 /// The test with nominal values, but for these.
 fn test(program: &Program, changes: &[(&str, Value)]) -> Values {
     let mut test = program.declare().unwrap_or_else(|error| panic!("{error}")).nominal();
     for (name, value) in changes {
-        assert!(test.get(name).is_some(), "{} has no `{name}`", program.name);
+        assert!(test.get(name).is_some(), "{} has no `{name}`", program.name());
         test.set(*name, value.clone());
     }
     test
@@ -24,7 +24,7 @@ fn parameter(program: &Program, name: &str) -> Parameter {
 fn closed_it_is_broad_daylight_in_every_scenario() {
     for program in ALL {
         let run = Run::new(program, &test(program, &[]), Setup::asking_every(0.1)).unwrap();
-        assert_eq!(run.weather(), Weather::default(), "{}", program.name);
+        assert_eq!(run.weather(), Weather::default(), "{}", program.name());
     }
 }
 
@@ -64,7 +64,7 @@ fn light_fog_rain_and_the_place_of_the_sun_vary_over_time_in_every_scenario() {
             for ((name, from, to), found) in ranges.into_iter().zip(there) {
                 let expected = from + (to - from) * share;
                 let off = (found - expected).abs() / (to - from).abs();
-                assert!(off < 0.01, "{}: {name} is {found} after {} s, not {expected}", program.name, run.time());
+                assert!(off < 0.01, "{}: {name} is {found} after {} s, not {expected}", program.name(), run.time());
             }
             seen += 1;
             if seen == 50 {
@@ -72,6 +72,6 @@ fn light_fog_rain_and_the_place_of_the_sun_vary_over_time_in_every_scenario() {
             }
             run.supply(paracosm_engine::Control::default());
         }
-        assert!(seen > 20, "{}: {seen} looks", program.name);
+        assert!(seen > 20, "{}: {seen} looks", program.name());
     }
 }

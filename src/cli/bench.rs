@@ -1,15 +1,17 @@
 //! `paracosm-fuzz bench`: the study of strategies that find failures, with everything that watches it.
 
-use super::output::{Format, json, plural, shell_word};
+use super::output::{Format, json, plural};
 use super::subject::Subject;
-use super::{Failure, Found, Verbosity, on_interrupt, print};
-use crate::bench::{Bench, ReferenceMap, Row, Rows, Target, USUAL};
-use crate::coverage::{did_you_mean, nearest};
+use super::usage;
+use super::{Failure, Status, Verbosity, on_interrupt, print};
 use crate::generators::Strategy;
 use crate::generators::functions::Function;
-use crate::{Error, scenarios};
+use crate::space::{did_you_mean, nearest};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use paracosm_analysis::bench::{Bench, ReferenceMap, Row, Rows, Target, USUAL};
+use paracosm_campaign::{Error, Study};
+use paracosm_report::shell_word;
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -89,7 +91,7 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         let bench = self.bench(verbosity)?;
         bench.check()?;
         let kept = json!({"folder": self.reference, "tests": self.reference_tests});
@@ -116,18 +118,18 @@ impl Options {
             let (runs, out) = (plural(safe, "run"), self.out.display());
             Failure::from(format!("{error}\n  {runs} are safe in {out}; --resume goes on from there"))
         })?;
-        benched.write(&self.out)?;
+        paracosm_report::bench::write(&benched, &self.out)?;
         for note in &benched.notes {
             verbosity.note(note);
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
         print(&match Format::or_fitting(self.format) {
-            Format::Table => benched.table(),
+            Format::Table => paracosm_report::bench::table(&benched),
             Format::Json => json(&json!({"runs": benched.rows.len(), "baseline": bench.baseline.name(),
                 "budget": bench.budget, "summary": benched.cells, "correlations": benched.correlations,
                 "standings": benched.standings, "notes": benched.notes, "out": self.out})),
         })?;
-        Ok(Found::Nothing)
+        Ok(Status::Nothing)
     }
 
     fn bench(&self, verbosity: Verbosity) -> Result<Bench, Error> {
@@ -137,13 +139,19 @@ impl Options {
             names => names.iter().map(strategy).collect::<Result<_, Error>>()?,
         };
         let targets = match self.scenarios.as_slice() {
-            [] => vec![Target::study(self.subject.name(), self.subject.study(verbosity)?)],
+            [] => vec![Target::study(self.subject.name(), self.study(&self.subject, verbosity)?)],
             names => names.iter().map(|name| self.target(name, verbosity)).collect::<Result<_, _>>()?,
         };
         let usual = Bench::of(&strategies, targets)?;
         let baseline = self.baseline.as_ref().map(strategy).transpose()?.unwrap_or(usual.baseline);
         let (budget, seeds, first_seed, batch) = (self.budget, self.seeds, self.seed, self.batch);
         Ok(Bench { budget, seeds, first_seed, batch, baseline, ..usual })
+    }
+
+    fn study(&self, subject: &Subject, verbosity: Verbosity) -> Result<Study, Error> {
+        let study = subject.study(verbosity)?.build()?;
+        subject.note_unjudged(&study, verbosity);
+        Ok(study)
     }
 
     /// A scenario with parameters to open, or a function.
@@ -153,14 +161,16 @@ impl Options {
         }
         let mut parts = text.split('+').map(str::to_owned);
         let scenario = parts.next().unwrap_or_default();
-        if scenarios::find(&scenario).is_err() {
+        let catalogue = crate::catalogue();
+        let programs = catalogue.programs();
+        if programs.iter().all(|program| program.name() != scenario) {
             let functions = Function::ALL.map(|function| function.name);
-            let names = scenarios::ALL.iter().map(|program| program.name).chain(functions);
+            let names = programs.iter().map(paracosm_engine::Program::name).chain(functions);
             let hint = did_you_mean(&nearest(&scenario, names));
             let message = format!("no scenario or function is called `{scenario}`{hint}");
-            return Err(Error::Usage(format!("{message}; `paracosm-fuzz list` and `bench --help` show them all")));
+            return Err(usage(format!("{message}; `paracosm-fuzz list` and `bench --help` show them all")));
         }
-        Ok(Target::study(text, self.subject.on(&scenario, parts).study(verbosity)?))
+        Ok(Target::study(text, self.study(&self.subject.on(&scenario, parts), verbosity)?))
     }
 
     /// The maps of all scenarios: read where they are there, made and kept where not.
@@ -175,7 +185,7 @@ impl Options {
             return Ok(maps);
         }
         let folder = self.reference.clone().unwrap_or_else(|| self.out.join("maps"));
-        std::fs::create_dir_all(&folder).map_err(Error::file("create", &folder))?;
+        std::fs::create_dir_all(&folder).map_err(Error::io("create", &folder))?;
         for target in &bench.targets {
             let Some(study) = target.as_study() else { continue };
             let path = folder.join(format!("{}.json", target.file_name()));

@@ -1,16 +1,16 @@
 //! `paracosm-fuzz blame`: which failures other drivers could have avoided.
 
-use super::map::{self, Axes};
+use super::map::Axes;
 use super::output::{Format, Table, digits, json, percent, plural};
 use super::progress::bar;
 use super::report::in_words;
-use super::{Failure, Found, Verbosity, on_interrupt, print};
-use crate::blame::{Blame, Blamed, Fault, Inquiry, REFERENCES};
-use crate::coverage::Record;
-use crate::folder::write_whole;
-use crate::{FailureMap, Folder, Study, Trial};
+use super::{Failure, Status, Verbosity, on_interrupt, print};
 use clap::Args;
-use serde::Serialize;
+use paracosm_analysis::blame::{Blame, Blamed, Inquiry, Preventability, REFERENCES};
+use paracosm_campaign::files::write_whole;
+use paracosm_campaign::{Artefact, Log, Study, Trial};
+use paracosm_report::plot::MapFiles;
+use paracosm_report::{BlameTable, FailureMap};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -50,78 +50,62 @@ pub(super) struct Options {
     format: Option<Format>,
 }
 
-/// What is printed and written as JSON.
-#[derive(Serialize)]
-struct Report<'a> {
-    /// How many failures are whose fault.
-    faults: Record<usize>,
-    /// How many failures each of the drivers prevents.
-    prevents: Record<usize>,
-    #[serde(flatten)]
-    blame: &'a Blame,
-}
-
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        let (study, trials) = Folder::read(&self.dir)?;
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+        let log = Log::read(&self.dir, &crate::catalogue())?;
+        let study = log.study();
         let references: Vec<&str> = self.driver.iter().map(String::as_str).collect();
-        let mut inquiry = Inquiry::new(&study, &references)?;
+        let mut inquiry = Inquiry::new(study, &references)?;
         if let Some(jobs) = self.jobs {
             inquiry = inquiry.jobs(jobs);
         }
-        let axes = self.axes.find(&study)?;
+        let axes = self.axes.find(study)?;
         if !study.is_of_this_software() {
             verbosity
                 .note("the campaign was run by another version of this software; its failures are taken as logged");
         }
         on_interrupt(inquiry.stop());
-        let bar = bar(verbosity, trials.iter().filter(|trial| trial.is_failure()).count());
-        let blame = inquiry.run(&trials, |_| bar.inc(1));
+        let bar = bar(verbosity, log.trials().iter().filter(|trial| trial.is_failure()).count());
+        let blame = inquiry.run(&log, |_| bar.inc(1));
         bar.finish_and_clear();
         let blame = blame?;
-        let report = Report {
-            faults: Fault::ALL.map(|fault| (fault.to_string(), blame.count(fault))).into_iter().collect(),
-            prevents: blame.references.iter().map(|name| (name.clone(), blame.prevented_by(name))).collect(),
-            blame: &blame,
-        };
-        self.write(&study, &trials, &report, axes, verbosity)?;
+        self.write(&log, &blame, axes, verbosity)?;
         print(&match Format::or_fitting(self.format) {
-            Format::Table => self.table(&study, &trials, &blame),
-            Format::Json => json(&report),
+            Format::Table => self.table(&log, &blame),
+            Format::Json => json(&blame),
         })?;
-        Ok(Found::Nothing)
+        Ok(Status::Nothing)
     }
 
-    fn write(
-        &self,
-        study: &Study,
-        trials: &[Trial],
-        report: &Report,
-        axes: Option<[String; 2]>,
-        verbosity: Verbosity,
-    ) -> Result<(), Failure> {
-        let blame = report.blame;
-        write_whole(&self.dir.join("blame.json"), json(report).as_bytes())?;
-        write_whole(&self.dir.join("blame.csv"), &blame.csv(study))?;
-        let mut written = vec!["blame.json", "blame.csv"];
-        match axes {
-            _ if blame.failures.is_empty() => {}
-            None => verbosity.note("no map: it needs two continuous open parameters"),
-            Some([x, y]) => {
-                let drawn = FailureMap::of_blame(study, trials, blame, [&x, &y])?;
-                map::write_as(&self.dir, "blame-map", &drawn)?;
-                written.extend(["blame-map.svg", "blame-map.png"]);
+    fn write(&self, log: &Log, blame: &Blame, axes: Option<[String; 2]>, verbosity: Verbosity) -> Result<(), Failure> {
+        let map = match axes {
+            _ if blame.failures.is_empty() => None,
+            None => {
+                verbosity.note("no map: it needs two continuous open parameters");
+                None
+            }
+            Some([x, y]) => Some(FailureMap::of_blame(log, blame, [&x, &y])?),
+        };
+        let map = map.as_ref().map(MapFiles::Blame);
+        let table = BlameTable { blame, study: log.study() };
+        let artefacts: [Option<&dyn Artefact>; 3] = [Some(blame), Some(&table), map.as_ref().map(|map| map as _)];
+        let mut written = Vec::new();
+        for artefact in artefacts.into_iter().flatten() {
+            for file in artefact.files() {
+                let path = self.dir.join(file);
+                write_whole(&path, &artefact.contents(file)?)?;
+                written.push(path.display().to_string());
             }
         }
-        let written: Vec<String> = written.iter().map(|name| self.dir.join(name).display().to_string()).collect();
         verbosity.note(format_args!("written to {}", written.join(", ")));
         Ok(())
     }
 
-    fn table(&self, study: &Study, trials: &[Trial], blame: &Blame) -> String {
+    fn table(&self, log: &Log, blame: &Blame) -> String {
+        let study = log.study();
         let mut table = Table::default();
         let Blame { references, tests, failures } = blame;
-        let title = study.subject.title();
+        let title = study.title();
         if failures.is_empty() {
             table.heading(&format!("{title}: none of {} fails, so that nobody is to blame", plural(*tests, "test")));
             return table.finish();
@@ -129,9 +113,9 @@ impl Options {
         table.heading(&format!("{title}: {} of {} fail", failures.len(), plural(*tests, "test")));
         let share = |count: usize| percent(count as f64 / failures.len() as f64);
         // What is not judged is no kind of fault: there is a line of it only if there is any.
-        for fault in Fault::ALL {
+        for fault in Preventability::ALL {
             let count = blame.count(fault);
-            if fault == Fault::Unknown && count == 0 {
+            if fault == Preventability::Unknown && count == 0 {
                 continue;
             }
             let meaning = meaning(fault, references);
@@ -143,7 +127,7 @@ impl Options {
             table.row(label, &format!("{count:<6}{:>7}  {name}", share(count)));
         }
         for failure in failures.iter().take(self.limit) {
-            table.row(&format!("test {}", failure.index), &line(study, &trials[failure.index], failure));
+            table.row(&format!("test {}", failure.index), &line(study, &log.trials()[failure.index], failure));
         }
         if failures.len() > self.limit {
             let more = plural(failures.len() - self.limit, "more failing test");
@@ -153,15 +137,15 @@ impl Options {
     }
 }
 
-fn meaning(fault: Fault, references: &[String]) -> String {
+fn meaning(fault: Preventability, references: &[String]) -> String {
     match fault {
-        Fault::Unpreventable => format!("none of {} prevents it", references.join(", ")),
-        Fault::Preventable => "one of them does, by braking".to_owned(),
-        Fault::Induced if references.iter().any(|name| name == "cruise") => {
+        Preventability::Unpreventable => format!("none of {} prevents it", references.join(", ")),
+        Preventability::Preventable => "one of them does, by braking".to_owned(),
+        Preventability::Induced if references.iter().any(|name| name == "cruise") => {
             "cruise does, which never brakes for others".to_owned()
         }
-        Fault::Induced => "cruise, which would tell, was not asked".to_owned(),
-        Fault::Unknown => "not judged: a run with one of them broke or could not be built".to_owned(),
+        Preventability::Induced => "cruise, which would tell, was not asked".to_owned(),
+        Preventability::Unknown => "not judged: a run with one of them broke or could not be built".to_owned(),
     }
 }
 

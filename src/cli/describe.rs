@@ -1,14 +1,15 @@
 //! `paracosm-fuzz describe`: what a scenario asks for and asks of its runs.
 
-use super::draw::{Kind, Target};
+use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, domain_words, json, value_words};
 use super::subject::Subject;
-use super::{Failure, Found, Verbosity, print};
-use crate::coverage::Value;
+use super::{Failure, Status, Verbosity, print};
 use crate::engine::{DEFAULT_DT, Declaration, Declared, Program, Run, Setup, picture};
 use crate::oracles::signal;
-use crate::{Error, Study, plot};
+use crate::space::Value;
 use clap::Args;
+use paracosm_campaign::{Error, Study};
+use paracosm_report::plot;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -29,44 +30,45 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        let study = self.subject.study(verbosity)?;
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+        let study = self.subject.study(verbosity)?.build()?;
+        self.subject.note_unjudged(&study, verbosity);
         let program = study.program()?;
         let declaration = program.declare()?;
         if let Some(file) = &self.draw {
-            let target = Target::new("--draw", file, &[Kind::Svg, Kind::Png])?;
-            verbosity.note(target.write(|kind| draw(&study, &program, &declaration, kind))?);
-            return Ok(Found::Nothing);
+            let target = Target::new("--draw", file, &[FileKind::Svg, FileKind::Png])?;
+            verbosity.note(target.write(|kind| draw(&study, program, &declaration, kind))?);
+            return Ok(Status::Nothing);
         }
         let text = match Format::or_fitting(self.format) {
             _ if self.dot => program.dot()?,
-            Format::Table => table(&study, &program, &declaration)?,
-            Format::Json => as_json(&study, &program, &declaration)?,
+            Format::Table => table(&study, program, &declaration)?,
+            Format::Json => as_json(&study, program, &declaration)?,
         };
-        print(&text).map(|()| Found::Nothing)
+        print(&text).map(|()| Status::Nothing)
     }
 }
 
 /// The world from above.
-fn draw(study: &Study, program: &Program, declaration: &Declaration, kind: Kind) -> Result<Vec<u8>, Failure> {
+fn draw(study: &Study, program: &Program, declaration: &Declaration, kind: FileKind) -> Result<Vec<u8>, Failure> {
     let values = declaration.parameters.iter().map(|declared| {
         let name = &declared.parameter.name;
-        (name.clone(), study.subject.fixed().get(name).cloned().unwrap_or_else(|| declared.nominal()))
+        (name.clone(), study.fixed().get(name).cloned().unwrap_or_else(|| declared.nominal()))
     });
     let run = Run::new(program, &values.collect(), Setup::asking_every(DEFAULT_DT))?;
-    let drawing = picture::world(&run, program.name);
+    let drawing = picture::world(&run, program.name());
     match kind {
-        Kind::Svg => Ok(drawing.svg().into_bytes()),
-        Kind::Png | Kind::Gif | Kind::Csv => plot::drawing_png(&drawing),
+        FileKind::Svg => Ok(drawing.svg().into_bytes()),
+        FileKind::Png | FileKind::Gif | FileKind::Csv => plot::drawing_png(&drawing),
     }
 }
 
 fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<String, Error> {
     let mut table = Table::default();
-    table.heading(&format!("{}: {}; {} s", program.name, program.about, digits(declaration.duration)));
+    table.heading(&format!("{}: {}; {} s", program.name(), program.about(), digits(declaration.duration)));
     table.heading("parameters");
     for declared in &declaration.parameters {
-        let opened = study.space.parameter(&declared.parameter.name).ok();
+        let opened = study.space().parameter(&declared.parameter.name).ok();
         let parameter = opened.unwrap_or(&declared.parameter);
         let unit = parameter.unit.as_deref().map(|unit| format!(" {unit}")).unwrap_or_default();
         let nominal = value_words(&declared.nominal());
@@ -80,11 +82,12 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
         table.row(&parameter.name, &format!("{domain}{unit}, nominally {nominal}{state}{signal}"));
     }
     table.heading("requirements");
-    for requirement in &study.requirements {
+    for requirement in study.requirements() {
         table.row(&requirement.id, &requirement.text);
         let unit = if requirement.unit.is_empty() { "" } else { " " };
         let scale = requirement.scale.map(|scale| format!(", scale {}{unit}{}", digits(scale), requirement.unit));
-        table.row("", &format!("{}{}", requirement.formula, scale.unwrap_or_default()));
+        let formula = requirement.formula.as_ref().map(ToString::to_string).unwrap_or_default();
+        table.row("", &format!("{formula}{}", scale.unwrap_or_default()));
     }
     table.heading("signals that formulas can speak of");
     for (object, names) in by_object(&signals(study)?) {
@@ -95,7 +98,7 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
 
 /// What a parameter is set to that is not its nominal value.
 fn set<'a>(study: &'a Study, declared: &Declared) -> Option<&'a Value> {
-    study.subject.fixed().get(&declared.parameter.name).filter(|value| **value != declared.nominal())
+    study.fixed().get(&declared.parameter.name).filter(|value| **value != declared.nominal())
 }
 
 /// The signals of the scenario, as formulas name them.
@@ -122,7 +125,7 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
         .parameters
         .iter()
         .map(|declared| {
-            let opened = study.space.parameter(&declared.parameter.name).ok();
+            let opened = study.space().parameter(&declared.parameter.name).ok();
             let parameter = opened.unwrap_or(&declared.parameter);
             let mut said = json!({"parameter": parameter, "open": opened.is_some(), "nominal": declared.nominal()});
             if let Some(value) = set(study, declared) {
@@ -131,6 +134,6 @@ fn as_json(study: &Study, program: &Program, declaration: &Declaration) -> Resul
             said
         })
         .collect();
-    Ok(json(&json!({"name": program.name, "about": program.about, "duration": declaration.duration,
-        "parameters": parameters, "requirements": study.requirements, "signals": signals(study)?})))
+    Ok(json(&json!({"name": program.name(), "about": program.about(), "duration": declaration.duration,
+        "parameters": parameters, "requirements": study.requirements(), "signals": signals(study)?})))
 }

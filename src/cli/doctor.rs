@@ -1,11 +1,10 @@
 //! `paracosm-fuzz doctor`: what this machine draws with, and how fast.
 
 use super::output::{Format, Table, json};
-use super::{Failure, Found, print};
+use super::{Failure, Status, print};
 use crate::engine::driver;
 use crate::engine::{Run, Setup};
 use crate::render::{Adapter, Camera, Outputs, RenderError, Renderer, Scene, Stages, View};
-use crate::scenarios;
 use clap::Args;
 use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
@@ -53,6 +52,17 @@ struct Speed {
     frames_per_second: f64,
 }
 
+/// Images of a size, and what is drawn besides their colours.
+struct Size {
+    width: u32,
+    height: u32,
+    depth: bool,
+    semantic: bool,
+    shadows: bool,
+    /// All of it in words.
+    outputs: &'static str,
+}
+
 impl From<Adapter> for Described {
     fn from(adapter: Adapter) -> Self {
         let Adapter { name, driver, backend, kind, max_image, max_layers, max_buffer } = adapter;
@@ -61,18 +71,23 @@ impl From<Adapter> for Described {
 }
 
 /// The sizes at which people train and look, and what is drawn at each.
-const SIZES: [(u32, u32, &str); 3] = [(128, 128, "rgb, depth, semantic"), (200, 66, "rgb"), (640, 480, "rgb, shadows")];
+const SIZES: [Size; 3] = [
+    Size { width: 128, height: 128, depth: true, semantic: true, shadows: false, outputs: "rgb, depth, semantic" },
+    Size { width: 200, height: 66, depth: false, semantic: false, shadows: false, outputs: "rgb" },
+    Size { width: 640, height: 480, depth: false, semantic: false, shadows: true, outputs: "rgb, shadows" },
+];
+
 /// How many cameras are drawn at once, and for how long at each size.
 const BATCH: usize = 64;
 const LONG_ENOUGH: Duration = Duration::from_millis(700);
 
 impl Options {
-    pub fn execute(&self) -> Result<Found, Failure> {
+    pub fn execute(&self) -> Result<Status, Failure> {
         let mut findings = Findings {
             version: env!("CARGO_PKG_VERSION"),
-            target: env!("PARACOSM_TARGET"),
+            target: paracosm_campaign::TARGET,
             threads: std::thread::available_parallelism().map_or(1, usize::from),
-            drivers: driver::ALL.iter().map(|kind| kind.name).collect(),
+            drivers: driver::ALL.iter().map(|driver| driver.name).collect(),
             adapter: None,
             problem: None,
             speed: Vec::new(),
@@ -94,7 +109,7 @@ impl Options {
             Format::Table => table(&findings),
             Format::Json => json(&findings),
         })?;
-        Ok(Found::Nothing)
+        Ok(Status::Nothing)
     }
 }
 
@@ -125,7 +140,7 @@ fn table(findings: &Findings) -> String {
 
 /// How fast the beginning of the pedestrian study is drawn.
 fn speeds(renderer: &mut Renderer) -> Result<Result<Vec<Speed>, RenderError>, Failure> {
-    let program = scenarios::find("pedestrian-crossing")?;
+    let program = &crate::catalogue().find("pedestrian-crossing")?;
     let test = program.declare()?.nominal();
     let mut run = Run::new(program, &test, Setup::asking_every(0.1))?;
     run.advance();
@@ -133,14 +148,8 @@ fn speeds(renderer: &mut Renderer) -> Result<Result<Vec<Speed>, RenderError>, Fa
     let pose = Isometry3::new(Vector3::new(pose.position.x, pose.position.y, 1.35), Vector3::z() * pose.heading);
     let scene = Stages::default().of(run.network()).scene(&run);
     let mut measured = Vec::new();
-    for (width, height, outputs) in SIZES {
-        let wanted = Outputs {
-            rgb: true,
-            depth: outputs.contains("depth"),
-            semantic: outputs.contains("semantic"),
-            shadows: outputs.contains("shadows"),
-            ..Outputs::default()
-        };
+    for Size { width, height, depth, semantic, shadows, outputs } in SIZES {
+        let wanted = Outputs { rgb: true, depth, semantic, shadows, ..Outputs::default() };
         let camera = Camera::new(width, height, 24.0, 36.0)?;
         match speed(renderer, &scene, &camera, pose, wanted) {
             Ok(frames_per_second) => measured.push(Speed { width, height, outputs, frames_per_second }),

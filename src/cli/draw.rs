@@ -2,27 +2,28 @@
 //!
 //! What was drawn or reported before is replaced, as it can be had again; what belongs to a campaign is not.
 
-use crate::folder::write_whole;
-use crate::{Error, Folder};
-use paracosm_coverage::{did_you_mean, nearest};
+use super::usage;
+use paracosm_campaign::files::write_whole;
+use paracosm_campaign::{Error, Failure as Breakdown, Folder};
+use paracosm_space::{did_you_mean, nearest};
 use std::path::{Path, PathBuf};
 
 /// What a picture is written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum FileKind {
     Svg,
     Png,
     Gif,
     Csv,
 }
 
-impl Kind {
+impl FileKind {
     fn ending(self) -> &'static str {
         match self {
-            Kind::Svg => "svg",
-            Kind::Png => "png",
-            Kind::Gif => "gif",
-            Kind::Csv => "csv",
+            FileKind::Svg => "svg",
+            FileKind::Png => "png",
+            FileKind::Gif => "gif",
+            FileKind::Csv => "csv",
         }
     }
 }
@@ -31,7 +32,7 @@ impl Kind {
 #[derive(Debug)]
 pub(super) struct Target {
     path: PathBuf,
-    pub kind: Kind,
+    pub kind: FileKind,
 }
 
 impl Target {
@@ -39,7 +40,7 @@ impl Target {
     ///
     /// # Errors
     /// The file belongs to a campaign, or has another ending.
-    pub fn new(option: &str, path: &Path, kinds: &[Kind]) -> Result<Self, Error> {
+    pub fn new(option: &str, path: &Path, kinds: &[FileKind]) -> Result<Self, Error> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let Some(kind) = kinds.iter().find(|kind| kind.ending() == ending) else {
             let known: Vec<_> = kinds.iter().map(|kind| kind.ending()).collect();
@@ -47,7 +48,7 @@ impl Target {
             let (path, meant) = (path.display(), did_you_mean(&nearest(&ending, known.iter().copied())));
             let known: Vec<_> = known.iter().map(|ending| format!(".{ending}")).collect();
             let message = format!("{option} {path}: found {found}, expected {}{meant}", known.join(" or "));
-            return Err(Error::Usage(message));
+            return Err(usage(message));
         };
         is_ours_to_write(option, path)?;
         Ok(Self { path: path.to_owned(), kind: *kind })
@@ -59,15 +60,11 @@ impl Target {
     /// It cannot be drawn or written.
     pub fn write(
         &self,
-        drawn: impl FnOnce(Kind) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>>,
+        drawn: impl FnOnce(FileKind) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>>,
     ) -> Result<String, Error> {
-        let picture = |error: Box<dyn std::error::Error + Send + Sync>| Error::Picture {
-            path: self.path.clone(),
-            message: error.to_string(),
-        };
-        let contents = drawn(self.kind).map_err(picture)?;
+        let contents = drawn(self.kind).map_err(|source| Breakdown::Drawing { path: self.path.clone(), source })?;
         write_whole(&self.path, &contents)?;
-        let what = if self.kind == Kind::Csv { "table" } else { "picture" };
+        let what = if self.kind == FileKind::Csv { "table" } else { "picture" };
         Ok(format!("{what} of {} kB written to {}", contents.len().div_ceil(1000), self.path.display()))
     }
 }
@@ -76,7 +73,7 @@ impl Target {
 pub(super) fn is_ours_to_write(option: &str, path: &Path) -> Result<(), Error> {
     if path.file_name().is_some_and(Folder::owns) {
         let message = format!("{option} {} has the name of a campaign's own file", path.display());
-        return Err(Error::Usage(message));
+        return Err(usage(message));
     }
     Ok(())
 }

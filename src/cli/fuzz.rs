@@ -1,7 +1,7 @@
 //! The arguments of `paracosm-fuzz`.
 
 use super::{
-    Failure, Found, Verbosity, bench, blame, describe, doctor, likelihood, list, map, monitor, record, replay, run,
+    Failure, Status, Verbosity, bench, blame, describe, doctor, likelihood, list, map, monitor, record, replay, run,
     shrink, trace,
 };
 use clap::{Parser, Subcommand};
@@ -110,7 +110,7 @@ enum Verb {
 }
 
 impl Command {
-    pub fn execute(self) -> Result<Found, Failure> {
+    pub fn execute(self) -> Result<Status, Failure> {
         match self.verb {
             None => self.run.execute(self.verbosity),
             Some(Verb::Run(options)) => options.execute(self.verbosity),

@@ -3,11 +3,12 @@
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::progress::bar;
 use super::subject::Subject;
-use super::{Failure, Found, Verbosity, on_interrupt, print};
-use crate::coverage::{Distribution, Domain, Parameter, Record};
-use crate::likelihood::{Likelihood, Method, Question, of_study};
-use crate::{Campaign, Error, Study};
+use super::usage;
+use super::{Failure, Status, Verbosity, on_interrupt, print};
+use crate::space::{Distribution, Domain, Parameter, Record};
 use clap::Args;
+use paracosm_analysis::likelihood::{Likelihood, Method, Question, of_study};
+use paracosm_campaign::{Campaign, Error, Study};
 use serde::Serialize;
 use std::num::NonZeroUsize;
 
@@ -66,9 +67,9 @@ struct Report<'a> {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         let study = self.study(verbosity)?;
-        let method: Method = self.method.parse().map_err(Error::Usage)?;
+        let method: Method = self.method.parse()?;
         let question = Question { method, budget: self.budget, confidence: self.confidence, seed: self.seed };
         let mut campaign = Campaign::new(&study)?;
         if let Some(jobs) = self.jobs {
@@ -91,30 +92,25 @@ impl Options {
                 likelihood: &likelihood,
                 budget: self.budget,
                 seed: self.seed,
-                parameters: study.space.parameters().iter().map(|p| (p.name.clone(), &p.distribution)).collect(),
+                parameters: study.space().parameters().iter().map(|p| (p.name.clone(), &p.distribution)).collect(),
                 sentence: sentence(&likelihood),
             }),
         })?;
-        Ok(Found::Nothing)
+        Ok(Status::Nothing)
     }
 
     fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
         let mut study = self.subject.study(verbosity)?;
-        for (i, text) in self.distribution.iter().enumerate() {
+        for text in &self.distribution {
             let (name, distribution) = text.split_once('=').ok_or_else(|| {
-                Error::Usage(format!("--distribution {text}: expected NAME=DISTRIBUTION, such as speed=beta:2,5"))
+                usage(format!("--distribution {text}: expected NAME=DISTRIBUTION, such as speed=beta:2,5"))
             })?;
-            if self.distribution[..i].iter().any(|other| other.split('=').next() == Some(name)) {
-                return Err(Error::Usage(format!("parameter `{name}` is distributed twice")));
-            }
             let distribution: Distribution =
-                distribution.parse().map_err(|message| Error::Usage(format!("--distribution {text}: {message}")))?;
-            if study.subject.fixed().get(name).is_some() {
-                let message = format!("parameter `{name}` is fixed; --open {name} lets tests vary it");
-                return Err(Error::Usage(message));
-            }
-            study.space = study.space.clone().with_distribution(name, distribution)?;
+                distribution.parse().map_err(|error| usage(format!("--distribution {text}: {error}")))?;
+            study = study.distribute(name, distribution);
         }
+        let study = study.build()?;
+        self.subject.note_unjudged(&study, verbosity);
         Ok(study)
     }
 }
@@ -129,7 +125,7 @@ fn sentence(likelihood: &Likelihood) -> String {
 fn table(likelihood: &Likelihood, study: &Study) -> String {
     let mut table = Table::default();
     table.heading(&format!("{}, if parameters are distributed so:", sentence(likelihood)));
-    for parameter in study.space.parameters() {
+    for parameter in study.space().parameters() {
         table.row(&parameter.name, &distribution(parameter));
     }
     let Likelihood { method, interval, evaluations, failures, unjudged, notes, .. } = likelihood;

@@ -1,54 +1,108 @@
 //! `paracosm-fuzz list`: everything that can be chosen by name.
 
-use super::output::{Format, digits, domain_words, json, value_words};
-use super::{Failure, Found, print};
-use crate::coverage::Parameter;
-use crate::engine::{Declaration, Declared, driver};
-use crate::generators::Strategy;
-use crate::scenarios;
-use clap::Args;
+mod markdown;
+
+use super::output::{digits, domain_words, json, value_words};
+use super::{Failure, Status, print};
+use crate::Lists;
+use crate::campaign::study::ListedDriver;
+use crate::engine::driver::Setting;
+use crate::engine::sensor::CameraSetting;
+use crate::engine::{Declaration, Declared, Program};
+use crate::space::Parameter;
+use clap::{Args, ValueEnum};
+use markdown::{markdown, named};
 use serde_json::json;
 use std::fmt::Write;
+use std::io::{self, IsTerminal};
 
 /// What `list` takes.
 #[derive(Debug, Args)]
 pub(super) struct Options {
+    /// List only these
+    #[arg(value_enum)]
+    kind: Option<ListKind>,
     /// How to print it [default: table on a terminal, json elsewhere]
     #[arg(long)]
-    format: Option<Format>,
+    format: Option<Form>,
 }
 
-/// What there is to say of drivers in a process of their own.
-const EXTERNAL: &str = "  \
-  grpc://HOST:PORT      a driver of your own, which listens there; --driver-command COMMAND starts one
-    latency              0 s           from when it is asked to when its answer takes effect
-    seed                 0             where its chance and the noise of its sensors come from
-";
+/// The form of what is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Form {
+    /// For people
+    Table,
+    /// For programs
+    Json,
+    /// For a document
+    Markdown,
+}
+
+/// What can be listed on its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ListKind {
+    /// Worlds with their parameters and requirements
+    Scenarios,
+    /// How tests are chosen
+    Strategies,
+    /// The systems under test, with their settings
+    Drivers,
+    /// How well tests cover a space
+    Measures,
+    /// What a driver can perceive with
+    Sensors,
+    /// The numbers that describe a camera
+    Cameras,
+}
 
 impl Options {
-    pub fn execute(&self) -> Result<Found, Failure> {
-        let text = match Format::or_fitting(self.format) {
-            Format::Table => table()?,
-            Format::Json => json(&as_json()?),
+    pub fn execute(&self) -> Result<Status, Failure> {
+        let lists = Lists::of_this_software();
+        let kinds = self.kind.map_or_else(|| ListKind::value_variants().to_vec(), |kind| vec![kind]);
+        let fitting = if io::stdout().is_terminal() { Form::Table } else { Form::Json };
+        let text = match self.format.unwrap_or(fitting) {
+            Form::Table => table(&lists, &kinds)?,
+            Form::Json => json(&as_json(&lists, &kinds)?),
+            Form::Markdown => markdown(&lists, &kinds)?,
         };
-        print(&text).map(|()| Found::Nothing)
+        print(&text).map(|()| Status::Nothing)
     }
 }
 
-fn table() -> Result<String, Failure> {
-    let mut text = String::from("SCENARIOS\n");
-    for program in scenarios::ALL {
-        writeln!(text, "  {:<22}{}", program.name, program.about)?;
+fn table(lists: &Lists, kinds: &[ListKind]) -> Result<String, Failure> {
+    let mut text = String::new();
+    for kind in kinds {
+        let key = key(*kind);
+        writeln!(text, "{}{}", if text.is_empty() { "" } else { "\n" }, key.to_uppercase())?;
+        match kind {
+            ListKind::Scenarios => scenarios(lists, &mut text)?,
+            ListKind::Drivers => drivers(lists, &mut text)?,
+            ListKind::Strategies | ListKind::Measures | ListKind::Sensors | ListKind::Cameras => {
+                for (name, about) in named(lists, *kind) {
+                    writeln!(text, "  {name:<22}{about}")?;
+                }
+            }
+        }
+    }
+    text.push_str("\nParameters: --open NAME[=LO..HI], --set NAME=VALUE. Settings: --set driver.NAME=VALUE.\n");
+    Ok(text)
+}
+
+/// The key of a kind in JSON, and its heading.
+fn key(kind: ListKind) -> String {
+    kind.to_possible_value().expect("no kind is hidden").get_name().to_owned()
+}
+
+fn scenarios(lists: &Lists, text: &mut String) -> Result<(), Failure> {
+    for program in &lists.scenarios {
+        writeln!(text, "  {:<22}{}", program.name(), program.about())?;
         let declaration = program.declare()?;
         let widths = widths(&declaration);
         for declared in &declaration.parameters {
             let parameter = &declared.parameter;
-            let state = match declared.open {
-                true => "open".to_owned(),
-                false => format!("{} unless opened", value_words(&declared.nominal())),
-            };
             let signal = parameter.signal.map(|shape| format!(", {shape}")).unwrap_or_default();
-            let words = words(parameter);
+            let words = scenario_words(declared);
+            let state = if declared.open { "open".to_owned() } else { format!("{} unless opened", words[3]) };
             let [name, domain, unit] = [0, 1, 2].map(|i| format!("{:<1$}", words[i], widths[i]));
             writeln!(text, "    {name}{domain}{unit}{state}{signal}")?;
         }
@@ -56,25 +110,18 @@ fn table() -> Result<String, Failure> {
             writeln!(text, "    {:<2$}{}", requirement.id, requirement.text, widths[0])?;
         }
     }
-    text.push_str("\nSTRATEGIES\n");
-    for strategy in Strategy::ALL {
-        writeln!(text, "  {:<22}{}", strategy.name(), strategy.about())?;
-    }
-    text.push_str("\nDRIVERS\n");
-    for kind in driver::ALL {
-        writeln!(text, "  {:<22}{}", kind.name, kind.about)?;
-        for setting in kind.settings {
+    Ok(())
+}
+
+fn drivers(lists: &Lists, text: &mut String) -> Result<(), Failure> {
+    for driver in &lists.drivers {
+        writeln!(text, "  {:<22}{}", driver.name, driver.about)?;
+        for setting in driver.settings {
             let value = format!("{} {}", digits(setting.default), setting.unit);
             writeln!(text, "    {:<21}{value:<14}{}", setting.name, setting.about)?;
         }
     }
-    for (name, about) in NETWORKS {
-        writeln!(text, "  {name:<22}{about}")?;
-        writeln!(text, "    {:<21}{:<14}{}", "latency", "0 s", LATENCY)?;
-    }
-    text.push_str(EXTERNAL);
-    text.push_str("\nParameters: --open NAME[=LO..HI], --set NAME=VALUE. Settings: --set driver.NAME=VALUE.\n");
-    Ok(text)
+    Ok(())
 }
 
 /// How wide the columns of a scenario's parameters are at least: names, domains and units.
@@ -83,50 +130,55 @@ const COLUMNS: [usize; 3] = [20, 12, 6];
 /// The same where something is longer.
 fn widths(declaration: &Declaration) -> [usize; 3] {
     let longest = |of: &dyn Fn(&Declared) -> usize| declaration.parameters.iter().map(of).max().unwrap_or(0);
-    let width = |i: usize| COLUMNS[i].max(1 + longest(&|declared| words(&declared.parameter)[i].chars().count()));
+    let width = |i: usize| COLUMNS[i].max(1 + longest(&|declared| scenario_words(declared)[i].chars().count()));
     [0, 1, 2].map(width)
 }
 
-/// What there is in the columns of a parameter.
-fn words(parameter: &Parameter) -> [String; 3] {
-    [parameter.name.clone(), domain_words(&parameter.domain), parameter.unit.clone().unwrap_or_default()]
+/// A parameter in words: its name, its domain, its unit, and its value unless it is opened.
+fn scenario_words(declared: &Declared) -> [String; 4] {
+    let Parameter { name, domain, unit, .. } = &declared.parameter;
+    let nominal = if declared.open { "open".to_owned() } else { value_words(&declared.nominal()) };
+    [name.clone(), domain_words(domain), unit.clone().unwrap_or_default(), nominal]
 }
 
-/// What there is to say of the latency of a driver that has none of its own.
-const LATENCY: &str = "from when it is asked to when its answer takes effect";
-
-/// Drivers that are networks, which a program has only if it was built with them.
-const NETWORKS: [(&str, &str); 2] = [
-    ("cnn", "a network that comes with the software and drives by a camera (feature `neural`)"),
-    ("MODEL.onnx", "a network of one's own in a file (feature `neural`)"),
-];
-
-fn as_json() -> Result<serde_json::Value, Failure> {
-    let mut programs = Vec::new();
-    for program in scenarios::ALL {
-        let parameters = program.declare()?.parameters;
-        let parameters: Vec<_> = parameters
-            .iter()
-            .map(|declared| json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal()}))
-            .collect();
-        programs.push(json!({"name": program.name, "about": program.about, "parameters": parameters}));
+fn as_json(lists: &Lists, kinds: &[ListKind]) -> Result<serde_json::Value, Failure> {
+    let mut all = serde_json::Map::new();
+    for kind in kinds {
+        let list: Vec<serde_json::Value> = match kind {
+            ListKind::Scenarios => lists.scenarios.iter().map(scenario).collect::<Result<_, Failure>>()?,
+            ListKind::Drivers => lists.drivers.iter().map(driver).collect(),
+            ListKind::Cameras => lists.cameras.iter().map(camera).collect(),
+            ListKind::Strategies | ListKind::Measures | ListKind::Sensors => {
+                named(lists, *kind).into_iter().map(|(name, about)| json!({"name": name, "about": about})).collect()
+            }
+        };
+        all.insert(key(*kind), list.into());
     }
-    let strategies = Strategy::ALL.map(|strategy| json!({"name": strategy.name(), "about": strategy.about()}));
-    let own = driver::ALL.into_iter().map(|kind| {
-        let settings: Vec<_> = kind
-            .settings
-            .iter()
-            .map(|setting| {
-                json!({"name": setting.name, "default": setting.default, "unit": setting.unit,
-                    "range": [setting.range.0, setting.range.1], "about": setting.about})
-            })
-            .collect();
-        json!({"name": kind.name, "about": kind.about, "settings": settings})
-    });
-    let networks = NETWORKS.into_iter().map(|(name, about)| {
-        let latency = json!({"name": "latency", "default": 0.0, "unit": "s", "range": [0.0, 100.0], "about": LATENCY});
-        json!({"name": name, "about": about, "settings": [latency]})
-    });
-    let drivers: Vec<_> = own.chain(networks).collect();
-    Ok(json!({"scenarios": programs, "strategies": strategies, "drivers": drivers}))
+    Ok(all.into())
 }
+
+fn scenario(program: &Program) -> Result<serde_json::Value, Failure> {
+    let parameters = program.declare()?.parameters;
+    let parameters: Vec<_> = parameters
+        .iter()
+        .map(|declared| json!({"parameter": declared.parameter, "open": declared.open, "nominal": declared.nominal()}))
+        .collect();
+    Ok(json!({"name": program.name(), "about": program.about(), "parameters": parameters}))
+}
+
+fn camera(setting: &CameraSetting) -> serde_json::Value {
+    json!({"name": setting.name, "key": setting.key, "default": setting.default, "unit": setting.unit,
+        "range": [setting.range.0, setting.range.1], "about": setting.about})
+}
+
+fn driver(driver: &ListedDriver) -> serde_json::Value {
+    let setting = |setting: &Setting| {
+        json!({"name": setting.name, "default": setting.default, "unit": setting.unit,
+            "range": [setting.range.0, setting.range.1], "about": setting.about})
+    };
+    let settings: Vec<_> = driver.settings.iter().map(setting).collect();
+    json!({"name": driver.name, "about": driver.about, "settings": settings})
+}
+
+#[cfg(test)]
+mod tests;

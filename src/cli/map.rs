@@ -1,17 +1,17 @@
 //! `paracosm-fuzz map`: a failure map again, over other parameters; and the map that every campaign ends with.
 
-use super::draw::{Kind, Target};
+use super::draw::{FileKind, Target};
 use super::output::{Format, Table, json, percent};
-use super::{Failure, Found, Verbosity, print};
-use crate::failure_estimate;
-use crate::folder::write_whole;
-use crate::{Error, FailureMap, Folder, Picture, Study, Trial};
+use super::usage;
+use super::{Failure, Status, Verbosity, print};
 use clap::Args;
+use paracosm_analysis::failure_estimate;
+use paracosm_campaign::files::write_whole;
+use paracosm_campaign::{Artefact, Error, Log, Study};
+use paracosm_report::plot::MapFiles;
+use paracosm_report::{FailureMap, Picture};
 use serde_json::json;
-use std::path::{Path, PathBuf};
-
-/// The map's files in a campaign's folder, but for their endings.
-const NAME: &str = "failure-map";
+use std::path::PathBuf;
 
 /// What `map` takes.
 #[derive(Debug, Args)]
@@ -40,18 +40,21 @@ pub(super) struct Axes {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        let kinds = [Kind::Svg, Kind::Png, Kind::Csv];
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+        let kinds = [FileKind::Svg, FileKind::Png, FileKind::Csv];
         let target = self.out.as_ref().map(|file| Target::new("--out", file, &kinds)).transpose()?;
-        let (study, trials) = Folder::read(&self.dir)?;
+        let log = Log::read(&self.dir, &crate::catalogue())?;
         let nowhere = "a map needs two continuous parameters, and the campaign varies fewer";
-        let [x, y] = self.axes.find(&study)?.ok_or_else(|| Error::Usage(nowhere.into()))?;
-        let map = FailureMap::over(&study, &trials, [&x, &y])?;
+        let [x, y] = self.axes.find(log.study())?.ok_or_else(|| usage(nowhere.into()))?;
+        let map = FailureMap::over(&log, [&x, &y])?;
         match &target {
             Some(target) => verbosity.note(target.write(|kind| contents(&map, kind))?),
             None => {
-                write(&self.dir, &map)?;
-                verbosity.note(format_args!("written to {}", self.dir.join(format!("{NAME}.svg")).display()));
+                let files = MapFiles::Failures(&map);
+                for file in files.files() {
+                    write_whole(&self.dir.join(file), &files.contents(file)?)?;
+                }
+                verbosity.note(format_args!("written to {}", self.dir.join("failure-map.svg").display()));
             }
         }
         let estimate = map.estimate.as_ref();
@@ -78,12 +81,12 @@ impl Options {
                 }
                 table.finish()
             }
-            Format::Json => json(&json!({"tests": trials.len(), "x": x, "y": y, "others": map.others,
-                "failing": estimate.map(crate::FailureEstimate::mean),
-                "invalid": estimate.map(crate::FailureEstimate::invalid),
-                "decided": estimate.map(crate::FailureEstimate::decided)})),
+            Format::Json => json(&json!({"tests": log.trials().len(), "x": x, "y": y, "others": map.others,
+                "failing": estimate.map(paracosm_analysis::FailureEstimate::mean),
+                "invalid": estimate.map(paracosm_analysis::FailureEstimate::invalid),
+                "decided": estimate.map(paracosm_analysis::FailureEstimate::decided)})),
         })?;
-        Ok(Found::Nothing)
+        Ok(Status::Nothing)
     }
 }
 
@@ -95,7 +98,7 @@ impl Axes {
     /// A name is none of a continuous coordinate, or both are one.
     pub fn find(&self, study: &Study) -> Result<Option<[String; 2]>, Error> {
         let given = [&self.x, &self.y];
-        let coordinates = study.space.continuous().map(|coordinate| coordinate.name());
+        let coordinates = study.space().continuous().map(|coordinate| coordinate.name());
         let mut free = coordinates.filter(|name| given.iter().all(|given| given.as_deref() != Some(name)));
         let [x, y] = given.map(|given| given.clone().or_else(|| free.next()));
         let (Some(x), Some(y)) = (x, y) else { return Ok(None) };
@@ -112,37 +115,13 @@ fn decided(share: f64) -> String {
     format!("{} of the map, by this estimate", percent(share))
 }
 
-/// The map of a campaign that has ended, over its first two continuous coordinates; `None` where it has less.
-pub(super) fn of_campaign(study: &Study, trials: &[Trial]) -> Result<Option<FailureMap>, Error> {
-    let names: Vec<String> = study.space.continuous().take(2).map(|coordinate| coordinate.name()).collect();
-    let [x, y] = &names[..] else { return Ok(None) };
-    FailureMap::over(study, trials, [x, y]).map(Some)
-}
-
-/// Writes the failure map into the folder of its campaign: the pictures, and the estimate's numbers if there is one.
-pub(super) fn write(dir: &Path, map: &FailureMap) -> Result<(), Error> {
-    write_as(dir, NAME, map)
-}
-
-/// Writes a map into the folder of its campaign under this name.
-pub(super) fn write_as(dir: &Path, name: &str, map: &FailureMap) -> Result<(), Error> {
-    let kinds = [("svg", Kind::Svg), ("png", Kind::Png), ("csv", Kind::Csv)];
-    for (ending, kind) in kinds.into_iter().filter(|(_, kind)| *kind != Kind::Csv || map.estimate.is_some()) {
-        let path = dir.join(format!("{name}.{ending}"));
-        let drawn =
-            contents(map, kind).map_err(|error| Error::Picture { path: path.clone(), message: error.to_string() })?;
-        write_whole(&path, &drawn)?;
-    }
-    Ok(())
-}
-
-fn contents(map: &FailureMap, kind: Kind) -> Result<Vec<u8>, Failure> {
+fn contents(map: &FailureMap, kind: FileKind) -> Result<Vec<u8>, Failure> {
     match kind {
-        Kind::Csv => {
+        FileKind::Csv => {
             let estimate = map.estimate.as_ref();
             Ok(estimate.ok_or("nothing is estimated: that takes a test that fails and one that passes")?.csv())
         }
-        Kind::Png => Picture::of(map.clone()).png(),
-        Kind::Svg | Kind::Gif => Ok(Picture::of(map.clone()).svg()?.into_bytes()),
+        FileKind::Png => Picture::of(map.clone()).png(),
+        FileKind::Svg | FileKind::Gif => Ok(Picture::of(map.clone()).svg()?.into_bytes()),
     }
 }

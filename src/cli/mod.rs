@@ -26,20 +26,21 @@ mod report;
 mod run;
 mod sampling;
 mod shrink;
-mod space_file;
 mod subject;
 mod suspects;
 mod system;
 mod trace;
 
-use crate::executor::WORKER;
 use clap::Args;
+use paracosm_campaign::executor::WORKER;
+use paracosm_campaign::{Error, Reason, SpaceFile};
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::panic;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use thiserror::Error;
 
 /// How much is said on standard error.
 #[derive(Debug, Clone, Copy, Args)]
@@ -53,6 +54,12 @@ struct Verbosity {
 }
 
 impl Verbosity {
+    /// Says what a reader should know of a file.
+    fn noted(self, file: SpaceFile) -> SpaceFile {
+        file.notes.iter().for_each(|note| self.note(note));
+        file
+    }
+
     /// Says something that is no result.
     fn note(self, message: impl Display) {
         if !self.quiet {
@@ -62,13 +69,25 @@ impl Verbosity {
 }
 
 /// What a command that did its work found.
-enum Found {
+enum Status {
     Nothing,
     Violation,
 }
 
 /// Why a command could not do its work, in words.
 type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+/// A command that makes no sense as it is.
+#[derive(Debug, Error)]
+#[error("{0}")]
+struct Usage(String);
+
+impl Reason for Usage {}
+
+/// The error of a command that makes no sense as it is.
+fn usage(message: String) -> Error {
+    Usage(message).into()
+}
 
 /// The program `paracosm-fuzz`.
 pub fn fuzz() -> ExitCode {
@@ -78,13 +97,13 @@ pub fn fuzz() -> ExitCode {
 
 /// The program `paracosm-cover`.
 pub fn cover() -> ExitCode {
-    exit(arguments::parse::<cover::Command>().execute().map(|()| Found::Nothing))
+    exit(arguments::parse::<cover::Command>().execute().map(|()| Status::Nothing))
 }
 
-fn exit(result: Result<Found, Failure>) -> ExitCode {
+fn exit(result: Result<Status, Failure>) -> ExitCode {
     match result {
-        Ok(Found::Nothing) => ExitCode::SUCCESS,
-        Ok(Found::Violation) => ExitCode::from(1),
+        Ok(Status::Nothing) => ExitCode::SUCCESS,
+        Ok(Status::Violation) => ExitCode::from(1),
         // Somebody closed the pipe that we print to, as `head` does: no reason to complain.
         Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
             ExitCode::SUCCESS

@@ -1,11 +1,11 @@
 //! `paracosm-fuzz monitor`: formulas asked of a trace as it comes.
 
 use super::output::{Format, Table, digits, json, plural};
-use super::{Failure, Found, Verbosity, print};
-use crate::json::Number;
+use super::usage;
+use super::{Failure, Status, Verbosity, print};
 use crate::oracles::{Cause, Evaluation, Formula, Monitor, Semantics, Trace, Truth};
-use crate::{Error, read_trace};
 use clap::Args;
+use paracosm_campaign::{Error, Number, read_trace};
 use serde_json::{Value, json};
 use std::fs::File;
 use std::io::{self, Read};
@@ -55,16 +55,16 @@ struct Asked {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         let mut asked = Vec::new();
         for (i, text) in self.spec.iter().enumerate() {
-            let formula = text.parse().map_err(|error| Error::Usage(format!("--spec {text}: {error}")))?;
+            let formula = text.parse().map_err(|error| usage(format!("--spec {text}: {error}")))?;
             asked.push(Asked { id: format!("spec-{}", i + 1), formula, monitor: None, decided_at: None });
         }
         let source: Box<dyn Read> = if self.trace.as_os_str() == "-" {
             Box::new(io::stdin().lock())
         } else {
-            Box::new(File::open(&self.trace).map_err(Error::file("read", &self.trace))?)
+            Box::new(File::open(&self.trace).map_err(Error::io("read", &self.trace))?)
         };
         let mut seen = 0;
         let trace = read_trace(&self.trace, source, |trace| {
@@ -86,7 +86,7 @@ impl Options {
             Format::Json => json(&self.json(&trace, &judged)),
         })?;
         let violated = judged.iter().any(|(_, evaluation, _)| evaluation.truth == Truth::Violated);
-        Ok(if self.fail_on_violation && violated { Found::Violation } else { Found::Nothing })
+        Ok(if self.fail_on_violation && violated { Status::Violation } else { Status::Nothing })
     }
 
     fn time(&self) -> Semantics {
@@ -96,7 +96,7 @@ impl Options {
     /// Checks the formulas against the signals, and lets monitors follow those that can be followed.
     fn begin(&self, asked: &mut [Asked], trace: &Trace) -> Result<(), Error> {
         for (asked, text) in asked.iter_mut().zip(&self.spec) {
-            let wrong = |error: String| Error::Usage(format!("--spec {text}: {error}"));
+            let wrong = |error: String| usage(format!("--spec {text}: {error}"));
             Formula::parse(text, trace.signals()).map_err(|error| wrong(error.to_string()))?;
             if self.time() == Semantics::Sampled {
                 let monitor = Monitor::new(&asked.formula, trace.signals(), trace.dt());
@@ -107,7 +107,7 @@ impl Options {
     }
 
     fn judged<'a>(&self, asked: &'a Asked, trace: &Trace) -> Result<(&'a Asked, Evaluation, Option<Cause<'a>>), Error> {
-        let wrong = |error| Error::Usage(format!("{}: {error}", asked.id));
+        let wrong = |error| usage(format!("{}: {error}", asked.id));
         let evaluation = asked.formula.evaluate_in(self.time(), trace).map_err(wrong)?;
         let cause = asked.formula.explain_in(self.time(), trace).map_err(wrong)?;
         Ok((asked, evaluation, cause))
@@ -148,7 +148,7 @@ impl Asked {
     /// Learns a sample.
     fn step(&mut self, row: &[f64], time: f64, verbosity: Verbosity) -> Result<(), Error> {
         let Some(monitor) = &mut self.monitor else { return Ok(()) };
-        let truth = monitor.step(row).map_err(|error| Error::Usage(format!("{}: {error}", self.id)))?;
+        let truth = monitor.step(row).map_err(|error| usage(format!("{}: {error}", self.id)))?;
         if truth != Truth::Undecided && self.decided_at.is_none() {
             self.decided_at = Some(time);
             verbosity.note(format_args!("{} {} at {} s", self.id, word(truth), digits(time)));

@@ -1,15 +1,15 @@
 //! What of the operational design domain tests are about, in words.
 
 use super::output::domain_words;
-use crate::Study;
-use crate::coverage::Parameter;
+use crate::space::Parameter;
+use paracosm_campaign::Study;
 
 /// A line for each attribute, and one for open parameters that no attribute names; nothing where nobody has said anything.
 pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
-    let Some(odd) = &study.odd else { return Vec::new() };
+    let Some(odd) = study.odd() else { return Vec::new() };
     let mut lines: Vec<(String, String)> = Vec::new();
     for (name, attribute) in odd.iter() {
-        let parameters = attribute.varied.iter().filter_map(|name| study.space.parameter(name).ok());
+        let parameters = attribute.varied.iter().filter_map(|name| study.space().parameter(name).ok());
         let ranges: Vec<String> = parameters.map(range).collect();
         let varied = (!ranges.is_empty()).then(|| format!("varied by {}", ranges.join(", ")));
         let fixed = attribute.fixed.as_ref().map(|fixed| format!("fixed: {fixed}"));
@@ -18,7 +18,7 @@ pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
         lines.push((name.to_owned(), said.join("; ")));
     }
     let named = |parameter: &&Parameter| odd.iter().any(|(_, attribute)| attribute.varied.contains(&parameter.name));
-    let others: Vec<String> = study.space.parameters().iter().filter(|p| !named(p)).map(range).collect();
+    let others: Vec<String> = study.space().parameters().iter().filter(|p| !named(p)).map(range).collect();
     if !others.is_empty() {
         lines.push(("of no attribute".to_owned(), format!("varied by {}", others.join(", "))));
     }

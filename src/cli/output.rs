@@ -1,8 +1,9 @@
 //! How results are printed: as a table for people, as JSON for programs.
 
-use crate::coverage::{Bracket, Domain, Record, Value};
-use crate::estimate::{Continuous, Coverage, Discrete, KEpsilon, Strength};
+use crate::coverage::Bracket;
+use crate::space::{Domain, Record, Value};
 use clap::ValueEnum;
+use paracosm_analysis::estimate::{Continuous, Coverage, Discrete, KEpsilon, Measured, Strength};
 use std::fmt::Write;
 use std::io::IsTerminal;
 
@@ -107,33 +108,26 @@ impl Table {
     }
 
     fn continuous(&mut self, measured: &Continuous) {
-        if let Some(hole) = &measured.dispersion {
-            self.row("dispersion", &bracket(&hole.volume));
-            self.row("  largest empty box", &hole.largest_empty_box.iter().map(side).collect::<Vec<_>>().join(", "));
-        }
-        if let Some(star) = &measured.star_discrepancy {
-            self.row("star discrepancy", &bracket(star));
-        }
-        if let Some(extreme) = &measured.extreme_discrepancy {
-            self.row("extreme discrepancy", &bracket(extreme));
-        }
-        if let Some(ball) = &measured.fill {
-            self.row("fill", &ball.as_ref().map_or("unknown: no tests".into(), |ball| bracket(&ball.radius)));
-            let place = |(name, value): (&str, &f64)| format!("{name} {}", digits(*value));
-            let centre = ball.iter().flat_map(|ball| ball.centre.iter()).map(place).collect::<Vec<_>>();
-            if !centre.is_empty() {
-                self.row("  centre of the ball", &centre.join(", "));
-            }
-        }
-        let others = [
-            ("L2-star", measured.l2_star),
-            ("centered, squared", measured.centered),
-            ("wraparound, squared", measured.wraparound),
-            ("mixture, squared", measured.mixture),
-        ];
-        for (label, value) in others {
-            if let Some(value) = value {
-                self.row(label, &value.map_or("unknown: no tests, or no time".into(), digits));
+        for (measure, measured) in &measured.measured {
+            let label = measure.descriptor().label;
+            match measured {
+                Measured::Number(number) => {
+                    self.row(label, &number.map_or("unknown: no tests, or no time".into(), digits));
+                }
+                Measured::Bracket(found) => self.row(label, &bracket(found)),
+                Measured::Hole(hole) => {
+                    self.row(label, &bracket(&hole.volume));
+                    let sides: Vec<String> = hole.largest_empty_box.iter().map(side).collect();
+                    self.row("  largest empty box", &sides.join(", "));
+                }
+                Measured::Ball(ball) => {
+                    self.row(label, &ball.as_ref().map_or("unknown: no tests".into(), |ball| bracket(&ball.radius)));
+                    let place = |(name, value): (&str, &f64)| format!("{name} {}", digits(*value));
+                    let centre: Vec<String> = ball.iter().flat_map(|ball| ball.centre.iter()).map(place).collect();
+                    if !centre.is_empty() {
+                        self.row("  centre of the ball", &centre.join(", "));
+                    }
+                }
             }
         }
     }
@@ -233,16 +227,6 @@ pub(super) fn value_words(value: &Value) -> String {
     }
 }
 
-/// A word as a shell takes it.
-pub(super) fn shell_word(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,@+".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -274,12 +258,5 @@ mod tests {
         table.row("speed", "1 m/s");
         table.row("critical_time.no-collision", "5.3");
         assert_eq!(table.finish(), "  speed                      1 m/s\n  critical_time.no-collision 5.3\n");
-    }
-
-    #[test]
-    fn words_are_quoted_where_a_shell_would_split_them() {
-        assert_eq!(shell_word("out/run-1"), "out/run-1");
-        assert_eq!(shell_word("my out"), "'my out'");
-        assert_eq!(shell_word("it's"), "'it'\\''s'");
     }
 }

@@ -4,8 +4,10 @@ use super::output::short_bracket;
 use super::report::in_words;
 use super::{Verbosity, complain};
 use crate::oracles::Verdict;
-use crate::{Error, LiveCoverage, Study, Summary, Trial};
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use paracosm_analysis::{LiveCoverage, Summary};
+use paracosm_campaign::{Error, Extension, Observer, Study, Trial};
+use std::ops::ControlFlow;
 
 /// A bar of so many tests, hidden where nothing is to be said.
 pub(super) fn bar(verbosity: Verbosity, tests: usize) -> ProgressBar {
@@ -18,41 +20,41 @@ pub(super) fn bar(verbosity: Verbosity, tests: usize) -> ProgressBar {
 }
 
 /// The progress bar, with the counts that it shows.
-pub(super) struct Progress {
-    pub(super) bar: ProgressBar,
-    pub(super) summary: Summary,
+pub(super) struct Progress<'a> {
+    study: &'a Study,
+    pub bar: ProgressBar,
+    pub summary: Summary,
+    /// Whether the campaign has begun, so that its folder is there.
+    pub begun: bool,
     coverage: Option<LiveCoverage>,
     quiet: bool,
     verbose: bool,
 }
 
-impl Progress {
-    pub(super) fn new(study: &Study, verbosity: Verbosity, known: usize) -> Result<Self, Error> {
-        let bar = bar(verbosity, study.budget).with_position(known as u64);
-        // The rate is that of this session, not of what was there before.
-        bar.reset_eta();
-        let mut coverage = LiveCoverage::new(&study.space, study.strength()).ok();
-        if let Some(coverage) = coverage.as_mut().filter(|_| !bar.is_hidden()) {
-            study.existing()?.iter().try_for_each(|test| coverage.add(test))?;
+impl<'a> Progress<'a> {
+    pub fn new(study: &'a Study, extension: Option<&Extension>, verbosity: Verbosity) -> Result<Self, Error> {
+        let bar = bar(verbosity, study.sampling().budget);
+        let mut coverage = LiveCoverage::new(study.space(), study.sampling().k).ok();
+        if let (Some(coverage), Some(extension), false) = (&mut coverage, extension, bar.is_hidden()) {
+            extension.points(study.space())?.iter().try_for_each(|test| coverage.add(test))?;
         }
         let Verbosity { quiet, verbose } = verbosity;
-        Ok(Self { bar, summary: Summary::default(), coverage, quiet, verbose })
+        Ok(Self { study, bar, summary: Summary::default(), begun: false, coverage, quiet, verbose })
     }
 
-    pub(super) fn count(&mut self, study: &Study, trial: &Trial) {
+    fn count(&mut self, trial: &Trial) {
         self.summary.add(trial);
         // Where nobody sees the bar, it need not be known.
         if trial.covers()
             && !self.bar.is_hidden()
             && let Some(coverage) = &mut self.coverage
-            && let Ok(point) = study.space.encode(&trial.test)
+            && let Ok(point) = self.study.space().encode(&trial.test)
         {
             coverage.add(&point).expect("a point of the space");
         }
     }
 
-    pub(super) fn show(&mut self, study: &Study, trial: &Trial) {
-        self.count(study, trial);
+    fn show(&mut self, trial: &Trial) {
         let coverage = self.coverage.as_ref();
         let dispersion = coverage.and_then(LiveCoverage::dispersion);
         let dispersion =
@@ -64,12 +66,38 @@ impl Progress {
         self.bar.inc(1);
         // What is wrong with one test may be wrong with all, and whoever looks on can stop them.
         let is_first = trial.verdict == Verdict::Error && self.summary.count(Verdict::Error) == 1;
-        if let Some(error) = trial.error.as_ref().filter(|_| is_first && !self.verbose && !self.quiet) {
+        if let Some(error) = trial.error().filter(|_| is_first && !self.verbose && !self.quiet) {
             self.bar.suspend(|| complain(&format!("test {} ended in an error: {error}", trial.index)));
         }
         if self.verbose && trial.verdict != Verdict::Pass {
-            let line = format!("test {}: {}, {}", trial.index, trial.verdict, in_words(study, trial));
+            let line = format!("test {}: {}, {}", trial.index, trial.verdict, in_words(self.study, trial));
             self.bar.suspend(|| complain(&line));
         }
+    }
+}
+
+impl Observer for Progress<'_> {
+    fn begun(&mut self) -> Result<(), Error> {
+        self.begun = true;
+        Ok(())
+    }
+
+    fn trial(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error> {
+        self.count(trial);
+        self.show(trial);
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn known(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error> {
+        self.count(trial);
+        self.bar.inc(1);
+        // The rate is that of this session, not of what was there before.
+        self.bar.reset_eta();
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn ended(&mut self) -> Result<(), Error> {
+        self.bar.set_message("measuring coverage");
+        Ok(())
     }
 }

@@ -2,13 +2,14 @@
 
 use super::output::plural;
 use super::run::{self, Conducted};
-use super::{Failure, Found, Verbosity, print};
-use crate::record::{
-    Dataset, Kept, Projector, STANDARD_CAMERAS, VariedCameras, check_rates, read_cameras, standard_cameras,
-};
-use crate::{Error, Trial, Worker};
+use super::usage;
+use super::{Failure, Status, Verbosity, print};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use paracosm_campaign::{Error, Trial, Worker};
+use paracosm_report::record::{
+    Dataset, Kept, Projector, VariedCameras, check_rates, read_cameras, standard_cameras, standard_cameras_file,
+};
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 
@@ -50,14 +51,12 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         if self.print_cameras {
-            return print(STANDARD_CAMERAS).map(|()| Found::Nothing);
+            return print(&standard_cameras_file()).map(|()| Status::Nothing);
         }
         if self.run.subject.is_system() {
-            return Err(
-                Error::Usage("--system: what a system does cannot be seen, so it cannot be recorded".into()).into()
-            );
+            return Err(usage("--system: what a system does cannot be seen, so it cannot be recorded".into()).into());
         }
         let cameras = match &self.cameras {
             Some(path) => read_cameras(path)?,
@@ -66,10 +65,8 @@ impl Options {
         let kept: Kept = self.outputs.parse()?;
         // Before a long campaign, not after it, it is said that nothing can be drawn.
         let mut projector = Projector::new(cameras.nominal(), kept.outputs())?;
-        let conducted = self.run.conduct(verbosity, |study| {
-            check_rates(&study, cameras.nominal())?;
-            cameras.open(study)
-        })?;
+        let check = |study: &_| check_rates(study, cameras.nominal());
+        let conducted = self.run.conduct(verbosity, |study| cameras.open(study), check)?;
         let dataset = Dataset::open(&self.run.out, cameras, kept, self.colours)?;
         self.record(&conducted, &dataset, &mut projector, verbosity)?;
         Ok(conducted.found)
@@ -82,7 +79,8 @@ impl Options {
         projector: &mut Projector,
         verbosity: Verbosity,
     ) -> Result<(), Failure> {
-        let Conducted { study, trials, stop, .. } = conducted;
+        let Conducted { report, stop, .. } = conducted;
+        let (study, trials) = (report.log.study(), report.log.trials());
         let (sound, broken): (Vec<&Trial>, Vec<&Trial>) = trials.iter().partition(|trial| trial.covers());
         let left: Vec<&Trial> = sound.into_iter().filter(|trial| !dataset.has(trial)).collect();
         let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(left.len() as u64) };

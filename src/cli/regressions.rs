@@ -1,12 +1,14 @@
 //! `paracosm-fuzz replay FILE...`: regression tests once more.
 
 use super::draw::is_ours_to_write;
-use super::output::{Format, digits, json, shell_word};
-use super::{Failure, Found, print};
-use crate::folder::write_whole;
-use crate::junit::{self, Case, End, Suite};
+use super::output::{Format, digits, json};
+use super::usage;
+use super::{Failure, Status, print};
 use crate::oracles::Verdict;
-use crate::{Error, Expectation, Regression, Replayed, Trial};
+use paracosm_campaign::files::write_whole;
+use paracosm_campaign::{Error, Expectation, Regression, Replayed, Study, Trial};
+use paracosm_report::junit::{Case, End};
+use paracosm_report::{Junit, shell_word};
 use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -20,24 +22,24 @@ pub(super) fn replay(
     expect: Option<Expectation>,
     junit: Option<&Path>,
     format: Option<Format>,
-) -> Result<Found, Failure> {
+) -> Result<Status, Failure> {
     junit.map_or(Ok(()), is_report)?;
     let mut regressions = Vec::new();
     for file in files {
-        let mut regression = Regression::read(file)?;
+        let mut regression = Regression::read(file, &crate::catalogue())?;
         regression.expect = expect.unwrap_or(regression.expect);
         regressions.push((file, regression));
     }
     let (mut lines, mut objects) = (String::new(), Vec::new());
-    let (mut found, mut wrong) = (Found::Nothing, None);
+    let (mut found, mut wrong) = (Status::Nothing, None);
     let (mut trials, mut ends) = (Vec::new(), Vec::new());
     for (file, regression) in &regressions {
-        let replayed = regression.run().map_err(|error| Error::content(file, None, error.to_string()))?;
+        let replayed = regression.run().map_err(|error| usage(format!("{}: {error}", file.display())))?;
         let words = words(regression, &replayed);
         let _ = writeln!(lines, "{}: {words}", file.display());
         objects.push(json!({"file": file, "about": regression.about, "replayed": replayed}));
         if replayed.trial.is_failure() {
-            found = Found::Violation;
+            found = Status::Violation;
         }
         let ended = end(&replayed, words);
         if let End::Error(words) = &ended {
@@ -48,9 +50,8 @@ pub(super) fn replay(
     }
     if let Some(path) = junit {
         let suites = regressions.iter().zip(&trials).zip(ends);
-        let suites: Vec<Suite> =
-            suites.map(|(((file, regression), trial), end)| suite(file, regression, (trial, end))).collect();
-        write_whole(path, junit::document(&suites).as_bytes())?;
+        let suites = suites.map(|(((file, regression), trial), end)| suite(file, regression, (trial, end)));
+        write_whole(path, Junit::of_cases(suites).text().as_bytes())?;
     }
     print(&match Format::or_fitting(format) {
         Format::Table => lines,
@@ -63,7 +64,7 @@ pub(super) fn replay(
 fn is_report(path: &Path) -> Result<(), Error> {
     is_ours_to_write("--junit", path)?;
     if path.extension().is_some_and(|ending| ending == "json") {
-        return Err(Error::Usage(format!("--junit {}: a report is XML, expected FILE.xml", path.display())));
+        return Err(usage(format!("--junit {}: a report is XML, expected FILE.xml", path.display())));
     }
     Ok(())
 }
@@ -79,12 +80,12 @@ fn end(replayed: &Replayed, words: String) -> End {
 }
 
 /// The suite of one test.
-fn suite<'a>(file: &Path, regression: &'a Regression, (trial, end): (&'a Trial, End)) -> Suite<'a> {
+fn suite<'a>(file: &Path, regression: &'a Regression, (trial, end): (&'a Trial, End)) -> (String, &'a Study, Case<'a>) {
     let name = file.to_string_lossy().into_owned();
     let replay = format!("paracosm-fuzz replay {}", shell_word(&name));
     let expected = Some(if regression.expect == Expectation::Fail { "fail" } else { "pass" });
     let case = Case { name: name.clone(), trial, replay, end, expected };
-    Suite { name, study: regression.study(), cases: vec![case] }
+    (name, regression.study(), case)
 }
 
 /// What became of a test.
@@ -94,7 +95,7 @@ fn words(regression: &Regression, replayed: &Replayed) -> String {
         Verdict::Fail => format!("fails, {}", violations(regression, replayed)),
         Verdict::Pass => "passes".to_owned(),
         verdict => {
-            format!("ends {verdict}{}", trial.error.iter().map(|error| format!(", {error}")).collect::<String>())
+            format!("ends {verdict}{}", trial.error().iter().map(|error| format!(", {error}")).collect::<String>())
         }
     };
     let note = match (expect, as_expected) {
@@ -124,7 +125,7 @@ fn broke(trial: &Trial) -> bool {
 
 /// What a test violates, and by how much.
 fn violations(regression: &Regression, replayed: &Replayed) -> String {
-    let requirements = regression.study().requirements.iter();
+    let requirements = regression.study().requirements().iter();
     let violated = requirements.filter_map(|requirement| {
         let worth = replayed.trial.robustness(&requirement.id)?;
         let violated = replayed.trial.violates(&requirement.id);

@@ -1,16 +1,16 @@
 //! `paracosm-fuzz replay`: tests once more, one of a campaign's log or those in regression files.
 
-use super::draw::{Kind, Target};
+use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, value_words};
-use super::{Failure, Found, Verbosity, on_interrupt, print, regressions};
-use crate::coverage::{did_you_mean, nearest};
-use crate::engine::Metric;
+use super::usage;
+use super::{Failure, Status, Verbosity, on_interrupt, print, regressions};
 use crate::engine::picture::Record;
 use crate::engine::sensor::Cameras;
-use crate::expected::Expected;
-use crate::record::{Clip, cameras_for_people, read_cameras};
-use crate::{Error, Expectation, Folder, Study, Subject, Trial, Worker, plot, write_trace};
+use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
+use paracosm_campaign::{Error, Expectation, Log, Metric, Study, Subject, Trial, Worker, write_trace};
+use paracosm_report::plot;
+use paracosm_report::record::{Clip, cameras_for_people, read_cameras};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -61,56 +61,56 @@ enum Ending {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         let found = match self.what.as_slice() {
             [dir, index] if !dir.is_file() => self.replay(dir, parse_index(index)?, verbosity)?,
             [dir] if dir.is_dir() => {
                 let message = format!("{} is a folder: expected the index of a test after it", dir.display());
-                return Err(Error::Usage(message).into());
+                return Err(usage(message).into());
             }
             _ if self.trace.is_some() || self.draw.is_some() || self.camera.is_some() => {
                 let message = "--trace, --draw and --camera are for a test of a campaign: replay DIR INDEX";
-                return Err(Error::Usage(message.into()).into());
+                return Err(usage(message.into()).into());
             }
             files => {
                 let expect = self.expect.map(Expectation::from);
                 regressions::replay(files, expect, self.junit.as_deref(), self.format)?
             }
         };
-        Ok(if self.fail_on_violation { found } else { Found::Nothing })
+        Ok(if self.fail_on_violation { found } else { Status::Nothing })
     }
 
     /// Runs a logged test again.
-    fn replay(&self, dir: &Path, index: usize, verbosity: Verbosity) -> Result<Found, Failure> {
+    fn replay(&self, dir: &Path, index: usize, verbosity: Verbosity) -> Result<Status, Failure> {
         if self.expect.is_some() || self.junit.is_some() {
             let option = if self.expect.is_some() { "--expect" } else { "--junit" };
             let message = format!("{option} is for regression files; the log says how a test ended");
-            return Err(Error::Usage(message).into());
+            return Err(usage(message).into());
         }
-        let (study, trials) = Folder::read(dir)?;
-        let logged = logged(dir, &trials, index)?;
+        let log = Log::read(dir, &crate::catalogue())?;
+        let (study, logged) = (log.study(), logged(dir, &log, index)?);
         let target = self
             .draw
             .as_ref()
-            .map(|file| Target::new("--draw", file, &[Kind::Svg, Kind::Png, Kind::Gif]))
+            .map(|file| Target::new("--draw", file, &[FileKind::Svg, FileKind::Png, FileKind::Gif]))
             .transpose()?;
         let clip = self.camera.as_deref().map(Clip::new).transpose()?;
         let given = self.cameras.as_deref().map(read_cameras).transpose()?;
         let given = given.map(|cameras| self.through(cameras.of_test(&logged.test))).transpose()?;
         let seen = [("--draw", &self.draw), ("--camera", &self.camera)];
         let seen = seen.into_iter().find_map(|(option, file)| Some((option, file.as_ref()?)));
-        if let (Some((option, file)), Subject::System(_)) = (seen, &study.subject) {
+        if let (Some((option, file)), Subject::System(_)) = (seen, study.subject()) {
             let message =
                 format!("{option} {}: what a system does cannot be seen; --trace writes it down", file.display());
-            return Err(Error::Usage(message).into());
+            return Err(usage(message).into());
         }
         let mut record = Record::default();
         let stop = Arc::default();
         on_interrupt(Arc::clone(&stop));
-        let mut worker = Worker::until(&study, stop.clone())?;
+        let mut worker = Worker::until(study, stop.clone())?;
         worker.start()?;
         let watched = target.is_some();
-        let (trial, trace) = worker.watch(index, &logged.test, |run| {
+        let (trial, trace) = worker.replay(&log, logged, |run| {
             if watched {
                 record.see(run);
             }
@@ -118,7 +118,6 @@ impl Options {
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Interrupted.into());
         }
-        let trial = Expected::of(&study, &trials[..index]).check(trial);
         if let Some(trace) = &trace {
             let default = || dir.join(format!("trace-{index}.csv"));
             let path = self.trace.clone().unwrap_or_else(default);
@@ -128,10 +127,11 @@ impl Options {
             verbosity.note(format_args!("no trace to write to {}", path.display()));
         }
         if let Some(target) = &target {
-            let caption = format!("{}, test {}: {}", study.subject.scenario()?.scenario, trial.index, trial.verdict);
+            let caption =
+                format!("{}, test {}: {}", study.subject().scenario()?.scenario(), trial.index, trial.verdict);
             verbosity.note(target.write(|kind| draw(&record, kind, &caption))?);
         }
-        if trial != *logged {
+        if !trial.repeats(logged) {
             return Err(difference(&worker, logged, &trial).into());
         }
         if let Some(clip) = clip {
@@ -143,10 +143,10 @@ impl Options {
             clip.write(&mut worker, logged, &cameras)?.iter().for_each(|line| verbosity.note(line));
         }
         print(&match Format::or_fitting(self.format) {
-            Format::Table => table(&study, &trial),
+            Format::Table => table(study, &trial),
             Format::Json => json(&trial),
         })?;
-        Ok(if trial.is_failure() { Found::Violation } else { Found::Nothing })
+        Ok(if trial.is_failure() { Status::Violation } else { Status::Nothing })
     }
 }
 
@@ -158,9 +158,7 @@ impl Options {
             Some(name) if cameras.all.contains_key(name) => Some(name.clone()),
             Some(name) => {
                 let (all, meant) = (names().collect::<Vec<_>>().join(", "), did_you_mean(&nearest(name, names())));
-                return Err(Error::Usage(format!(
-                    "--through {name}: there is no such camera, expected one of {all}{meant}"
-                )));
+                return Err(usage(format!("--through {name}: there is no such camera, expected one of {all}{meant}")));
             }
             None => names().next().map(str::to_owned),
         };
@@ -186,15 +184,15 @@ impl From<Ending> for Expectation {
 
 fn parse_index(index: &Path) -> Result<usize, Error> {
     let text = index.to_string_lossy();
-    text.parse().map_err(|_| Error::Usage(format!("found `{text}`, expected the index of a test after the folder")))
+    text.parse().map_err(|_| usage(format!("found `{text}`, expected the index of a test after the folder")))
 }
 
 /// The trial of that index in the log of a folder.
-pub(super) fn logged<'a>(dir: &Path, trials: &'a [Trial], index: usize) -> Result<&'a Trial, Error> {
-    trials.get(index).ok_or_else(|| {
-        let count = trials.len();
+pub(super) fn logged<'a>(dir: &Path, log: &'a Log, index: usize) -> Result<&'a Trial, Error> {
+    log.trials().get(index).ok_or_else(|| {
+        let count = log.trials().len();
         let there = if count == 0 { "none".to_owned() } else { format!("0 to {}", count - 1) };
-        Error::Usage(format!("{} has no test {index}, expected {there}", dir.display()))
+        usage(format!("{} has no test {index}, expected {there}", dir.display()))
     })
 }
 
@@ -202,14 +200,14 @@ pub(super) fn logged<'a>(dir: &Path, trials: &'a [Trial], index: usize) -> Resul
 const FILM: f64 = 800.0;
 
 /// The run from above.
-fn draw(record: &Record, kind: Kind, caption: &str) -> Result<Vec<u8>, Failure> {
+fn draw(record: &Record, kind: FileKind, caption: &str) -> Result<Vec<u8>, Failure> {
     let nothing = "its world could not be built, so that there was nothing to see";
     let story = || record.story(caption).ok_or(nothing);
     match kind {
-        Kind::Svg => Ok(story()?.svg().into_bytes()),
-        Kind::Png => plot::drawing_png(&story()?),
-        Kind::Gif => plot::film_gif(&record.film(FILM, caption).ok_or(nothing)?),
-        Kind::Csv => unreachable!("it is none of the kinds"),
+        FileKind::Svg => Ok(story()?.svg().into_bytes()),
+        FileKind::Png => plot::drawing_png(&story()?),
+        FileKind::Gif => plot::film_gif(&record.film(FILM, caption).ok_or(nothing)?),
+        FileKind::Csv => unreachable!("it is none of the kinds"),
     }
 }
 
@@ -234,7 +232,7 @@ fn difference(worker: &Worker, logged: &Trial, trial: &Trial) -> String {
 fn table(study: &Study, trial: &Trial) -> String {
     let mut table = Table::default();
     table.heading(&format!("test {}: {}", trial.index, trial.verdict));
-    for (parameter, (name, value)) in study.space.parameters().iter().zip(trial.test.iter()) {
+    for (parameter, (name, value)) in study.space().parameters().iter().zip(trial.test.iter()) {
         table.row(name, &format!("{} {}", value_words(value), parameter.unit.as_deref().unwrap_or_default()));
     }
     for id in trial.requirements() {
@@ -242,16 +240,15 @@ fn table(study: &Study, trial: &Trial) -> String {
         let value = trial.robustness(id);
         table.row(id, &value.map_or("undecided".to_owned(), |value| format!("{} {unit}", digits(value))));
     }
-    for name in trial.metric_names() {
-        let metric = match trial.metric(name) {
-            Some(Metric::Number(number)) => digits(*number),
-            Some(Metric::Flag(flag)) => (if *flag { "yes" } else { "no" }).to_owned(),
-            Some(Metric::Word(Some(word))) => word.clone(),
-            Some(Metric::Word(None)) | None => "none".to_owned(),
+    for (name, metric) in trial.metrics() {
+        let metric = match metric {
+            Metric::Number(number) => digits(number),
+            Metric::Flag(flag) => (if flag { "yes" } else { "no" }).to_owned(),
+            Metric::Word(word) => word.unwrap_or_else(|| "none".to_owned()),
         };
-        table.row(name, &metric);
+        table.row(&name, &metric);
     }
-    if let Some(error) = &trial.error {
+    if let Some(error) = trial.error() {
         table.row("error", error);
     }
     table.row("trace hash", &format!("{}, as logged", trial.trace_hash.as_deref().unwrap_or("none")));

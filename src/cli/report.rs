@@ -1,13 +1,15 @@
 //! What a campaign says at its end, for people and as JSON.
 
 use super::odd;
-use super::output::{Table, digits, percent, plural, shell_word, value_words};
-use super::suspects::Guilt;
-use crate::coverage::Value;
-use crate::json::Number;
-use crate::junit;
+use super::output::{Table, digits, percent, plural, value_words};
+use super::suspects;
+use crate::Report;
+use crate::engine::Violation;
 use crate::oracles::Verdict;
-use crate::{Coverage, Explanation, Judged, Modes, Promise, Study, Summary, Trial};
+use crate::space::Value;
+use paracosm_analysis::{Judged, Modes};
+use paracosm_campaign::{Extension, ExtensionRecord, Finish, Number, Study, Trial};
+use paracosm_report::shell_word;
 use serde_json::json;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -15,31 +17,23 @@ use std::path::Path;
 /// How many failure modes a table shows.
 const MODES_SHOWN: usize = 5;
 
-/// What is printed at the end.
-pub(super) struct Report<'a> {
-    pub(super) study: &'a Study,
-    pub(super) trials: &'a [Trial],
-    pub(super) summary: &'a Summary,
-    pub(super) coverage: &'a Coverage,
-    pub(super) promise: Option<&'a Promise>,
-    pub(super) guilt: &'a Guilt,
-    pub(super) modes: &'a Modes,
-    pub(super) explanation: Option<&'a Explanation>,
-    pub(super) out: &'a Path,
+/// A report that is printed.
+pub(super) struct Printed<'a> {
+    pub report: &'a Report,
+    pub out: &'a Path,
+    /// The program as it was called.
+    pub program: &'a str,
+    /// Whether guilty combinations were to be located.
+    pub locate: bool,
 }
 
 const VERDICTS: [Verdict; 5] = [Verdict::Fail, Verdict::Pass, Verdict::Inconclusive, Verdict::Invalid, Verdict::Error];
 
-impl Report<'_> {
+impl Printed<'_> {
     pub(super) fn table(&self) -> String {
-        let Self { study, summary, .. } = self;
+        let (study, summary) = (self.study(), &self.report.summary);
         let mut table = Table::default();
-        table.heading(&format!(
-            "{}, strategy {}: {} tests",
-            study.subject.title(),
-            study.strategy_label(),
-            summary.tests()
-        ));
+        table.heading(&format!("{}, strategy {}: {} tests", study.title(), study.sampling(), summary.tests()));
         for verdict in VERDICTS {
             let count = summary.count(verdict);
             if count > 0 || matches!(verdict, Verdict::Fail | Verdict::Pass) {
@@ -55,25 +49,25 @@ impl Report<'_> {
             table.row(if i == 0 { "design domain" } else { "" }, &format!("{name}: {words}"));
         }
         if self.stopped() {
-            table.row("stopped", &format!("at the first failing test; the budget is {}", study.budget));
+            table.row("stopped", &format!("at the first failing test; the budget is {}", study.sampling().budget));
         }
-        if let Some(known) = &study.extends {
+        if let Some(known) = self.extends() {
             table.row(
                 "extends",
                 &format!("{} of {}, which the coverage counts", plural(known.tests, "test"), known.name),
             );
         }
-        table.coverage(self.coverage);
-        if let Some(promise) = self.promise {
+        table.coverage(&self.report.coverage);
+        if let Some(promise) = &self.report.promise {
             table.row("random rows", &format!("{}, {} of them different", promise.rows, self.different_rows()));
             table.row("  guaranteed", &promise.words());
-            if let Some(Some(measured)) = &self.coverage.discrete {
+            if let Some(Some(measured)) = &self.report.coverage.discrete {
                 table.row("  measured", &format!("{} of {} covered", measured.covered, measured.valid));
             }
         }
-        self.guilt.show(&mut table);
+        suspects::show(&mut table, self.report, self.locate);
         self.show_modes(&mut table);
-        if let Some(explanation) = self.explanation {
+        if let Some(explanation) = &self.report.explanation {
             let rules = explanation.rules_in_words();
             let lines = rules.iter().map(|rule| ("", rule.as_str()));
             let trust = explanation.trust_in_words();
@@ -83,14 +77,14 @@ impl Report<'_> {
             }
         }
         table.row("written to", &self.out.display().to_string());
-        if let Some(worst) = summary.worst(self.study) {
-            let trial = &self.trials[worst.index];
+        if let Some(worst) = summary.worst(self.report.log.scales()) {
+            let trial = &self.report.log.trials()[worst.index];
             let robustness = trial.robustness(&worst.requirement).unwrap_or(f64::NAN);
             let robustness = self.robustness(&worst.requirement, robustness);
             table.row("worst test", &format!("{}: {} {robustness}", worst.index, worst.requirement));
             table.row("  where", &in_words(study, trial));
-            if let Some((time, part)) = trial.cause(&worst.requirement) {
-                table.row("  why", &format!("`{part}` at {} s", digits(time)));
+            if let Some(Violation { time, part, .. }) = trial.violation(&worst.requirement) {
+                table.row("  why", &format!("`{part}` at {} s", digits(*time)));
             }
             if trial.is_failure() {
                 table.row("  shrink", &self.command("shrink", worst.index));
@@ -101,18 +95,18 @@ impl Report<'_> {
     }
 
     pub(super) fn json(&self) -> serde_json::Value {
-        let counts = VERDICTS.map(|verdict| (verdict.to_string(), self.summary.count(verdict).into()));
-        let worst = self.summary.worst(self.study).map(|worst| {
-            let trial = &self.trials[worst.index];
+        let counts = VERDICTS.map(|verdict| (verdict.to_string(), self.report.summary.count(verdict).into()));
+        let (study, summary) = (self.study(), &self.report.summary);
+        let worst = summary.worst(self.report.log.scales()).map(|worst| {
+            let trial = &self.report.log.trials()[worst.index];
             let mut said = json!({"index": worst.index, "requirement": worst.requirement, "test": trial.test,
                 "robustness": trial.robustness(&worst.requirement), "replay": self.replay(worst.index)});
-            if let Some((time, part)) = trial.cause(&worst.requirement) {
+            if let Some(Violation { time, part, .. }) = trial.violation(&worst.requirement) {
                 said["cause"] = json!({"time": time, "part": part});
             }
             said
         });
-        let requirements: Vec<_> = self
-            .summary
+        let requirements: Vec<_> = summary
             .requirements()
             .iter()
             .map(|judged| {
@@ -121,7 +115,7 @@ impl Report<'_> {
                     .map(|(robustness, index)| json!({"index": index, "robustness": Number(Some(robustness))}));
                 let mut said =
                     json!({"id": judged.id, "violated": judged.violated, "undecided": judged.undecided, "worst": worst});
-                if let Some(stated) = self.study.requirement(&judged.id) {
+                if let Some(stated) = study.requirement(&judged.id) {
                     said["text"] = stated.text.as_str().into();
                     let more = [("source", &stated.source), ("severity", &stated.severity)];
                     for (key, value) in more.into_iter().filter_map(|(key, value)| Some((key, value.as_ref()?))) {
@@ -131,28 +125,37 @@ impl Report<'_> {
                 said
             })
             .collect();
-        let mut summary = json!({"tests": self.summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
+        let mut printed = json!({"tests": summary.tests(), "verdicts": serde_json::Map::from_iter(counts),
             "requirements": requirements,
-            "coverage": self.coverage, "out": self.out, "worst": worst});
-        if let Some(odd) = &self.study.odd {
-            summary["odd"] = json!(odd);
+            "coverage": self.report.coverage, "out": self.out, "worst": worst});
+        if let Some(odd) = study.odd() {
+            printed["odd"] = json!(odd);
         }
-        if let Some(known) = &self.study.extends {
-            summary["extends"] = json!(known);
+        if let Some(known) = self.extends() {
+            printed["extends"] = json!(known);
         }
-        if let Some(promise) = self.promise {
-            summary["random_rows"] = json!(promise);
-            summary["random_rows"]["different"] = self.different_rows().into();
+        if let Some(promise) = &self.report.promise {
+            printed["random_rows"] = json!(promise);
+            printed["random_rows"]["different"] = self.different_rows().into();
         }
-        if let Some(explanation) = self.explanation {
-            summary["explanation"] = json!(explanation);
+        if let Some(explanation) = &self.report.explanation {
+            printed["explanation"] = json!(explanation);
         }
-        self.guilt.add_to(&mut summary);
-        if self.study.stops_at_first() {
-            summary["stopped_at_first"] = self.stopped().into();
+        suspects::add_to(&mut printed, self.report);
+        if study.sampling().stop_at_first {
+            printed["stopped_at_first"] = self.stopped().into();
         }
-        summary["modes"] = json!(self.modes.modes);
-        summary
+        printed["modes"] = json!(self.report.modes.modes);
+        printed
+    }
+
+    fn study(&self) -> &Study {
+        self.report.log.study()
+    }
+
+    /// The tests that count as done.
+    fn extends(&self) -> Option<&ExtensionRecord> {
+        self.report.log.extension().map(Extension::record)
     }
 
     /// What became of a requirement.
@@ -165,7 +168,7 @@ impl Report<'_> {
         if let Some((robustness, index)) = worst {
             text.push_str(&format!("; at worst {} (test {index})", self.robustness(id, *robustness)));
         }
-        if let Some(stated) = self.study.requirement(id) {
+        if let Some(stated) = self.study().requirement(id) {
             let said = stated.severity.iter().chain(&stated.source);
             said.for_each(|word| text.push_str(&format!("; {word}")));
         }
@@ -174,18 +177,18 @@ impl Report<'_> {
 
     /// A robustness in the unit of its requirement.
     fn robustness(&self, requirement: &str, robustness: f64) -> String {
-        let unit = self.study.requirement(requirement).map_or("", |requirement| requirement.unit.as_str());
+        let unit = self.study().requirement(requirement).map_or("", |requirement| requirement.unit.as_str());
         format!("{} {unit}", digits(robustness)).trim_end().to_owned()
     }
 
     /// Whether the first failing test has ended the campaign.
     fn stopped(&self) -> bool {
-        self.study.stops_at_first() && self.summary.count(Verdict::Fail) > 0
+        self.report.finish == Finish::Stopped
     }
 
     /// The ways in which tests fail.
     fn show_modes(&self, table: &mut Table) {
-        let Modes { modes, .. } = self.modes;
+        let Modes { modes, .. } = &self.report.modes;
         for (i, mode) in modes.iter().take(MODES_SHOWN).enumerate() {
             let tests = match mode.count {
                 1 => format!("test {}", mode.representative),
@@ -200,15 +203,9 @@ impl Report<'_> {
 
     /// How many different combinations of all discrete values were tested.
     fn different_rows(&self) -> usize {
-        let points = self.trials.iter().filter_map(|trial| self.study.space.encode(&trial.test).ok());
+        let space = self.study().space();
+        let points = self.report.log.trials().iter().filter_map(|trial| space.encode(&trial.test).ok());
         points.map(|point| point.discrete).collect::<BTreeSet<_>>().len()
-    }
-
-    /// The tests as CI systems read them.
-    pub(super) fn junit(&self) -> String {
-        let case = |trial| junit::Case::of(self.study, trial, self.replay(trial.index));
-        let cases = self.trials.iter().map(case).collect();
-        junit::document(&[junit::Suite { name: self.study.subject.title(), study: self.study, cases }])
     }
 
     /// The command that runs a test again.
@@ -218,8 +215,7 @@ impl Report<'_> {
 
     /// A command about a test, with the program as it was called.
     fn command(&self, verb: &str, index: usize) -> String {
-        let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
-        format!("{} {verb} {} {index}", shell_word(&program), shell_word(&self.out.to_string_lossy()))
+        format!("{} {verb} {} {index}", shell_word(self.program), shell_word(&self.out.to_string_lossy()))
     }
 }
 
@@ -237,7 +233,7 @@ fn meaning(verdict: Verdict) -> &'static str {
 pub(super) fn in_words(study: &Study, trial: &Trial) -> String {
     let value = |(name, value): (&str, &Value)| {
         let value = value_words(value);
-        let unit = study.space.parameter(name).ok().and_then(|p| p.unit.as_deref()).unwrap_or_default();
+        let unit = study.space().parameter(name).ok().and_then(|p| p.unit.as_deref()).unwrap_or_default();
         format!("{name} {value} {unit}").trim_end().to_owned()
     };
     trial.test.iter().map(value).collect::<Vec<_>>().join(", ")

@@ -1,34 +1,26 @@
 //! `paracosm-fuzz run`: a campaign with everything that watches it.
 
-use super::map;
 use super::output::{Format, json, plural};
 use super::progress::Progress;
-use super::report::Report;
 use super::sampling::Sampling;
 use super::subject::Subject;
-use super::suspects::Guilt;
-use super::{Failure, Found, Verbosity, on_interrupt, print};
-use crate::coverage::{did_you_mean, nearest};
+use super::usage;
+use super::{Failure, Status, Verbosity, on_interrupt, print, report};
 use crate::generators::Strategy;
 use crate::oracles::Verdict;
-use crate::scenarios;
-use crate::{Campaign, Coverage, Error, Explanation, Folder, Measure, Modes, Study, Tests, Trial};
+use crate::space::{did_you_mean, nearest};
+use crate::{Report, Runner};
 use clap::Args;
-use std::collections::BTreeMap;
+use paracosm_campaign::{Error, Extension, Failure as Breakdown, Finish, Study, StudyBuilder};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
-
-/// The time that `coverage.json` may take, as `estimate --time-limit 5`.
-const COVERAGE_LIMIT: Duration = Duration::from_secs(5);
 
 /// A campaign that was run to its end.
 pub(super) struct Conducted {
-    pub study: Study,
-    pub trials: Vec<Trial>,
-    pub found: Found,
+    pub report: Report,
+    pub found: Status,
     /// What an interrupt sets.
     pub stop: Arc<AtomicBool>,
 }
@@ -83,68 +75,95 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
-        self.conduct(verbosity, Ok).map(|conducted| conducted.found)
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
+        self.conduct(verbosity, |study| study, |_| Ok(())).map(|conducted| conducted.found)
     }
 
-    /// Runs the campaign and prints its summary. `prepare` may open more of what is tested, or have something against it.
+    /// Runs the campaign and prints its summary. `prepare` may open more of what is tested, and `check` have something against
+    /// it.
     pub fn conduct(
         &self,
         verbosity: Verbosity,
-        prepare: impl FnOnce(Study) -> Result<Study, Error>,
+        prepare: impl FnOnce(StudyBuilder) -> StudyBuilder,
+        check: impl FnOnce(&Study) -> Result<(), Error>,
     ) -> Result<Conducted, Failure> {
         if self.resume {
             self.is_no_folder()?;
         }
-        let study = self.study(prepare(self.subject.study(verbosity)?)?)?;
-        if self.locate.is_some() && study.space.levels().is_empty() {
-            let message = "--locate is for discrete parameters, of which none is open; --open NAME=A,B,C opens one";
-            return Err(Error::Usage(message.into()).into());
-        }
-        for (id, part) in study.outlasting()? {
-            let duration = study.subject.scenario()?.duration();
-            verbosity.note(format_args!(
-                "{id} may stay undecided, and tests inconclusive: `{part}` looks past the {duration} s of a test"
-            ));
-        }
-        let mut campaign = Campaign::new(&study)?;
-        if let Some(jobs) = self.jobs {
-            campaign = campaign.jobs(jobs);
-        }
-        let (mut folder, known) = if self.resume {
-            Folder::resume(&self.out, &study)?
-        } else {
-            (Folder::create(&self.out, &study)?, Vec::new())
-        };
-        let mut progress = Progress::new(&study, verbosity, known.len())?;
-        let mut trials = known.clone();
-        trials.iter().for_each(|trial| progress.count(&study, trial));
-        let stop = campaign.stop();
+        let study = prepare(self.subject.study(verbosity)?).sampling(self.sampling()?).build()?;
+        check(&study)?;
+        self.subject.note_unjudged(&study, verbosity);
+        let extension = self.extend.as_ref().map(|path| Extension::read(path, &study)).transpose()?;
+        note_outlasting(&study, verbosity)?;
+        let stop = Arc::<AtomicBool>::default();
+        let program = std::env::args().next().unwrap_or_else(|| "paracosm-fuzz".into());
+        let runner = self.runner(&study, extension.as_ref()).until(stop.clone()).program(&program);
+        let mut progress = Progress::new(&study, extension.as_ref(), verbosity)?;
         on_interrupt(stop.clone());
-        let mut scales = BTreeMap::new();
-        let watch = |trial: &Trial| {
-            folder.append(trial)?;
-            progress.show(&study, trial);
-            trials.push(trial.clone());
-            Ok(())
-        };
-        let run = campaign.resume(known).run_learning(watch, |learned| {
-            scales.clone_from(learned);
-            Folder::write_study(&self.out, &study.clone().with_scales(scales.clone(), &[]))
-        });
-        if let Err(error) = run {
-            progress.bar.finish_and_clear();
-            return Err(cut_short(&error, &self.out, trials.len()));
+        let ran = runner.run_into(&self.out, &mut [&mut progress]);
+        progress.bar.finish_and_clear();
+        let report = ran.map_err(|error| match progress.begun {
+            true => cut_short(error, &self.out, progress.summary.tests()),
+            false => error.into(),
+        })?;
+        self.note_end(&report, extension.as_ref(), verbosity);
+        let printed =
+            report::Printed { report: &report, out: &self.out, program: &program, locate: self.locate.is_some() };
+        print(&match Format::or_fitting(self.format) {
+            Format::Table => printed.table(),
+            Format::Json => json(&printed.json()),
+        })?;
+        let (log, summary) = (&report.log, &report.summary);
+        for judged in summary.requirements().iter().filter(|judged| judged.undecided > 0) {
+            let given = log.study().given().find(|requirement| requirement.id == judged.id);
+            if let Some(formula) = given.and_then(|requirement| requirement.formula.as_ref()) {
+                let (id, tests) = (&judged.id, plural(judged.undecided, "test"));
+                verbosity.note(format!("{id} stayed undecided in {tests}, which ended too early for `{formula}`"));
+            }
         }
-        let study = study.with_scales(scales, &trials);
-        if !study.learned_scales().is_empty() {
-            Folder::write_study(&self.out, &study)?;
+        if summary.tests() > 0 && summary.count(Verdict::Error) == summary.tests() {
+            let first = log.trials()[0].error().unwrap_or_default();
+            return Err(format!("every test ended in an error; the first: {first}").into());
         }
-        let stopped = study.stops_at_first() && trials.last().is_some_and(Trial::is_failure);
-        if trials.len() < study.budget && !stopped {
-            let beside = study.extends.as_ref().map(|known| format!(" beside the {} in {}", known.tests, known.name));
+        let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
+        let found = if violated { Status::Violation } else { Status::Nothing };
+        Ok(Conducted { report, found, stop })
+    }
+
+    fn runner<'a>(&self, study: &'a Study, extension: Option<&'a Extension>) -> Runner<'a> {
+        let runner = extension.into_iter().fold(Runner::new(study), Runner::extending);
+        let runner = self.jobs.into_iter().fold(runner, Runner::jobs);
+        let runner = self.locate.into_iter().fold(runner, Runner::locating);
+        let runner = if self.resume { runner.resuming() } else { runner };
+        if self.junit { runner.with_junit() } else { runner }
+    }
+
+    /// How tests are chosen, as it is asked for.
+    fn sampling(&self) -> Result<paracosm_campaign::Sampling, Error> {
+        let Sampling { seed, skip, k, epsilon, .. } = self.sampling;
+        let strategy = self.strategy()?;
+        Ok(paracosm_campaign::Sampling {
+            strategy,
+            discrete: self.sampling.family()?,
+            k,
+            epsilon,
+            aim: self.sampling.aim(strategy)?,
+            skip,
+            seed,
+            batch: self.batch,
+            budget: self.budget,
+            stop_at_first: self.stop_at_first,
+        })
+    }
+
+    /// Says why there are fewer tests than there could be, and why there is no map.
+    fn note_end(&self, report: &Report, extension: Option<&Extension>, verbosity: Verbosity) {
+        let ran = report.log.trials().len();
+        if ran < self.budget && report.finish != Finish::Stopped {
+            let beside =
+                extension.map(|known| format!(" beside the {} in {}", known.record().tests, known.record().name));
             let beside = beside.unwrap_or_default();
-            verbosity.note(match (self.sampling.epsilon, trials.len()) {
+            verbosity.note(match (self.sampling.epsilon, ran) {
                 (_, 0) => format!("nothing is missing{beside}: no test was run"),
                 (Some(epsilon), ran) => {
                     let ran = plural(ran, "test");
@@ -157,83 +176,15 @@ impl Options {
                 }
             });
         }
-        progress.bar.set_message("measuring coverage");
-        let coverage = self.write_results(&folder, &study, &trials, verbosity);
-        progress.bar.finish_and_clear();
-        let coverage = coverage?;
-        let guilt = Guilt::of(&study, &trials, &folder, self.locate)?;
-        let modes = Modes::of(&study, &trials);
-        folder.write("modes.json", json(&modes).as_bytes())?;
-        let explanation = Explanation::of(&study, &trials)?;
-        if let Some(explanation) = &explanation {
-            folder.write("explanation.json", json(explanation).as_bytes())?;
-        }
-        // What rows promise that were not run came to nothing.
-        let promise = if stopped { None } else { study.promise()? };
-        let report = Report {
-            study: &study,
-            trials: &trials,
-            summary: &progress.summary,
-            coverage: &coverage,
-            promise: promise.as_ref(),
-            guilt: &guilt,
-            modes: &modes,
-            explanation: explanation.as_ref(),
-            out: &self.out,
-        };
-        if self.junit {
-            folder.write("junit.xml", report.junit().as_bytes())?;
-        }
-        print(&match Format::or_fitting(self.format) {
-            Format::Table => report.table(),
-            Format::Json => json(&report.json()),
-        })?;
-        let summary = &progress.summary;
-        for judged in summary.requirements().iter().filter(|judged| judged.undecided > 0) {
-            if let Some(spec) = study.requirement(&judged.id).filter(|requirement| requirement.given) {
-                let (id, tests) = (&judged.id, plural(judged.undecided, "test"));
-                verbosity
-                    .note(format!("{id} stayed undecided in {tests}, which ended too early for `{}`", spec.formula));
-            }
-        }
-        if summary.tests() > 0 && summary.count(Verdict::Error) == summary.tests() {
-            let first = trials[0].error.as_deref().unwrap_or_default();
-            return Err(format!("every test ended in an error; the first: {first}").into());
-        }
-        let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
-        let found = if violated { Found::Violation } else { Found::Nothing };
-        Ok(Conducted { study, trials, found, stop })
-    }
-
-    /// A study of what is tested, with the strategy that is asked for.
-    fn study(&self, tested: Study) -> Result<Study, Error> {
-        let sampling = &self.sampling;
-        let mut study = tested
-            .strategy(self.strategy())?
-            .batch(self.batch)?
-            .delta(sampling.delta)
-            .k(sampling.k)
-            .epsilon(sampling.epsilon)
-            .budget(self.budget)?
-            .stop_at_first(self.stop_at_first)
-            .seed(sampling.seed)
-            .skip(sampling.skip);
-        if let Some(family) = &sampling.discrete {
-            study = study.discrete(family)?;
-        }
-        if let Some(measure) = sampling.measure(self.strategy()) {
-            study = study.measure(measure)?;
-        }
-        match &self.extend {
-            Some(path) => study.extend(path),
-            None => Ok(study),
+        if report.map.is_none() {
+            verbosity.note("no failure map: it needs two continuous open parameters");
         }
     }
 
     /// Checks that what is to be resumed is no folder in the place of a scenario.
     fn is_no_folder(&self) -> Result<(), Error> {
         let name = self.subject.name();
-        if self.subject.is_system() || scenarios::ALL.iter().any(|program| program.name == name) {
+        if self.subject.is_system() || crate::catalogue().programs().iter().any(|program| program.name() == name) {
             return Ok(());
         }
         let is_campaign = |folder: &Path| folder.join("campaign.json").exists();
@@ -241,7 +192,7 @@ impl Options {
         let said = "--resume takes no folder, --out does";
         if is_campaign(folder) {
             let message = format!("{name} is no scenario but the folder of a campaign: {said}: --out {name} --resume");
-            return Err(Error::Usage(message));
+            return Err(usage(message));
         }
         let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
         let there = std::fs::read_dir(parent.unwrap_or(Path::new("."))).into_iter().flatten().flatten();
@@ -250,42 +201,37 @@ impl Options {
         there.sort();
         let names: Vec<String> = there.iter().map(|folder| folder.display().to_string()).collect();
         let meant = nearest(name, names.iter().map(String::as_str)).map(|folder| format!("--out {folder} --resume"));
-        let scenario = nearest(name, scenarios::ALL.iter().map(|program| program.name)).map(str::to_owned);
+        let catalogue = crate::catalogue();
+        let scenario =
+            nearest(name, catalogue.programs().iter().map(paracosm_engine::Program::name)).map(str::to_owned);
         let meant = did_you_mean(&meant.or(scenario));
-        Err(Error::Usage(format!("{name} is neither a campaign folder nor a scenario; {said}{meant}")))
+        Err(usage(format!("{name} is neither a campaign folder nor a scenario; {said}{meant}")))
     }
 
-    fn strategy(&self) -> &str {
-        let default = match (self.extend.is_some(), self.stop_at_first && !self.sampling.says_how_to_cover()) {
-            (true, _) => Strategy::Greedy,
-            (false, true) => Strategy::Auto,
-            (false, false) => Strategy::Halton,
-        };
-        self.strategy.as_deref().unwrap_or(default.name())
-    }
-
-    fn write_results(
-        &self,
-        folder: &Folder,
-        study: &Study,
-        trials: &[Trial],
-        verbosity: Verbosity,
-    ) -> Result<Coverage, Error> {
-        folder.write_table(study, trials)?;
-        let tests = Tests::of_trials(study, trials)?;
-        let coverage = tests.measure(&Measure::ALL, None, Some(COVERAGE_LIMIT))?;
-        folder.write("coverage.json", json(&coverage).as_bytes())?;
-        match map::of_campaign(study, trials)? {
-            None => verbosity.note("no failure map: it needs two continuous open parameters"),
-            Some(failures) => map::write(&self.out, &failures)?,
-        }
-        Ok(coverage)
+    fn strategy(&self) -> Result<Strategy, Error> {
+        Ok(match (&self.strategy, &self.extend) {
+            (Some(name), _) => name.parse()?,
+            (None, Some(_)) => Strategy::GREEDY,
+            (None, None) if self.stop_at_first && !self.sampling.says_how_to_cover() => Strategy::AUTO,
+            (None, None) => Strategy::HALTON,
+        })
     }
 }
 
+/// Says which formulas look further ahead than a test lasts.
+fn note_outlasting(study: &Study, verbosity: Verbosity) -> Result<(), Error> {
+    for (id, part) in study.outlasting() {
+        let duration = study.subject().scenario()?.duration();
+        verbosity.note(format_args!(
+            "{id} may stay undecided, and tests inconclusive: `{part}` looks past the {duration} s of a test"
+        ));
+    }
+    Ok(())
+}
+
 /// An error that ended the campaign, with what is left of it.
-fn cut_short(error: &Error, out: &Path, safe: usize) -> Failure {
-    if let Error::Unanswered { .. } = error {
+fn cut_short(error: Error, out: &Path, safe: usize) -> Failure {
+    if let Error::Environment(Breakdown::Unanswered { .. }) = error {
         return format!("{error}\n  they are in {}", out.display()).into();
     }
     format!("{error}\n  the first {safe} trials are safe in {}; --resume goes on from there", out.display()).into()

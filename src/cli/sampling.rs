@@ -46,8 +46,9 @@ impl Sampling {
     }
 
     /// The measure that the strategy is to make small, if that is said or follows: who names a family wants its rows.
-    pub fn measure(&self, strategy: &str) -> Option<&str> {
-        let rows = self.discrete.as_ref().filter(|_| strategy == Strategy::Greedy.name());
-        self.measure.as_deref().or(rows.map(|_| Aim::Dispersion.name()))
+    pub fn aim(&self, strategy: Strategy) -> Result<Option<Aim>, GeneratorError> {
+        let said = self.measure.as_deref().map(str::parse).transpose()?;
+        let wants_rows = self.discrete.is_some() && strategy == Strategy::GREEDY;
+        Ok(said.or(wants_rows.then_some(Aim::Dispersion)))
     }
 }

@@ -2,9 +2,10 @@
 
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::replay::logged;
-use super::{Failure, Found, Verbosity, print};
-use crate::{Change, Folder, Regression, Sameness, Shrunk, Study};
+use super::{Failure, Status, Verbosity, print};
 use clap::Args;
+use paracosm_analysis::{Change, Sameness, Shrunk};
+use paracosm_campaign::{Log, Regression, Study};
 use std::path::PathBuf;
 
 /// What `shrink` takes.
@@ -30,25 +31,26 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self, verbosity: Verbosity) -> Result<Found, Failure> {
+    pub fn execute(&self, verbosity: Verbosity) -> Result<Status, Failure> {
         self.save.as_deref().map_or(Ok(()), Regression::check_path)?;
-        let (study, trials) = Folder::read(&self.dir)?;
+        let log = Log::read(&self.dir, &crate::catalogue())?;
+        let study = log.study();
         let same = if self.same_mode { Sameness::Mode } else { Sameness::Requirements };
-        let shrunk = Shrunk::of(&study, logged(&self.dir, &trials, self.index)?, same, self.budget)?;
+        let shrunk = Shrunk::of(&log, logged(&self.dir, &log, self.index)?, same, self.budget)?;
         if let Some(path) = &self.save {
-            let about = format!("{}: {}", study.subject.title(), shrunk.sentence());
-            Regression::new(about, &study, &shrunk.trial).write(path)?;
+            let about = format!("{}: {}", study.title(), shrunk.sentence());
+            Regression::new(about, study, &shrunk.trial).write(path)?;
             verbosity.note(format_args!("regression test written to {}", path.display()));
         }
         print(&match Format::or_fitting(self.format) {
-            Format::Table => table(&study, &shrunk),
+            Format::Table => table(study, &shrunk),
             Format::Json => {
                 let mut printed = serde_json::json!(shrunk);
                 printed["sentence"] = shrunk.sentence().into();
                 json(&printed)
             }
         })?;
-        Ok(Found::Nothing)
+        Ok(Status::Nothing)
     }
 }
 
@@ -58,7 +60,7 @@ fn table(study: &Study, shrunk: &Shrunk) -> String {
     for change in &shrunk.parameters {
         table.row(&change.name, &before_and_after(change));
     }
-    for requirement in study.requirements.iter().filter(|requirement| shrunk.violates.contains(&requirement.id)) {
+    for requirement in study.requirements().iter().filter(|requirement| shrunk.violates.contains(&requirement.id)) {
         let value = shrunk.trial.robustness(&requirement.id).map(digits).unwrap_or_default();
         table.row(&requirement.id, &format!("{value} {}", requirement.unit));
     }

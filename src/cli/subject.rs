@@ -2,10 +2,14 @@
 
 use super::Verbosity;
 use super::system::System;
-use crate::coverage::{Domain, Shape, Value, did_you_mean, nearest};
+use super::usage;
+use crate::campaign;
+use crate::engine::vehicle::VehicleModel;
 use crate::oracles::Semantics;
-use crate::{Error, RequirementText, Study};
+use crate::space::{Domain, Value, did_you_mean, nearest};
 use clap::Args;
+use paracosm_campaign::study::Variation;
+use paracosm_campaign::{Error, StatedRequirement, Study, StudyBuilder};
 use std::path::PathBuf;
 
 /// What is tested.
@@ -47,10 +51,6 @@ pub(super) struct Subject {
     /// requirements says it of each of its own with time = "dense"
     #[arg(long, requires = "spec")]
     dense: bool,
-    /// End a run as soon as all its requirements are decided. That never changes a verdict, but the robustness is of what was
-    /// run; a scenario that asks for something over its whole time goes on to its end
-    #[arg(long, conflicts_with_all = ["system", "dense"])]
-    stop_runs_early: bool,
 }
 
 impl Subject {
@@ -71,98 +71,74 @@ impl Subject {
         self.system.name().unwrap_or(&self.scenario)
     }
 
-    /// The study of it, with all else as it is where nothing is said.
-    pub fn study(&self, verbosity: Verbosity) -> Result<Study, Error> {
-        let mut driver_settings = Vec::new();
-        let mut fixed = Vec::new();
-        let mut vehicle = None;
-        for text in &self.set {
-            let (name, value) = text.split_once('=').ok_or_else(|| {
-                Error::Usage(format!("--set {text}: expected NAME=VALUE, driver.NAME=VALUE or vehicle=MODEL"))
-            })?;
-            match name.strip_prefix("driver.") {
-                None if name == "vehicle" => vehicle = Some(value),
-                None if value.contains(',') => fixed.push((name, value.split(',').map(Value::parse).collect())),
-                None => fixed.push((name, Value::parse(value))),
-                Some(setting) => {
-                    let number = value
-                        .parse()
-                        .map_err(|_| Error::Usage(format!("--set {text}: found `{value}`, expected a number")))?;
-                    driver_settings.push((setting.to_owned(), number));
-                }
-            }
-        }
+    /// A study of it, with all else as it is where nothing is said.
+    pub fn study(&self, verbosity: Verbosity) -> Result<StudyBuilder, Error> {
         let mut study = match self.system.study(verbosity)? {
             Some(study) => study,
-            None => self.driven(Study::of(&self.scenario)?, &driver_settings)?,
+            None => self.driven(Study::of(crate::catalogue().find(&self.scenario)?)),
         };
-        if let Some(model) = vehicle {
-            study = study.vehicle(model)?;
+        for text in &self.set {
+            let (name, value) = text.split_once('=').ok_or_else(|| {
+                usage(format!("--set {text}: expected NAME=VALUE, driver.NAME=VALUE or vehicle=MODEL"))
+            })?;
+            study = match name.strip_prefix("driver.") {
+                None if name == "vehicle" => study.vehicle(VehicleModel::find(value)?),
+                None if value.contains(',') => study.fix(name, value.split(',').map(Value::parse).collect::<Value>()),
+                None => study.fix(name, Value::parse(value)),
+                Some(setting) => {
+                    let number = value.parse();
+                    let number =
+                        number.map_err(|_| usage(format!("--set {text}: found `{value}`, expected a number")))?;
+                    study.set_driver(setting, number)
+                }
+            };
         }
         for text in &self.open {
             let (name, over) = match text.split_once('=') {
                 None => (text.as_str(), None),
                 Some((name, over)) => (name, Some(domain(text, over)?)),
             };
-            let (name, shape) = match name.split_once(':') {
+            let (name, variation) = match name.split_once(':') {
                 None => (name, None),
-                Some((name, shape)) => (name, Some(signal(text, shape, &study)?)),
+                Some((name, shape)) => (name, Some(variation(text, shape)?)),
             };
-            study = study.open(name, over)?;
-            if let Some(shape) = shape {
-                study = study.vary(name, shape)?;
-            }
-        }
-        for (i, (name, value)) in fixed.iter().enumerate() {
-            let opened = self.open.iter().any(|text| text.split(['=', ':']).next() == Some(name));
-            if opened || fixed[..i].iter().any(|(other, _)| other == name) {
-                return Err(Error::Usage(format!("parameter `{name}` is set and opened, or set twice")));
-            }
-            study = study.set(name, value.clone())?;
+            study = study.opened(name, over, variation);
         }
         for text in &self.model {
             let (actor, file) = text
                 .split_once('=')
-                .ok_or_else(|| Error::Usage(format!("--model {text}: expected ACTOR=FILE.glb or ACTOR=FILE.gltf")))?;
-            study = study.show(actor, file)?;
+                .ok_or_else(|| usage(format!("--model {text}: expected ACTOR=FILE.glb or ACTOR=FILE.gltf")))?;
+            study = study.show(actor, file);
         }
         if let Some(path) = &self.requirements {
-            study = study.require(path)?;
-            note_unjudged(&study, verbosity);
+            study = study.require(path);
         }
         let time = if self.dense { Semantics::Dense } else { Semantics::Sampled };
-        for formula in &self.spec {
-            study = study.spec_in(time, formula)?;
-        }
-        if self.stop_runs_early { study.stop_runs_early() } else { Ok(study) }
+        Ok(self.spec.iter().fold(study, |study, formula| study.spec_in(time, formula)))
     }
-}
 
-impl Subject {
-    /// A study with the driver that is asked for, set so.
-    fn driven(&self, study: Study, settings: &[(String, f64)]) -> Result<Study, Error> {
-        let study = match &self.driver_command {
-            Some(command) => study.driver_command(command, settings)?,
-            None => study.driver(self.driver.as_deref().unwrap_or("aeb"), settings)?,
+    /// A study with the driver that is asked for.
+    fn driven(&self, study: StudyBuilder) -> StudyBuilder {
+        let study = match (&self.driver_command, &self.driver) {
+            (Some(command), _) => study.driver_command(command),
+            (None, Some(driver)) => study.driver(driver),
+            (None, None) => study,
         };
-        match self.system.timeout() {
-            Some(seconds) => study.driver_timeout(seconds),
-            None => Ok(study),
-        }
+        self.system.timeout().into_iter().fold(study, StudyBuilder::driver_timeout)
     }
-}
 
-/// Says which requirements nothing judges, which may be a slip of the pen.
-fn note_unjudged(study: &Study, verbosity: Verbosity) {
-    if study.subject.scenario().is_err() {
-        return;
-    }
-    let (judged, unjudged): (Vec<_>, Vec<_>) = study.requirements.iter().partition(|r| r.has_formula());
-    for RequirementText { id, .. } in unjudged {
-        let meant = did_you_mean(&nearest(id, judged.iter().map(|requirement| requirement.id.as_str())));
-        verbosity.note(format_args!(
-            "requirement `{id}` has no formula, and the scenario has none of that name{meant}: nothing judges it"
-        ));
+    /// Says which requirements of a file nothing judges, which may be a slip of the pen.
+    pub fn note_unjudged(&self, study: &Study, verbosity: Verbosity) {
+        if self.requirements.is_none() || matches!(study.subject(), campaign::Subject::System(_)) {
+            return;
+        }
+        let (judged, unjudged): (Vec<_>, Vec<_>) = study.requirements().iter().partition(|r| r.formula.is_some());
+        for StatedRequirement { id, .. } in unjudged {
+            let meant = did_you_mean(&nearest(id, judged.iter().map(|requirement| requirement.id.as_str())));
+            verbosity.note(format_args!(
+                "requirement `{id}` has no formula, and the scenario has none of that name{meant}: nothing judges it"
+            ));
+        }
     }
 }
 
@@ -173,15 +149,15 @@ fn domain(text: &str, over: &str) -> Result<Domain, Error> {
     };
     match (lo.parse(), hi.parse()) {
         (Ok(lo), Ok(hi)) => Ok(Domain::Interval { lo, hi }),
-        _ => Err(Error::Usage(format!("--open {text}: found `{over}`, expected numbers LO..HI or values A,B,C"))),
+        _ => Err(usage(format!("--open {text}: found `{over}`, expected numbers LO..HI or values A,B,C"))),
     }
 }
 
 /// How a parameter varies over time, as `--open` takes it.
-fn signal(text: &str, shape: &str, study: &Study) -> Result<Option<Shape>, Error> {
+fn variation(text: &str, shape: &str) -> Result<Variation, Error> {
     match shape {
-        "constant" => Ok(None),
-        "per-tick" => Ok(Some(Shape::PiecewiseConstant { pieces: study.subject.scenario()?.ticks() })),
-        shape => shape.parse().map(Some).map_err(|message| Error::Usage(format!("--open {text}: {message}"))),
+        "constant" => Ok(Variation::Constant),
+        "per-tick" => Ok(Variation::PerTick),
+        shape => shape.parse().map(Variation::Shape).map_err(|error| usage(format!("--open {text}: {error}"))),
     }
 }

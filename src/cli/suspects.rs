@@ -1,9 +1,9 @@
 //! Suspect and located combinations of discrete values, in a campaign's summary.
 
-use super::output::{Table, digits, json, plural};
-use crate::coverage::{Value, Values};
-use crate::oracles::Verdict;
-use crate::{Campaign, Conclusion, Error, Folder, Located, Location, Study, Suspects, Trial, Unexplained};
+use super::output::{Table, digits, plural};
+use crate::Report;
+use crate::space::{Value, Values};
+use paracosm_analysis::{Conclusion, Located, Location, Suspects, Unexplained};
 use std::cmp::Reverse;
 
 /// How many suspects a table shows.
@@ -12,64 +12,26 @@ const SHOWN: usize = 5;
 /// How many located combinations a table shows.
 const LOCATED_SHOWN: usize = 10;
 
-/// What is known of the combinations behind a campaign's failures.
-pub(super) struct Guilt {
-    suspects: Option<Suspects>,
-    /// What was located, if that was asked for: none where there was nothing to tell apart.
-    located: Option<Option<Located>>,
-}
-
-impl Guilt {
-    /// Finds the suspects and, if a number of further tests is given, locates the guilty with at most so many; what
-    /// came of it is written to `located.json` in the folder.
-    pub fn of(study: &Study, trials: &[Trial], folder: &Folder, further: Option<usize>) -> Result<Self, Error> {
-        if study.space.levels().is_empty() {
-            return Ok(Self { suspects: None, located: None });
-        }
-        let suspects = Suspects::of(study, trials)?;
-        let located = further.map(|limit| locate(study, trials, folder, limit)).transpose()?;
-        Ok(Self { suspects, located })
+/// Adds what is known of the combinations behind failures to a summary as JSON.
+pub(super) fn add_to(summary: &mut serde_json::Value, report: &Report) {
+    if let Some(suspects) = &report.suspects {
+        summary["suspects"] = serde_json::json!(suspects);
     }
-
-    /// Adds what is known to the summary as JSON.
-    pub fn add_to(&self, summary: &mut serde_json::Value) {
-        if let Some(suspects) = &self.suspects {
-            summary["suspects"] = serde_json::json!(suspects);
-        }
-        if let Some(Some(located)) = &self.located {
-            summary["located"] = serde_json::json!(located);
-        }
-    }
-
-    /// The rows of the summary.
-    pub fn show(&self, table: &mut Table) {
-        if let Some(suspects) = &self.suspects {
-            show_suspects(suspects, table);
-        }
-        match &self.located {
-            Some(Some(located)) => show_located(located, table),
-            Some(None) => table.row("located", "nothing: that takes a test that fails and one that passes"),
-            None => (),
-        }
+    if let Some(located) = &report.located {
+        summary["located"] = serde_json::json!(located);
     }
 }
 
-fn locate(study: &Study, trials: &[Trial], folder: &Folder, limit: usize) -> Result<Option<Located>, Error> {
-    let campaign = Campaign::new(study)?.resume(trials.to_vec());
-    let mut next = trials.len();
-    let located = Located::of(study, trials, limit, |test| {
-        let mut verdict = Verdict::Error;
-        campaign.run_tests(std::slice::from_ref(test), next, |trial| {
-            verdict = trial.verdict;
-            Ok(())
-        })?;
-        next += 1;
-        Ok(verdict)
-    })?;
-    if let Some(located) = &located {
-        folder.write("located.json", json(located).as_bytes())?;
+/// Adds the same to a table; `asked` is whether anything was to be located.
+pub(super) fn show(table: &mut Table, report: &Report, asked: bool) {
+    if let Some(suspects) = &report.suspects {
+        show_suspects(suspects, table);
     }
-    Ok(located)
+    match &report.located {
+        Some(located) => show_located(located, table),
+        None if asked => table.row("located", "nothing: that takes a test that fails and one that passes"),
+        None => (),
+    }
 }
 
 fn show_suspects(suspects: &Suspects, table: &mut Table) {

@@ -1,10 +1,10 @@
 //! The options by which a system that others wrote takes the place of a scenario.
 
 use super::Verbosity;
-use super::space_file::{SpaceFile, is_model};
-use crate::coverage::demand::Demand;
-use crate::{BlackBox, Error, Study};
+use super::usage;
+use crate::space::demand::Demand;
 use clap::Args;
+use paracosm_campaign::{BlackBox, Error, SpaceFile, Study, StudyBuilder, is_model};
 use std::path::PathBuf;
 
 /// A system in its own process, and the space of its tests.
@@ -39,17 +39,17 @@ impl System {
         self.system.as_deref()
     }
 
-    /// The study of the system, if there is one.
-    pub fn study(&self, verbosity: Verbosity) -> Result<Option<Study>, Error> {
+    /// A study of the system, if there is one.
+    pub fn study(&self, verbosity: Verbosity) -> Result<Option<StudyBuilder>, Error> {
         let (Some(command), Some(path)) = (&self.system, &self.space) else { return Ok(None) };
         let system = BlackBox::new(command, self.timeout)?;
-        let SpaceFile { space, demand } = SpaceFile::read(path, verbosity)?;
+        let SpaceFile { space, demand, .. } = verbosity.noted(SpaceFile::read(path)?);
         if demand != Demand::default() {
             let message = "asks for groups of more parameters or has negative values, which campaigns do not know; \
                            `paracosm-cover generate` makes such tests";
-            return Err(Error::content(path, None, message));
+            return Err(usage(format!("{}: {message}", path.display())));
         }
         let study = Study::of_system(system, space);
-        Ok(Some(if is_model(path) { study } else { study.odd_of(path)? }))
+        Ok(Some(if is_model(path) { study } else { study.odd_of(path) }))
     }
 }

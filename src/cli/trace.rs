@@ -1,10 +1,11 @@
 //! `paracosm-fuzz trace`: requirement by test, and what is untested.
 
-use super::draw::{Kind, Target};
+use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, plural};
-use super::{Failure, Found, odd, print};
-use crate::{Folder, Gap, Study, Traceability, Traced};
+use super::{Failure, Status, odd, print};
 use clap::Args;
+use paracosm_analysis::{Gap, Traceability, Traced};
+use paracosm_campaign::{Log, Study};
 use std::path::PathBuf;
 
 pub(super) const EXAMPLES: &str = "\
@@ -31,18 +32,18 @@ pub(super) struct Options {
 }
 
 impl Options {
-    pub fn execute(&self) -> Result<Found, Failure> {
-        let target = self.csv.as_ref().map(|file| Target::new("--csv", file, &[Kind::Csv])).transpose()?;
-        let (study, trials) = Folder::read(&self.dir)?;
-        let traceability = Traceability::of(&study, &trials)?;
+    pub fn execute(&self) -> Result<Status, Failure> {
+        let target = self.csv.as_ref().map(|file| Target::new("--csv", file, &[FileKind::Csv])).transpose()?;
+        let log = Log::read(&self.dir, &crate::catalogue())?;
+        let traceability = Traceability::of(&log)?;
         if let Some(target) = &target {
-            target.write(|_| Ok(traceability.csv()))?;
+            target.write(|_| Ok(paracosm_report::traceability::csv(&traceability)))?;
         }
         print(&match Format::or_fitting(self.format) {
-            Format::Table => table(&study, &traceability),
+            Format::Table => table(log.study(), &traceability),
             Format::Json => json(&traceability),
         })?;
-        Ok(Found::Nothing)
+        Ok(Status::Nothing)
     }
 }
 
@@ -55,7 +56,7 @@ const HEADER: [&str; 8] =
 fn table(study: &Study, traceability: &Traceability) -> String {
     let mut table = Table::default();
     let Traceability { tests, broken, requirements, untested, .. } = traceability;
-    let title = study.subject.title();
+    let title = study.title();
     let broke = if *broken > 0 { format!(", of which {broken} broke or could not be built") } else { String::new() };
     table.heading(&format!("{title}: {}{broke}", plural(*tests, "test")));
     let rows: Vec<[String; 8]> = [HEADER.map(str::to_owned)].into_iter().chain(requirements.iter().map(row)).collect();

@@ -181,7 +181,7 @@ fn a_shrunk_test_fails_and_passes_with_any_of_its_parameters_nominal() {
     assert!(!names.is_empty() && !names.contains(&"fog") && !names.contains(&"light"), "{names:?}");
     // The file runs, and with any of the parameters nominal it is a file of a test that does not fail.
     let text = fs::read_to_string(dir.path().join("kept/first.json")).unwrap();
-    golden("regression.json", &text.replace(env!("PARACOSM_TARGET"), "TARGET"));
+    golden("regression.json", &text.replace(paracosm::campaign::TARGET, "TARGET"));
     let described = json(&stdout(&succeeds(fuzz(dir.path(), &["describe", "--format", "json"]))));
     for (name, _, _) in &needed {
         let parameters = described["parameters"].as_array().unwrap().iter();

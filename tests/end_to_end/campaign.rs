@@ -3,7 +3,7 @@
 use crate::common::{fuzz, refused, stderr, succeeds};
 use paracosm::engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never};
 use paracosm::oracles::Verdict;
-use paracosm::{Campaign, Error, Study, Trial};
+use paracosm::{Campaign, Study, Trial};
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -161,16 +161,10 @@ fn two_processes_cannot_write_to_one_folder() {
 
 /// A study of a program that is not in the catalogue, run to its end.
 fn trials(build: fn(&mut Scenario), driver: &str) -> Vec<Trial> {
-    let program = Program { name: "test", about: "a world for this test", build };
-    let study = Study::new(program).unwrap().driver(driver, &[]).unwrap().budget(16).unwrap();
-    let mut trials = Vec::new();
+    let program = Program::new("test", "a world for this test", build);
+    let study = Study::of(program).driver(driver).budget(16).build().unwrap();
     let campaign = Campaign::new(&study).unwrap().jobs(NonZeroUsize::new(2).unwrap());
-    let watch = |trial: &Trial| -> Result<(), Error> {
-        trials.push(trial.clone());
-        Ok(())
-    };
-    campaign.run(watch).unwrap();
-    trials
+    campaign.into_log().unwrap().trials().to_vec()
 }
 
 fn count(trials: &[Trial], verdict: Verdict) -> usize {
@@ -188,7 +182,7 @@ fn a_test_that_panics_is_an_error_and_the_others_go_on() {
     }
     let trials = trials(panics, "cruise");
     assert_eq!((count(&trials, Verdict::Error), count(&trials, Verdict::Pass)), (7, 9));
-    let error = trials.iter().find_map(|trial| trial.error.as_ref()).unwrap();
+    let error = trials.iter().find_map(Trial::error).unwrap();
     assert!(error.contains("x is 0.75"), "{error}");
 }
 
@@ -204,7 +198,7 @@ fn a_state_that_is_no_number_is_an_error() {
     }
     let trials = trials(no_number, "aeb");
     assert_eq!(count(&trials, Verdict::Error), 7);
-    let error = trials.iter().find_map(|trial| trial.error.as_ref()).unwrap();
+    let error = trials.iter().find_map(Trial::error).unwrap();
     assert!(error.contains("friction") && error.contains("NaN"), "{error}");
 }
 
@@ -219,7 +213,7 @@ fn a_world_that_cannot_be_built_is_invalid_and_says_why() {
         s.require("still", eventually(car.speed().at_most(0.0)));
     }
     let trials = trials(overlaps, "cruise");
-    let errors: Vec<&str> = trials.iter().filter_map(|trial| trial.error.as_deref()).collect();
+    let errors: Vec<&str> = trials.iter().filter_map(Trial::error).collect();
     assert_eq!(count(&trials, Verdict::Invalid), errors.len());
     assert!(errors.contains(&"car and pedestrian overlap at the start"), "{errors:?}");
     assert!(errors.iter().any(|error| error.contains("`road` is asked for, which is 80 m long")), "{errors:?}");

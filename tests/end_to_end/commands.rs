@@ -1,7 +1,8 @@
 //! The commands as a user gives them: what they print and what they write.
 
 use crate::common::{cover, fuzz, golden, stderr, stdout, succeeds};
-use paracosm::{FailureMap, Folder, Picture};
+use paracosm::Log;
+use paracosm::report::{FailureMap, Picture};
 use std::fs;
 use std::path::Path;
 
@@ -53,7 +54,7 @@ fn a_campaign_leaves_its_folder_as_the_contract_says() {
 
 /// The target that this test was built for, as it stands in `campaign.json`.
 fn target() -> &'static str {
-    env!("PARACOSM_TARGET")
+    paracosm::campaign::TARGET
 }
 
 #[test]
@@ -61,8 +62,8 @@ fn the_failure_map_is_the_same_picture_everywhere() {
     let dir = tempfile::tempdir().unwrap();
     campaign(dir.path(), &[]);
     // Without the estimate behind it, whose last digits are up to the processor.
-    let (study, trials) = Folder::read(&dir.path().join("out")).unwrap();
-    golden("failure-map.svg", &Picture::of(FailureMap::of(&study, &trials).unwrap()).svg().unwrap());
+    let log = Log::read(&dir.path().join("out"), &paracosm::catalogue()).unwrap();
+    golden("failure-map.svg", &Picture::of(FailureMap::of(&log).unwrap()).svg().unwrap());
     let png = fs::read(dir.path().join("out/failure-map.png")).unwrap();
     let reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().unwrap();
     assert_eq!((reader.info().width, reader.info().height), (1800, 1360));

@@ -52,7 +52,7 @@ impl Driver for Served {
         } else if runs(self.wish("hangs")) {
             sleep(Duration::from_secs(1000));
         } else if runs(self.wish("fails")) {
-            return Err(Fault("too fast for me".into()));
+            return Err(Fault::new("too fast for me"));
         } else if runs(self.wish("panics")) {
             panic!("no such gear");
         } else if runs(self.wish("slips")) {
@@ -74,10 +74,10 @@ fn served_to_others() {
     });
     let make = |options: &SessionOptions| -> Result<Box<dyn Driver>, Fault> {
         if options.settings.contains_key("gain") {
-            return Err(Fault("no setting `gain`".into()));
+            return Err(Fault::new("no setting `gain`"));
         }
         if options.settings.contains_key("sees") {
-            return find("lane-camera").unwrap().build(&[]).map_err(|error| Fault(error.to_string()));
+            return find("lane-camera").unwrap().build(&[]).map_err(|error| Fault::new(error.to_string()));
         }
         Ok(Box::new(Served { aeb: find("aeb").unwrap().build(&[]).unwrap(), options: options.clone() }))
     };

@@ -13,6 +13,7 @@ mod commands;
 mod common;
 mod comparison;
 mod covering;
+mod earlier_versions;
 mod extend;
 mod external_drivers;
 mod generate;
@@ -20,6 +21,7 @@ mod guilty;
 #[cfg(unix)]
 mod interrupt;
 mod k_epsilon;
+mod library;
 mod likelihood;
 mod maps;
 mod mixed_space;

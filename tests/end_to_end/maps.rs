@@ -1,9 +1,10 @@
 //! Failure maps with the probability of failure, over any two parameters, and explanations in words.
 
 use crate::common::{fuzz, refused, stderr, stdout, succeeds};
-use paracosm::coverage::Point;
-use paracosm::generators::FailureModel;
-use paracosm::{Campaign, FailureMap, Picture, Study, Trial};
+use paracosm::generators::{FailureModel, Strategy};
+use paracosm::report::{FailureMap, Picture};
+use paracosm::space::Point;
+use paracosm::{Campaign, Log, Study};
 use std::fs;
 use std::path::Path;
 
@@ -141,36 +142,28 @@ fn a_campaign_says_in_words_when_tests_fail_and_how_far_that_can_be_trusted() {
 }
 
 /// A campaign in so many open parameters more than the scenario's own, and its tests.
-fn run(scenario: &str, open: &[&str], budget: usize) -> (Study, Vec<Trial>) {
-    let study = Study::of(scenario).unwrap().budget(budget).unwrap();
-    let study = open.iter().fold(study, |study, name| study.open(name, None).unwrap());
-    let mut trials = Vec::new();
-    let campaign = Campaign::new(&study).unwrap();
-    campaign
-        .run(|trial| {
-            trials.push(trial.clone());
-            Ok(())
-        })
-        .unwrap();
-    (study, trials)
+fn run(scenario: &str, open: &[&str], budget: usize) -> Log {
+    let study = Study::of(paracosm::catalogue().find(scenario).unwrap()).budget(budget);
+    let study = open.iter().fold(study, |study, name| study.open(name)).build().unwrap();
+    Campaign::new(&study).unwrap().into_log().unwrap()
 }
 
 #[test]
 fn over_whichever_parameters_a_map_is_drawn_as_many_tests_fail_in_all_as_were_counted() {
-    let (study, trials) = run("pedestrian-crossing", &["friction", "fog", "light", "lanes"], 500);
-    let counted = trials.iter().filter(|trial| trial.is_failure()).count() as f64 / 500.0;
+    let log = run("pedestrian-crossing", &["friction", "fog", "light", "lanes"], 500);
+    let counted = log.trials().iter().filter(|trial| trial.is_failure()).count() as f64 / 500.0;
     // Two standard errors of the count.
     let error = 2.0 * (counted * (1.0 - counted) / 500.0).sqrt();
     for pair in [["speed", "distance"], ["friction", "light"], ["fog", "friction"], ["fog", "light"]] {
-        let estimate = FailureMap::over(&study, &trials, pair).unwrap().estimate.unwrap();
+        let estimate = FailureMap::over(&log, pair).unwrap().estimate.unwrap();
         assert!((estimate.mean() - counted).abs() < error, "{pair:?}: {}, counted {counted}", estimate.mean());
     }
 }
 
 #[test]
 fn where_tests_cannot_be_built_the_map_is_invalid_and_failing_is_counted_among_the_others() {
-    let (study, trials) = run("cut-in", &[], 300);
-    let map = FailureMap::over(&study, &trials, ["ego_speed", "relative_speed"]).unwrap();
+    let log = run("cut-in", &[], 300);
+    let map = FailureMap::over(&log, ["ego_speed", "relative_speed"]).unwrap();
     let estimate = map.estimate.as_ref().unwrap();
     let csv = String::from_utf8(estimate.csv()).unwrap();
     let (mut right, mut places) = (0, 0);
@@ -183,34 +176,28 @@ fn where_tests_cannot_be_built_the_map_is_invalid_and_failing_is_counted_among_t
         places += 1;
     }
     assert!(right as f64 > 0.95 * f64::from(places), "{right} of {places} places");
-    let failing = trials.iter().filter(|trial| trial.is_failure()).count() as f64;
-    let counted = failing / trials.iter().filter(|trial| trial.covers()).count() as f64;
+    let failing = log.trials().iter().filter(|trial| trial.is_failure()).count() as f64;
+    let counted = failing / log.trials().iter().filter(|trial| trial.covers()).count() as f64;
     assert!((estimate.mean() - counted).abs() < 0.05, "{}, counted {counted}", estimate.mean());
     let picture = Picture::of(map).svg().unwrap();
     assert!(picture.contains("invalid"));
 }
 
 /// The tests of a campaign in three parameters, with their robustness.
-fn three_parameters(strategy: &str, budget: usize) -> (Study, Vec<Point>, Vec<f64>) {
-    let study = Study::of("pedestrian-crossing").unwrap().open("friction", None).unwrap();
-    let study = study.strategy(strategy).unwrap().budget(budget).unwrap().seed(Some(1));
-    let (mut points, mut robustness) = (Vec::new(), Vec::new());
-    let campaign = Campaign::new(&study).unwrap();
-    campaign
-        .run(|trial| {
-            points.push(study.space.encode(&trial.test)?);
-            robustness.push(study.objective(trial).unwrap());
-            Ok(())
-        })
-        .unwrap();
+fn three_parameters(strategy: Strategy, budget: usize) -> (Study, Vec<Point>, Vec<f64>) {
+    let study = Study::of(paracosm::catalogue().find("pedestrian-crossing").unwrap()).open("friction");
+    let study = study.strategy(strategy).budget(budget).seed(1).build().unwrap();
+    let log = Campaign::new(&study).unwrap().into_log().unwrap();
+    let points = log.trials().iter().map(|trial| study.space().encode(&trial.test).unwrap()).collect();
+    let robustness = log.trials().iter().map(|trial| log.scales().objective(trial).unwrap()).collect();
     (study, points, robustness)
 }
 
 #[test]
 fn after_200_tests_of_boundary_95_percent_of_the_map_are_told_right() {
-    let (study, tests, robustness) = three_parameters("boundary", 200);
-    let (_, map, truth) = three_parameters("random", 4000);
-    let model = FailureModel::fit(&study.space, &tests, &robustness).unwrap();
+    let (study, tests, robustness) = three_parameters(Strategy::BOUNDARY, 200);
+    let (_, map, truth) = three_parameters(Strategy::RANDOM, 4000);
+    let model = FailureModel::fit(study.space(), &tests, &robustness).unwrap();
     let told = model.probabilities(&map);
     let right = told.iter().zip(&truth).filter(|(p, truth)| (**p > 0.5) == truth.is_sign_negative()).count();
     assert!(right as f64 >= 0.95 * 4000.0, "{right} of 4000");

@@ -1,22 +1,20 @@
 //! The default study is worth looking at: its map has failures, the driver makes a difference, and no straight
 //! line explains it. The analysis is written here, apart from the code that draws the maps.
 
-use paracosm::{Campaign, Study};
+use paracosm::{Campaign, Study, Trial};
 
 /// A test in the unit square with whether it failed.
 type Mark = ([f64; 2], bool);
 
 fn halton_map(driver: &str) -> Vec<Mark> {
-    let study = Study::of("pedestrian-crossing").unwrap().driver(driver, &[]).unwrap();
-    let mut marks = Vec::new();
-    Campaign::new(&study)
-        .unwrap()
-        .run(|trial| {
-            let point = study.space.encode(&trial.test)?.continuous;
-            marks.push(([point[0], point[1]], trial.is_failure()));
-            Ok(())
-        })
-        .unwrap();
+    let program = paracosm::catalogue().find("pedestrian-crossing").unwrap();
+    let study = Study::of(program).driver(driver).build().unwrap();
+    let log = Campaign::new(&study).unwrap().into_log().unwrap();
+    let mark = |trial: &Trial| {
+        let point = study.space().encode(&trial.test).unwrap().continuous;
+        ([point[0], point[1]], trial.is_failure())
+    };
+    let marks: Vec<Mark> = log.trials().iter().map(mark).collect();
     assert_eq!(marks.len(), 500);
     marks
 }

@@ -17,26 +17,6 @@ fn trials(dir: &Path, out: &str) -> Vec<Value> {
 }
 
 #[test]
-fn runs_that_may_end_early_have_the_verdicts_of_whole_runs_and_it_is_recorded() {
-    let dir = tempfile::tempdir().unwrap();
-    let dir = dir.path();
-    let of = |out: &str, more: &[&str]| -> Vec<Value> {
-        run(dir, out, &[&["--spec", "always[0,2] (car.speed > 1)"], more].concat());
-        trials(dir, out)
-    };
-    let (whole, early) = (of("whole", &[]), of("early", &["--stop-runs-early"]));
-    for (whole, early) in whole.iter().zip(&early) {
-        assert_eq!(whole["verdict"], early["verdict"]);
-        // `no-collision` is asked of the whole run, so that it went on to its end.
-        assert_eq!(early["metrics"]["ended_early"], false);
-        assert_eq!(whole["trace_hash"], early["trace_hash"]);
-    }
-    let study: Value = serde_json::from_str(&fs::read_to_string(dir.join("early/campaign.json")).unwrap()).unwrap();
-    assert_eq!(study["stop_runs_early"], true);
-    succeeds(fuzz(dir, &["replay", "early", "0"]));
-}
-
-#[test]
 fn a_formula_is_a_further_requirement_and_changes_no_run() {
     let dir = tempfile::tempdir().unwrap();
     run(dir.path(), "plain", &[]);
@@ -82,8 +62,6 @@ fn in_dense_time_the_car_is_placed_between_samples_when_a_formula_is_violated() 
         assert!((metric("critical_travelled").as_f64().unwrap() - travelled).abs() < 1e-12, "{trial}");
         assert!(metric("critical_speed").as_f64().unwrap() > 1.0);
     }
-    let early = [&dense[..], &["--stop-runs-early", "--budget", "1"]].concat();
-    refused(&fuzz(dir.path(), &early), &["--dense", "--stop-runs-early"]);
     refused(&fuzz(dir.path(), &["--dense", "--budget", "1"]), &["--spec"]);
     let square = ["--spec", "G (car.speed * car.speed < 400)", "--dense", "--budget", "1"];
     refused(&fuzz(dir.path(), &square), &["--spec G (car.speed * car.speed < 400)", "no piecewise linear function"]);
@@ -130,12 +108,12 @@ fn a_formula_that_looks_past_the_end_is_named_and_leaves_tests_inconclusive() {
 #[test]
 fn every_signal_that_is_shown_can_be_named() {
     for program in scenarios::ALL {
-        let signals = Study::new(*program).unwrap().signals().unwrap().unwrap();
-        assert!(signals.iter().any(|signal| signal == "car.speed"), "{}", program.name);
+        let signals = Study::of((*program).clone()).build().unwrap().signals().unwrap().unwrap();
+        assert!(signals.iter().any(|signal| signal == "car.speed"), "{}", program.name());
         for signal in signals {
             let formula = paracosm::oracles::signal(signal).at_most(1.0).always(..).to_string();
-            let study = Study::new(*program).unwrap().spec(&formula).unwrap();
-            assert_eq!(study.requirements.last().unwrap().formula, formula);
+            let study = Study::of((*program).clone()).spec(&formula).build().unwrap();
+            assert_eq!(study.requirements().last().unwrap().formula.as_ref().unwrap().to_string(), formula);
         }
     }
 }

@@ -10,7 +10,7 @@
 //! Intelligence 27, 1985): a search that forgets what is below a goal proves that nothing is above it, in no memory to
 //! speak of, where a best-first search of the same tree fills gigabytes.
 
-use super::search::{Bar, Found, MOST_LISTED, Open, Search};
+use super::search::{Bar, BoxSearch, Found, MOST_LISTED, Open};
 use super::side::{Side, inside, volume};
 use super::{Dispersion, LargestEmptyBox};
 use crate::bracket::Watch;
@@ -88,7 +88,7 @@ impl<'a> Hunt<'a> {
         }
         self.begin(deadline);
         let (bar, dims) = (Bar::new(self.bar.get()), self.points.dims());
-        let explore = |search: &mut Search, part: &Open| {
+        let explore = |search: &mut BoxSearch, part: &Open| {
             let mut watch = Watch::new(deadline);
             let mut over = deadline.passed();
             search.explore(part, &bar, above, |work| {
@@ -97,7 +97,7 @@ impl<'a> Hunt<'a> {
                 !over
             })
         };
-        let new_search = || Search::new(self.points, above);
+        let new_search = || BoxSearch::new(self.points, above);
         let parts = self.open.par_iter().with_max_len(1);
         let done: Vec<bool> = parts.map_init(new_search, |search, part| explore(search, part).is_done()).collect();
         if self.witness.volume().max(bar.get()) > above {
@@ -153,7 +153,7 @@ impl<'a> Hunt<'a> {
     fn step(&mut self, go_on: impl FnMut(usize) -> bool) -> bool {
         let Some(root) = self.open.pop() else { return true };
         let best = self.bar.get();
-        let found = Search::new(self.points, best).explore(&root, &self.bar, best, go_on);
+        let found = BoxSearch::new(self.points, best).explore(&root, &self.bar, best, go_on);
         if found.lost {
             self.open.push(root);
         } else {
@@ -169,7 +169,7 @@ impl<'a> Hunt<'a> {
         let (floor, dims) = (self.bar.get(), self.points.dims());
         let bar = Bar::new(floor.max(down_to));
         let lowered = down_to > floor;
-        let explore = |search: &mut Search, part: &Open| {
+        let explore = |search: &mut BoxSearch, part: &Open| {
             let mut watch = Watch::new(deadline);
             let mut late = deadline.passed();
             search.explore(part, &bar, floor.max(down_to), |work| {
@@ -181,7 +181,7 @@ impl<'a> Hunt<'a> {
             .open
             .par_iter()
             .with_max_len(1)
-            .map_init(|| Search::new(self.points, floor), |search, part| explore(search, part))
+            .map_init(|| BoxSearch::new(self.points, floor), |search, part| explore(search, part))
             .collect();
         let done = found.iter().all(Found::is_done);
         self.full |= found.iter().any(|found| found.lost);
@@ -222,7 +222,7 @@ impl<'a> Hunt<'a> {
     /// A round of such attempts; whether it found a larger box. Each has a bar of its own, so that what it finds does not depend on the others.
     fn attempt(&mut self, deadline: Deadline) -> bool {
         let best = self.bar.get();
-        let attempt = |search: &mut Search, seed: u64| {
+        let attempt = |search: &mut BoxSearch, seed: u64| {
             if deadline.passed() {
                 return None;
             }
@@ -234,7 +234,7 @@ impl<'a> Hunt<'a> {
             search.explore(&self.relaxed(seed), &Bar::new(best), best, few).witness
         };
         let seeds: Vec<u64> = (self.attempts..self.attempts + ROUND).collect();
-        let new_search = || Search::new(self.points, best);
+        let new_search = || BoxSearch::new(self.points, best);
         let found: Vec<_> =
             seeds.into_par_iter().with_max_len(1).map_init(new_search, |search, seed| attempt(search, seed)).collect();
         self.attempts += ROUND;

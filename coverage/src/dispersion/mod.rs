@@ -29,33 +29,24 @@ mod trail;
 
 pub(crate) use trail::trail;
 
+use crate::measure::{Compare, Descriptor, Measure, Method};
+pub use crate::witness::{Dispersion, LargestEmptyBox};
 use crate::{Bracket, Deadline, PointSet};
 use hunt::Hunt;
 use plane::Plane;
 
-/// An open box in the unit cube that holds no point.
-#[derive(Debug, Clone, PartialEq)]
-pub struct LargestEmptyBox {
-    /// Its lower corner.
-    pub lower: Vec<f64>,
-    /// Its upper corner.
-    pub upper: Vec<f64>,
-}
-
-impl LargestEmptyBox {
-    /// Its volume, as a share of the cube's.
-    pub fn volume(&self) -> f64 {
-        self.lower.iter().zip(&self.upper).map(|(lower, upper)| upper - lower).product()
-    }
-}
-
-/// The dispersion of a set of points, with the box that shows it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Dispersion {
-    /// The largest volume; its lower end is the volume of `witness`.
-    pub volume: Bracket,
-    /// The largest empty box that was found.
-    pub witness: LargestEmptyBox,
+impl Measure {
+    /// The volume of the largest box without a test.
+    pub const DISPERSION: Self = Self::of(&Descriptor {
+        name: "dispersion",
+        key: "dispersion",
+        label: "dispersion",
+        title: "dispersion",
+        about: "the volume of the largest box that no test has entered, as a share of the space",
+        pace: 4,
+        compare: Compare::Always,
+        method: Method::Hole(dispersion_watched),
+    });
 }
 
 /// The largest volume over the open axis-parallel boxes in `[0,1]^d` that hold none of the points. A point on a

@@ -81,7 +81,7 @@ impl Plane {
     /// The largest rectangle, if it is larger than the witness, and the area of the largest part that was left. It may
     /// end as soon as there is one larger than `enough`.
     fn search(&self, deadline: Deadline, enough: f64) -> (Option<Rectangle>, Option<f64>) {
-        let mut search = Search::new(&self.bar, self.bar.get(), enough, deadline);
+        let mut search = PlaneSearch::new(&self.bar, self.bar.get(), enough, deadline);
         search.strip(Rectangle { left: 0.0, right: 1.0, bottom: 0.0, top: 1.0 }, &self.columns, &self.points);
         (search.witness, search.left)
     }
@@ -133,7 +133,7 @@ impl Step {
 }
 
 /// The search of a part, on one thread until it is large enough to be shared.
-struct Search<'a> {
+struct PlaneSearch<'a> {
     /// Parts with less than this do not matter any more.
     bar: &'a Bar,
     /// Nor do those with no more than this: the area of the witness, or what it has to exceed.
@@ -149,7 +149,7 @@ struct Search<'a> {
     late: bool,
 }
 
-impl<'a> Search<'a> {
+impl<'a> PlaneSearch<'a> {
     fn new(bar: &'a Bar, best: f64, enough: f64, deadline: Deadline) -> Self {
         let watch = Watch::new(deadline);
         Self { bar, best, enough, witness: None, left: None, deadline, watch, late: deadline.passed() }

@@ -86,7 +86,7 @@ impl Found {
 /// How many points the lists of a search may hold where nothing else is said: 64 MiB.
 pub(super) const MOST_LISTED: usize = 1 << 24;
 
-pub(super) struct Search<'a> {
+pub(super) struct BoxSearch<'a> {
     points: &'a PointSet,
     /// The volume that pivots are chosen for: boxes below it are not expected to matter.
     reference: f64,
@@ -105,7 +105,7 @@ pub(super) struct Search<'a> {
     most_sides: usize,
 }
 
-impl<'a> Search<'a> {
+impl<'a> BoxSearch<'a> {
     pub fn new(points: &'a PointSet, reference: f64) -> Self {
         let (nodes, sides, lists, cuts, scales) = Default::default();
         // A box and its children must fit in any case.

@@ -6,7 +6,7 @@
 //! and forgets what is below (iterative deepening after Korf, Artificial Intelligence 27, 1985). That brings its bound
 //! to the goal and takes no memory to speak of.
 
-use super::search::{Found, Open, Outcome, Search, same_as};
+use super::search::{BallSearch, Centre, Open, Outcome, same_as};
 use super::tree::{Tree, squared_distance};
 use super::{Fill, relaxation::Side};
 use crate::{Bracket, Deadline, PointSet};
@@ -29,7 +29,7 @@ const GOAL: f64 = 0.99;
 pub(super) struct Hunt<'a> {
     points: &'a PointSet,
     tree: Tree,
-    best: Found,
+    best: Centre,
     /// Where something better may be.
     open: BinaryHeap<Open>,
     /// How many open boxes there may be before the search goes on depth first.
@@ -42,9 +42,9 @@ impl<'a> Hunt<'a> {
     pub fn new(points: &'a PointSet, deadline: Deadline) -> Self {
         let tree = Tree::new(points);
         let sides: Box<[Side]> = vec![Side { lower: 0.0, upper: 1.0 }; points.dims()].into();
-        let places = [0.5, 0.0, 1.0].map(|x| Found::at(vec![x; points.dims()], &tree));
+        let places = [0.5, 0.0, 1.0].map(|x| Centre::at(vec![x; points.dims()], &tree));
         let best = places.into_iter().max_by(|a, b| a.squared.total_cmp(&b.squared)).expect("there are three");
-        let bound = Search::new(&tree, deadline).bound(&sides);
+        let bound = BallSearch::new(&tree, deadline).bound(&sides);
         let most_open = MOST_BYTES / (size_of::<Open>() + size_of_val(&*sides) + ALLOCATION);
         Self { points, tree, best, open: BinaryHeap::from([Open { bound, sides }]), most_open, deadline }
     }
@@ -65,10 +65,10 @@ impl<'a> Hunt<'a> {
     fn climb(&mut self) {
         let deadline = self.deadline.part(TIME_FOR_CLIMBS);
         let dims = self.points.dims();
-        let climb = |search: &mut Search, number: u32| {
-            (!deadline.passed()).then(|| search.climb(Found::at(start(dims, number), &self.tree)))
+        let climb = |search: &mut BallSearch, number: u32| {
+            (!deadline.passed()).then(|| search.climb(Centre::at(start(dims, number), &self.tree)))
         };
-        let new_search = || Search::new(&self.tree, deadline);
+        let new_search = || BallSearch::new(&self.tree, deadline);
         let found: Vec<_> = (0..CLIMBS).into_par_iter().with_max_len(1).map_init(new_search, climb).collect();
         found.into_iter().flatten().for_each(|found| self.consider(found));
     }
@@ -107,8 +107,8 @@ impl<'a> Hunt<'a> {
 
     /// Explores boxes, each as if it were alone.
     fn explore(&self, open: Vec<Open>, goal: f64, most: usize) -> Vec<Outcome> {
-        let explore = |search: &mut Search, open| search.explore(open, self.best.squared, goal, most);
-        let new_search = || Search::new(&self.tree, self.deadline);
+        let explore = |search: &mut BallSearch, open| search.explore(open, self.best.squared, goal, most);
+        let new_search = || BallSearch::new(&self.tree, self.deadline);
         open.into_par_iter().with_max_len(1).map_init(new_search, explore).collect()
     }
 
@@ -117,7 +117,7 @@ impl<'a> Hunt<'a> {
         same_as(self.best.squared, self.points.dims())
     }
 
-    fn consider(&mut self, found: Found) {
+    fn consider(&mut self, found: Centre) {
         if found.squared > self.best.squared {
             self.best = found;
         }

@@ -20,16 +20,24 @@ mod relaxation;
 mod search;
 mod tree;
 
-use crate::{Bracket, Deadline, PointSet};
+use crate::measure::{Compare, Descriptor, Measure, Method};
+pub use crate::witness::Fill;
+use crate::{Deadline, PointSet};
 use hunt::Hunt;
 
-/// The fill distance of a set of points, with the place that shows it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fill {
-    /// The radius of the largest ball; its lower end is the distance of `centre` from the point nearest to it.
-    pub radius: Bracket,
-    /// The centre of the largest ball that was found, in the cube.
-    pub centre: Vec<f64>,
+impl Measure {
+    /// The radius of the largest empty ball with its centre in the cube.
+    pub const FILL: Self = Self::of(&Descriptor {
+        name: "fill",
+        key: "fill",
+        label: "fill",
+        title: "fill, the radius of the largest empty ball",
+        about: "the radius of the largest ball that holds no test, each parameter scaled to [0,1]",
+        pace: 5,
+        // Strategies are not judged by balls, and the balls of greedy's points take seconds.
+        compare: Compare::WhereNamed,
+        method: Method::Ball(fill),
+    });
 }
 
 /// The largest Euclidean distance of a place in `[0,1]^d` from the point nearest to it. Of a set without points there

@@ -18,12 +18,12 @@ const SHORTEST_STEP: f64 = 0.02;
 
 /// A place in the cube and the square of its distance from the nearest point.
 #[derive(Debug, Clone)]
-pub(super) struct Found {
+pub(super) struct Centre {
     pub squared: f64,
     pub place: Vec<f64>,
 }
 
-impl Found {
+impl Centre {
     pub fn at(place: Vec<f64>, tree: &Tree) -> Self {
         let squared = tree.nearest(&place, &mut vec![0.0; place.len()]).squared;
         Self { squared, place }
@@ -62,7 +62,7 @@ impl Ord for Open {
 #[derive(Debug)]
 pub(super) struct Outcome {
     /// The best place, if it is better than the one that was known.
-    pub found: Option<Found>,
+    pub found: Option<Centre>,
     /// What is left to explore.
     pub open: Vec<Open>,
 }
@@ -77,7 +77,7 @@ pub(super) fn same_as(squared: f64, dims: usize) -> f64 {
 
 /// A search on one thread.
 #[derive(Debug)]
-pub(super) struct Search<'a> {
+pub(super) struct BallSearch<'a> {
     dims: usize,
     /// The relaxation of the box at hand.
     relaxation: Relaxation<'a>,
@@ -86,10 +86,10 @@ pub(super) struct Search<'a> {
     watch: Watch,
     /// The square of the largest distance that is known.
     best: f64,
-    found: Option<Found>,
+    found: Option<Centre>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> BallSearch<'a> {
     pub fn new(tree: &'a Tree, deadline: Deadline) -> Self {
         let [relaxation, climbing] = [Relaxation::new(tree), Relaxation::new(tree)];
         Self { dims: tree.dims(), relaxation, climbing, watch: Watch::new(deadline), best: 0.0, found: None }
@@ -120,7 +120,7 @@ impl<'a> Search<'a> {
     }
 
     /// Climbs from a place to better ones, as long as there is time: the relaxation of a box around it says where to go.
-    pub fn climb(&mut self, mut from: Found) -> Found {
+    pub fn climb(&mut self, mut from: Centre) -> Centre {
         let mut step = from.squared.sqrt();
         while step > SHORTEST_STEP * from.squared.sqrt() && !self.watch.passed_after(0) {
             let around = |&x: &f64| Side { lower: (x - step).max(0.0), upper: (x + step).min(1.0) };
@@ -152,7 +152,7 @@ impl<'a> Search<'a> {
             }
             let squared = self.relaxation.squared_distance();
             if squared > self.best {
-                let found = self.climb(Found { squared, place: self.relaxation.place.clone() });
+                let found = self.climb(Centre { squared, place: self.relaxation.place.clone() });
                 self.best = found.squared;
                 self.found = Some(found);
                 bar = self.bar(goal);

@@ -1,7 +1,7 @@
 //! k-wise coverage kept up to date while tests arrive.
 
 use super::{KwiseError, advance, check, valid};
-use crate::rules::Rules;
+use paracosm_space::rules::Rules;
 
 /// How many words the bits of a counter may take: 64 mebibytes.
 const MOST_WORDS: u128 = 1 << 23;

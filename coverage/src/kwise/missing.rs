@@ -1,7 +1,7 @@
 //! The first valid combinations that no test contains.
 
 use super::{MISSING_LISTED, advance};
-use crate::rules::{Companions, Rules};
+use paracosm_space::rules::{Companions, Rules};
 
 /// The missing combinations of k - 1 parameters with one later parameter each.
 struct Head {

@@ -5,7 +5,7 @@
 //! after the other; those that agree in k - 1 parameters show together so many combinations with one more as
 //! different levels of it, and these are counted a machine word at a time (`count`). The valid combinations are
 //! counted without being listed ([`Rules::count`]). Where values are negative, each kind of tests has combinations of its
-//! own ([`demand`](crate::demand)), and their numbers are added up.
+//! own ([`demand`](paracosm_space::demand)), and their numbers are added up.
 
 mod count;
 mod counter;
@@ -13,10 +13,26 @@ mod missing;
 
 pub use counter::KwiseCounter;
 
-use crate::demand::Kind;
-use crate::rules::Rules;
+use crate::measure::{Compare, Descriptor, Measure, Method};
+use paracosm_space::demand::TestKind;
+use paracosm_space::rules::Rules;
 use std::cmp::Ordering;
 use thiserror::Error;
+
+impl Measure {
+    /// The share of combinations of k discrete parameters that are covered, and for which epsilon the tests are
+    /// (k, epsilon)-covering.
+    pub const K_WISE: Self = Self::of(&Descriptor {
+        name: "k-wise",
+        key: "discrete",
+        label: "k-wise coverage",
+        title: "k-wise coverage",
+        about: "the share of valid combinations of k discrete values that some test contains",
+        pace: 8,
+        compare: Compare::Never,
+        method: Method::Combinations,
+    });
+}
 
 /// How many missing combinations are listed at most.
 pub const MISSING_LISTED: usize = 20;
@@ -108,7 +124,7 @@ pub enum KwiseError {
 ///
 /// ```
 /// use paracosm_coverage::kwise::kwise_coverage;
-/// use paracosm_coverage::rules::Rules;
+/// use paracosm_space::rules::Rules;
 /// let tests: [&[usize]; 3] = [&[0, 0, 0], &[0, 1, 1], &[1, 0, 1]];
 /// let coverage = kwise_coverage(&Rules::free(&[2, 2, 2]), 2, tests.into_iter())?;
 /// assert_eq!((coverage.covered, coverage.valid), (9, 12));
@@ -125,7 +141,7 @@ pub fn kwise_coverage<'a>(
     tests: impl Iterator<Item = &'a [usize]>,
 ) -> Result<KwiseCoverage, KwiseError> {
     let all: Vec<usize> = (0..rules.levels().len()).collect();
-    coverage_of_kinds(&[Kind::of(rules)], &all, k, tests)
+    coverage_of_kinds(&[TestKind::of(rules)], &all, k, tests)
 }
 
 /// Counts the valid combinations of levels of `k` of some parameters that tests of several kinds contain. A combination
@@ -137,7 +153,7 @@ pub fn kwise_coverage<'a>(
 /// # Panics
 /// There is no kind, the kinds are of different spaces, or the parameters are not some of them in ascending order.
 pub fn coverage_of_kinds<'a>(
-    kinds: &[Kind],
+    kinds: &[TestKind],
     parameters: &[usize],
     k: usize,
     tests: impl Iterator<Item = &'a [usize]>,
@@ -145,7 +161,7 @@ pub fn coverage_of_kinds<'a>(
     if k == 0 {
         return Err(KwiseError::Strength { k, parameters: parameters.len() });
     }
-    let share = |kind: &Kind| {
+    let share = |kind: &TestKind| {
         let share = kind.share(parameters, k);
         share.map(|(members, k)| valid(kind.rules(), &members, k).map(|valid| (members, k, valid))).transpose()
     };

@@ -4,7 +4,7 @@
 //! tries a few neighbours, this looks at all positions of a side at once: that takes no longer than counting the
 //! points of one box.
 
-use super::cell::Kind;
+use super::cell::BoxKind;
 use super::sides::Sides;
 use crate::Deadline;
 
@@ -43,7 +43,7 @@ impl<'a> Ascent<'a> {
         let mut best = 0.0f64;
         for ascent in ascents {
             let mut random = SplitMix(ascent as u64);
-            let kind = if ascent % 2 == 0 { Kind::Open } else { Kind::Closed };
+            let kind = if ascent % 2 == 0 { BoxKind::Open } else { BoxKind::Closed };
             self.start(&mut random, kind);
             best = best.max(self.climb(kind, deadline));
             if deadline.passed() {
@@ -61,7 +61,7 @@ impl<'a> Ascent<'a> {
     }
 
     /// Takes a random box whose volume is spread evenly, more or less.
-    fn start(&mut self, random: &mut SplitMix, kind: Kind) {
+    fn start(&mut self, random: &mut SplitMix, kind: BoxKind) {
         let dims = self.sides.count() / self.sides.per_axis();
         for axis in 0..dims {
             let width = libm::pow(random.next(), 1.0 / dims as f64);
@@ -79,7 +79,7 @@ impl<'a> Ascent<'a> {
     }
 
     /// Moves sides until all are where they are best or the deadline has passed, and says how large the difference is.
-    fn climb(&mut self, kind: Kind, deadline: Deadline) -> f64 {
+    fn climb(&mut self, kind: BoxKind, deadline: Deadline) -> f64 {
         let mut best = f64::NEG_INFINITY;
         let mut unmoved = 0;
         for side in (0..self.sides.count()).cycle() {
@@ -99,7 +99,7 @@ impl<'a> Ascent<'a> {
     }
 
     /// The best position of a side while the others stay, and the difference there.
-    fn best_position(&self, side: usize, kind: Kind) -> (f64, f64) {
+    fn best_position(&self, side: usize, kind: BoxKind) -> (f64, f64) {
         let sides = self.sides;
         let mut positions = self.positions.clone();
         let mut best = (f64::NEG_INFINITY, positions[side]);
@@ -108,8 +108,8 @@ impl<'a> Ascent<'a> {
             // In the order of the axes, as everywhere.
             let volume = sides.volume(&positions);
             let value = match kind {
-                Kind::Open => volume - sides.share(count),
-                Kind::Closed => sides.share(count) - volume,
+                BoxKind::Open => volume - sides.share(count),
+                BoxKind::Closed => sides.share(count) - volume,
             };
             if value > best.0 {
                 best = (value, position);
@@ -123,17 +123,17 @@ impl<'a> Ascent<'a> {
                 continue;
             }
             match kind {
-                Kind::Open => {
+                BoxKind::Open => {
                     consider(coordinate.min(sides.end(side)), count);
                     count += 1;
                 }
-                Kind::Closed => {
+                BoxKind::Closed => {
                     count += 1;
                     consider(coordinate, count);
                 }
             }
         }
-        if kind == Kind::Open {
+        if kind == BoxKind::Open {
             // A point at the end of the cube is in no open box.
             let at_end = |point: &&u32| sides.coordinate(**point as usize, side) >= sides.end(side);
             let ending = self.orders[side].iter().rev().take_while(at_end);
@@ -147,7 +147,7 @@ impl<'a> Ascent<'a> {
     }
 
     /// Moves a side.
-    fn place(&mut self, side: usize, position: f64, kind: Kind) {
+    fn place(&mut self, side: usize, position: f64, kind: BoxKind) {
         let from = std::mem::replace(&mut self.positions[side], position);
         for (point, outside) in self.outside.iter_mut().enumerate() {
             let coordinate = self.sides.coordinate(point, side);
@@ -158,10 +158,10 @@ impl<'a> Ascent<'a> {
 }
 
 /// Whether a coordinate is outside of a box along a side.
-fn beyond(coordinate: f64, position: f64, kind: Kind) -> bool {
+fn beyond(coordinate: f64, position: f64, kind: BoxKind) -> bool {
     match kind {
-        Kind::Open => coordinate >= position,
-        Kind::Closed => coordinate > position,
+        BoxKind::Open => coordinate >= position,
+        BoxKind::Closed => coordinate > position,
     }
 }
 

@@ -4,7 +4,7 @@ use super::sides::{Sides, above_0};
 
 /// Which of the two differences is searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum BoxKind {
     /// Volume less the share of points inside, of open boxes.
     Open,
     /// Share of points, with those on the faces, less volume, of closed boxes.
@@ -73,15 +73,15 @@ pub(super) struct Scratch {
 
 impl Cell {
     /// The cell of all boxes that matter.
-    pub(super) fn root(sides: &Sides, kind: Kind) -> Self {
+    pub(super) fn root(sides: &Sides, kind: BoxKind) -> Self {
         let all = 0..sides.points();
         let least = |side| all.clone().map(|point| sides.coordinate(point, side)).fold(f64::INFINITY, f64::min);
         let (lower, upper) = match kind {
-            Kind::Open => {
+            BoxKind::Open => {
                 (vec![f64::NEG_INFINITY; sides.count()], (0..sides.count()).map(|side| sides.end(side)).collect())
             }
             // A closed box that no point supports on a side can be shrunk there.
-            Kind::Closed => ((0..sides.count()).map(least).collect(), vec![f64::INFINITY; sides.count()]),
+            BoxKind::Closed => ((0..sides.count()).map(least).collect(), vec![f64::INFINITY; sides.count()]),
         };
         let mut cell = Self { lower, upper, inside: 0, undecided: Vec::new(), bound: 1.0 };
         let every = all.map(|point| Undecided { point: point as u32, sides: 0, sum: 0 });
@@ -117,15 +117,15 @@ impl Cell {
     }
 
     /// What follows from the cell's largest and smallest box alone.
-    fn simple_bound(&self, sides: &Sides, kind: Kind) -> f64 {
+    fn simple_bound(&self, sides: &Sides, kind: BoxKind) -> f64 {
         match kind {
-            Kind::Open => sides.volume(&self.upper) - sides.share(self.inside),
-            Kind::Closed => sides.share(self.inside + self.undecided.len()) - sides.volume(&self.lower),
+            BoxKind::Open => sides.volume(&self.upper) - sides.share(self.inside),
+            BoxKind::Closed => sides.share(self.inside + self.undecided.len()) - sides.volume(&self.lower),
         }
     }
 
     /// Takes away the ends of the cell where no box is above the threshold, as long as that decides points.
-    fn shrink(&mut self, sides: &Sides, kind: Kind, threshold: f64) {
+    fn shrink(&mut self, sides: &Sides, kind: BoxKind, threshold: f64) {
         // Far more than the rounding of a product and two quotients.
         let margin = (sides.count() + 8) as f64 * 4.0 * f64::EPSILON;
         loop {
@@ -137,7 +137,7 @@ impl Cell {
             for side in 0..sides.count() {
                 let axis = side / sides.per_axis();
                 match kind {
-                    Kind::Open => {
+                    BoxKind::Open => {
                         let across = sides.volume_across(axis, &self.upper);
                         let width = (threshold + sides.share(self.inside)) / across;
                         let least = sides.position(side, width * (1.0 - margin), &self.upper) - margin;
@@ -146,7 +146,7 @@ impl Cell {
                             moved = true;
                         }
                     }
-                    Kind::Closed => {
+                    BoxKind::Closed => {
                         let across = sides.volume_across(axis, &self.lower);
                         let width = (sides.share(self.inside + self.undecided.len()) - threshold) / across;
                         let most = sides.position(side, width * (1.0 + margin), &self.lower) + margin;
@@ -178,7 +178,7 @@ impl Cell {
     /// (Dobkin, Eppstein, Mitchell, Computing the discrepancy with applications to supersampling patterns, ACM
     /// Trans. Graphics 15, 1996, who subdivide until no point is undecided along several sides). Without such
     /// points it is no relaxation.
-    pub(super) fn relax(&mut self, sides: &Sides, kind: Kind, threshold: f64, scratch: &mut Scratch) -> Relaxed {
+    pub(super) fn relax(&mut self, sides: &Sides, kind: BoxKind, threshold: f64, scratch: &mut Scratch) -> Relaxed {
         self.shrink(sides, kind, threshold);
         if self.bound <= threshold {
             return Relaxed::Nothing;
@@ -191,14 +191,14 @@ impl Cell {
         let Profiled { several, again } = self.profile(sides, kind, budget, threshold, scratch);
         let (largest, least) = (|a, b| if a > b { a } else { b }, |a, b| if a < b { a } else { b });
         match kind {
-            Kind::Open => self.combine(sides, budget + again, scratch, f64::NEG_INFINITY, largest),
-            Kind::Closed => self.combine(sides, budget, scratch, f64::INFINITY, least),
+            BoxKind::Open => self.combine(sides, budget + again, scratch, f64::NEG_INFINITY, largest),
+            BoxKind::Closed => self.combine(sides, budget, scratch, f64::INFINITY, least),
         }
         let (inside, all) = (self.inside, self.inside + self.undecided.len());
         let values = scratch.volumes.iter().enumerate().map(|(count, volume)| match kind {
             // A box that takes in fewer than were counted again would be below the threshold anyway.
-            Kind::Open => volume - sides.share((inside + count).saturating_sub(again)),
-            Kind::Closed => sides.share(all - count) - volume,
+            BoxKind::Open => volume - sides.share((inside + count).saturating_sub(again)),
+            BoxKind::Closed => sides.share(all - count) - volume,
         });
         let value = values.fold(f64::NEG_INFINITY, f64::max);
         if value <= threshold {
@@ -209,7 +209,7 @@ impl Cell {
     }
 
     /// Fills the profiles.
-    fn profile(&self, sides: &Sides, kind: Kind, budget: usize, threshold: f64, scratch: &mut Scratch) -> Profiled {
+    fn profile(&self, sides: &Sides, kind: BoxKind, budget: usize, threshold: f64, scratch: &mut Scratch) -> Profiled {
         scratch.profiles.resize_with(sides.count(), Vec::new);
         scratch.profiles.iter_mut().for_each(Vec::clear);
         let mut profiled = Profiled { several: false, again: 0 };
@@ -225,11 +225,11 @@ impl Cell {
             }
             profiled.several = true;
             match kind {
-                Kind::Closed => {
+                BoxKind::Closed => {
                     let side = self.costliest(sides, point);
                     scratch.profiles[side].push(sides.coordinate(point, side));
                 }
-                Kind::Open
+                BoxKind::Open
                     if profiled.again < AGAIN_PER_BUDGET * budget && self.is_cut_away_once(sides, point, least) =>
                 {
                     for side in 0..sides.count() {
@@ -240,17 +240,17 @@ impl Cell {
                     }
                     profiled.again += undecided.sides as usize - 1;
                 }
-                Kind::Open => {}
+                BoxKind::Open => {}
             }
         }
         let budget = budget + profiled.again;
         for (side, profile) in scratch.profiles.iter_mut().enumerate() {
             match kind {
-                Kind::Open => {
+                BoxKind::Open => {
                     profile.sort_unstable_by(f64::total_cmp);
                     profile.push(self.upper[side]);
                 }
-                Kind::Closed => {
+                BoxKind::Closed => {
                     profile.sort_unstable_by(|a, b| b.total_cmp(a));
                     profile.push(self.lower[side]);
                 }
@@ -325,7 +325,7 @@ impl Cell {
     }
 
     /// Cuts the cell in two, below and above a coordinate.
-    pub(super) fn split(mut self, sides: &Sides, kind: Kind, scratch: &mut Scratch) -> [Self; 2] {
+    pub(super) fn split(mut self, sides: &Sides, kind: BoxKind, scratch: &mut Scratch) -> [Self; 2] {
         let (side, at) = self.cut(sides, scratch);
         // Below the cut, points at it and beyond are outside; the others stay as undecided as they were.
         let below_it = |undecided: &&Undecided| sides.coordinate(undecided.point as usize, side) < at;

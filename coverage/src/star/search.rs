@@ -10,7 +10,7 @@
 //! that comes to its end has proved its target. Only the cells that are open on the way to one cell are kept.
 
 use super::ascent::Ascent;
-use super::cell::{Cell, Kind, Relaxed, Scratch};
+use super::cell::{BoxKind, Cell, Relaxed, Scratch};
 use super::sides::Sides;
 use crate::bracket::Watch;
 use crate::{Bracket, Deadline};
@@ -85,7 +85,7 @@ struct Outcome {
 
 impl<'a> Pass<'a> {
     fn over(sides: &'a Sides<'a>, best: f64, target: f64, deadline: Deadline) -> Outcome {
-        let roots = [Kind::Open, Kind::Closed].map(|kind| (kind, Cell::root(sides, kind)));
+        let roots = [BoxKind::Open, BoxKind::Closed].map(|kind| (kind, Cell::root(sides, kind)));
         let pass = Self {
             sides,
             target,
@@ -100,7 +100,7 @@ impl<'a> Pass<'a> {
     }
 
     /// Explores the cells of a stack.
-    fn explore<'s>(&'s self, scope: &rayon::Scope<'s>, mut stack: Vec<(Kind, Cell)>) {
+    fn explore<'s>(&'s self, scope: &rayon::Scope<'s>, mut stack: Vec<(BoxKind, Cell)>) {
         let (mut scratch, mut watch) = (Scratch::default(), Watch::new(self.deadline));
         let mut numbers: usize = stack.iter().map(|(_, cell)| cell.size()).sum();
         while let Some((kind, mut cell)) = stack.pop() {

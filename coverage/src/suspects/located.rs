@@ -2,7 +2,7 @@
 
 use super::JudgedTest;
 use super::partial::Partial;
-use crate::rules::Rules;
+use paracosm_space::rules::Rules;
 
 /// A combination whose values are all needed for a failing test to fail.
 #[derive(Debug, Clone, PartialEq, Eq)]

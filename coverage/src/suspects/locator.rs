@@ -13,7 +13,7 @@
 use super::Located;
 use super::partial::Partial;
 use crate::kwise::{KwiseError, check};
-use crate::rules::Rules;
+use paracosm_space::rules::Rules;
 use thiserror::Error;
 
 /// Why nothing can be located.
@@ -23,8 +23,11 @@ pub enum LocateError {
     #[error(transparent)]
     Test(#[from] KwiseError),
     /// A test that violates a constraint.
-    #[error("the {0} test violates a constraint")]
-    Invalid(&'static str),
+    #[error("the {role} test violates a constraint")]
+    Invalid {
+        /// The test: `failing` or `passing`.
+        role: &'static str,
+    },
     /// A test cannot both fail and pass.
     #[error("the failing test and the passing test are the same")]
     Same,
@@ -56,7 +59,7 @@ struct Question {
 /// Finds the guilty combination: asks for a test, is told how it went, and asks again.
 ///
 /// ```
-/// use paracosm_coverage::rules::Rules;
+/// use paracosm_space::rules::Rules;
 /// use paracosm_coverage::suspects::Locator;
 /// let rules = Rules::free(&[3; 8]);
 /// let mut locator = Locator::new(&rules, &[1; 8], &[0; 8])?;
@@ -112,7 +115,7 @@ impl<'r> Locator<'r> {
         for (index, (name, test)) in [("failing", failing), ("passing", passing)].into_iter().enumerate() {
             check(rules.levels(), index, test)?;
             if !rules.allows(test) {
-                return Err(LocateError::Invalid(name));
+                return Err(LocateError::Invalid { role: name });
             }
         }
         if failing == passing {

@@ -13,8 +13,8 @@ pub use located::{Located, Standing};
 pub use locator::{LocateError, Locator};
 
 use crate::kwise::{KwiseError, check};
-use crate::rules::Rules;
-use search::{Search, Visitor};
+use paracosm_space::rules::Rules;
+use search::{SuspectSearch, Visitor};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
@@ -82,7 +82,7 @@ pub struct Suspects {
 /// for the tests and for what is listed only.
 ///
 /// ```
-/// use paracosm_coverage::rules::Rules;
+/// use paracosm_space::rules::Rules;
 /// use paracosm_coverage::suspects::{JudgedTest, suspects};
 /// // Tests fail where the first two parameters are both at level 1.
 /// let rows = [[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0], [1, 1, 1]];
@@ -109,7 +109,7 @@ pub fn suspects(rules: &Rules, tests: &[JudgedTest], size: usize, most: usize) -
     if failing.is_empty() || failing.len() == valid.len() {
         return Ok(Suspects { unexplained: failing, invalid, ..Suspects::default() });
     }
-    let search = Search::new(levels.len(), size, valid.iter().map(|&index| &tests[index]));
+    let search = SuspectSearch::new(levels.len(), size, valid.iter().map(|&index| &tests[index]));
 
     let mut ranking = Ranking { most: most.max(KEPT), best: BinaryHeap::new(), found: 0 };
     search.visit(&search.failing(), &mut ranking);
@@ -125,7 +125,7 @@ pub fn suspects(rules: &Rules, tests: &[JudgedTest], size: usize, most: usize) -
 
 /// Few suspects that explain what can be explained, and the failures that are left. Where not all suspects are given,
 /// they are looked for each time.
-fn explain(search: &Search, all: Option<&[Suspect]>) -> (Vec<Suspect>, Vec<u64>) {
+fn explain(search: &SuspectSearch, all: Option<&[Suspect]>) -> (Vec<Suspect>, Vec<u64>) {
     let mut left = search.failing();
     let mut explanation: Vec<Suspect> = Vec::new();
     loop {
@@ -224,7 +224,7 @@ mod tests {
         ) {
             let tests: Vec<JudgedTest> =
                 tests.into_iter().map(|(levels, failed)| JudgedTest { levels, failed }).collect();
-            let search = Search::new(6, size, tests.iter());
+            let search = SuspectSearch::new(6, size, tests.iter());
             let mut ranking = Ranking { most: usize::MAX, best: BinaryHeap::new(), found: 0 };
             search.visit(&search.failing(), &mut ranking);
             let all: Vec<Suspect> = ranking.best.into_iter().map(|ranked| ranked.0).collect();

@@ -1,6 +1,6 @@
 //! A test that is chosen level by level, and can always be completed.
 
-use crate::rules::Rules;
+use paracosm_space::rules::Rules;
 
 /// Levels of some parameters that some valid test has.
 #[derive(Debug, Clone)]

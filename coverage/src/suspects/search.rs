@@ -24,7 +24,7 @@ struct Item {
 }
 
 /// The values that failing tests have, parameter by parameter and in ascending order of levels.
-pub(super) struct Search {
+pub(super) struct SuspectSearch {
     size: usize,
     items: Vec<Item>,
     /// The first item of each parameter, and the end of the last.
@@ -66,7 +66,7 @@ fn intersect(target: &mut [u64], a: &[u64], b: &[u64]) -> usize {
         .sum()
 }
 
-impl Search {
+impl SuspectSearch {
     /// The suspects of at most `size` values that the tests show.
     pub fn new<'a>(parameters: usize, size: usize, tests: impl Iterator<Item = &'a JudgedTest>) -> Self {
         let (failing, passing): (Vec<&JudgedTest>, Vec<&JudgedTest>) = tests.partition(|test| test.failed);

@@ -5,7 +5,7 @@
 //! parameters with more than two levels, and constraints: rows are then drawn from those tests that keep them, and
 //! every combination counts with its own probability.
 
-use crate::rules::{Rules, UniformTests};
+use paracosm_space::rules::{Rules, UniformTests};
 use std::collections::BTreeMap;
 
 /// The number of uniformly random rows of `{0,1}^parameters` that Proposition 3.2 of the paper asks for, to be a

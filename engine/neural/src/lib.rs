@@ -33,6 +33,6 @@ mod pilot;
 #[cfg(feature = "onnx")]
 pub use cloned::{CLONED, Cloned};
 #[cfg(feature = "onnx")]
-pub use model::{Model, ModelError};
+pub use model::{AnswerError, Model, ModelError};
 #[cfg(feature = "onnx")]
 pub use pilot::{PERIOD, Pilot, camera};

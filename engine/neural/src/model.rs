@@ -6,7 +6,7 @@ use std::sync::Arc;
 use thiserror::Error;
 use tract_onnx::prelude::{
     DatumType, Framework, InferenceFact, InferenceModel, InferenceModelExt, IntoRunnable, IntoTValue, Tensor,
-    TypedRunnableModel, tvec,
+    TractError, TypedRunnableModel, tvec,
 };
 use tract_onnx::tract_hir::infer::Factoid;
 
@@ -17,8 +17,11 @@ const PIXELS: (usize, usize) = (8, 1024);
 #[derive(Debug, Error)]
 pub enum ModelError {
     /// It is not in the format, or has operations that are not known.
-    #[error("cannot be read as an ONNX model: {0}")]
-    Unreadable(String),
+    #[error("cannot be read as an ONNX model: {source:#}")]
+    Unreadable {
+        /// What is wrong with it.
+        source: TractError,
+    },
     /// It has tensors that a driver has not.
     #[error("{what} is {found}, expected {expected}")]
     Shape {
@@ -29,6 +32,28 @@ pub enum ModelError {
         /// What it should be.
         expected: &'static str,
     },
+}
+
+/// Why a network does not answer.
+#[derive(Debug, Error)]
+pub enum AnswerError {
+    /// An image of another size than the network takes.
+    #[error("the image has {found} bytes, expected {expected}")]
+    ImageSize {
+        /// How many bytes it has.
+        found: usize,
+        /// How many it should have.
+        expected: usize,
+    },
+    /// The network cannot be run.
+    #[error("the network cannot be run: {source:#}")]
+    Run {
+        /// Why.
+        source: TractError,
+    },
+    /// Steering or throttle is missing.
+    #[error("the network gives fewer than two numbers")]
+    TooFewNumbers,
 }
 
 const IMAGE: &str = "1 x 3 x height x width, float, with height and width from 8 to 1024";
@@ -50,7 +75,7 @@ impl Model {
     /// # Errors
     /// They are no such file, or a network with other inputs and outputs than a driver's.
     pub fn read(contents: &[u8]) -> Result<Self, ModelError> {
-        let unreadable = |error: tract_onnx::prelude::TractError| ModelError::Unreadable(format!("{error:#}"));
+        let unreadable = |source: TractError| ModelError::Unreadable { source };
         let mut model = tract_onnx::onnx().model_for_read(&mut Cursor::new(contents)).map_err(unreadable)?;
         let inputs = model.inputs.len();
         if !(1..=2).contains(&inputs) {
@@ -86,13 +111,13 @@ impl Model {
     /// Steering and throttle for an image of its resolution at a speed in m/s, as the network has it.
     ///
     /// # Errors
-    /// The network cannot be run on it; in words.
-    pub fn answer(&self, image: &Image, speed: f64) -> Result<[f32; 2], String> {
-        let pixels = self.width * self.height;
-        if image.rgb.len() != 3 * pixels {
-            return Err(format!("the image has {} bytes, expected {}", image.rgb.len(), 3 * pixels));
+    /// The network cannot be run on it.
+    pub fn answer(&self, image: &Image, speed: f64) -> Result<[f32; 2], AnswerError> {
+        let (found, expected) = (image.rgb.len(), 3 * self.width * self.height);
+        if found != expected {
+            return Err(AnswerError::ImageSize { found, expected });
         }
-        let wrong = |error: tract_onnx::prelude::TractError| format!("the network cannot be run: {error:#}");
+        let wrong = |source: TractError| AnswerError::Run { source };
         let planes = Tensor::from_shape(&[1, 3, self.height, self.width], &planes(&image.rgb)).map_err(wrong)?;
         let mut inputs = tvec![planes.into_tvalue()];
         if self.asks_for_speed {
@@ -101,7 +126,7 @@ impl Model {
         let outputs = self.plan.run(inputs).map_err(wrong)?;
         let answer = outputs[0].to_plain_array_view::<f32>().map_err(wrong)?;
         let mut numbers = answer.iter().copied();
-        let mut next = || numbers.next().ok_or_else(|| "the network gives fewer than two numbers".to_owned());
+        let mut next = || numbers.next().ok_or(AnswerError::TooFewNumbers);
         Ok([next()?, next()?])
     }
 }

@@ -1,8 +1,8 @@
 //! A network at the wheel.
 
 use crate::Model;
-use paracosm_engine::driver::{Driver, Equipment, Fault};
-use paracosm_engine::sensor::{Cameras, Image, Mounted, Rig};
+use paracosm_engine::driver::{Driver, Equipment, Fault, FaultKind};
+use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
 
 /// Seconds between two images, and between two questions.
@@ -16,24 +16,15 @@ pub struct Pilot {
 }
 
 /// The camera that networks look through, with this many pixels across and down.
-pub fn camera(resolution: [u32; 2]) -> Mounted {
-    Mounted {
+pub fn camera(resolution: [u32; 2]) -> CameraSpec {
+    CameraSpec {
         resolution,
         focal_mm: 24.0,
         sensor_mm: 36.0,
         position: [0.3, 0.0, 1.35],
         yaw_pitch_roll: [0.0, 2.0, 0.0],
         rate: 1.0 / PERIOD,
-        latency: 0.0,
-        dropped: 0.0,
-        motion: 0.0,
-        motion_angle: 0.0,
-        defocus: 0.0,
-        blur: 0.0,
-        vignetting: 0.0,
-        exposure: 0.0,
-        full_well: 0.0,
-        read_noise: 0.0,
+        ..CameraSpec::default()
     }
 }
 
@@ -69,11 +60,14 @@ impl Driver for Pilot {
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
         // Whoever sees nothing yet does nothing.
         let Some(image) = &self.newest else { return Ok(Control::default()) };
-        let [steering, throttle] = self.model.answer(image, observation.speed).map_err(Fault)?.map(f64::from);
+        let [steering, throttle] = self
+            .model
+            .answer(image, observation.speed)
+            .map_err(|error| Fault::of(FaultKind::Answer, error.to_string()))?
+            .map(f64::from);
         if !(steering.is_finite() && throttle.is_finite()) {
-            return Err(Fault(format!(
-                "the network answers steering {steering}, throttle {throttle}, expected numbers"
-            )));
+            let message = format!("the network answers steering {steering}, throttle {throttle}, expected numbers");
+            return Err(Fault::of(FaultKind::Answer, message));
         }
         Ok(Control { throttle: throttle.clamp(-1.0, 1.0), steering: steering.clamp(-1.0, 1.0) })
     }

@@ -2,6 +2,7 @@
 
 use crate::CameraError;
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
+use paracosm_engine::sensor::CameraSpec;
 
 /// A pinhole camera and where it is mounted. Its own axes are x forward, y to the left, z up; pixels are counted from
 /// the upper left corner of the image to the right and down, and the middle of the first is at (0.5, 0.5).
@@ -35,6 +36,17 @@ impl Camera {
         Ok(Self { width, height, focal_length, sensor_width, mount: Isometry3::identity() })
     }
 
+    /// The camera of a description, at its place on what carries it.
+    ///
+    /// # Errors
+    /// There are no pixels, a length is not finite and positive, or a number of its place is not finite.
+    pub fn of(spec: &CameraSpec) -> Result<Self, CameraError> {
+        let [width, height] = spec.resolution;
+        let [yaw, pitch, roll] = spec.yaw_pitch_roll.map(f64::to_radians);
+        let camera = Self::new(width, height, spec.focal_mm, spec.sensor_mm)?;
+        camera.mounted(Point3::from(spec.position), yaw, pitch, roll)
+    }
+
     /// The same camera, mounted elsewhere on what carries it: its place in metres, and how it is turned by yaw (to the
     /// left), then pitch (downwards), then roll (to the right) in radians, as ISO 8855 has them.
     ///
@@ -42,8 +54,7 @@ impl Camera {
     /// A number is not finite.
     pub fn mounted(self, place: Point3<f64>, yaw: f64, pitch: f64, roll: f64) -> Result<Self, CameraError> {
         if ![place.x, place.y, place.z, yaw, pitch, roll].iter().all(|number| number.is_finite()) {
-            let found = format!("({}, {}, {}), yaw {yaw}, pitch {pitch}, roll {roll}", place.x, place.y, place.z);
-            return Err(CameraError::Mount(found));
+            return Err(CameraError::Mount { place: place.into(), yaw, pitch, roll });
         }
         let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
         Ok(Self { mount: Isometry3::from_parts(Translation3::from(place.coords), turn), ..self })

@@ -1,7 +1,6 @@
 //! What there is to see at one moment.
 
 mod figure;
-mod gait;
 mod ground;
 mod pavement;
 mod stage;

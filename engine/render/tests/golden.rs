@@ -4,7 +4,7 @@ mod support;
 
 use nalgebra::{Point3, Translation3, Vector3};
 use paracosm_engine::{Weather, sensor::Chance};
-use paracosm_render::lens::{Effects, Rain};
+use paracosm_render::lens::{Lens, Rain};
 use paracosm_render::{Air, Frame, Outputs, View};
 use support::golden::compare;
 use support::{camera, one, renderer, street};
@@ -46,7 +46,7 @@ fn a_street_in_rain_from_a_car_of_10_m_s() {
     let place = frame.camera.pose(&PLACE.into());
     let rain = Rain::new(weather.rain_rate(), &air, &place, &Vector3::new(10.0, 0.0, 0.0));
     rain.fall(&mut frame, &mut Chance::of(0, "rain", 0));
-    let developed = Effects::default().develop(&frame, &mut Chance::of(0, "noise", 0));
+    let developed = Lens::default().develop(&frame, |effect| Chance::of(0, effect, 0));
     compare("rain", WIDTH, &developed.expect("asked for"));
 }
 

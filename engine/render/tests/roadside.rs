@@ -3,9 +3,9 @@
 mod support;
 
 use nalgebra::{Isometry3, Point3, Vector3};
-use paracosm_coverage::Values;
 use paracosm_engine::{AutonomousVehicle, Environment, Program, RoadSegment, Roadside, Run, Scenario, Setup};
 use paracosm_render::{Camera, Frame, Outputs, Semantic, Stage, View, boxes_in_space};
+use paracosm_space::Values;
 use support::golden::compare;
 use support::{NOTHING, one, renderer};
 
@@ -25,7 +25,7 @@ fn street(s: &mut Scenario) {
 /// The street with these values, from the car, and how many things are before it.
 fn seen(values: &[(&str, f64)]) -> Option<(Frame, usize)> {
     let mut renderer = renderer()?;
-    let program = Program { name: "street", about: "a street with things beside it", build: street };
+    let program = Program::new("street", "a street with things beside it", street);
     let mut test: Values = program.declare().expect("a sound program").nominal();
     values.iter().for_each(|(name, value)| test.set(*name, *value));
     let run = Run::new(&program, &test, Setup::asking_every(0.1)).expect("a sound world");

@@ -1,16 +1,16 @@
 //! Stages as users set them: the ground of networks, the figures of bodies, and the air of weathers.
 
 use nalgebra::{Point3, Vector2, Vector3};
-use paracosm_coverage::Values;
 use paracosm_engine::object::{Body, BodyState, Class};
 use paracosm_engine::road::{
-    CrossIntersection, Network, RoadSegment, Roundabout, Strip, Surface, TIntersection, grid_city,
+    CrossIntersection, RoadNetwork, RoadSegment, Roundabout, Strip, Surface, TIntersection, grid_city,
 };
 use paracosm_engine::{
     AutonomousVehicle, Environment, Pedestrian, Pose, Program, Run, Scenario, Setup, Side, Stream, Weather, driver,
     eventually, never,
 };
 use paracosm_render::{Air, Instance, Mesh, Scene, Semantic, Stage, Stages, Vertex};
+use paracosm_space::Values;
 use std::sync::Arc;
 
 fn standing(body: Body, x: f64, y: f64, heading: f64) -> BodyState {
@@ -18,7 +18,7 @@ fn standing(body: Body, x: f64, y: f64, heading: f64) -> BodyState {
     BodyState { body, pose, velocity: Vector2::zeros(), altitude: 0.0, travelled: 0.0, present: true }
 }
 
-fn road() -> Arc<Network> {
+fn road() -> Arc<RoadNetwork> {
     RoadSegment::new(100.0).zebra(50.0).build().unwrap()
 }
 
@@ -284,7 +284,7 @@ fn dusk(s: &mut Scenario) {
 
 #[test]
 fn a_run_is_seen_as_it_stands_at_each_moment() {
-    let program = Program { name: "dusk", about: "dusk", build: dusk };
+    let program = Program::new("dusk", "dusk", dusk);
     let mut run = Run::new(&program, &Values::default(), Setup::asking_every(0.1)).unwrap();
     let stage = Stage::of(run.network());
     let mut driver = driver::find("cruise").unwrap().build(&[]).unwrap();

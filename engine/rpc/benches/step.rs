@@ -3,7 +3,7 @@
 
 use divan::Bencher;
 use paracosm_engine::driver::{Driver, Equipment, Fault};
-use paracosm_engine::sensor::{Cameras, Image, Mounted, Rig};
+use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Rig};
 use paracosm_engine::vehicle::Vehicle;
 use paracosm_engine::{Briefing, Control, Observation};
 use paracosm_rpc::{Address, Session, Terms, serve};
@@ -24,23 +24,13 @@ impl Driver for Still {
     }
 
     fn equipment(&mut self) -> Equipment {
-        let front = Mounted {
+        let front = CameraSpec {
             resolution: [200, 66],
             focal_mm: 24.0,
             sensor_mm: 36.0,
             position: [0.3, 0.0, 1.35],
-            yaw_pitch_roll: [0.0; 3],
             rate: 10.0,
-            latency: 0.0,
-            dropped: 0.0,
-            motion: 0.0,
-            motion_angle: 0.0,
-            defocus: 0.0,
-            blur: 0.0,
-            vignetting: 0.0,
-            exposure: 0.0,
-            full_well: 0.0,
-            read_noise: 0.0,
+            ..CameraSpec::default()
         };
         Equipment { cameras: Cameras { seed: 0, all: [("front".into(), front)].into() }, ..Equipment::default() }
     }

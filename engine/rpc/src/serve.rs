@@ -42,7 +42,7 @@ type Make = dyn Fn(&SessionOptions) -> Result<Box<dyn Driver>, Fault> + Send + S
 ///
 /// let listener = std::net::TcpListener::bind("127.0.0.1:50051")?;
 /// paracosm_rpc::serve(listener, "my brakes", |_| {
-///     find("aeb").and_then(|kind| kind.build(&[])).map_err(|error| Fault(error.to_string()))
+///     find("aeb").and_then(|kind| kind.build(&[])).map_err(|error| Fault::new(error.to_string()))
 /// })?;
 /// # Ok::<(), std::io::Error>(())
 /// ```
@@ -97,10 +97,10 @@ async fn attend(
     while let Ok(Some(request)) = requests.message().await {
         let answer = tokio::task::block_in_place(|| {
             catch_unwind(AssertUnwindSafe(|| answer(&mut state, request.kind, &name, &*make)))
-                .unwrap_or_else(|panic| Err(Fault(format!("the driver panicked: {}", words(&*panic)))))
+                .unwrap_or_else(|panic| Err(Fault::new(format!("the driver panicked: {}", words(&*panic)))))
         });
         let gave_up = answer.is_err();
-        let kind = answer.unwrap_or_else(|Fault(message)| answer::Kind::Fault(wire::Fault { message }));
+        let kind = answer.unwrap_or_else(|Fault { message, .. }| answer::Kind::Fault(wire::Fault { message }));
         if answers.send(Ok(wire::Answer { kind: Some(kind) })).is_err() || gave_up {
             return;
         }
@@ -132,7 +132,7 @@ fn answer(
                 make(&SessionOptions { seed: hello.seed, settings: hello.settings.into_iter().collect() })?;
             let equipment = driver.equipment();
             if !equipment.rig.is_empty() {
-                return Err(Fault("a driver with a rig cannot be served, only one with cameras".into()));
+                return Err(Fault::new("a driver with a rig cannot be served, only one with cameras"));
             }
             let cameras = equipment.cameras;
             let welcome = wire::Welcome {
@@ -154,7 +154,7 @@ fn answer(
             let Control { throttle, steering } = state.step(step)?;
             Ok(answer::Kind::Control(wire::Control { throttle, steering }))
         }
-        _ => Err(Fault("found an unexpected request, expected one hello, then resets and steps".into())),
+        _ => Err(Fault::new("found an unexpected request, expected one hello, then resets and steps")),
     }
 }
 

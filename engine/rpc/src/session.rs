@@ -1,8 +1,8 @@
 //! A driver that answers from another process.
 
 use crate::wire::{self, Described, answer, request};
-use crate::{Address, PROTOCOL};
-use paracosm_engine::driver::{Driver, Equipment, Fault};
+use crate::{Address, PROTOCOL, Terms};
+use paracosm_engine::driver::{Driver, Equipment, Fault, FaultKind};
 use paracosm_engine::sensor::{Image, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
 use std::error::Error as _;
@@ -24,17 +24,6 @@ const PATIENCE: Duration = Duration::from_millis(20);
 
 /// The longest answer in bytes: what a driver says is short, but for its message when it gives up.
 const LONGEST_ANSWER: usize = 1 << 24;
-
-/// On what terms a driver is asked.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Terms {
-    /// Where its chance comes from, and the noise of its sensors.
-    pub seed: u64,
-    /// What it is set to.
-    pub settings: Vec<(String, f64)>,
-    /// How long an answer may take.
-    pub timeout: Duration,
-}
 
 /// Why there is no driver to ask.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -86,7 +75,8 @@ impl Session {
     /// Nobody listens there, something else does, or the driver cannot be had on these terms.
     pub fn open(address: &Address, terms: &Terms, stop: Arc<AtomicBool>) -> Result<Self, OpenError> {
         let runtime = Builder::new_current_thread().enable_all().build();
-        let runtime = runtime.map_err(|error| Fault(format!("cannot wait for the driver: {error}")))?;
+        let runtime =
+            runtime.map_err(|error| Fault::of(FaultKind::Lost, format!("cannot wait for the driver: {error}")))?;
         let watch = Watch { timeout: terms.timeout, stop };
         if !address.is_known() {
             return Err(OpenError::UnknownHost);
@@ -104,7 +94,7 @@ impl Session {
         let answer = watch.wait(&runtime, answers.message())?.map_err(|status| refusal(&status))?;
         let welcome = match answer.and_then(|answer| answer.kind) {
             Some(answer::Kind::Welcome(welcome)) => welcome,
-            Some(answer::Kind::Fault(fault)) => return Err(Fault(fault.message).into()),
+            Some(answer::Kind::Fault(fault)) => return Err(Fault::new(fault.message).into()),
             other => return Err(unexpected("a welcome", other.as_ref()).into()),
         };
         if welcome.protocol != PROTOCOL {
@@ -128,10 +118,10 @@ impl Session {
         // That nobody listens any more is seen below.
         let _ = self.requests.send(wire::Request { kind: Some(kind) });
         let answer = self.watch.wait(&self.runtime, self.answers.message());
-        let answer = answer.and_then(|answer| answer.map_err(|status| Fault(end(&status))));
+        let answer = answer.and_then(|answer| answer.map_err(|status| Fault::of(FaultKind::Lost, end(&status))));
         self.lost = !matches!(answer, Ok(Some(_)));
         match answer?.and_then(|answer| answer.kind) {
-            Some(answer::Kind::Fault(fault)) => Err(Fault(fault.message)),
+            Some(answer::Kind::Fault(fault)) => Err(Fault::new(fault.message)),
             other => Ok(other),
         }
     }
@@ -180,10 +170,13 @@ impl Watch {
                     return Ok(output);
                 }
                 if self.stop.load(Ordering::Relaxed) {
-                    return Err(Fault("interrupted".into()));
+                    return Err(Fault::of(FaultKind::Interrupted, "interrupted"));
                 }
                 if begun.elapsed() >= self.timeout {
-                    return Err(Fault(format!("no answer within {} s", self.timeout.as_secs_f64())));
+                    return Err(Fault::of(
+                        FaultKind::TimedOut,
+                        format!("no answer within {} s", self.timeout.as_secs_f64()),
+                    ));
                 }
             }
         })
@@ -199,7 +192,7 @@ fn unexpected(expected: &str, found: Option<&answer::Kind>) -> Fault {
         Some(answer::Kind::Control(_)) => "found a control".to_owned(),
         Some(answer::Kind::Fault(fault)) => fault.message.clone(),
     };
-    Fault(format!("{found}, expected {expected}"))
+    Fault::of(FaultKind::Answer, format!("{found}, expected {expected}"))
 }
 
 /// How a session ended. What the network says of it depends on chance, and is left out.
@@ -217,6 +210,6 @@ fn refusal(status: &Status) -> OpenError {
     match status.code() {
         Code::Unimplemented => OpenError::Foreign,
         _ if status.source().is_some() => OpenError::Foreign,
-        _ => OpenError::Unusable(Fault(end(status))),
+        _ => OpenError::Unusable(Fault::of(FaultKind::Lost, end(status))),
     }
 }

@@ -1,7 +1,8 @@
 //! What stands beside the road or on it and never moves.
 
+use crate::geometry::Pose;
 use crate::object::{Body, Class, Geometric};
-use crate::scenario::{Place, Pose, Scenario};
+use crate::scenario::{Place, Scenario};
 
 /// A thing that stands still, not placed yet: a house, a tree, a sign, a parked car.
 #[derive(Debug, Clone)]

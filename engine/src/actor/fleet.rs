@@ -1,7 +1,9 @@
 //! Environment cars: [`Traffic`] as an object of a scenario, that minds the other objects and can be told what to do.
 
-use crate::object::{Body, Class, Geometric, Input, Output, Outputs, Tick, Wiring};
-use crate::scenario::{Place, Pose, Problems, Scenario, Side, Streets};
+use crate::geometry::{Pose, Side};
+use crate::object::{Body, Class, Geometric, Input, InputError, Output, Outputs, Tick, Wiring};
+use crate::problem::Problems;
+use crate::scenario::{Place, Scenario, Streets};
 use crate::stream::{Datum, Stream};
 use crate::traffic::{CarState, Obstacle, Traffic, TrafficCar};
 use nalgebra::Vector2;
@@ -197,7 +199,7 @@ impl Fleet {
 }
 
 impl Driving {
-    fn obey(&mut self, tick: &Tick<'_>) -> Result<(), String> {
+    fn obey(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
         for (car, order) in &self.told.borrow().orders {
             match order {
                 Order::Speed(input) => {
@@ -223,7 +225,7 @@ impl Geometric for Driving {
         }
     }
 
-    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
+    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), InputError> {
         for (car, order) in &self.told.borrow().orders {
             if let Order::Speed(input) = order
                 && tick.get(input).is_some()
@@ -247,7 +249,7 @@ impl Geometric for Driving {
         }
     }
 
-    fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {
+    fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
         self.obey(tick)?;
         // What stands beside the roads is nothing to stop for.
         let in_the_way = |class| !matches!(class, Class::Building | Class::Tree | Class::Sign);

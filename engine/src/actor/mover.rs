@@ -3,9 +3,10 @@
 //! They do not look around: what they do is the scenario's to say. Traffic that drives itself is in
 //! [`traffic`](crate::traffic).
 
-use crate::object::{Body, Geometric, Input, Output, Outputs, Tick};
+use crate::geometry::Pose;
+use crate::object::{Body, Geometric, Input, InputError, Output, Outputs, Tick};
 use crate::road::Path;
-use crate::scenario::{Place, Pose, Scenario};
+use crate::scenario::{Place, Scenario};
 use crate::stream::Stream;
 use nalgebra::Vector2;
 
@@ -200,7 +201,7 @@ impl Geometric for Moving {
         poses[0] = Some(self.pose);
     }
 
-    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
+    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), InputError> {
         self.speed = tick.speed(&self.speed_input)?;
         velocities[0] = self.pose.forward() * self.speed;
         Ok(())
@@ -219,7 +220,7 @@ impl Geometric for Moving {
         Some(self.path.piece(self.at, self.path.length()))
     }
 
-    fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {
+    fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
         let offset = tick.number(&self.offset_input)?;
         let before = (self.at, self.offset, self.pose.position);
         self.at = (self.at + tick.speed(&self.speed_input)? * tick.dt()).min(self.path.length());
@@ -228,7 +229,7 @@ impl Geometric for Moving {
         // It faces where it goes, also where that is not along the path. What moves across only is pushed aside.
         let (ahead, aside) = (self.at - before.0, offset - before.1);
         if ahead > 0.0 {
-            self.pose.heading = crate::road::wrapped(self.pose.heading + libm::atan2(aside, ahead));
+            self.pose.heading = crate::geometry::wrapped(self.pose.heading + libm::atan2(aside, ahead));
         }
         self.speed = (self.pose.position - before.2).norm() / tick.dt();
         Ok(())

@@ -1,8 +1,9 @@
 //! People on foot: they walk straight to a target, at the speed that their input says.
 
-use crate::object::{Body, Geometric, Input, Output, Outputs, Tick};
+use crate::geometry::Pose;
+use crate::object::{Body, Geometric, Input, InputError, Output, Outputs, Tick};
 use crate::road::Path;
-use crate::scenario::{Place, Pose, Scenario};
+use crate::scenario::{Place, Scenario};
 use crate::stream::{Datum, Stream};
 use nalgebra::Vector2;
 use std::cell::Cell;
@@ -140,7 +141,7 @@ impl Geometric for Walking {
         poses[0] = Some(self.pose);
     }
 
-    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
+    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), InputError> {
         let way = self.target.get().map_or(Vector2::zeros(), |target| target - self.pose.position);
         self.velocity = way.try_normalize(0.0).unwrap_or_default() * tick.speed(&self.input)?;
         velocities[0] = self.velocity;
@@ -160,7 +161,7 @@ impl Geometric for Walking {
     }
 
     /// Walks no further than to the target, which it then reaches exactly.
-    fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {
+    fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
         let speed = tick.speed(&self.input)?;
         let before = self.pose.position;
         if let Some(target) = self.target.get() {

@@ -5,10 +5,13 @@
 //! something stands there, and what. Chance comes from the values of the test. Each thing keeps to a disc that lies beyond
 //! the sidewalk; it is left out where the disc meets another road, a body that is there, or the way of one.
 
-use super::{EgoSetup, Fixture};
+use super::Fixture;
+use crate::geometry::Pose;
+use crate::geometry::wrapped;
 use crate::object::{Behaviour, Body, Class, Colour, ObjectSetup};
-use crate::road::{Bounds, Network, Strip, Surface, wrapped};
-use crate::scenario::{Place, Pose, Scenario};
+use crate::road::{Bounds, RoadNetwork, Strip, Surface};
+use crate::scenario::EgoSetup;
+use crate::scenario::{Place, Scenario};
 use crate::sensor::Chance;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -32,7 +35,7 @@ pub struct Roadside {
 }
 
 /// A kind of thing.
-struct Kind {
+struct SceneryKind {
     name: &'static str,
     /// How many of all things are of it.
     share: f64,
@@ -47,15 +50,15 @@ struct Kind {
 const TO_ROAD: f64 = FRAC_PI_2;
 const TO_TRAFFIC: f64 = PI;
 
-const KINDS: [Kind; 8] = [
-    Kind { name: "tree", share: 0.36, body: tree, back: 1.4, faces: TO_ROAD },
-    Kind { name: "house", share: 0.2, body: house, back: 2.5, faces: TO_ROAD },
-    Kind { name: "lamp-post", share: 0.1, body: lamp_post, back: 0.0, faces: TO_ROAD },
-    Kind { name: "sign", share: 0.1, body: sign, back: 0.1, faces: TO_TRAFFIC },
-    Kind { name: "parked-bicycle", share: 0.08, body: bicycle, back: 0.1, faces: 0.2 },
-    Kind { name: "bystander", share: 0.08, body: bystander, back: 0.2, faces: TO_ROAD },
-    Kind { name: "barrel", share: 0.04, body: barrel, back: 0.1, faces: TO_ROAD },
-    Kind { name: "parked-car", share: 0.04, body: car, back: 0.4, faces: TO_ROAD },
+const KINDS: [SceneryKind; 8] = [
+    SceneryKind { name: "tree", share: 0.36, body: tree, back: 1.4, faces: TO_ROAD },
+    SceneryKind { name: "house", share: 0.2, body: house, back: 2.5, faces: TO_ROAD },
+    SceneryKind { name: "lamp-post", share: 0.1, body: lamp_post, back: 0.0, faces: TO_ROAD },
+    SceneryKind { name: "sign", share: 0.1, body: sign, back: 0.1, faces: TO_TRAFFIC },
+    SceneryKind { name: "parked-bicycle", share: 0.08, body: bicycle, back: 0.1, faces: 0.2 },
+    SceneryKind { name: "bystander", share: 0.08, body: bystander, back: 0.2, faces: TO_ROAD },
+    SceneryKind { name: "barrel", share: 0.04, body: barrel, back: 0.1, faces: TO_ROAD },
+    SceneryKind { name: "parked-car", share: 0.04, body: car, back: 0.4, faces: TO_ROAD },
 ];
 
 fn tree(chance: &mut Chance) -> Body {
@@ -134,7 +137,7 @@ impl Place for Roadside {
 }
 
 /// The places on the outer edges of sidewalks, or of roads without any: facing along the traffic, the road to the left.
-fn edges(network: &Network) -> impl Iterator<Item = Pose> {
+fn edges(network: &RoadNetwork) -> impl Iterator<Item = Pose> {
     let edge = |strip: &Strip| match strip.surface {
         Surface::Sidewalk => Some(strip.right),
         Surface::EdgeLine => Some(0.0),
@@ -175,7 +178,7 @@ struct Room {
 
 impl Room {
     /// That which roads, bodies and their ways leave.
-    fn beside(network: &Network, scenario: &Scenario) -> Self {
+    fn beside(network: &RoadNetwork, scenario: &Scenario) -> Self {
         let wide = |strip: &Strip| strip.right.abs().max(strip.left.abs());
         let on_ground =
             |strip: &Strip| matches!(strip.surface, Surface::Carriageway | Surface::Sidewalk | Surface::Island);

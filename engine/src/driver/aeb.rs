@@ -23,10 +23,10 @@
 use super::cruise::{Cruise, PERIOD};
 use super::frenet::Frenet;
 use super::perception::{Perception, Sensor, Track};
-use super::{Driver, Fault, Kind, Setting, Settings, setting, whole};
+use super::{Descriptor, Driver, Fault, Setting, Settings, setting, whole};
 use crate::observation::{Briefing, Control, Observation, Other};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "aeb",
     about: "keeps its speed and its way, and brakes for what it sees on its path",
     settings: &SETTINGS,

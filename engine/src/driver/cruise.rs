@@ -1,11 +1,11 @@
 //! The driver `cruise`: keeps its speed and its way, and never brakes for anything in it. What it hits, any driver that
 //! did nothing would hit; and holding speed and way is a part of every other driver.
 
-use super::{Driver, Fault, Kind, Settings};
+use super::{Descriptor, Driver, Fault, Settings};
 use crate::observation::{Briefing, Control, Observation, Way};
 use nalgebra::Vector2;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "cruise",
     about: "keeps its speed and its way, and never brakes for others",
     settings: &[],

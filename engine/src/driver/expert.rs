@@ -10,11 +10,11 @@
 
 use super::cruise::{Cruise, PERIOD};
 use super::frenet::Frenet;
-use super::{Driver, Fault, Kind, Settings};
+use super::{Descriptor, Driver, Fault, Settings};
 use crate::object::Class;
 use crate::observation::{Briefing, Control, Observation, Other};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "expert",
     about: "keeps its way, its distance and people alive, knowing the truth: whom to learn from",
     settings: &[],

@@ -11,12 +11,12 @@
 //! the edge of the road leaves the image. At junctions it neither turns nor gives way.
 
 use super::cruise::{Cruise, PERIOD};
-use super::{Driver, Equipment, Fault, Kind, Setting, Settings, setting};
+use super::{Descriptor, Driver, Equipment, Fault, Setting, Settings, setting};
 use crate::observation::{Briefing, Control, Observation};
-use crate::sensor::{Cameras, Image, Mounted, Rig};
+use crate::sensor::{CameraSpec, Cameras, Image, Rig};
 use nalgebra::Vector2;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "lane-camera",
     about: "keeps its speed, and its lane by the edge of the road in the images of a camera",
     settings: &SETTINGS,
@@ -52,7 +52,7 @@ const BRAKES: f64 = 3.0;
 /// A driver that sees by a camera.
 #[derive(Debug)]
 struct LaneCamera {
-    camera: Mounted,
+    camera: CameraSpec,
     contrast: f64,
     setback: f64,
     patience: f64,
@@ -66,7 +66,7 @@ struct LaneCamera {
 
 impl LaneCamera {
     fn new(settings: &Settings) -> Self {
-        let camera = Mounted {
+        let mut camera = CameraSpec {
             resolution: RESOLUTION,
             focal_mm: FOCAL,
             sensor_mm: SENSOR,
@@ -75,9 +75,9 @@ impl LaneCamera {
             rate: settings.get("rate"),
             latency: settings.get("latency"),
             dropped: settings.get("dropped"),
-            blur: settings.get("blur"),
-            ..Mounted::default()
+            ..CameraSpec::default()
         };
+        camera.lens.set("blur", settings.get("blur"));
         Self {
             camera,
             contrast: settings.get("contrast"),

@@ -13,7 +13,7 @@ pub mod reference;
 
 use crate::observation::{Briefing, Control, Observation};
 use crate::sensor::{Cameras, Image, Rig};
-use paracosm_coverage::{did_you_mean, nearest};
+use paracosm_space::{did_you_mean, nearest};
 use thiserror::Error;
 
 /// A system under test.
@@ -67,8 +67,42 @@ pub struct Equipment {
 
 /// Why a driver cannot go on, which ends the test with an error that says so.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0}")]
-pub struct Fault(pub String);
+#[error("{message}")]
+pub struct Fault {
+    /// What kind of fault it is.
+    pub kind: FaultKind,
+    /// What happened, in words.
+    pub message: String,
+}
+
+/// The kinds of faults that drivers have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FaultKind {
+    /// The driver says so itself.
+    Stated,
+    /// It measures with what cannot be, or with what nobody draws.
+    Equipment,
+    /// It answers what makes no sense.
+    Answer,
+    /// It does not answer in time.
+    TimedOut,
+    /// Its process is gone, or the connection to it.
+    Lost,
+    /// Nobody waits for it any more.
+    Interrupted,
+}
+
+impl Fault {
+    /// The fault that a driver states itself, in its own words.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self::of(FaultKind::Stated, message)
+    }
+
+    /// A fault of some kind, in words.
+    pub fn of(kind: FaultKind, message: impl Into<String>) -> Self {
+        Self { kind, message: message.into() }
+    }
+}
 
 /// A number that a driver can be set to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,21 +143,26 @@ pub struct Settings(Vec<(&'static str, f64)>);
 
 impl Settings {
     /// The value of a setting that the driver has declared.
-    fn get(&self, name: &str) -> f64 {
+    ///
+    /// # Panics
+    /// The driver declares no such setting.
+    pub fn get(&self, name: &str) -> f64 {
         let found = self.0.iter().find(|(key, _)| *key == name);
         found.unwrap_or_else(|| panic!("the driver declares no setting `{name}`")).1
     }
 }
 
-/// A kind of driver: its name, its settings, and how one is made.
-pub struct Kind {
+/// All that the software knows of a driver that comes with it: its name, its settings, and how a driver is made.
+#[derive(Debug)]
+pub struct Descriptor {
     /// The name by which it is chosen.
     pub name: &'static str,
     /// What it does, in one line.
     pub about: &'static str,
     /// What can be set.
     pub settings: &'static [Setting],
-    make: fn(&Settings) -> Box<dyn Driver>,
+    /// A driver with these settings.
+    pub make: fn(&Settings) -> Box<dyn Driver>,
 }
 
 /// Why there is no such driver.
@@ -166,12 +205,12 @@ pub enum DriverError {
     },
 }
 
-/// Every kind of driver there is.
-pub const ALL: [&Kind; 9] = [
-    &aeb::KIND,
-    &cruise::KIND,
-    &expert::KIND,
-    &lane_camera::KIND,
+/// The drivers that come with the engine, in the order in which they are shown.
+pub const ALL: &[&Descriptor] = &[
+    &aeb::DESCRIPTOR,
+    &cruise::DESCRIPTOR,
+    &expert::DESCRIPTOR,
+    &lane_camera::DESCRIPTOR,
     &reference::CC,
     &reference::RSS,
     &reference::FSM,
@@ -179,18 +218,18 @@ pub const ALL: [&Kind; 9] = [
     &reference::IDEAL,
 ];
 
-/// The kind of driver of that name.
+/// The driver of that name.
 ///
 /// # Errors
 /// There is none; the error suggests the nearest name.
-pub fn find(name: &str) -> Result<&'static Kind, DriverError> {
-    ALL.into_iter().find(|kind| kind.name == name).ok_or_else(|| DriverError::Unknown {
+pub fn find(name: &str) -> Result<&'static Descriptor, DriverError> {
+    ALL.iter().copied().find(|driver| driver.name == name).ok_or_else(|| DriverError::Unknown {
         name: name.to_owned(),
-        nearest: nearest(name, ALL.map(|kind| kind.name)),
+        nearest: nearest(name, ALL.iter().map(|driver| driver.name)),
     })
 }
 
-impl Kind {
+impl Descriptor {
     /// All settings: the defaults, but for what `changes` says.
     ///
     /// # Errors
@@ -211,10 +250,10 @@ impl Kind {
         Ok(settings)
     }
 
-    /// A driver of this kind, its settings changed so.
+    /// A driver with its settings changed so.
     ///
     /// # Errors
-    /// As [`Kind::settings`].
+    /// As [`Descriptor::settings`].
     pub fn build(&self, changes: &[(String, f64)]) -> Result<Box<dyn Driver>, DriverError> {
         Ok((self.make)(&self.settings(changes)?))
     }

@@ -7,10 +7,11 @@
 //! the car began, which it knows from its own odometry; a straight line through the last few of them by least
 //! squares gives position and velocity now.
 
+use crate::chance::gaussian;
+use crate::geometry::Pose;
 use crate::object::crosses;
 use crate::observation::{Observation, Other};
-use crate::scenario::Pose;
-use crate::sensor::{gaussian, hides};
+use crate::sensor::hides;
 use nalgebra::Vector2;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;

@@ -1,7 +1,7 @@
 use super::*;
+use crate::geometry::Pose;
 use crate::object::{Class, Outline};
 use crate::observation::Other;
-use crate::scenario::Pose;
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
 

@@ -1,6 +1,6 @@
 //! What an object is to others: its outline on the ground, its height, and what it is taken for.
 
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::fmt;
 
@@ -26,6 +26,10 @@ pub enum Class {
 }
 
 impl Class {
+    /// All classes.
+    pub const ALL: [Self; 8] =
+        [Self::Car, Self::Truck, Self::Bicycle, Self::Pedestrian, Self::Building, Self::Tree, Self::Sign, Self::Prop];
+
     /// The colour of a body of this class where nothing else is said.
     fn usual_colour(self) -> Colour {
         match self {

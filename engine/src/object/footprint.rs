@@ -1,7 +1,7 @@
 //! How far two bodies are from each other, seen from above: distances between rectangles and discs in 64 bits.
 
 use super::body::Outline;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 
 /// Metres between what two bodies cover of the ground; 0 where they touch or overlap.

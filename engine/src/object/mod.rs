@@ -5,7 +5,7 @@
 //! program only pushes. Pedestrians, cars on a path and houses are geometric objects that come with the engine; users
 //! write their own of either kind.
 //!
-//! An object becomes part of a world by [`Place`](crate::Place): it asks the scenario for a [`Draft`], in which it
+//! An object becomes part of a world by [`Place`](crate::Place): it asks the scenario for a [`ObjectDraft`](crate::ObjectDraft), in which it
 //! declares its inputs, outputs and bodies, and leaves its behaviour there. What the program gets is a handle, from
 //! which it takes the outputs as streams, and whose inputs it binds: anything's output to anything's input of that
 //! type. At each tick
@@ -17,7 +17,7 @@
 //! A balloon that climbs as fast as it is told, and whose height can be read:
 //!
 //! ```
-//! use paracosm_engine::object::{Body, Class, Geometric, Input, Output, Outputs, Tick};
+//! use paracosm_engine::object::{Body, Class, Geometric, Input, InputError, Output, Outputs, Tick};
 //! use paracosm_engine::{AutonomousVehicle, Place, Pose, Program, RoadSegment, Scenario, Stream, never};
 //!
 //! struct Balloon { start: Pose, climb: Stream<f64> }
@@ -31,7 +31,7 @@
 //!     fn show(&self, outputs: &mut Outputs<'_>) {
 //!         outputs.set(&self.shown, self.height);
 //!     }
-//!     fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {
+//!     fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
 //!         self.height += tick.number(&self.climb)? * tick.dt();
 //!         Ok(())
 //!     }
@@ -56,25 +56,52 @@
 //!     let height = s.place(Balloon { start: road.on_lane(-1, 100.0), climb: car.speed() * 0.1 });
 //!     s.require("low", never(height.above(50.0)));
 //! }
-//! # Program { name: "fair", about: "a fair", build: fair }.declare().unwrap();
+//! # Program::new("fair", "a fair", fair).declare().unwrap();
 //! ```
 
+mod behaviour;
 mod body;
-mod draft;
 mod footprint;
 mod wiring;
 
 pub use body::{Body, BodyState, Class, Colour, Outline};
-pub use draft::Draft;
 pub use wiring::{Input, Output, Outputs, Tick};
 
-pub(crate) use draft::{Behaviour, ObjectSetup};
+pub(crate) use behaviour::{Behaviour, ObjectSetup};
 pub(crate) use footprint::{crosses, gap};
 pub(crate) use wiring::Wiring;
 
+use crate::geometry::Pose;
 use crate::road::Path;
-use crate::scenario::Pose;
 use nalgebra::Vector2;
+use thiserror::Error;
+
+/// What an object cannot go on with.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum InputError {
+    /// The stream of an input is absent.
+    #[error("`{input}` has no value")]
+    Absent {
+        /// The input, as `object.input`.
+        input: String,
+    },
+    /// An input reads NaN.
+    #[error("`{input}` is not a number")]
+    NotANumber {
+        /// The input, as `object.input`.
+        input: String,
+    },
+    /// An input reads what makes no sense.
+    #[error("`{input}` is {value}, expected {expected}")]
+    OutOfRange {
+        /// The input, as `object.input`.
+        input: String,
+        /// What it reads.
+        value: f64,
+        /// What would make sense, in words.
+        expected: &'static str,
+    },
+}
 
 /// The behaviour of an object whose poses are under its own control.
 pub trait Geometric: 'static {
@@ -86,7 +113,7 @@ pub trait Geometric: 'static {
     ///
     /// # Errors
     /// As of [`Geometric::step`].
-    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), String> {
+    fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), InputError> {
         let _ = (tick, velocities);
         Ok(())
     }
@@ -104,8 +131,8 @@ pub trait Geometric: 'static {
     /// Reads its inputs and moves on by a tick.
     ///
     /// # Errors
-    /// An input makes no sense. The run ends with the verdict `error` and this message, which names the input.
-    fn step(&mut self, tick: &Tick<'_>) -> Result<(), String> {
+    /// An input makes no sense. The run ends with the verdict `error`, which names the input.
+    fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
         let _ = tick;
         Ok(())
     }
@@ -122,7 +149,7 @@ pub trait Physical: 'static {
     ///
     /// # Errors
     /// As of [`Geometric::step`].
-    fn push(&mut self, body: &BodyState, tick: &Tick<'_>) -> Result<Vector2<f64>, String> {
+    fn push(&mut self, body: &BodyState, tick: &Tick<'_>) -> Result<Vector2<f64>, InputError> {
         let _ = (body, tick);
         Ok(Vector2::zeros())
     }

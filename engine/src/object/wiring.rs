@@ -1,5 +1,6 @@
 //! How objects are wired: inputs that are bound to streams, outputs that streams are made of.
 
+use super::InputError;
 use super::body::BodyState;
 use crate::stream::{Datum, Graph, Node, Sample, Slot, Source, Stream};
 use std::cell::{Cell, RefCell};
@@ -161,22 +162,23 @@ impl Tick<'_> {
     /// The number that an input reads.
     ///
     /// # Errors
-    /// It is absent or NaN; the message names the input.
-    pub fn number(&self, input: &Input<f64>) -> Result<f64, String> {
-        let number = self.get(input).ok_or_else(|| format!("`{}` has no value", input.name))?;
-        if number.is_nan() { Err(format!("`{}` is not a number", input.name)) } else { Ok(number) }
+    /// It is absent or NaN; the error names the input.
+    pub fn number(&self, input: &Input<f64>) -> Result<f64, InputError> {
+        let name = || input.name.to_string();
+        let number = self.get(input).ok_or_else(|| InputError::Absent { input: name() })?;
+        if number.is_nan() { Err(InputError::NotANumber { input: name() }) } else { Ok(number) }
     }
 
     /// The speed that an input reads: 0 where its stream is absent.
     ///
     /// # Errors
-    /// It is no finite number from 0 on; the message names the input.
-    pub fn speed(&self, input: &Input<f64>) -> Result<f64, String> {
+    /// It is no finite number from 0 on; the error names the input.
+    pub fn speed(&self, input: &Input<f64>) -> Result<f64, InputError> {
         let speed = self.get(input).unwrap_or(0.0);
         if (0.0..f64::INFINITY).contains(&speed) {
             Ok(speed)
         } else {
-            Err(format!("`{}` is {speed}, expected a number from 0 on", input.name))
+            Err(InputError::OutOfRange { input: input.name.to_string(), value: speed, expected: "a number from 0 on" })
         }
     }
 

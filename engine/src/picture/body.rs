@@ -6,8 +6,8 @@
 use super::drawing::{Colour, Contour, Mark, Paint};
 use super::ground::seen_from;
 use super::view::View;
+use crate::geometry::Pose;
 use crate::object::{Body, Class, Outline};
-use crate::scenario::Pose;
 
 /// The colour of the car under test.
 pub(super) const UNDER_TEST: Colour = [0xd5, 0x5e, 0x00];

@@ -2,8 +2,8 @@
 
 use super::drawing::{Colour, Contour, Mark, Paint, Segment};
 use super::view::View;
-use crate::road::{Lane, LaneKind, Network, Strip, Surface};
-use crate::scenario::Pose;
+use crate::geometry::Pose;
+use crate::road::{Lane, LaneKind, RoadNetwork, Strip, Surface};
 use nalgebra::Vector2;
 
 /// What is thinner than this many pixels is left out.
@@ -29,7 +29,7 @@ fn colour(surface: Surface) -> Colour {
 }
 
 /// The ground that a view shows: all strips of a surface as one shape.
-pub(super) fn ground(view: &View, network: &Network) -> Vec<Mark> {
+pub(super) fn ground(view: &View, network: &RoadNetwork) -> Vec<Mark> {
     let [width, height] = view.size();
     let mut marks = vec![Contour::rectangle([0.0, 0.0], [width, height]).fill(GROUND)];
     let mut strips = network.strips();
@@ -62,7 +62,7 @@ pub(super) fn ground(view: &View, network: &Network) -> Vec<Mark> {
 }
 
 /// Arrows on the lanes of roads, the way of their traffic; none where they would be too small to be told.
-pub(super) fn directions(view: &View, network: &Network) -> Mark {
+pub(super) fn directions(view: &View, network: &RoadNetwork) -> Mark {
     let mut contour = Contour::default();
     let large = view.scale >= LEAST_SCALE;
     for lane in network.lanes().iter().filter(|lane| large && lane.kind == LaneKind::Road) {
@@ -80,7 +80,7 @@ pub(super) fn directions(view: &View, network: &Network) -> Mark {
 }
 
 /// The middle of every lane with an arrow in its middle, in the colour of what the lane is part of.
-pub(super) fn lanes(view: &View, network: &Network) -> Vec<Mark> {
+pub(super) fn lanes(view: &View, network: &RoadNetwork) -> Vec<Mark> {
     let marks = network.lanes().iter().flat_map(|lane| {
         let mut head = Contour::default();
         let corners = [(0.9, 0.0), (-0.5, 0.55), (-0.5, -0.55)];

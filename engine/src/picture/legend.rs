@@ -3,9 +3,9 @@
 use super::body::{UNDER_TEST, body, class_colour};
 use super::drawing::{Anchor, Colour, Contour, Drawing, Mark, Pixel};
 use super::view::View;
+use crate::geometry::Pose;
 use crate::object::{Body, Class};
 use crate::road::Bounds;
-use crate::scenario::Pose;
 use nalgebra::Vector2;
 
 /// The colour of what is written.

@@ -7,9 +7,9 @@
 use super::body::is_actor;
 use super::record::{Record, Scene};
 use super::view::{View, across, with_margin};
+use crate::geometry::Pose;
 use crate::object::Body;
 use crate::road::Bounds;
-use crate::scenario::Pose;
 use std::ops::Range;
 
 /// Metres that a page shows at most from left to right, and from top to bottom, unless there would be too many pages.

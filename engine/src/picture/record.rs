@@ -3,10 +3,10 @@
 use super::body::{extent, is_actor};
 use super::view::MARGIN;
 use super::world::NEAR;
+use crate::geometry::Pose;
 use crate::object::Body;
-use crate::road::{Bounds, Network};
+use crate::road::{Bounds, RoadNetwork};
 use crate::run::Run;
-use crate::scenario::Pose;
 use nalgebra::Vector2;
 use std::ops::Range;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ pub struct Record {
 /// What does not change in a run.
 #[derive(Debug, Clone)]
 pub(super) struct Scene {
-    pub network: Arc<Network>,
+    pub network: Arc<RoadNetwork>,
     pub bodies: Vec<Body>,
 }
 

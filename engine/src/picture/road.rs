@@ -5,9 +5,9 @@ use super::drawing::{Colour, Contour, Drawing, Paint, Segment};
 use super::ground::{ground, lanes};
 use super::legend::scale_bar;
 use super::view::View;
+use crate::geometry::Pose;
 use crate::object::{Body, Class};
-use crate::road::{Bounds, Network, Route};
-use crate::scenario::Pose;
+use crate::road::{Bounds, RoadNetwork, Route};
 
 /// Width or height of a picture in pixels, whichever is greater, without its margins.
 const SIZE: f64 = 1200.0;
@@ -22,7 +22,7 @@ const FAITHFUL: f64 = 0.1;
 /// A network from above, and what is shown on it.
 #[derive(Debug, Clone)]
 pub struct RoadPicture<'a> {
-    network: &'a Network,
+    network: &'a RoadNetwork,
     lanes: bool,
     routes: Vec<(Route, Colour)>,
     bodies: Vec<(Pose, Body, Colour)>,
@@ -30,7 +30,7 @@ pub struct RoadPicture<'a> {
 
 impl<'a> RoadPicture<'a> {
     /// The network alone.
-    pub fn of(network: &'a Network) -> Self {
+    pub fn of(network: &'a RoadNetwork) -> Self {
         Self { network, lanes: false, routes: Vec::new(), bodies: Vec::new() }
     }
 
@@ -79,7 +79,7 @@ impl<'a> RoadPicture<'a> {
 }
 
 /// The way along the middles of its lanes; where it changes to a lane beside, over half of what is left of both.
-fn route(view: &View, network: &Network, route: &Route) -> Contour {
+fn route(view: &View, network: &RoadNetwork, route: &Route) -> Contour {
     let curve = |index: usize| &network.lane(route.lanes[index]).curve;
     let mut from = route.start / curve(0).length();
     let mut contour = Contour { segments: vec![Segment::Move(view.at(curve(0).point(route.start)))] };

@@ -1,7 +1,7 @@
 //! Which part of the ground a picture shows, and how large.
 
 use super::drawing::{Contour, Pixel, Segment};
-use crate::road::{Bounds, Curve, Network, Surface};
+use crate::road::{Bounds, Curve, RoadNetwork, Surface};
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_4;
 
@@ -31,7 +31,7 @@ pub(super) fn with_margin(bounds: &Bounds) -> Bounds {
 }
 
 /// Across the road at each of these points, from edge to edge.
-pub(super) fn across(network: &Network, points: impl Iterator<Item = Vector2<f64>>) -> Bounds {
+pub(super) fn across(network: &RoadNetwork, points: impl Iterator<Item = Vector2<f64>>) -> Bounds {
     let mut strips = network.strips();
     strips.retain(|strip| matches!(strip.surface, Surface::Sidewalk | Surface::Carriageway));
     let edges = points.flat_map(|point| {

@@ -6,7 +6,7 @@ use super::ground::{directions, ground, seen_from};
 use super::legend::{Entry, PAPER, PLAN_DASH, entries, legend};
 use super::view::{View, across, with_margin};
 use crate::object::BodyState;
-use crate::road::{Bounds, Network, Path};
+use crate::road::{Bounds, Path, RoadNetwork};
 use crate::run::Run;
 use nalgebra::Vector2;
 
@@ -76,7 +76,7 @@ pub(super) fn framed(view: &View, panels: Vec<Vec<Mark>>, entries: &[Entry], cap
 }
 
 /// Where the actors are and go, across the road, and what stands near.
-fn around(network: &Network, bodies: &[BodyState], plans: &[(usize, Path)]) -> Bounds {
+fn around(network: &RoadNetwork, bodies: &[BodyState], plans: &[(usize, Path)]) -> Bounds {
     let actors = bodies.iter().enumerate().filter(|(i, state)| *i == 0 || is_actor(state.body.class));
     let actors: Vec<_> = actors.map(|(_, state)| state.pose.position).collect();
     let across = across(network, actors.iter().copied());

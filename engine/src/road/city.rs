@@ -3,7 +3,7 @@
 use super::composite::Composite;
 use super::element::{CrossIntersection, RoadSegment, TIntersection};
 use super::layout::POINTS;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
 

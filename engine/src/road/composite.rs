@@ -3,21 +3,14 @@
 //! The first mistake is kept and reported when the network is built, so that programs need no `?` on every line;
 //! what is connected after it is left out, since it would only lead to further messages.
 
-use super::curve::wrapped;
 use super::element::{Element, Shape};
-use super::error::RoadError;
+use super::error::{ANGLE, GAP, RoadError};
 use super::layout::{Plan, Port};
-use super::network::Network;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
+use crate::geometry::wrapped;
 use nalgebra::Vector2;
 use std::collections::HashMap;
 use std::f64::consts::PI;
-use std::sync::Arc;
-
-/// The largest gap in metres over which a loop closes.
-pub(super) const GAP: f64 = 0.01;
-/// The largest angle in degrees at which a loop closes.
-pub(super) const ANGLE: f64 = 0.1;
 
 /// Road elements connected to one another: itself a road element.
 ///
@@ -31,7 +24,7 @@ pub struct Composite {
     names: HashMap<String, usize>,
     /// How many elements without a name there are of each kind. Only looked up.
     unnamed: HashMap<&'static str, usize>,
-    mistake: Option<RoadError>,
+    pub(super) mistake: Option<RoadError>,
 }
 
 /// An element in its place.
@@ -66,6 +59,18 @@ impl<S: Into<Shape>> From<Element<S>> for Composite {
         let unnamed = if named { HashMap::new() } else { HashMap::from([(plan.kind(), 1)]) };
         let names = HashMap::from([(name.clone(), 0)]);
         Self { parts: vec![Part { name, named, plan, pose, ports }], links: Vec::new(), names, unnamed, mistake }
+    }
+}
+
+impl<S: Into<Shape>> Element<S> {
+    /// Joins `child_point` of another element or composite to `point` of this one: [`Composite::connect`].
+    pub fn connect(self, point: &str, child: impl Into<Composite>, child_point: &str) -> Composite {
+        Composite::from(self).connect(point, child, child_point)
+    }
+
+    /// Puts its origin at this pose: [`Composite::at`].
+    pub fn at(self, pose: Pose) -> Composite {
+        Composite::from(self).at(pose)
     }
 }
 
@@ -129,17 +134,6 @@ impl Composite {
         let ends = self.parts.iter().enumerate().flat_map(ends);
         let free = ends.filter(|end| self.parts[end.part].ports[end.port].1.is_none());
         free.map(|end| self.label(end)).collect()
-    }
-
-    /// The network of all elements.
-    ///
-    /// # Errors
-    /// The first mistake that was made in connecting, or two elements overlap.
-    pub fn build(self) -> Result<Arc<Network>, RoadError> {
-        match self.mistake {
-            Some(mistake) => Err(mistake),
-            None => Network::new(&self).map(Arc::new),
-        }
     }
 
     fn unless_mistaken(mut self, change: impl FnOnce(&mut Self) -> Result<(), RoadError>) -> Self {

@@ -1,7 +1,7 @@
 //! Lines and circular arcs in the ground plane, parametrised by arc length: what all road geometry is made of.
 
 use super::bounds::Bounds;
-use crate::scenario::Pose;
+use crate::geometry::{Pose, wrapped};
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -13,11 +13,6 @@ pub struct Curve {
     forward: Vector2<f64>,
     curvature: f64,
     length: f64,
-}
-
-/// The angle in (-π, π] that points the same way.
-pub(crate) fn wrapped(angle: f64) -> f64 {
-    angle - (((angle + PI) / TAU).ceil() - 1.0) * TAU
 }
 
 /// A vector turned to the left by a quarter.

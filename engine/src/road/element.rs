@@ -1,12 +1,8 @@
 //! Road elements before they are connected: what programs write.
 
-use super::composite::Composite;
 use super::curve::Curve;
-use super::error::RoadError;
-use super::network::Network;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
-use std::sync::Arc;
 
 /// Width of a lane in metres: the usual of urban main roads.
 const LANE_WIDTH: f64 = 3.5;
@@ -182,26 +178,6 @@ impl<S> Element<S> {
     pub fn named(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());
         self
-    }
-}
-
-impl<S: Into<Shape>> Element<S> {
-    /// Joins `child_point` of another element or composite to `point` of this one: [`Composite::connect`].
-    pub fn connect(self, point: &str, child: impl Into<Composite>, child_point: &str) -> Composite {
-        Composite::from(self).connect(point, child, child_point)
-    }
-
-    /// Puts its origin at this pose: [`Composite::at`].
-    pub fn at(self, pose: Pose) -> Composite {
-        Composite::from(self).at(pose)
-    }
-
-    /// The network of this element alone: [`Composite::build`].
-    ///
-    /// # Errors
-    /// It cannot be as it is described.
-    pub fn build(self) -> Result<Arc<Network>, RoadError> {
-        Composite::from(self).build()
     }
 }
 

@@ -1,7 +1,12 @@
 //! Why a road network cannot be. Points are named as `element.point`.
 
-use paracosm_coverage::{did_you_mean, nearest};
+use paracosm_space::{did_you_mean, nearest};
 use thiserror::Error;
+
+/// The largest gap in metres over which a loop closes.
+pub(super) const GAP: f64 = 0.01;
+/// The largest angle in degrees at which a loop closes.
+pub(super) const ANGLE: f64 = 0.1;
 
 /// Why a road network cannot be built, or what it was asked for in vain.
 #[derive(Debug, Clone, Error, PartialEq)]
@@ -74,8 +79,8 @@ pub enum RoadError {
     #[error(
         "the loop does not close: `{a}` and `{b}` are {gap:.3} m and {angle:.2} degrees apart, at most {} m and {} \
          degrees are allowed",
-        super::composite::GAP,
-        super::composite::ANGLE
+        GAP,
+        ANGLE
     )]
     OpenLoop {
         /// A point.

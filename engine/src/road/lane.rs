@@ -2,7 +2,7 @@
 
 use super::curve::Curve;
 
-/// A lane of a network: its index in [`Network::lanes`](super::Network::lanes).
+/// A lane of a network: its index in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LaneId(pub(super) u32);
 
@@ -11,7 +11,7 @@ impl LaneId {
         Self(index as u32)
     }
 
-    /// Its index in [`Network::lanes`](super::Network::lanes).
+    /// Its index in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
     pub fn index(self) -> usize {
         self.0 as usize
     }
@@ -56,7 +56,7 @@ pub struct Conflict {
 /// A lane: the way of a car, in the direction of its traffic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
-    /// The index of its element in [`Network::elements`](super::Network::elements).
+    /// The index of its element in [`RoadNetwork::elements`](super::RoadNetwork::elements).
     pub element: usize,
     /// What it is part of.
     pub kind: LaneKind,

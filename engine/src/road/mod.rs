@@ -2,7 +2,7 @@
 //!
 //! An element (a straight or curved [`RoadSegment`], a [`TIntersection`], a [`CrossIntersection`], a [`Roundabout`])
 //! has named points where others can be connected. A connection gives the child its place and yields a
-//! [`Composite`], which is connected on as elements are. [`Composite::build`] checks it and makes of it a [`Network`]:
+//! [`Composite`], which is connected on as elements are. [`Composite::build`] checks it and makes of it a [`RoadNetwork`]:
 //! immutable, shared by an [`Arc`](std::sync::Arc), the same for every run on it. This is section 2 of the paper,
 //! whose example reads
 //!
@@ -54,10 +54,8 @@ pub use curve::Curve;
 pub use element::{Cross, CrossIntersection, Element, Ring, RoadSegment, Roundabout, Segment, TIntersection, Tee};
 pub use error::RoadError;
 pub use lane::{Conflict, Lane, LaneId, LaneKind};
-pub use network::{Crossing, Network};
+pub use network::{Crossing, RoadNetwork};
 pub use path::Path;
 pub use projection::Projection;
 pub use route::{Place, Route};
 pub use strip::{Strip, Surface};
-
-pub(crate) use curve::wrapped;

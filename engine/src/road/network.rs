@@ -2,14 +2,15 @@
 
 use super::bounds::{Bounds, Tree};
 use super::composite::Composite;
-use super::curve::{Curve, wrapped};
-use super::element::{Profile, Shape};
+use super::curve::Curve;
+use super::element::{Element, Profile, Shape};
 use super::error::RoadError;
 use super::lane::{Conflict, Lane, LaneId, LaneKind};
 use super::layout::{ConflictPlan, LanePlan, Layout, Plan, ZEBRA};
 use super::overlap;
 use super::strip::Strip;
-use crate::scenario::{Pose, Side};
+use crate::geometry::wrapped;
+use crate::geometry::{Pose, Side};
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
@@ -18,7 +19,7 @@ use std::sync::Arc;
 ///
 /// Traffic keeps to the right.
 #[derive(Debug)]
-pub struct Network {
+pub struct RoadNetwork {
     elements: Vec<Placed>,
     /// Where a name stands. Only looked up.
     names: HashMap<String, usize>,
@@ -44,7 +45,7 @@ struct Placed {
 /// A zebra crossing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crossing {
-    /// The index of its road in [`Network::elements`].
+    /// The index of its road in [`RoadNetwork::elements`].
     pub element: usize,
     /// Its middle line, from the right kerb of the road to the left one.
     pub path: Curve,
@@ -54,9 +55,32 @@ pub struct Crossing {
     pub lanes: Vec<(LaneId, f64)>,
 }
 
-impl Network {
+impl<S: Into<Shape>> Element<S> {
+    /// The network of this element alone: [`Composite::build`].
+    ///
+    /// # Errors
+    /// It cannot be as it is described.
+    pub fn build(self) -> Result<Arc<RoadNetwork>, RoadError> {
+        Composite::from(self).build()
+    }
+}
+
+impl Composite {
+    /// The network of all elements.
+    ///
+    /// # Errors
+    /// The first mistake that was made in connecting, or two elements overlap.
+    pub fn build(self) -> Result<Arc<RoadNetwork>, RoadError> {
+        match &self.mistake {
+            Some(mistake) => Err(mistake.clone()),
+            None => RoadNetwork::new(&self).map(Arc::new),
+        }
+    }
+}
+
+impl RoadNetwork {
     /// The network of a composite without a mistake.
-    pub(super) fn new(composite: &Composite) -> Result<Self, RoadError> {
+    fn new(composite: &Composite) -> Result<Self, RoadError> {
         let layouts = layouts(composite);
         overlap::check(composite, &layouts)?;
         let mut elements = Vec::with_capacity(layouts.len());
@@ -115,7 +139,7 @@ impl Network {
         &self.lanes
     }
 
-    /// The lanes by which all of [`Network::lanes`] are called, in their order.
+    /// The lanes by which all of [`RoadNetwork::lanes`] are called, in their order.
     pub fn ids(&self) -> impl ExactSizeIterator<Item = LaneId> {
         (0..self.lanes.len()).map(LaneId::new)
     }

@@ -8,7 +8,7 @@ use super::composite::Composite;
 use super::error::RoadError;
 use super::layout::Layout;
 use super::strip::Surface;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::sync::Arc;
 

@@ -2,9 +2,9 @@
 
 use super::curve::Curve;
 use super::lane::LaneId;
-use super::network::Network;
+use super::network::RoadNetwork;
 use super::route::Route;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -153,7 +153,7 @@ impl Path {
     }
 }
 
-impl Network {
+impl RoadNetwork {
     /// The path along the middles of lanes, of which each is to be a successor of the one before.
     ///
     /// # Panics

@@ -2,9 +2,9 @@
 
 use super::bounds::Bounds;
 use super::lane::{Lane, LaneId};
-use super::network::Network;
+use super::network::RoadNetwork;
 use super::route::Place;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 
 /// A position as seen from a lane.
@@ -29,7 +29,7 @@ impl Projection {
     }
 }
 
-impl Network {
+impl RoadNetwork {
     /// The lane whose middle is nearest to a position, the first of them among equals. Nothing can be said of a
     /// position that is not finite.
     pub fn project(&self, position: Vector2<f64>) -> Projection {

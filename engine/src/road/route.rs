@@ -4,7 +4,7 @@
 //! change costs as much as a number of metres, which the caller says.
 
 use super::lane::LaneId;
-use super::network::Network;
+use super::network::RoadNetwork;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -78,7 +78,7 @@ impl PartialEq for Open {
 
 impl Eq for Open {}
 
-impl Network {
+impl RoadNetwork {
     /// The shortest way between two places, where a change to the lane beside costs as much as `change` metres; none
     /// where there is no way. What lies beyond the ends of a lane counts as its end.
     ///

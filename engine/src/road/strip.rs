@@ -2,7 +2,7 @@
 //! no two elements overlap are all made of them.
 
 use super::curve::Curve;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 
 /// What a strip shows, in the order in which it is drawn: later ones cover earlier ones.

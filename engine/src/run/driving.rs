@@ -5,12 +5,13 @@
 //! whoever draws goes from question to question. All others have [`simulate`] and [`watch`].
 
 use super::{Run, Setup};
-use crate::driver::{Driver, Fault};
-use crate::outcome::Outcome;
-use crate::program::{Program, ProgramError, Test};
+use crate::driver::{Driver, Fault, FaultKind};
+use crate::outcome::{Breakdown, Invalid, Outcome};
+use crate::program::{Program, ProgramError};
+use crate::scenario::ticks;
 use crate::sensor::{Image, Shutters};
-use crate::vehicle::Model;
-use paracosm_oracles::Verdict;
+use crate::test::Test;
+use crate::vehicle::VehicleModel;
 
 impl Run {
     /// The run of a test, in a car that this model moves, for this driver, which takes its seat.
@@ -20,18 +21,17 @@ impl Run {
     pub fn seated<'a>(
         program: &Program,
         test: impl Into<Test<'a>>,
-        model: Model,
+        model: VehicleModel,
         driver: &mut dyn Driver,
     ) -> Result<Self, Box<Outcome>> {
-        let broken = |verdict, error: ProgramError| Box::new(Outcome::broken(verdict, error.to_string()));
         let mut run = match Self::new(program, test, Setup { model, ..Setup::asking_every(driver.period()) }) {
             Ok(run) => run,
-            Err(error @ ProgramError::World { .. }) => return Err(broken(Verdict::Invalid, error)),
-            Err(error) => return Err(broken(Verdict::Error, error)),
+            Err(error @ ProgramError::World { .. }) => return Err(Box::new(Outcome::broken(Invalid::World(error)))),
+            Err(error) => return Err(Box::new(Outcome::broken(Breakdown::Program(error)))),
         };
         match run.seat(driver) {
             Ok(()) => Ok(run),
-            Err(fault) => Err(Box::new(run.broken_by(&fault))),
+            Err(fault) => Err(Box::new(run.broken_by(fault))),
         }
     }
 
@@ -45,8 +45,10 @@ impl Run {
         if !equipment.rig.is_empty() {
             self.equip(equipment.rig);
         }
-        self.open_eyes(Shutters::of(equipment.cameras).map_err(|error| Fault(error.to_string()))?);
-        self.latency = super::ticks(driver.latency().max(0.0), self.dt);
+        self.open_eyes(
+            Shutters::of(equipment.cameras).map_err(|error| Fault::of(FaultKind::Equipment, error.to_string()))?,
+        );
+        self.latency = ticks(driver.latency().max(0.0), self.dt);
         driver.reset(&self.briefing())
     }
 
@@ -72,14 +74,14 @@ impl Run {
     pub fn watch(&mut self, driver: &mut dyn Driver, see: impl FnMut(&Self)) -> Outcome {
         match self.seat(driver) {
             Ok(()) => self.finish(driver, see),
-            Err(fault) => self.broken_by(&fault),
+            Err(fault) => self.broken_by(fault),
         }
     }
 
     fn finish(&mut self, driver: &mut dyn Driver, mut see: impl FnMut(&Self)) -> Outcome {
         if let Some(camera) = self.eyes().cameras().all.keys().next() {
             let message = format!("it sees through camera `{camera}`, and nothing draws here what cameras see");
-            return self.broken_by(&Fault(message));
+            return self.broken_by(Fault::of(FaultKind::Equipment, message));
         }
         loop {
             let outcome = self.advance().outcome();
@@ -88,20 +90,25 @@ impl Run {
                 return outcome;
             }
             if let Err(fault) = self.answer(driver, &[]) {
-                return self.broken_by(&fault);
+                return self.broken_by(fault);
             }
         }
     }
 
     /// Ends the run because its driver cannot go on.
-    pub fn broken_by(&mut self, fault: &Fault) -> Outcome {
+    pub fn broken_by(&mut self, fault: Fault) -> Outcome {
         self.over = true;
-        Outcome::broken(Verdict::Error, format!("the driver gave up at {:.3} s: {fault}", self.time()))
+        Outcome::broken(Breakdown::Driver { fault, time: self.time() })
     }
 }
 
 /// Runs a test to its end with a driver, in a car that this model moves; a world that cannot be built is an outcome too.
-pub fn simulate<'a>(program: &Program, test: impl Into<Test<'a>>, model: Model, driver: &mut dyn Driver) -> Outcome {
+pub fn simulate<'a>(
+    program: &Program,
+    test: impl Into<Test<'a>>,
+    model: VehicleModel,
+    driver: &mut dyn Driver,
+) -> Outcome {
     watch(program, test, model, driver, |_| ())
 }
 
@@ -109,7 +116,7 @@ pub fn simulate<'a>(program: &Program, test: impl Into<Test<'a>>, model: Model, 
 pub fn watch<'a>(
     program: &Program,
     test: impl Into<Test<'a>>,
-    model: Model,
+    model: VehicleModel,
     driver: &mut dyn Driver,
     see: impl FnMut(&Run),
 ) -> Outcome {

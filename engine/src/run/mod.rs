@@ -3,35 +3,34 @@
 //! A run knows no driver, thread or socket: it says what it needs and is supplied. At each tick
 //!
 //! 1. every stream is evaluated on the world as it stands, and the trace records it;
-//! 2. the run ends if the car touches something or the time is up, or, if it may, as soon as all is decided;
+//! 2. the run ends if the car touches something or the time is up;
 //! 3. the driver is asked, if its period has passed, and otherwise keeps its control;
 //! 4. the inputs of the objects are read and everything moves on by `dt`.
 
 mod driving;
-mod early;
 mod metrics;
 mod scene;
 mod sensing;
 
 pub use driving::{simulate, watch};
 
+use crate::geometry::wrapped;
 use crate::object::BodyState;
 use crate::observation::{Briefing, Control, Observation, Other};
-use crate::outcome::{Metric, Outcome, violation_metrics};
-use crate::program::{Program, ProgramError, Test};
-use crate::road::{Network, Path, wrapped};
-use crate::scenario::Weather;
+use crate::outcome::{Breakdown, Ending, Judgement, Outcome, Violation};
+use crate::program::{Program, ProgramError};
+use crate::road::{Path, RoadNetwork};
+use crate::scenario::ticks;
 use crate::stream::{Clock, Graph, Sample, Slot, Source};
-use crate::vehicle::Model;
-use early::Early;
-use paracosm_oracles::{Formula, Requirement, Semantics, Trace, Truth, Verdict};
+use crate::test::Test;
+use crate::upset::Upset;
+use crate::vehicle::VehicleModel;
+use crate::weather::Weather;
+use paracosm_oracles::{Requirement, Semantics, Trace, Truth};
 use scene::Scene;
 use sensing::Sensing;
 use std::collections::VecDeque;
 use std::sync::Arc;
-
-/// The tick in seconds where nothing else is asked for.
-pub const DEFAULT_DT: f64 = 0.01;
 
 /// What of a run is not the program's to say.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +40,7 @@ pub struct Setup {
     /// The tick in seconds, if it is not the program's own.
     pub dt: Option<f64>,
     /// Which model moves the car under test.
-    pub model: Model,
+    pub model: VehicleModel,
 }
 
 /// What a run wants next.
@@ -87,8 +86,6 @@ pub struct Run {
     premise: Option<Slot>,
     triggered: bool,
     requirements: Vec<Requirement>,
-    /// What has to be decided for the run to end early, if it may, and whether it is.
-    early: Option<(Early, bool)>,
     columns: Vec<Column>,
     row: Vec<f64>,
     trace: Trace,
@@ -131,9 +128,8 @@ impl Run {
         let beginning = scenario.beginning();
         let mut scene = Scene::new(scenario, &graph, setup.model);
         let begun = scene.begin(beginning, Clock { tick: 0, ticks, dt });
-        let overlap =
-            scene.overlapping().map(|names| Outcome::broken(Verdict::Invalid, format!("{names} overlap at the start")));
-        let fault = begun.err().map(|message| Outcome::broken(Verdict::Error, format!("{message} at 0.000 s")));
+        let overlap = scene.overlapping().map(Outcome::broken);
+        let upset = begun.err().map(|cause| Outcome::broken(Breakdown::World { cause, time: 0.0 }));
         let mut trace = Trace::new(dt, names);
         trace.reserve(ticks + 1);
         Ok(Self {
@@ -150,24 +146,14 @@ impl Run {
             premise,
             triggered: false,
             requirements,
-            early: None,
             row: vec![0.0; columns.len()],
             columns,
             trace,
             observation: Observation::default(),
             sensing: Sensing::in_test(key),
-            unable: overlap.or(fault),
+            unable: overlap.or(upset),
             scene,
         })
-    }
-
-    /// Lets the run end as soon as its requirements and these formulas are decided, whatever might follow, and its premise has
-    /// come about: the verdict is that of the whole run. A robustness is then that of what was
-    /// run, which may have become worse or better later, on the same side of 0. The metric `ended_early` tells. To be called
-    /// before it begins; with a formula that does not fit its trace, the run never ends early.
-    pub fn end_when_decided(&mut self, beside: &[Formula]) {
-        let own = self.requirements.iter().map(|requirement| &requirement.formula);
-        self.early = Early::new(own.chain(beside), self.trace.signals(), self.dt).map(|early| (early, false));
     }
 
     /// What a driver of this run has to know beforehand.
@@ -191,12 +177,11 @@ impl Run {
         }
         loop {
             if !self.supplied {
-                if let Err(message) = self.look() {
-                    let message = format!("{message} at {:.3} s", self.time());
-                    return self.end(Outcome::broken(Verdict::Error, message));
+                if let Err(cause) = self.look() {
+                    return self.end(Outcome::broken(Breakdown::World { cause, time: self.time() }));
                 }
                 self.sense();
-                if self.scene.contact.is_some() || self.tick == self.ticks || self.is_decided() {
+                if self.scene.contact.is_some() || self.tick == self.ticks {
                     let outcome = self.judged();
                     return self.end(outcome);
                 }
@@ -209,9 +194,8 @@ impl Run {
             while let Some((_, control)) = self.answers.pop_front_if(|(due, _)| *due <= self.tick) {
                 self.scene.ego.control = control;
             }
-            if let Err(message) = self.scene.step(&self.graph, self.dt) {
-                let message = format!("{message} at {:.3} s", self.time());
-                return self.end(Outcome::broken(Verdict::Error, message));
+            if let Err(cause) = self.scene.step(&self.graph, self.dt) {
+                return self.end(Outcome::broken(Breakdown::World { cause, time: self.time() }));
             }
             self.tick += 1;
         }
@@ -247,7 +231,7 @@ impl Run {
     }
 
     /// The roads.
-    pub fn network(&self) -> &Arc<Network> {
+    pub fn network(&self) -> &Arc<RoadNetwork> {
         &self.scene.network
     }
 
@@ -277,9 +261,7 @@ impl Run {
     }
 
     /// Evaluates the streams and records the tick.
-    ///
-    /// No comparison with NaN holds, so that a signal without a value would satisfy every `never`.
-    fn look(&mut self) -> Result<(), String> {
+    fn look(&mut self) -> Result<(), Upset> {
         self.scene.show();
         self.graph.tick(Clock { tick: self.tick, ticks: self.ticks, dt: self.dt }, &self.scene.outputs);
         self.triggered |= self.premise.is_some_and(|slot| self.graph.value(slot) == Some(true));
@@ -290,20 +272,11 @@ impl Run {
             };
             self.row[index] = as_number(sample);
             if self.row[index].is_nan() {
-                return Err(format!("the signal `{}` has no value", self.trace.signals()[index]));
+                return Err(Upset::NoValue { signal: self.trace.signals()[index].clone() });
             }
         }
         self.trace.record(&self.row);
-        if let Some((early, decided)) = &mut self.early {
-            *decided = early.step(&self.row);
-        }
         Ok(())
-    }
-
-    /// Whether it may end, as nothing can turn out otherwise.
-    fn is_decided(&self) -> bool {
-        let in_vain = self.premise.is_some() && !self.triggered;
-        !in_vain && self.early.as_ref().is_some_and(|(_, decided)| *decided)
     }
 
     fn observe(&mut self) {
@@ -327,36 +300,34 @@ impl Run {
     }
 
     fn judged(&mut self) -> Outcome {
-        let early = self.scene.contact.is_none() && self.tick < self.ticks;
-        if self.scene.contact.is_none() && !early {
+        if self.scene.contact.is_none() {
             self.trace.finish();
         }
-        let mut metrics = metrics::of_run(&self.scene, self.triggered);
-        if self.early.is_some() {
-            metrics.push(("ended_early".to_owned(), Metric::Flag(early)));
-        }
-        let mut robustness = Vec::new();
+        let mut judgements = Vec::with_capacity(self.requirements.len());
         let (mut violated, mut open) = (false, false);
         for requirement in &self.requirements {
             let evaluation = requirement.judge(&self.trace).expect("its signal has a column");
-            if evaluation.truth == Truth::Violated {
-                violated = true;
-                let Requirement { id, formula, .. } = requirement;
-                metrics.extend(violation_metrics(id, formula, Semantics::Sampled, &self.trace));
-            }
+            let is_violated = evaluation.truth == Truth::Violated;
             let decided = evaluation.truth != Truth::Undecided;
+            violated |= is_violated;
             open |= !decided;
-            robustness.push((requirement.id.clone(), decided.then_some(evaluation.robustness)));
+            let cause = || Violation::of(&requirement.formula, Semantics::Sampled, &self.trace);
+            judgements.push(Judgement {
+                requirement: requirement.id.clone(),
+                robustness: decided.then_some(evaluation.robustness),
+                violation: is_violated.then(cause).flatten(),
+            });
         }
-        let verdict = if violated {
-            Verdict::Fail
+        let ending = if violated {
+            Ending::Fail
         } else if open || self.premise.is_some() && !self.triggered {
-            Verdict::Inconclusive
+            Ending::Inconclusive
         } else {
-            Verdict::Pass
+            Ending::Pass
         };
+        let measured = metrics::measured(&self.scene, self.triggered);
         let trace = std::mem::replace(&mut self.trace, Trace::new(self.dt, vec![String::new()]));
-        Outcome { verdict, robustness, metrics, trace: Some(trace), error: None }
+        Outcome { ending, judgements, measured: Some(measured), trace: Some(trace) }
     }
 }
 
@@ -369,14 +340,9 @@ fn as_number(sample: Sample) -> f64 {
     }
 }
 
-/// How many ticks of `dt` seconds a duration takes, rounded.
-pub(crate) fn ticks(duration: f64, dt: f64) -> usize {
-    (duration / dt).round() as usize
-}
-
 impl Setup {
     /// For a driver that is asked every `period` seconds: the program's tick, the model `single-track`.
     pub fn asking_every(period: f64) -> Self {
-        Self { period, dt: None, model: Model::default() }
+        Self { period, dt: None, model: VehicleModel::default() }
     }
 }

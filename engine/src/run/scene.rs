@@ -1,12 +1,16 @@
 //! All that is in a world, as it moves from tick to tick.
 
-use crate::actor::Ego;
+use crate::geometry::Pose;
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
-use crate::road::{Network, Path};
-use crate::scenario::{Pose, Scenario, Weather, WeatherPart};
+use crate::outcome::Invalid;
+use crate::road::{Path, RoadNetwork};
+use crate::scenario::Ego;
+use crate::scenario::Scenario;
 use crate::stream::{Clock, Graph, Sample, Slot};
-use crate::vehicle::{GRAVITY, Model};
-use crate::world::{Contact, World, overlapping};
+use crate::upset::Upset;
+use crate::vehicle::{GRAVITY, VehicleModel};
+use crate::weather::{Weather, WeatherPart};
+use crate::world::{Touching, World, overlapping};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -23,7 +27,7 @@ struct Object {
 /// The car under test, the objects around it, and where they all are.
 pub(super) struct Scene {
     pub ego: Ego,
-    pub network: Arc<Network>,
+    pub network: Arc<RoadNetwork>,
     objects: Vec<Object>,
     /// The car's first, then those of the objects, and then the scenery.
     pub bodies: Vec<BodyState>,
@@ -39,7 +43,7 @@ pub(super) struct Scene {
     weather: Vec<(WeatherPart, Slot)>,
     world: World,
     /// How the car touches another body.
-    pub contact: Option<Contact>,
+    pub contact: Option<Touching>,
     /// What `car.clearance` shows at this tick.
     clearance: f64,
     /// Where the bodies of one object go within a tick.
@@ -52,7 +56,7 @@ pub(super) struct Scene {
 
 impl Scene {
     /// What a program has built and laid out, with a car that this model moves.
-    pub fn new(mut scenario: Scenario, graph: &Graph, model: Model) -> Self {
+    pub fn new(mut scenario: Scenario, graph: &Graph, model: VehicleModel) -> Self {
         let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
         let weather = scenario.weather().map(|(part, node)| (part, graph.slot(&node))).collect();
         let ego = Ego::new(&scenario.cars[0], model);
@@ -92,7 +96,7 @@ impl Scene {
 
     /// Lets all objects say how they move as the run begins, by their inputs at the first tick: of `graph`, a copy of the
     /// run's that is used for nothing else.
-    pub fn begin(&mut self, (mut graph, friction): (Graph, Slot), clock: Clock) -> Result<(), String> {
+    pub fn begin(&mut self, (mut graph, friction): (Graph, Slot), clock: Clock) -> Result<(), Upset> {
         self.show();
         graph.tick(clock, &self.outputs);
         let inputs = self.wiring.slots(&graph);
@@ -113,7 +117,7 @@ impl Scene {
                 behaviour.begin(&tick, &mut self.velocities)?;
                 for (state, velocity) in self.next[first..end].iter_mut().zip(&self.velocities) {
                     if !velocity.iter().all(|speed| speed.is_finite()) {
-                        return Err(format!("the velocity of {} is no number: {velocity:?}", object.name));
+                        return Err(Upset::Velocity { object: object.name.clone(), velocity: *velocity });
                     }
                     state.velocity = *velocity;
                 }
@@ -128,10 +132,10 @@ impl Scene {
         &self.bodies[..self.told]
     }
 
-    /// What two bodies that overlap are called: for a world that cannot begin.
-    pub fn overlapping(&self) -> Option<String> {
+    /// Two bodies that overlap: for a world that cannot begin.
+    pub fn overlapping(&self) -> Option<Invalid> {
         let (a, b) = overlapping(&self.bodies)?;
-        Some(format!("{} and {}", self.name(a), self.name(b)))
+        Some(Invalid::Overlap { first: self.name(a).to_owned(), second: self.name(b).to_owned() })
     }
 
     /// What the object is called that a body is of.
@@ -157,16 +161,17 @@ impl Scene {
     ///
     /// Inputs are checked where they enter: minima and maxima would swallow a NaN, and a road whose friction
     /// is no number would pass for one that limits nothing.
-    pub fn step(&mut self, graph: &Graph, dt: f64) -> Result<(), String> {
+    pub fn step(&mut self, graph: &Graph, dt: f64) -> Result<(), Upset> {
         for (part, slot) in &self.weather {
             let value: f64 = graph.value(*slot).unwrap_or(f64::NAN);
             if !part.range.contains(&value) {
-                return Err(format!("the {} is {value}, expected {}", part.name, part.expected));
+                return Err(Upset::Condition { what: part.name, value, expected: part.expected });
             }
         }
         let friction: f64 = graph.value(self.friction).unwrap_or(f64::NAN);
         if !(0.0..f64::INFINITY).contains(&friction) {
-            return Err(format!("the friction of the road is {friction}, expected a number from 0 on"));
+            let what = "friction of the road";
+            return Err(Upset::Condition { what, value: friction, expected: "a number from 0 on" });
         }
         self.ego.step(friction, dt)?;
         self.next[0].move_to(Some(self.ego.pose()), dt);
@@ -183,8 +188,8 @@ impl Scene {
                     self.poses.extend(self.bodies[first..end].iter().map(|body| Some(body.pose)));
                     behaviour.poses(&mut self.poses);
                     for (state, pose) in self.next[first..end].iter_mut().zip(&self.poses) {
-                        if pose.is_some_and(|pose| !pose.is_finite()) {
-                            return Err(format!("the place of {} is no number: {pose:?}", object.name));
+                        if let Some(pose) = pose.filter(|pose| !pose.is_finite()) {
+                            return Err(Upset::Place { object: object.name.clone(), pose });
                         }
                         state.move_to(*pose, dt);
                     }
@@ -228,7 +233,7 @@ impl Scene {
     }
 
     /// The braking distance that was missing at a contact.
-    fn missing_distance(&self, contact: Contact, friction: f64) -> f64 {
+    fn missing_distance(&self, contact: Touching, friction: f64) -> f64 {
         let closing = (self.bodies[0].velocity - self.bodies[contact.body].velocity).norm_squared();
         (closing / (2.0 * friction * GRAVITY)).max(LEAST_MISSING)
     }

@@ -1,7 +1,7 @@
 //! The sensors and cameras that a run carries along.
 
 use super::Run;
-use crate::sensor::{Air, Rig, Shutters, View};
+use crate::sensor::{Air, Rig, SensorView, Shutters};
 
 /// All that measures in a run. None of it depends on what else is carried.
 #[derive(Debug, Default)]
@@ -63,9 +63,9 @@ impl Run {
     }
 
     /// What there is to know at this tick.
-    pub fn view(&self) -> View<'_> {
+    pub fn view(&self) -> SensorView<'_> {
         let weather = self.weather();
-        View {
+        SensorView {
             time: self.time(),
             car: self.scene.ego.dynamics.state(),
             bodies: &self.scene.bodies,

@@ -5,26 +5,28 @@
 //! cars under test) are collected and reported when the function has returned, so that programs need no `?` on
 //! every line.
 
+mod draft;
+mod ego;
 mod environment;
-mod geometry;
 mod param;
 mod requirement;
 mod road;
 
-pub(crate) use environment::WeatherPart;
-pub use environment::{Conditions, Environment, Weather};
-pub use geometry::{Line, Pose};
+pub use draft::ObjectDraft;
+pub use ego::{AutonomousVehicle, Car};
+pub(crate) use ego::{Ego, EgoSetup};
+pub use environment::{Conditions, Environment};
 pub use param::Param;
-pub use requirement::{Draft, Temporal, always, eventually, never};
-pub use road::{Paved, Road, Side, Streets};
+pub use requirement::{RequirementDraft, Temporal, always, eventually, never};
+pub use road::{Paved, Road, Streets};
 
-use crate::actor::EgoSetup;
-use crate::object::{self, ObjectSetup, Wiring};
-use crate::program::{Declared, Test};
-use crate::road::Network;
-use crate::run::DEFAULT_DT;
-use crate::stream::{Datum, Effect, Equation, Forward, Graph, Kind, Node, Slot, Source, Stream, dot};
-use paracosm_coverage::{Domain, Parameter, Shape, Value};
+use crate::object::{ObjectSetup, Wiring};
+use crate::problem::Problems;
+use crate::road::RoadNetwork;
+use crate::stream::{Datum, Effect, Equation, Forward, Graph, Node, NodeKind, Slot, Source, Stream, dot};
+use crate::test::{Declared, Test};
+use crate::weather::WeatherPart;
+use paracosm_space::{Domain, Parameter, Shape, Value};
 use param::Read;
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
@@ -32,8 +34,13 @@ use std::ops::RangeInclusive;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// Mistakes found while the program ran, shared with the handles that it got.
-pub(crate) type Problems = Rc<RefCell<Vec<String>>>;
+/// The tick in seconds where nothing else is asked for.
+pub const DEFAULT_DT: f64 = 0.01;
+
+/// How many ticks of `dt` seconds a duration takes, rounded.
+pub(crate) fn ticks(duration: f64, dt: f64) -> usize {
+    (duration / dt).round() as usize
+}
 
 /// The world under construction, for one test or for none.
 pub struct Scenario {
@@ -44,7 +51,7 @@ pub struct Scenario {
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
     pub(crate) problems: Problems,
     /// Those that were placed, also such as cannot be built.
-    pub(crate) networks: Vec<Option<Arc<Network>>>,
+    pub(crate) networks: Vec<Option<Arc<RoadNetwork>>>,
     pub(crate) cars: Vec<EgoSetup>,
     pub(crate) objects: Vec<ObjectSetup>,
     /// What is there for sensors alone.
@@ -166,7 +173,7 @@ impl Scenario {
     /// The shape of a signal with a value of its own at every tick. It takes as many coordinates; the
     /// [duration](Scenario::duration) and the [tick](Scenario::tick) have to be said before.
     pub fn per_tick(&self) -> Shape {
-        Shape::PiecewiseConstant { pieces: crate::run::ticks(self.duration, self.dt) }
+        Shape::PiecewiseConstant { pieces: ticks(self.duration, self.dt) }
     }
 
     /// Announces a stream that is read before it can be defined: feedback, which goes through a [`Stream::pre`].
@@ -185,7 +192,7 @@ impl Scenario {
         let equation = equations.len();
         equations.push(Equation { name: name.to_owned(), definition: None });
         Forward {
-            stream: Stream::new(Kind::Forward { equation, name: name.to_owned() }, []),
+            stream: Stream::new(NodeKind::Forward { equation, name: name.to_owned() }, []),
             equation,
             equations: self.equations.clone(),
             problems: self.problems.clone(),
@@ -198,10 +205,10 @@ impl Scenario {
     }
 
     /// Begins an object of the program's own, called by this name; the second of a name is called `name-2`.
-    pub fn object(&mut self, name: &str) -> object::Draft<'_> {
+    pub fn object(&mut self, name: &str) -> ObjectDraft<'_> {
         let count = self.names.entry(name.to_owned()).and_modify(|count| *count += 1).or_insert(1);
         let name = if *count == 1 { name.to_owned() } else { format!("{name}-{count}") };
-        object::Draft::new(self, name)
+        ObjectDraft::new(self, name)
     }
 
     fn say_friction(&mut self, friction: Stream<f64>) {
@@ -232,8 +239,8 @@ impl Scenario {
     }
 
     /// States a requirement on every run. What it returns takes a text, a unit and a scale.
-    pub fn require(&mut self, id: &str, asked: Temporal) -> Draft {
-        Draft::new(self.requirements.clone(), id, asked)
+    pub fn require(&mut self, id: &str, asked: Temporal) -> RequirementDraft {
+        RequirementDraft::new(self.requirements.clone(), id, asked)
     }
 
     /// Says what the test is about: where `event` never occurs and nothing is violated, its verdict is

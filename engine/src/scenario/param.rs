@@ -5,9 +5,9 @@
 //! that reads it gets a [`Stream`] either way.
 
 use super::{Problems, Scenario};
-use crate::program::{Declared, entry};
-use crate::stream::{Datum, Kind, Sample, Stream, samples};
-use paracosm_coverage::{Shape, Value};
+use crate::stream::{Datum, NodeKind, Sample, Stream, samples};
+use crate::test::{Declared, entry};
+use paracosm_space::{Shape, Value};
 use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::rc::Rc;
@@ -151,7 +151,7 @@ impl<T: Datum> Param<T> {
                 self.problem(format!("parameter `{parameter}` has the values {value}, but does not vary over time"));
             }
             let value = samples(self.read(value.scalars().first()));
-            return Stream::new(Kind::Constant { value, parameter: Some(parameter) }, []);
+            return Stream::new(NodeKind::Constant { value, parameter: Some(parameter) }, []);
         };
         let expected = shape.coordinates();
         let values: Vec<Sample> = match &value {
@@ -168,7 +168,7 @@ impl<T: Datum> Param<T> {
                 samples(self.read(value.scalars().first())).repeat(expected)
             }
         };
-        Stream::new(Kind::Signal { parameter, shape, values }, [])
+        Stream::new(NodeKind::Signal { parameter, shape, values }, [])
     }
 }
 

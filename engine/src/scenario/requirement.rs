@@ -1,6 +1,6 @@
 //! Requirements as programs state them: temporal operators over streams.
 
-use crate::stream::{Binary, Kind, Node, Sample, Stream, Unary};
+use crate::stream::{Binary, Node, NodeKind, Sample, Stream, Unary};
 use paracosm_oracles::{Comparison, Formula, Interval, Requirement, signal};
 use std::cell::RefCell;
 use std::ops::Not;
@@ -23,7 +23,7 @@ use std::rc::Rc;
 ///     Temporal::from(car.speed().below(10.0)).eventually(0.0..=3.0),
 /// ).always(..));
 /// # }
-/// # Program { name: "moves", about: "moves", build }.declare().unwrap();
+/// # Program::new("moves", "moves", build).declare().unwrap();
 /// ```
 #[derive(Debug, Clone)]
 pub struct Temporal {
@@ -103,19 +103,19 @@ impl Temporal {
     fn of(node: &Rc<Node>) -> Self {
         let truth = node.unnamed();
         match (&truth.kind, truth.inputs.as_slice()) {
-            (Kind::Compare(comparison), [left, right]) => match &right.unnamed().kind {
-                Kind::Constant { value, .. } if let [Sample::Number(threshold)] = value[..] => {
+            (NodeKind::Compare(comparison), [left, right]) => match &right.unnamed().kind {
+                NodeKind::Constant { value, .. } if let [Sample::Number(threshold)] = value[..] => {
                     Self::compare(left.clone(), *comparison, threshold)
                 }
                 _ => {
-                    let difference = Kind::Binary(Binary::Difference);
+                    let difference = NodeKind::Binary(Binary::Difference);
                     let difference = Node { kind: difference, inputs: vec![left.clone(), right.clone()], width: 1 };
                     Self::compare(Rc::new(difference), *comparison, 0.0)
                 }
             },
-            (Kind::Unary(Unary::Not), [negated]) => !Self::of(negated),
-            (Kind::Binary(Binary::And), [left, right]) => Self::of(left).and(Self::of(right)),
-            (Kind::Binary(Binary::Or), [left, right]) => Self::of(left).or(Self::of(right)),
+            (NodeKind::Unary(Unary::Not), [negated]) => !Self::of(negated),
+            (NodeKind::Binary(Binary::And), [left, right]) => Self::of(left).and(Self::of(right)),
+            (NodeKind::Binary(Binary::Or), [left, right]) => Self::of(left).or(Self::of(right)),
             _ => Self::compare(node.clone(), Comparison::AtLeast, 1.0),
         }
     }
@@ -150,12 +150,12 @@ pub(crate) struct Stated {
 
 /// A requirement just stated; its methods say more of it.
 #[derive(Debug)]
-pub struct Draft {
+pub struct RequirementDraft {
     stated: Rc<RefCell<Vec<Stated>>>,
     index: usize,
 }
 
-impl Draft {
+impl RequirementDraft {
     pub(super) fn new(stated: Rc<RefCell<Vec<Stated>>>, id: &str, asked: Temporal) -> Self {
         let Temporal { formula, signals } = asked;
         let requirement =

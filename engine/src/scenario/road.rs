@@ -1,7 +1,9 @@
 //! The roads of a scenario: a single road or a whole network, and where its lanes and sidewalks are.
 
-use super::{Line, Place, Pose, Problems, Scenario};
-use crate::road::{self, Composite, Network, Path, RoadError, RoadSegment};
+use super::{Place, Scenario};
+use crate::geometry::{Line, Pose, Side};
+use crate::problem::Problems;
+use crate::road::{self, Composite, Path, RoadError, RoadNetwork, RoadSegment};
 use crate::stream::Stream;
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -26,17 +28,8 @@ pub struct Road {
 #[derive(Debug, Clone)]
 pub struct Streets {
     /// None where the network cannot be as it is described.
-    network: Option<Arc<Network>>,
+    network: Option<Arc<RoadNetwork>>,
     problems: Problems,
-}
-
-/// A side of a road, seen along it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// Where y is positive: beside the lanes of the opposite direction.
-    Left,
-    /// Where y is negative: beside lane 1.
-    Right,
 }
 
 impl RoadSegment {
@@ -81,7 +74,7 @@ impl Place for Composite {
 }
 
 /// A network that no test changes is best built once, in a `LazyLock`, and shared by all runs.
-impl Place for Arc<Network> {
+impl Place for Arc<RoadNetwork> {
     type Handle = Streets;
 
     fn place(self, scenario: &mut Scenario) -> Streets {
@@ -118,13 +111,13 @@ impl Road {
 }
 
 impl Streets {
-    fn new(network: Option<Arc<Network>>, scenario: &mut Scenario) -> Self {
+    fn new(network: Option<Arc<RoadNetwork>>, scenario: &mut Scenario) -> Self {
         scenario.networks.push(network.clone());
         Self { network, problems: scenario.problems.clone() }
     }
 
     /// The network itself; `None` where it cannot be as it is described, which is reported.
-    pub fn network(&self) -> Option<&Arc<Network>> {
+    pub fn network(&self) -> Option<&Arc<RoadNetwork>> {
         self.network.as_ref()
     }
 
@@ -165,13 +158,13 @@ impl Streets {
         .unwrap_or_else(nowhere)
     }
 
-    fn ask<T>(&self, question: impl FnOnce(&Network) -> Result<T, RoadError>) -> Option<T> {
+    fn ask<T>(&self, question: impl FnOnce(&RoadNetwork) -> Result<T, RoadError>) -> Option<T> {
         let answer = question(self.network.as_ref()?);
         answer.map_err(|error| self.problems.borrow_mut().push(error.to_string())).ok()
     }
 }
 
-fn place_on(network: &Network, (road, lane, at): (&str, i32, f64)) -> Result<road::Place, RoadError> {
+fn place_on(network: &RoadNetwork, (road, lane, at): (&str, i32, f64)) -> Result<road::Place, RoadError> {
     let position = network.on_lane(road, lane, at)?.position;
     Ok(network.project_onto(network.lane_of(road, lane)?, position).place())
 }

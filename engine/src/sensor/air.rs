@@ -1,6 +1,6 @@
 //! The air between a sensor and what it measures.
 
-use crate::scenario::Weather;
+use crate::weather::Weather;
 
 /// Extinction times visibility (Koschmieder, at a contrast of 2 %).
 const KOSCHMIEDER: f64 = 3.912;

@@ -3,11 +3,17 @@
 //! The engine draws nothing. A [`Shutter`] notes the [`Moment`] that a camera saw, and whoever runs the test develops it to
 //! an [`Image`] when it has arrived.
 
-use super::{Chance, Delivery, Handle, Rig, Sample, Sensor, SensorError, View, mixed};
+use super::Descriptor;
+use super::{Chance, Delivery, Handle, Rig, Sample, Sensor, SensorError, SensorView};
+use crate::chance::mixed;
 use crate::object::BodyState;
-use crate::scenario::Weather;
+use crate::weather::Weather;
+use paracosm_space::Record;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// How lists show this kind of sensor.
+pub(super) const DESCRIPTOR: Descriptor = Descriptor { name: "camera", about: "images in colour, by the renderer" };
 
 /// The cameras on the car under test.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -18,13 +24,13 @@ pub struct Cameras {
     pub seed: u64,
     /// Each by its name.
     #[serde(rename = "camera")]
-    pub all: BTreeMap<String, Mounted>,
+    pub all: BTreeMap<String, CameraSpec>,
 }
 
-/// A camera, where it is mounted, and how it takes images.
+/// A camera: where it is mounted, and how it takes images. The table [`CORE_CAMERA_SETTINGS`](super::CORE_CAMERA_SETTINGS)
+/// describes its numbers.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mounted {
+pub struct CameraSpec {
     /// Pixels across and down.
     pub resolution: [u32; 2],
     /// Millimetres.
@@ -44,30 +50,11 @@ pub struct Mounted {
     /// The probability that an image is lost.
     #[serde(default)]
     pub dropped: f64,
-    /// The pixels over which motion smears the image.
-    #[serde(default)]
-    pub motion: f64,
-    /// Which way that is, in degrees counter-clockwise from the right.
-    #[serde(default)]
-    pub motion_angle: f64,
-    /// The radius of the disc that a point becomes out of focus, in pixels.
-    #[serde(default)]
-    pub defocus: f64,
-    /// The standard deviation of the lens's blur, in pixels.
-    #[serde(default)]
-    pub blur: f64,
-    /// From 0, none, to 1: how much darker it gets towards the corners.
-    #[serde(default)]
-    pub vignetting: f64,
-    /// Stops.
-    #[serde(default)]
-    pub exposure: f64,
-    /// Electrons; 0 for no shot noise.
-    #[serde(default)]
-    pub full_well: f64,
-    /// Electrons.
-    #[serde(default)]
-    pub read_noise: f64,
+    /// The settings of the lens and the sensor by their names, such as `blur`. The engine only hands them on: the renderer
+    /// knows the names, refuses others, and takes the default of each setting that is absent. In a file they stand beside
+    /// the other keys.
+    #[serde(flatten)]
+    pub lens: Record<f64>,
 }
 
 /// A moment as a camera sees it.
@@ -97,7 +84,7 @@ impl Sensor for Shutter {
         self.period
     }
 
-    fn sense(&mut self, view: &View<'_>, _: &mut Chance, moment: &mut Moment) {
+    fn sense(&mut self, view: &SensorView<'_>, _: &mut Chance, moment: &mut Moment) {
         moment.bodies.clear();
         moment.bodies.extend_from_slice(view.bodies);
         moment.weather = view.weather;

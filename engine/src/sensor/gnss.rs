@@ -1,9 +1,14 @@
 //! Where a satellite receiver says that the car is.
 
+use super::Descriptor;
 use super::drift::Drift;
 use super::error::{Checks, SensorError};
-use super::{Chance, Inaccuracy, Mount, Sensor, View};
+use super::{Chance, Inaccuracy, Mount, Sensor, SensorView};
 use nalgebra::Vector2;
+
+/// How lists show this kind of sensor.
+pub(super) const DESCRIPTOR: Descriptor =
+    Descriptor { name: "gnss", about: "the position and velocity that a satellite receiver gives" };
 
 /// A satellite receiver, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,7 +104,7 @@ impl Sensor for Gnss {
         self.lost_until = f64::NEG_INFINITY;
     }
 
-    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Option<Fix>) {
+    fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Option<Fix>) {
         let lost = self.is_lost(view.time, chance);
         let GnssSettings { mount, velocity_noise, .. } = self.settings;
         let position = self.drift.measured(mount.pose(view.car).position, view.time, chance);

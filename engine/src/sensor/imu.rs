@@ -1,9 +1,14 @@
 //! What the car feels of its own motion.
 
+use super::Descriptor;
 use super::drift::Drift;
 use super::error::{Checks, SensorError};
-use super::{Chance, Inaccuracy, Sensor, View};
+use super::{Chance, Inaccuracy, Sensor, SensorView};
 use nalgebra::{Vector1, Vector2};
+
+/// How lists show this kind of sensor.
+pub(super) const DESCRIPTOR: Descriptor =
+    Descriptor { name: "imu", about: "accelerations and the yaw rate of the car" };
 
 /// An inertial measurement unit, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +78,7 @@ impl Sensor for Imu {
         self.yaw_rate.reset();
     }
 
-    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Inertia) {
+    fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Inertia) {
         reading.acceleration = self.acceleration.measured(view.car.acceleration, view.time, chance);
         reading.yaw_rate = self.yaw_rate.measured(Vector1::new(view.car.yaw_rate), view.time, chance).x;
     }

@@ -1,6 +1,6 @@
 //! Sensors other than cameras: what a car measures of a world, with the noise and the gaps that sensors have.
 //!
-//! A [`Sensor`] turns a [`View`], all that there is to know at one moment, into a reading. [`Lidar`], [`Radar`], [`Gnss`],
+//! A [`Sensor`] turns a [`SensorView`], all that there is to know at one moment, into a reading. [`Lidar`], [`Radar`], [`Gnss`],
 //! [`Imu`] and [`GroundTruth`] come with the engine; users implement the trait for their own. A [`Rig`] holds the sensors of
 //! a car: it lets each measure when its period has passed, and hands its readings out after their latency, but for those
 //! that are lost. [`Run::equip`](crate::Run::equip) gives a run a rig.
@@ -22,7 +22,7 @@
 //! let radar = rig.attach("front radar", Radar::new(RadarSettings::default())?, Delivery::after(0.05))?;
 //! let imu = rig.attach("imu", Imu::new(ImuSettings::default())?, Delivery::default())?;
 //!
-//! let program = Program { name: "empty-road", about: "a car alone", build: empty_road };
+//! let program = Program::new("empty-road", "a car alone", empty_road);
 //! let test = program.declare()?.nominal();
 //! let mut run = Run::new(&program, &test, Setup::asking_every(0.1))?;
 //! run.equip(rig);
@@ -37,7 +37,8 @@
 
 mod air;
 mod camera;
-mod chance;
+mod camera_setting;
+mod descriptor;
 mod drift;
 mod error;
 mod gnss;
@@ -49,9 +50,11 @@ mod rig;
 mod sight;
 mod truth;
 
+pub use crate::chance::Chance;
 pub use air::Air;
-pub use camera::{Cameras, Image, Moment, Mounted, Shutter, Shutters};
-pub use chance::Chance;
+pub use camera::{CameraSpec, Cameras, Image, Moment, Shutter, Shutters};
+pub use camera_setting::{CORE_CAMERA_SETTINGS, CameraSetting};
+pub use descriptor::Descriptor;
 pub use drift::Inaccuracy;
 pub use error::SensorError;
 pub use gnss::{Fix, Gnss, GnssSettings};
@@ -62,20 +65,23 @@ pub use radar::{Detection, Radar, RadarSettings};
 pub use rig::{Delivery, Handle, Rig, Sample};
 pub use truth::{GroundTruth, GroundTruthSettings, TrueBody};
 
-pub(crate) use chance::{gaussian, hashed, mixed};
 pub(crate) use sight::hides;
 
 use crate::object::BodyState;
-use crate::road::Network;
-use crate::scenario::Weather;
+use crate::road::RoadNetwork;
 use crate::vehicle::VehicleState;
+use crate::weather::Weather;
+
+/// The kinds of sensors that come with the engine, in the order in which they are shown.
+pub const ALL: &[Descriptor] =
+    &[camera::DESCRIPTOR, lidar::DESCRIPTOR, radar::DESCRIPTOR, gnss::DESCRIPTOR, imu::DESCRIPTOR, truth::DESCRIPTOR];
 
 /// What measures something of the world around a car, or of the car itself.
 ///
 /// A sensor of one's own, ultrasound in the front bumper that hears the nearest body and is off by some centimetres:
 ///
 /// ```
-/// use paracosm_engine::sensor::{Chance, Delivery, Rig, Sensor, View};
+/// use paracosm_engine::sensor::{Chance, Delivery, Rig, Sensor, SensorView};
 /// use paracosm_engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Run, Scenario, Setup, Side, driver};
 ///
 /// struct Bumper {
@@ -90,7 +96,7 @@ use crate::vehicle::VehicleState;
 ///         0.05
 ///     }
 ///
-///     fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Option<f64>) {
+///     fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Option<f64>) {
 ///         let car = view.car.pose();
 ///         let front = car.position + 2.2 * car.forward();
 ///         let distances = view.others().map(|(_, body)| (body.pose.position - front).norm());
@@ -110,7 +116,7 @@ use crate::vehicle::VehicleState;
 ///
 /// let mut rig = Rig::new(7);
 /// let bumper = rig.attach("bumper", Bumper { range: 8.0, noise: 0.02 }, Delivery::after(0.01))?;
-/// let program = Program { name: "somebody-waits", about: "a car passes somebody", build: somebody_waits };
+/// let program = Program::new("somebody-waits", "a car passes somebody", somebody_waits);
 /// let test = program.declare()?.nominal();
 /// let mut run = Run::new(&program, &test, Setup::asking_every(0.1))?;
 /// run.equip(rig);
@@ -134,12 +140,12 @@ pub trait Sensor: Send + 'static {
 
     /// Measures: writes to `reading` what there is to see, over what was left there by an earlier reading. All its noise
     /// is drawn from `chance`.
-    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Self::Reading);
+    fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Self::Reading);
 }
 
 /// All that a sensor can know of a moment.
 #[derive(Debug, Clone, Copy)]
-pub struct View<'a> {
+pub struct SensorView<'a> {
     /// Seconds since the run began.
     pub time: f64,
     /// The car that carries the sensor.
@@ -147,14 +153,14 @@ pub struct View<'a> {
     /// All bodies, that of the car first.
     pub bodies: &'a [BodyState],
     /// The roads.
-    pub network: &'a Network,
+    pub network: &'a RoadNetwork,
     /// Light, fog, rain and the sun.
     pub weather: Weather,
     /// What of the weather is in the way of light: [`Air::of`] it.
     pub air: Air,
 }
 
-impl<'a> View<'a> {
+impl<'a> SensorView<'a> {
     /// The bodies that are in the world, but for the car, each with its index among all.
     pub fn others(&self) -> impl Iterator<Item = (usize, &'a BodyState)> + use<'a> {
         self.bodies.iter().enumerate().skip(1).filter(|(_, body)| body.present)

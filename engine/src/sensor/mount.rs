@@ -1,7 +1,7 @@
 //! Where on the car a sensor sits.
 
 use super::error::{Checks, SensorError};
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use crate::vehicle::VehicleState;
 use nalgebra::{Vector2, Vector3};
 

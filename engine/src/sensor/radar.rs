@@ -6,13 +6,18 @@
 //! Processing, section 6.3). What stands behind something large is not seen. Fog does nothing to the wavelengths of radars, and
 //! rain, which takes some decibels over 200 m, is left out; there are no multiple reflections.
 
+use super::Descriptor;
 use super::error::{Checks, SensorError};
 use super::sight::hidden;
-use super::{Chance, Mount, Sensor, View};
+use super::{Chance, Mount, Sensor, SensorView};
+use crate::geometry::wrapped;
 use crate::object::{BodyState, Class, Outline};
-use crate::road::wrapped;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_3, LN_2, TAU};
+
+/// How lists show this kind of sensor.
+pub(super) const DESCRIPTOR: Descriptor =
+    Descriptor { name: "radar", about: "distance, direction and closing speed of bodies" };
 
 /// The logarithm of the probability that noise alone passes for an echo, 1e-6.
 const LN_FALSE_ALARM: f64 = -13.815_510_557_964_274;
@@ -110,7 +115,7 @@ impl Radar {
     }
 
     /// What there is to measure of a body, if it is in the field and not hidden.
-    fn echo(&self, view: &View<'_>, index: usize, state: &BodyState) -> Option<Detection> {
+    fn echo(&self, view: &SensorView<'_>, index: usize, state: &BodyState) -> Option<Detection> {
         let RadarSettings { mount, range, field_of_view, .. } = self.settings;
         let pose = mount.pose(view.car);
         let nearest = nearest(state, pose.position);
@@ -143,7 +148,7 @@ impl Sensor for Radar {
         self.settings.period
     }
 
-    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Vec<Detection>) {
+    fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Vec<Detection>) {
         reading.clear();
         let RadarSettings { range_noise, range_rate_noise, azimuth_noise, .. } = self.settings;
         // Drawn for all bodies, so that what is out of sight does not shift the noise of what is seen.

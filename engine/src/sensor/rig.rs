@@ -1,7 +1,7 @@
 //! The sensors of a car: which of them measures when, and when what it has measured is known.
 
 use super::error::{Checks, SensorError};
-use super::{Chance, Sensor, View};
+use super::{Chance, Sensor, SensorView};
 use std::any::Any;
 use std::collections::VecDeque;
 use std::fmt;
@@ -94,7 +94,7 @@ impl Rig {
     }
 
     /// Shows all sensors the next moment: those measure whose period has passed, and what is known by now arrives.
-    pub fn see(&mut self, view: &View<'_>) {
+    pub fn see(&mut self, view: &SensorView<'_>) {
         for sensor in &mut self.sensors {
             sensor.see(self.seed, view);
         }
@@ -136,7 +136,7 @@ trait Attached: Any + Send {
     fn name(&self) -> &str;
     fn reset(&mut self);
     fn clear(&mut self);
-    fn see(&mut self, seed: u64, view: &View<'_>);
+    fn see(&mut self, seed: u64, view: &SensorView<'_>);
 }
 
 /// A sensor and what has come from it. Samples are used again, so that readings need no allocations.
@@ -171,7 +171,7 @@ impl<S: Sensor> Port<S> {
     }
 
     /// Takes a reading, if one is due.
-    fn measure(&mut self, seed: u64, view: &View<'_>) {
+    fn measure(&mut self, seed: u64, view: &SensorView<'_>) {
         let number = ((view.time + WHISKER) / self.period).floor() as u64;
         if self.last.is_some_and(|last| number <= last) {
             return;
@@ -208,7 +208,7 @@ impl<S: Sensor> Attached for Port<S> {
         }
     }
 
-    fn see(&mut self, seed: u64, view: &View<'_>) {
+    fn see(&mut self, seed: u64, view: &SensorView<'_>) {
         self.measure(seed, view);
         let known = view.time - self.delivery.latency + WHISKER;
         while let Some(sample) = self.flying.pop_front_if(|sample| sample.time <= known) {

@@ -1,11 +1,16 @@
 //! What a perfect sensor would know: the labels that readings of others are held against.
 
+use super::Descriptor;
 use super::error::{Checks, SensorError};
 use super::sight::hidden;
-use super::{Chance, Mount, Sensor, View};
+use super::{Chance, Mount, Sensor, SensorView};
+use crate::geometry::wrapped;
 use crate::object::{Class, gap};
-use crate::road::wrapped;
 use nalgebra::{Vector2, Vector3};
+
+/// How lists show this kind of sensor.
+pub(super) const DESCRIPTOR: Descriptor =
+    Descriptor { name: "ground truth", about: "every body as it is, but for what hides it" };
 
 /// A sensor that knows the truth, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +78,7 @@ impl Sensor for GroundTruth {
         self.settings.period
     }
 
-    fn sense(&mut self, view: &View<'_>, _chance: &mut Chance, reading: &mut Vec<TrueBody>) {
+    fn sense(&mut self, view: &SensorView<'_>, _chance: &mut Chance, reading: &mut Vec<TrueBody>) {
         reading.clear();
         let Some(car) = view.bodies.first() else { return };
         let eye = self.settings.mount.pose(view.car).position;

@@ -1,8 +1,8 @@
 //! Numbers, truths and vectors: what is computed at the ticks at which all operands have a value.
 
 use super::Stream;
-use super::node::{Binary, Kind, Unary};
-use crate::scenario::Line;
+use super::node::{Binary, NodeKind, Unary};
+use crate::geometry::Line;
 use nalgebra::Vector2;
 use paracosm_oracles::Comparison;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -10,85 +10,85 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 impl Stream<f64> {
     /// True at the ticks at which this is below the other.
     pub fn below(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
-        self.with(Kind::Compare(Comparison::Below), &other.into())
+        self.with(NodeKind::Compare(Comparison::Below), &other.into())
     }
 
     /// True at the ticks at which this is at most the other.
     pub fn at_most(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
-        self.with(Kind::Compare(Comparison::AtMost), &other.into())
+        self.with(NodeKind::Compare(Comparison::AtMost), &other.into())
     }
 
     /// True at the ticks at which this is above the other.
     pub fn above(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
-        self.with(Kind::Compare(Comparison::Above), &other.into())
+        self.with(NodeKind::Compare(Comparison::Above), &other.into())
     }
 
     /// True at the ticks at which this is at least the other.
     pub fn at_least(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
-        self.with(Kind::Compare(Comparison::AtLeast), &other.into())
+        self.with(NodeKind::Compare(Comparison::AtLeast), &other.into())
     }
 
     /// The smaller of both; NaN where one is NaN.
     pub fn min(&self, other: impl Into<Stream<f64>>) -> Self {
-        self.with(Kind::Binary(Binary::Least), &other.into())
+        self.with(NodeKind::Binary(Binary::Least), &other.into())
     }
 
     /// The larger of both; NaN where one is NaN.
     pub fn max(&self, other: impl Into<Stream<f64>>) -> Self {
-        self.with(Kind::Binary(Binary::Greatest), &other.into())
+        self.with(NodeKind::Binary(Binary::Greatest), &other.into())
     }
 
     /// The distance from 0.
     pub fn abs(&self) -> Self {
-        self.then(Kind::Unary(Unary::Absolute))
+        self.then(NodeKind::Unary(Unary::Absolute))
     }
 
     /// The square root; NaN below 0.
     pub fn sqrt(&self) -> Self {
-        self.then(Kind::Unary(Unary::SquareRoot))
+        self.then(NodeKind::Unary(Unary::SquareRoot))
     }
 
     /// The sum of all values so far, at the ticks that have one.
     pub fn sum(&self) -> Self {
-        self.then(Kind::Sum(0.0.into()))
+        self.then(NodeKind::Sum(0.0.into()))
     }
 }
 
 impl Stream<Vector2<f64>> {
     /// The vector of two coordinates.
     pub fn vector(x: impl Into<Stream<f64>>, y: impl Into<Stream<f64>>) -> Self {
-        x.into().with(Kind::Binary(Binary::Vector), &y.into())
+        x.into().with(NodeKind::Binary(Binary::Vector), &y.into())
     }
 
     /// How far the line still lies ahead of this position, along the line's direction, in metres; negative
     /// behind it.
     pub fn distance_to(&self, line: &Line) -> Stream<f64> {
-        self.then(Kind::Towards(line.clone()))
+        self.then(NodeKind::Towards(line.clone()))
     }
 
     /// The length.
     pub fn norm(&self) -> Stream<f64> {
-        self.then(Kind::Unary(Unary::Norm))
+        self.then(NodeKind::Unary(Unary::Norm))
     }
 
     /// The scalar product.
     pub fn dot(&self, other: impl Into<Stream<Vector2<f64>>>) -> Stream<f64> {
-        self.with(Kind::Binary(Binary::Dot), &other.into())
+        self.with(NodeKind::Binary(Binary::Dot), &other.into())
     }
 
     /// The first coordinate.
     pub fn x(&self) -> Stream<f64> {
-        self.then(Kind::Unary(Unary::X))
+        self.then(NodeKind::Unary(Unary::X))
     }
 
     /// The second coordinate.
     pub fn y(&self) -> Stream<f64> {
-        self.then(Kind::Unary(Unary::Y))
+        self.then(NodeKind::Unary(Unary::Y))
     }
 
     /// The sum of all values so far, at the ticks that have one.
     pub fn sum(&self) -> Self {
-        self.then(Kind::Sum(Vector2::zeros().into()))
+        self.then(NodeKind::Sum(Vector2::zeros().into()))
     }
 }
 
@@ -99,7 +99,7 @@ macro_rules! operator {
             type Output = Stream<$left>;
 
             fn $method(self, other: S) -> Stream<$left> {
-                self.with(Kind::Binary(Binary::$binary), &other.into())
+                self.with(NodeKind::Binary(Binary::$binary), &other.into())
             }
         }
 
@@ -157,7 +157,7 @@ macro_rules! prefix {
             type Output = Stream<$type>;
 
             fn $method(self) -> Stream<$type> {
-                self.then(Kind::Unary(Unary::$unary))
+                self.then(NodeKind::Unary(Unary::$unary))
             }
         }
 

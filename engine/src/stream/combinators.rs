@@ -1,7 +1,7 @@
 //! The typed handles by which programs write streams of any type.
 
 use super::datum::{Datum, Sample, samples};
-use super::node::{Kind, Node, Source};
+use super::node::{Node, NodeKind, Source};
 use std::cell::RefCell;
 use std::fmt;
 use std::marker::PhantomData;
@@ -41,19 +41,19 @@ impl Stream<()> {
 impl Stream<f64> {
     /// The time since the run began, in seconds.
     pub fn time() -> Self {
-        Self::new(Kind::Time, [])
+        Self::new(NodeKind::Time, [])
     }
 }
 
 impl<T: Datum> Stream<T> {
-    pub(crate) fn new(kind: Kind, inputs: impl Into<Vec<Rc<Node>>>) -> Self {
+    pub(crate) fn new(kind: NodeKind, inputs: impl Into<Vec<Rc<Node>>>) -> Self {
         let node = Node { kind, inputs: inputs.into(), width: T::WIDTH };
         Self { node: Rc::new(node), carries: PhantomData }
     }
 
     /// The stream that has this value at every tick.
     pub fn constant(value: T) -> Self {
-        Self::new(Kind::Constant { value: samples(value), parameter: None }, [])
+        Self::new(NodeKind::Constant { value: samples(value), parameter: None }, [])
     }
 
     /// The stream of a node, which has to be one of values of this type.
@@ -63,16 +63,16 @@ impl<T: Datum> Stream<T> {
 
     /// The stream that has a value at no tick: what an input reads that nothing is bound to.
     pub fn absent() -> Self {
-        Self::new(Kind::Constant { value: vec![Sample::Absent; T::WIDTH], parameter: None }, [])
+        Self::new(NodeKind::Constant { value: vec![Sample::Absent; T::WIDTH], parameter: None }, [])
     }
 
     pub(crate) fn output(source: Source, name: String) -> Self {
-        Self::new(Kind::Output { source, name }, [])
+        Self::new(NodeKind::Output { source, name }, [])
     }
 
     /// The same stream, called so where the graph is printed and where a trace records it.
     pub fn named(&self, name: &str) -> Self {
-        self.then(Kind::Named(name.to_owned()))
+        self.then(NodeKind::Named(name.to_owned()))
     }
 
     /// `f` of the value, at the ticks that have one. `f` is to be a pure function: nobody says how often it is called.
@@ -82,32 +82,32 @@ impl<T: Datum> Stream<T> {
                 f(value).put(output);
             }
         };
-        self.then(Kind::Map(Rc::new(map)))
+        self.then(NodeKind::Map(Rc::new(map)))
     }
 
     /// The stream at the ticks whose value `keep` holds of; absent at all others.
     pub fn filter(&self, keep: impl Fn(T) -> bool + 'static) -> Self {
-        self.then(Kind::Filter(Rc::new(move |input: &[_]| T::get(input).is_some_and(&keep))))
+        self.then(NodeKind::Filter(Rc::new(move |input: &[_]| T::get(input).is_some_and(&keep))))
     }
 
     /// The stream at the ticks at which `event` occurs; absent at all others.
     pub fn when<E: Datum>(&self, event: &Stream<E>) -> Self {
-        self.with(Kind::When, event)
+        self.with(NodeKind::When, event)
     }
 
     /// Both values, at the ticks at which both streams have one.
     pub fn zip<U: Datum>(&self, other: &Stream<U>) -> Stream<(T, U)> {
-        Stream::new(Kind::Zip, [self.node.clone(), other.node.clone()])
+        Stream::new(NodeKind::Zip, [self.node.clone(), other.node.clone()])
     }
 
     /// The first `count` values; over after that.
     pub fn take(&self, count: usize) -> Self {
-        self.then(Kind::Take(count))
+        self.then(NodeKind::Take(count))
     }
 
     /// The stream until it is over, from then on the other one as it is by then: nothing is kept or begun anew.
     pub fn concat(&self, next: &Stream<T>) -> Self {
-        self.with(Kind::Concat, next)
+        self.with(NodeKind::Concat, next)
     }
 
     /// The value at the first tick, the stream from then on: Lustre's `->`. With [`Stream::pre`] it is how a feedback
@@ -124,51 +124,51 @@ impl<T: Datum> Stream<T> {
                 f(before, value).put(sum);
             }
         };
-        self.then(Kind::Scan { initial: samples(initial), step: Rc::new(step) })
+        self.then(NodeKind::Scan { initial: samples(initial), step: Rc::new(step) })
     }
 
     /// The stream at the ticks at which it has a value, the other at those at which only the other has one.
     pub fn merge(&self, other: &Stream<T>) -> Self {
-        self.with(Kind::Merge, other)
+        self.with(NodeKind::Merge, other)
     }
 
     /// The stream itself until the first tick at which `event` occurs; over from that tick on.
     pub fn take_until<E: Datum>(&self, event: &Stream<E>) -> Self {
-        self.with(Kind::TakeUntil, event)
+        self.with(NodeKind::TakeUntil, event)
     }
 
     /// Absent until the first tick at which `event` occurs; the stream itself from that tick on.
     pub fn skip_until<E: Datum>(&self, event: &Stream<E>) -> Self {
-        self.with(Kind::SkipUntil, event)
+        self.with(NodeKind::SkipUntil, event)
     }
 
     /// What the stream was at the tick before: absent where it was absent then, and at the first tick.
     pub fn pre(&self) -> Self {
-        self.then(Kind::Pre)
+        self.then(NodeKind::Pre)
     }
 
     /// The latest value, `initial` before the first one: a value at every tick.
     pub fn hold(&self, initial: T) -> Self {
-        self.then(Kind::Hold { initial: samples(initial) })
+        self.then(NodeKind::Hold { initial: samples(initial) })
     }
 
     /// True at the ticks at which both streams have the same value.
     pub fn equals(&self, other: impl Into<Stream<T>>) -> Stream<bool> {
-        Stream::new(Kind::Equal, [self.node.clone(), other.into().node])
+        Stream::new(NodeKind::Equal, [self.node.clone(), other.into().node])
     }
 
     /// Does something with the value, at the ticks that have one. It has to be placed in the scenario.
     pub fn for_each(&self, mut f: impl FnMut(T) + 'static) -> Effect {
         let effect = move |input: &[_]| T::get(input).map_or((), &mut f);
-        let effect: Stream<()> = self.then(Kind::ForEach(Rc::new(RefCell::new(effect))));
+        let effect: Stream<()> = self.then(NodeKind::ForEach(Rc::new(RefCell::new(effect))));
         Effect(effect.node)
     }
 
-    pub(super) fn then<U: Datum>(&self, kind: Kind) -> Stream<U> {
+    pub(super) fn then<U: Datum>(&self, kind: NodeKind) -> Stream<U> {
         Stream::new(kind, [self.node.clone()])
     }
 
-    pub(super) fn with<U: Datum, V: Datum>(&self, kind: Kind, other: &Stream<U>) -> Stream<V> {
+    pub(super) fn with<U: Datum, V: Datum>(&self, kind: NodeKind, other: &Stream<U>) -> Stream<V> {
         Stream::new(kind, [self.node.clone(), other.node.clone()])
     }
 }

@@ -1,6 +1,6 @@
 //! A graph of streams in the DOT language of Graphviz, to be looked at.
 
-use super::node::{Binary, Equation, Kind, Node};
+use super::node::{Binary, Equation, Node, NodeKind};
 use super::order::{Fault, order};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -15,7 +15,7 @@ pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equa
     let mut numbers: HashMap<*const Node, usize> = HashMap::new();
     for node in &ordered {
         match &node.kind {
-            Kind::Named(name) | Kind::Forward { name, .. } => {
+            NodeKind::Named(name) | NodeKind::Forward { name, .. } => {
                 names.entry(Rc::as_ptr(meant(node, equations))).or_default().push(name);
             }
             _ => {
@@ -30,9 +30,9 @@ pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equa
         let name: String =
             names.get(&Rc::as_ptr(node)).into_iter().flatten().map(|name| format!("{name} = ")).collect();
         let (label, shape) = match &node.kind {
-            Kind::Constant { parameter: Some(name), .. } => (format!("{name} = {node}"), "ellipse"),
-            Kind::Signal { .. } => (node.label(), "ellipse"),
-            Kind::Output { .. } => (node.label(), "box"),
+            NodeKind::Constant { parameter: Some(name), .. } => (format!("{name} = {node}"), "ellipse"),
+            NodeKind::Signal { .. } => (node.label(), "ellipse"),
+            NodeKind::Output { .. } => (node.label(), "box"),
             _ => (node.label(), "plaintext"),
         };
         let label = quoted(&format!("{name}{label}"));
@@ -41,7 +41,7 @@ pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equa
     for node in ordered.iter().filter(|node| numbers.contains_key(&Rc::as_ptr(node))) {
         for (i, input) in node.inputs.iter().enumerate() {
             let style = match &node.kind {
-                Kind::Pre => " [style=dashed]".to_owned(),
+                NodeKind::Pre => " [style=dashed]".to_owned(),
                 kind if node.inputs.len() > 1 && !commutes(kind) => format!(" [headlabel={}]", i + 1),
                 _ => String::new(),
             };
@@ -61,8 +61,8 @@ fn meant<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> &'a Rc<Node> {
     let mut node = node;
     loop {
         node = match &node.kind {
-            Kind::Named(_) => &node.inputs[0],
-            Kind::Forward { equation, .. } => match &equations[*equation].definition {
+            NodeKind::Named(_) => &node.inputs[0],
+            NodeKind::Forward { equation, .. } => match &equations[*equation].definition {
                 Some(definition) => definition,
                 None => return node,
             },
@@ -71,9 +71,9 @@ fn meant<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> &'a Rc<Node> {
     }
 }
 
-fn commutes(kind: &Kind) -> bool {
+fn commutes(kind: &NodeKind) -> bool {
     use Binary::{And, Dot, Greatest, Least, Or, Product, Sum};
-    matches!(kind, Kind::Equal | Kind::Binary(Sum | Product | Least | Greatest | Dot | And | Or))
+    matches!(kind, NodeKind::Equal | NodeKind::Binary(Sum | Product | Least | Greatest | Dot | And | Or))
 }
 
 /// A string as DOT takes it.

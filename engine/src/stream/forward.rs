@@ -2,7 +2,7 @@
 
 use super::Stream;
 use super::node::Equation;
-use crate::scenario::Problems;
+use crate::problem::Problems;
 use std::cell::RefCell;
 use std::ops::Deref;
 use std::rc::Rc;

@@ -1,9 +1,9 @@
 //! The streams of a run laid out for evaluation: operands first, all values in one place, no allocation per tick.
 
 use super::datum::{Datum, Sample};
-use super::node::{Equation, Kind, Node};
+use super::node::{Equation, Node, NodeKind};
 use super::order::{Fault, order};
-use paracosm_coverage::Shape;
+use paracosm_space::Shape;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -70,8 +70,8 @@ impl Graph {
         for node in order(roots, equations)? {
             let slot = match &node.kind {
                 // Other names of a stream share its slot.
-                Kind::Named(_) => graph.slot(&node.inputs[0]),
-                Kind::Forward { equation, .. } => {
+                NodeKind::Named(_) => graph.slot(&node.inputs[0]),
+                NodeKind::Forward { equation, .. } => {
                     graph.slot(equations[*equation].definition.as_ref().expect("it has been ordered"))
                 }
                 _ => graph.add(node),
@@ -89,27 +89,27 @@ impl Graph {
     fn add(&mut self, node: &Rc<Node>) -> Slot {
         let at = self.values.len();
         let initial = match &node.kind {
-            Kind::Constant { value, .. } | Kind::Hold { initial: value } => value.clone(),
+            NodeKind::Constant { value, .. } | NodeKind::Hold { initial: value } => value.clone(),
             _ => vec![Sample::Absent; node.width],
         };
         self.values.extend(initial);
         self.over.resize(self.values.len(), false);
-        if matches!(node.kind, Kind::Constant { .. }) {
+        if matches!(node.kind, NodeKind::Constant { .. }) {
             return Slot(at);
         }
         let memory = match &node.kind {
-            Kind::SkipUntil | Kind::TakeUntil => Memory::Occurred(false),
-            Kind::Take(count) => Memory::Left(*count),
-            Kind::Pre => Memory::Value { samples: vec![Sample::Absent; node.width], over: false },
-            Kind::Sum(initial) => Memory::Value { samples: vec![*initial], over: false },
-            Kind::Scan { initial, .. } => Memory::Value { samples: initial.clone(), over: false },
-            Kind::Signal { values, shape, .. } if !matches!(shape, Shape::PiecewiseConstant { .. }) => {
+            NodeKind::SkipUntil | NodeKind::TakeUntil => Memory::Occurred(false),
+            NodeKind::Take(count) => Memory::Left(*count),
+            NodeKind::Pre => Memory::Value { samples: vec![Sample::Absent; node.width], over: false },
+            NodeKind::Sum(initial) => Memory::Value { samples: vec![*initial], over: false },
+            NodeKind::Scan { initial, .. } => Memory::Value { samples: initial.clone(), over: false },
+            NodeKind::Signal { values, shape, .. } if !matches!(shape, Shape::PiecewiseConstant { .. }) => {
                 Memory::Numbers(values.iter().filter_map(|value| f64::get(std::slice::from_ref(value))).collect())
             }
             _ => Memory::Nothing,
         };
         let mut inputs = [at; 2];
-        if matches!(node.kind, Kind::Pre) {
+        if matches!(node.kind, NodeKind::Pre) {
             self.delays.push(self.operations.len());
         } else {
             for (place, input) in inputs.iter_mut().zip(&node.inputs) {
@@ -174,67 +174,67 @@ impl Operation {
         let ([left, right], [left_over, right_over]) = ([*left, *right], [over[*left], over[*right]]);
         let from = |at: usize| &values[at..at + width];
         match (&node.kind, memory) {
-            (Kind::Output { source, .. }, _) => {
+            (NodeKind::Output { source, .. }, _) => {
                 copy(&outputs[source.0..][..width], output);
                 false
             }
-            (Kind::Time, _) => {
+            (NodeKind::Time, _) => {
                 output[0] = (clock.tick as f64 * clock.dt).into();
                 false
             }
-            (Kind::Signal { shape, .. }, Memory::Numbers(numbers)) => {
+            (NodeKind::Signal { shape, .. }, Memory::Numbers(numbers)) => {
                 output[0] = shape.number_at(numbers, clock.tick, clock.ticks).into();
                 false
             }
-            (Kind::Signal { values, .. }, _) => {
+            (NodeKind::Signal { values, .. }, _) => {
                 let pieces = values.len() / width;
                 let piece = Shape::piece(pieces, clock.tick, clock.ticks);
                 copy(&values[piece * width..][..width], output);
                 false
             }
-            (Kind::Unary(function), _) => {
+            (NodeKind::Unary(function), _) => {
                 output[0] = function.of(values[left]);
                 left_over
             }
-            (Kind::Binary(function), _) => {
+            (NodeKind::Binary(function), _) => {
                 output[0] = function.of(values[left], values[right]);
                 left_over || right_over
             }
-            (Kind::Compare(comparison), _) => {
+            (NodeKind::Compare(comparison), _) => {
                 output[0] = match (values[left], values[right]) {
                     (Sample::Number(left), Sample::Number(right)) => comparison.holds(left, right).into(),
                     _ => Sample::Absent,
                 };
                 left_over || right_over
             }
-            (Kind::Equal, _) => {
+            (NodeKind::Equal, _) => {
                 let width = node.inputs[0].width;
                 let absent = values[left].is_absent() || values[right].is_absent();
                 let equal = values[left..left + width] == values[right..right + width];
                 output[0] = if absent { Sample::Absent } else { equal.into() };
                 left_over || right_over
             }
-            (Kind::Towards(line), _) => {
+            (NodeKind::Towards(line), _) => {
                 output[0] = match values[left] {
                     Sample::Vector(position) => line.ahead_of(position).into(),
                     _ => Sample::Absent,
                 };
                 left_over
             }
-            (Kind::Map(map), _) => {
+            (NodeKind::Map(map), _) => {
                 output[0] = Sample::Absent;
                 map(&values[left..], output);
                 left_over
             }
-            (Kind::Filter(keep), _) => {
+            (NodeKind::Filter(keep), _) => {
                 put(output, keep(&values[left..]), from(left));
                 left_over
             }
-            (Kind::When, _) => {
+            (NodeKind::When, _) => {
                 put(output, occurs(&values[right..]), from(left));
                 left_over || right_over
             }
-            (Kind::Zip, _) => {
+            (NodeKind::Zip, _) => {
                 let middle = node.inputs[0].width;
                 let present = !values[left].is_absent() && !values[right].is_absent();
                 output[..middle].copy_from_slice(&values[left..left + middle]);
@@ -244,24 +244,24 @@ impl Operation {
                 }
                 left_over || right_over
             }
-            (Kind::Take(_), Memory::Left(count)) => {
+            (NodeKind::Take(_), Memory::Left(count)) => {
                 let over = *count == 0 || left_over;
                 put(output, *count > 0, from(left));
                 *count -= usize::from(!output[0].is_absent());
                 over
             }
-            (Kind::Concat, _) => {
+            (NodeKind::Concat, _) => {
                 copy(from(if left_over { right } else { left }), output);
                 left_over && right_over
             }
-            (Kind::Sum(_), Memory::Value { samples, .. }) => {
+            (NodeKind::Sum(_), Memory::Value { samples, .. }) => {
                 if !values[left].is_absent() {
                     samples[0] = super::node::Binary::Sum.of(samples[0], values[left]);
                 }
                 put(output, !values[left].is_absent(), samples);
                 left_over
             }
-            (Kind::Scan { step, .. }, Memory::Value { samples, .. }) => {
+            (NodeKind::Scan { step, .. }, Memory::Value { samples, .. }) => {
                 let present = !values[left].is_absent();
                 if present {
                     step(samples, &values[left..]);
@@ -269,31 +269,31 @@ impl Operation {
                 put(output, present, samples);
                 left_over
             }
-            (Kind::Merge, _) => {
+            (NodeKind::Merge, _) => {
                 copy(from(if values[left].is_absent() { right } else { left }), output);
                 left_over && right_over
             }
-            (Kind::SkipUntil, Memory::Occurred(begun)) => {
+            (NodeKind::SkipUntil, Memory::Occurred(begun)) => {
                 *begun |= occurs(&values[right..]);
                 put(output, *begun, from(left));
                 left_over
             }
-            (Kind::TakeUntil, Memory::Occurred(ended)) => {
+            (NodeKind::TakeUntil, Memory::Occurred(ended)) => {
                 *ended |= occurs(&values[right..]);
                 put(output, !*ended, from(left));
                 *ended || left_over
             }
-            (Kind::Pre, Memory::Value { samples, over }) => {
+            (NodeKind::Pre, Memory::Value { samples, over }) => {
                 copy(samples, output);
                 *over
             }
-            (Kind::Hold { .. }, _) => {
+            (NodeKind::Hold { .. }, _) => {
                 if !values[left].is_absent() {
                     copy(from(left), output);
                 }
                 false
             }
-            (Kind::ForEach(effect), _) => {
+            (NodeKind::ForEach(effect), _) => {
                 (effect.borrow_mut())(&values[left..]);
                 left_over
             }

@@ -58,7 +58,7 @@
 //! let travelled = (car.position() - before).norm().sum().named("way");
 //! s.require("progress", eventually(travelled.at_least(50.0)));
 //! # }
-//! # Program { name: "way", about: "a way", build }.declare().unwrap();
+//! # Program::new("way", "a way", build).declare().unwrap();
 //! ```
 
 mod arithmetic;
@@ -78,4 +78,4 @@ pub(crate) use datum::{Sample, samples};
 pub(crate) use dot::dot;
 pub use forward::Forward;
 pub(crate) use graph::{Clock, Graph, Slot};
-pub(crate) use node::{Binary, Equation, Kind, Node, Source, Unary};
+pub(crate) use node::{Binary, Equation, Node, NodeKind, Source, Unary};

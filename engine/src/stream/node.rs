@@ -1,9 +1,9 @@
 //! The nodes that streams are handles of: what each computes, and from which others.
 
 use super::datum::Sample;
-use crate::scenario::Line;
-use paracosm_coverage::Shape;
+use crate::geometry::Line;
 use paracosm_oracles::Comparison;
+use paracosm_space::Shape;
 use std::cell::RefCell;
 use std::fmt;
 use std::rc::Rc;
@@ -53,7 +53,7 @@ pub(crate) type Effect = Rc<RefCell<dyn FnMut(&[Sample])>>;
 
 /// What a node makes of its inputs. [The module](super) says what that is, tick by tick.
 #[derive(Clone)]
-pub(crate) enum Kind {
+pub(crate) enum NodeKind {
     /// A value, and the parameter that it is of.
     Constant {
         value: Vec<Sample>,
@@ -107,7 +107,7 @@ pub(crate) enum Kind {
 
 /// A node of the graph.
 pub(crate) struct Node {
-    pub kind: Kind,
+    pub kind: NodeKind,
     /// What it reads: none, one or two others.
     pub inputs: Vec<Rc<Node>>,
     /// How many samples its value takes.
@@ -125,19 +125,19 @@ impl Node {
     /// What the node is called where its inputs are shown beside it.
     pub fn label(&self) -> String {
         match &self.kind {
-            Kind::Constant { value, parameter: None } => value.iter().map(text).collect::<Vec<_>>().join(", "),
-            Kind::Constant { parameter: Some(name), .. }
-            | Kind::Output { name, .. }
-            | Kind::Forward { name, .. }
-            | Kind::Named(name) => name.clone(),
-            Kind::Signal { parameter, shape, .. } => format!("{parameter}: {shape}"),
-            Kind::Unary(function) => function.word().to_owned(),
-            Kind::Binary(function) => function.word().to_owned(),
-            Kind::Compare(comparison) => comparison.symbol().to_owned(),
-            Kind::Equal => "==".to_owned(),
-            Kind::Towards(line) => format!("distance to {}", line.name),
-            Kind::Take(count) => format!("take {count}"),
-            Kind::Hold { initial } => {
+            NodeKind::Constant { value, parameter: None } => value.iter().map(text).collect::<Vec<_>>().join(", "),
+            NodeKind::Constant { parameter: Some(name), .. }
+            | NodeKind::Output { name, .. }
+            | NodeKind::Forward { name, .. }
+            | NodeKind::Named(name) => name.clone(),
+            NodeKind::Signal { parameter, shape, .. } => format!("{parameter}: {shape}"),
+            NodeKind::Unary(function) => function.word().to_owned(),
+            NodeKind::Binary(function) => function.word().to_owned(),
+            NodeKind::Compare(comparison) => comparison.symbol().to_owned(),
+            NodeKind::Equal => "==".to_owned(),
+            NodeKind::Towards(line) => format!("distance to {}", line.name),
+            NodeKind::Take(count) => format!("take {count}"),
+            NodeKind::Hold { initial } => {
                 format!("hold, first {}", initial.iter().map(text).collect::<Vec<_>>().join(", "))
             }
             kind => kind.word().to_owned(),
@@ -152,13 +152,13 @@ impl Node {
             return true;
         }
         let kinds = match (&left.kind, &right.kind) {
-            (Kind::Map(left), Kind::Map(right)) => Rc::ptr_eq(left, right),
-            (Kind::Filter(left), Kind::Filter(right)) => Rc::ptr_eq(left, right),
-            (Kind::Scan { step: left, .. }, Kind::Scan { step: right, .. }) => Rc::ptr_eq(left, right),
-            (Kind::ForEach(left), Kind::ForEach(right)) => Rc::ptr_eq(left, right),
-            (Kind::Forward { equation: left, .. }, Kind::Forward { equation: right, .. }) => left == right,
-            (Kind::Constant { value: left, .. }, Kind::Constant { value: right, .. }) => left == right,
-            (Kind::Towards(left), Kind::Towards(right)) => left == right,
+            (NodeKind::Map(left), NodeKind::Map(right)) => Rc::ptr_eq(left, right),
+            (NodeKind::Filter(left), NodeKind::Filter(right)) => Rc::ptr_eq(left, right),
+            (NodeKind::Scan { step: left, .. }, NodeKind::Scan { step: right, .. }) => Rc::ptr_eq(left, right),
+            (NodeKind::ForEach(left), NodeKind::ForEach(right)) => Rc::ptr_eq(left, right),
+            (NodeKind::Forward { equation: left, .. }, NodeKind::Forward { equation: right, .. }) => left == right,
+            (NodeKind::Constant { value: left, .. }, NodeKind::Constant { value: right, .. }) => left == right,
+            (NodeKind::Towards(left), NodeKind::Towards(right)) => left == right,
             (one, another) => {
                 std::mem::discriminant(one) == std::mem::discriminant(another) && left.label() == right.label()
             }
@@ -170,44 +170,44 @@ impl Node {
 
     /// Whether it is an output of an object, under its own name.
     pub fn is_output(&self) -> bool {
-        matches!(self.kind, Kind::Output { .. })
+        matches!(self.kind, NodeKind::Output { .. })
     }
 
     /// What is behind names given by the program.
     pub fn unnamed(self: &Rc<Self>) -> &Rc<Self> {
         match self.kind {
-            Kind::Named(_) => self.inputs[0].unnamed(),
+            NodeKind::Named(_) => self.inputs[0].unnamed(),
             _ => self,
         }
     }
 }
 
-impl Kind {
+impl NodeKind {
     /// The method by which programs ask for it.
     fn word(&self) -> &'static str {
         match self {
-            Kind::Map(_) => "map",
-            Kind::Filter(_) => "filter",
-            Kind::When => "when",
-            Kind::Zip => "zip",
-            Kind::Take(_) => "take",
-            Kind::Concat => "concat",
-            Kind::Sum(_) => "sum",
-            Kind::Scan { .. } => "scan",
-            Kind::Merge => "merge",
-            Kind::TakeUntil => "take_until",
-            Kind::SkipUntil => "skip_until",
-            Kind::Pre => "pre",
-            Kind::Hold { .. } => "hold",
-            Kind::ForEach(_) => "for_each",
-            Kind::Equal => "equals",
-            Kind::Towards(_) => "distance",
-            Kind::Constant { .. } | Kind::Signal { .. } | Kind::Output { .. } => "input",
-            Kind::Time => "time",
-            Kind::Forward { .. } | Kind::Named(_) => "name",
-            Kind::Unary(function) => function.word(),
-            Kind::Binary(function) => function.word(),
-            Kind::Compare(comparison) => comparison.symbol(),
+            NodeKind::Map(_) => "map",
+            NodeKind::Filter(_) => "filter",
+            NodeKind::When => "when",
+            NodeKind::Zip => "zip",
+            NodeKind::Take(_) => "take",
+            NodeKind::Concat => "concat",
+            NodeKind::Sum(_) => "sum",
+            NodeKind::Scan { .. } => "scan",
+            NodeKind::Merge => "merge",
+            NodeKind::TakeUntil => "take_until",
+            NodeKind::SkipUntil => "skip_until",
+            NodeKind::Pre => "pre",
+            NodeKind::Hold { .. } => "hold",
+            NodeKind::ForEach(_) => "for_each",
+            NodeKind::Equal => "equals",
+            NodeKind::Towards(_) => "distance",
+            NodeKind::Constant { .. } | NodeKind::Signal { .. } | NodeKind::Output { .. } => "input",
+            NodeKind::Time => "time",
+            NodeKind::Forward { .. } | NodeKind::Named(_) => "name",
+            NodeKind::Unary(function) => function.word(),
+            NodeKind::Binary(function) => function.word(),
+            NodeKind::Compare(comparison) => comparison.symbol(),
         }
     }
 }
@@ -296,22 +296,26 @@ fn text(sample: &Sample) -> String {
 impl fmt::Display for Node {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.kind, self.inputs.as_slice()) {
-            (Kind::Constant { value, .. }, _) => f.write_str(&value.iter().map(text).collect::<Vec<_>>().join(", ")),
-            (Kind::Signal { parameter, .. }, _) => f.write_str(parameter),
-            (Kind::Time, _) => f.write_str("time"),
-            (Kind::Output { name, .. } | Kind::Forward { name, .. } | Kind::Named(name), _) => f.write_str(name),
-            (Kind::Unary(Unary::Negative), [input]) => write!(f, "-{input}"),
-            (Kind::Towards(line), [position]) => write!(f, "distance({position}, {})", line.name),
-            (Kind::Take(count), [input]) => write!(f, "take({input}, {count})"),
-            (Kind::Hold { initial }, [input]) => {
+            (NodeKind::Constant { value, .. }, _) => {
+                f.write_str(&value.iter().map(text).collect::<Vec<_>>().join(", "))
+            }
+            (NodeKind::Signal { parameter, .. }, _) => f.write_str(parameter),
+            (NodeKind::Time, _) => f.write_str("time"),
+            (NodeKind::Output { name, .. } | NodeKind::Forward { name, .. } | NodeKind::Named(name), _) => {
+                f.write_str(name)
+            }
+            (NodeKind::Unary(Unary::Negative), [input]) => write!(f, "-{input}"),
+            (NodeKind::Towards(line), [position]) => write!(f, "distance({position}, {})", line.name),
+            (NodeKind::Take(count), [input]) => write!(f, "take({input}, {count})"),
+            (NodeKind::Hold { initial }, [input]) => {
                 write!(f, "hold({input}, {})", initial.iter().map(text).collect::<Vec<_>>().join(", "))
             }
             (
-                Kind::Binary(
+                NodeKind::Binary(
                     Binary::Sum | Binary::Difference | Binary::Product | Binary::Quotient | Binary::And | Binary::Or,
                 )
-                | Kind::Compare(_)
-                | Kind::Equal,
+                | NodeKind::Compare(_)
+                | NodeKind::Equal,
                 [left, right],
             ) => write!(f, "({left} {} {right})", self.label()),
             (kind, inputs) => {

@@ -4,7 +4,7 @@
 //! in depth (Tarjan, SIAM J. Comput. 1, 1972) that stops at the first node it meets again on its own path: that path is
 //! a causal cycle, as the compilers of synchronous languages know it (Halbwachs et al., Proc. IEEE 79(9), 1991).
 
-use super::node::{Equation, Kind, Node};
+use super::node::{Equation, Node, NodeKind};
 use std::collections::{HashMap, VecDeque};
 use std::rc::Rc;
 
@@ -36,8 +36,8 @@ impl std::fmt::Display for Fault {
 /// What a node needs evaluated before itself.
 fn operands<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> Result<&'a [Rc<Node>], Fault> {
     match &node.kind {
-        Kind::Pre => Ok(&[]),
-        Kind::Forward { equation, name } => {
+        NodeKind::Pre => Ok(&[]),
+        NodeKind::Forward { equation, name } => {
             let definition = equations.get(*equation).and_then(|equation| equation.definition.as_ref());
             definition.map(std::slice::from_ref).ok_or_else(|| Fault::Undefined(name.clone()))
         }
@@ -67,7 +67,7 @@ pub(crate) fn order<'a>(
             let Some(operand) = operands(node, equations)?.get(*next) else {
                 done.insert(address, true);
                 ordered.push(node);
-                if matches!(node.kind, Kind::Pre) {
+                if matches!(node.kind, NodeKind::Pre) {
                     waiting.push_back(&node.inputs[0]);
                 }
                 path.pop();

@@ -2,7 +2,7 @@
 
 use super::*;
 use nalgebra::Vector2;
-use paracosm_coverage::Shape;
+use paracosm_space::Shape;
 use proptest::prelude::*;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -136,7 +136,7 @@ fn an_effect_takes_place_at_the_ticks_that_have_a_value() {
 fn a_signal_goes_through_its_values() {
     let signal = |shape, values: &[f64]| {
         let values = values.iter().map(|value| Sample::Number(*value)).collect();
-        Stream::<f64>::new(Kind::Signal { parameter: "p".into(), shape, values }, [])
+        Stream::<f64>::new(NodeKind::Signal { parameter: "p".into(), shape, values }, [])
     };
     row(&signal(Shape::PiecewiseConstant { pieces: 2 }, &[1.0, 2.0]), numbers([1.0, 1.0, 2.0, 2.0, 2.0]));
     row(&signal(Shape::PiecewiseLinear { pieces: 2 }, &[0.0, 2.0, 1.0]), numbers([0.0, 1.0, 2.0, 1.5, 1.0]));

@@ -5,10 +5,10 @@
 //! leave to drive on. Each alone gives an acceleration by the model and a safe speed; the least holds.
 
 use super::idm::safe_speed;
-use super::junction::Lists;
+use super::lists::Lists;
 use super::map::{BEFORE_ZONE, Map, Rival};
 use super::occupancy::{Body, Occupancy, Who};
-use super::state::{Car, Claim};
+use super::state::{Ask, Car, Claim};
 
 /// Metres that cars which join stay apart, beyond what the model has: along bends of different radii lengths differ.
 const JOINING: f64 = 1.0;
@@ -26,20 +26,6 @@ pub(super) struct View<'a> {
     pub cars: &'a [Car],
     pub occupancy: &'a Occupancy,
     pub claims: &'a Lists<Claim>,
-}
-
-/// The next line on the path of a car.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Ask {
-    /// Which lane of the path it belongs to, and how far ahead of the car's middle that begins.
-    pub index: usize,
-    pub base: f64,
-    /// From the front to the line.
-    pub distance: f64,
-    /// Whether the car has leave to pass it.
-    pub held: bool,
-    /// Whether nobody waits before it, or right behind it.
-    pub first: bool,
 }
 
 /// How a car may drive on.

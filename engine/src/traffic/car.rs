@@ -4,7 +4,7 @@ use super::error::TrafficError;
 use super::idm::Idm;
 use super::map::Map;
 use crate::object::Colour;
-use crate::road::{LaneId, LaneKind, Network, Place, Route};
+use crate::road::{LaneId, LaneKind, Place, RoadNetwork, Route};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -182,7 +182,7 @@ impl TrafficCar {
 
     /// So many cars at different places on the roads of a network, as chance has it: fewer where there is no room. They
     /// are as [`TrafficCar::at`] has them.
-    pub fn scattered(network: &Network, count: usize, seed: u64) -> Vec<Self> {
+    pub fn scattered(network: &RoadNetwork, count: usize, seed: u64) -> Vec<Self> {
         let mut places = Vec::new();
         for (id, lane) in network.ids().zip(network.lanes()).filter(|(_, lane)| lane.kind == LaneKind::Road) {
             let slots = (lane.length() / SLOT) as usize;
@@ -305,7 +305,7 @@ impl Itinerary {
     }
 
     /// The lane after `last`, if it goes on.
-    pub fn next(&mut self, last: LaneId, network: &Network) -> Option<LaneId> {
+    pub fn next(&mut self, last: LaneId, network: &RoadNetwork) -> Option<LaneId> {
         match self {
             Self::Wander(random, arms) => {
                 let exit = |lane: &&LaneId| network.lane(**lane).kind == LaneKind::Exit;

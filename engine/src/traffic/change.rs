@@ -8,8 +8,8 @@ use super::idm::safe_speed;
 use super::map::Map;
 use super::occupancy::{Body, Who};
 use super::state::{Car, Change, WALKING};
+use crate::geometry::Side;
 use crate::road::{LaneId, LaneKind, Place};
-use crate::scenario::Side;
 
 /// Seconds that a lane change takes where it pays, and where the route asks for it.
 const DURATION: f64 = 4.0;

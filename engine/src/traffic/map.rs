@@ -1,6 +1,6 @@
 //! What traffic asks about lanes at every tick, found once for a network.
 
-use crate::road::{Lane, LaneId, LaneKind, Network};
+use crate::road::{Lane, LaneId, LaneKind, RoadNetwork};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -53,14 +53,14 @@ struct Facts {
 /// A network as traffic sees it.
 #[derive(Debug)]
 pub(super) struct Map {
-    pub network: Arc<Network>,
+    pub network: Arc<RoadNetwork>,
     lanes: Vec<Facts>,
     rivals: Vec<Rival>,
     forks: Vec<Fork>,
 }
 
 impl Map {
-    pub fn new(network: Arc<Network>) -> Self {
+    pub fn new(network: Arc<RoadNetwork>) -> Self {
         let (mut lanes, mut rivals, mut forks) = (Vec::with_capacity(network.lanes().len()), Vec::new(), Vec::new());
         for (id, lane) in network.ids().zip(network.lanes()) {
             let first = (rivals.len() as u32, forks.len() as u32);
@@ -166,7 +166,7 @@ impl Map {
 }
 
 /// How far along a lane the lane `other`, which begins where it does, is too close.
-fn parted(network: &Network, lane: LaneId, other: LaneId) -> f64 {
+fn parted(network: &RoadNetwork, lane: LaneId, other: LaneId) -> f64 {
     let (lane, other) = (network.lane(lane), network.lane(other));
     let steps = (lane.length() / STEP).ceil() as usize;
     let place = |i: usize| lane.length() * i as f64 / steps as f64;

@@ -30,6 +30,7 @@ mod change;
 mod error;
 mod idm;
 mod junction;
+mod lists;
 mod map;
 mod obstacle;
 mod occupancy;
@@ -40,10 +41,11 @@ pub use error::TrafficError;
 pub use idm::Idm;
 pub use obstacle::Obstacle;
 
-use crate::road::{LaneId, Network};
-use crate::scenario::{Pose, Side};
+use crate::geometry::{Pose, Side};
+use crate::road::{LaneId, RoadNetwork};
 use ahead::{Ahead, View};
-use junction::{Asker, Lists};
+use junction::Asker;
+use lists::Lists;
 use map::Map;
 use obstacle::Near;
 use occupancy::{Body, Occupancy, Who};
@@ -105,7 +107,7 @@ impl Traffic {
     ///
     /// # Errors
     /// A car has a number that cannot be, a route that is none, or the place of another.
-    pub fn new(network: Arc<Network>, cars: Vec<TrafficCar>, seed: u64) -> Result<Self, TrafficError> {
+    pub fn new(network: Arc<RoadNetwork>, cars: Vec<TrafficCar>, seed: u64) -> Result<Self, TrafficError> {
         let map = Map::new(network);
         let cars: Vec<TrafficCar> = cars.into_iter().map(|car| car.planned(&map)).collect();
         cars.iter().enumerate().try_for_each(|(index, car)| car.check(index, &map))?;
@@ -162,7 +164,7 @@ impl Traffic {
     }
 
     /// The network that it drives on.
-    pub fn network(&self) -> &Arc<Network> {
+    pub fn network(&self) -> &Arc<RoadNetwork> {
         &self.map.network
     }
 

@@ -7,8 +7,8 @@
 
 use super::map::Map;
 use super::occupancy::{Body, Who};
-use crate::road::{Bounds, Crossing, LaneId, Network};
-use crate::scenario::Pose;
+use crate::geometry::Pose;
+use crate::road::{Bounds, Crossing, LaneId, RoadNetwork};
 use nalgebra::Vector2;
 
 /// A body that cars stop for: the car under test, a pedestrian, something that stands in the way.
@@ -89,7 +89,7 @@ pub(super) fn place(obstacle: &Obstacle, map: &Map, half_width: f64, near: &mut 
 }
 
 /// Whether it faces along a lane and has its middle on it.
-fn drives_along(obstacle: &Obstacle, network: &Network, lane: LaneId) -> bool {
+fn drives_along(obstacle: &Obstacle, network: &RoadNetwork, lane: LaneId) -> bool {
     let lane = network.lane(lane);
     let at = lane.curve.at(lane.curve.nearest(obstacle.pose.position));
     let local = at.to_local(obstacle.pose.position);
@@ -97,7 +97,7 @@ fn drives_along(obstacle: &Obstacle, network: &Network, lane: LaneId) -> bool {
     along > ALONG && local.x.abs() < 0.5 * obstacle.length && local.y.abs() < 0.5 * lane.width
 }
 
-fn on_lane(obstacle: &Obstacle, network: &Network, lane: LaneId, clear: f64, foreseen: f64) -> Option<Body> {
+fn on_lane(obstacle: &Obstacle, network: &RoadNetwork, lane: LaneId, clear: f64, foreseen: f64) -> Option<Body> {
     let curve = &network.lane(lane).curve;
     let nearest = curve.nearest(obstacle.pose.position);
     let at = curve.at(nearest);
@@ -124,7 +124,7 @@ fn on_lane(obstacle: &Obstacle, network: &Network, lane: LaneId, clear: f64, for
     })
 }
 
-fn on_crossing(obstacle: &Obstacle, crossing: &Crossing, network: &Network, bodies: &mut Vec<Body>) {
+fn on_crossing(obstacle: &Obstacle, crossing: &Crossing, network: &RoadNetwork, bodies: &mut Vec<Body>) {
     let end = crossing.path.length();
     let start = crossing.path.start();
     let offset = obstacle.pose.position - start.position;

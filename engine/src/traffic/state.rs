@@ -1,11 +1,11 @@
 //! A car as it drives.
 
-use super::ahead::Ask;
 use super::car::{Itinerary, TrafficCar};
 use super::idm::{Idm, hardest_braking};
 use super::map::{LATERAL, Map};
-use crate::road::{LaneId, wrapped};
-use crate::scenario::{Pose, Side};
+use crate::geometry::wrapped;
+use crate::geometry::{Pose, Side};
+use crate::road::LaneId;
 use std::collections::VecDeque;
 
 /// Speed in m/s above which a lane change takes the time that it is to take; below, it takes as long a way as at this.
@@ -13,6 +13,20 @@ pub(super) const WALKING: f64 = 5.0;
 
 /// Metres that somebody may want to drive around a roundabout.
 const LONGEST_ROUND: f64 = 500.0;
+
+/// The next line on the path of a car.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ask {
+    /// Which lane of the path it belongs to, and how far ahead of the car's middle that begins.
+    pub index: usize,
+    pub base: f64,
+    /// From the front to the line.
+    pub distance: f64,
+    /// Whether the car has leave to pass it.
+    pub held: bool,
+    /// Whether nobody waits before it, or right behind it.
+    pub first: bool,
+}
 
 /// The right to a lane of an intersection.
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 //! The car: what it is made of, and two models of how it moves that take the same inputs and answer the same questions.
 //!
 //! [`SingleTrack`] is a dynamic bicycle model, fast, and exact on a straight way; [`Jointed`] is a chassis and four
-//! wheels on joints, which a physics engine integrates. Both are [`Dynamics`], and [`Model`] knows them by name. (The
+//! wheels on joints, which a physics engine integrates. Both are [`Dynamics`], and [`VehicleModel`] knows them by name. (The
 //! ray-cast vehicle of that engine is not used: it brakes with twice the friction force.)
 //!
 //! No tyre pushes harder than `mu N`, and acceleration shifts load between the axles (`N_f = m (g l_r - a h) / L`,
@@ -38,7 +38,7 @@ pub use motion::Motion;
 pub use parameters::{Drive, Vehicle};
 pub use single_track::SingleTrack;
 
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -107,7 +107,7 @@ pub trait Dynamics: Send {
 /// Which model moves a car.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Model {
+pub enum VehicleModel {
     /// [`SingleTrack`].
     #[default]
     SingleTrack,
@@ -115,15 +115,15 @@ pub enum Model {
     Jointed,
 }
 
-impl Model {
+impl VehicleModel {
     /// All there are.
-    pub const ALL: [Model; 2] = [Model::SingleTrack, Model::Jointed];
+    pub const ALL: [VehicleModel; 2] = [VehicleModel::SingleTrack, VehicleModel::Jointed];
 
     /// What people call it.
     pub fn name(self) -> &'static str {
         match self {
-            Model::SingleTrack => "single-track",
-            Model::Jointed => "jointed",
+            VehicleModel::SingleTrack => "single-track",
+            VehicleModel::Jointed => "jointed",
         }
     }
 
@@ -132,7 +132,7 @@ impl Model {
     /// # Errors
     /// There is none.
     pub fn find(name: &str) -> Result<Self, UnknownModel> {
-        Self::ALL.into_iter().find(|model| model.name() == name).ok_or_else(|| UnknownModel(name.to_owned()))
+        Self::ALL.into_iter().find(|model| model.name() == name).ok_or_else(|| UnknownModel { name: name.to_owned() })
     }
 
     /// A car of this model whose middle has the pose `start`, going straight ahead at `speed` m/s.
@@ -141,18 +141,21 @@ impl Model {
     /// The vehicle has a [`Vehicle::problem`].
     pub fn build(self, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
         match self {
-            Model::SingleTrack => Box::new(SingleTrack::new(vehicle, start, speed)),
-            Model::Jointed => Box::new(Jointed::new(vehicle, start, speed)),
+            VehicleModel::SingleTrack => Box::new(SingleTrack::new(vehicle, start, speed)),
+            VehicleModel::Jointed => Box::new(Jointed::new(vehicle, start, speed)),
         }
     }
 }
 
 /// No model of a car has that name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("no vehicle is called `{0}`, expected `single-track` or `jointed`")]
-pub struct UnknownModel(String);
+#[error("no vehicle is called `{name}`, expected `single-track` or `jointed`")]
+pub struct UnknownModel {
+    /// The name that was looked for.
+    pub name: String,
+}
 
-impl fmt::Display for Model {
+impl fmt::Display for VehicleModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }

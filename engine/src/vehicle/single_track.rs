@@ -13,7 +13,7 @@
 
 use super::tyre::Tyre;
 use super::{Drive, Dynamics, Motion, Pedals, Vehicle, VehicleState, Wheel};
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// Seconds that a piece of a step takes at most in a bend.

@@ -7,15 +7,15 @@
 
 mod physical;
 
+use crate::contact::Face;
+use crate::geometry::Pose;
 use crate::object::{Body, BodyState, Outline, gap};
-use crate::scenario::Pose;
 use nalgebra::Vector2;
 use parry3d::query::{ShapeCastOptions, cast_shapes};
 use physical::Physics;
 use rapier3d::prelude::{
     ActiveCollisionTypes, ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape,
 };
-use std::fmt;
 
 /// Height in metres of the floor of what has wheels above the road.
 const FLOOR: f64 = 0.2;
@@ -25,29 +25,9 @@ const REACH: f64 = 0.05;
 /// What counts as touching, in metres: the resolution of rapier's 32-bit numbers some hundred metres out.
 const TOUCH: f64 = 1e-5;
 
-/// A side of the car's body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Face {
-    Front,
-    Left,
-    Right,
-    Rear,
-}
-
-impl fmt::Display for Face {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Face::Front => "front",
-            Face::Left => "left",
-            Face::Right => "right",
-            Face::Rear => "rear",
-        })
-    }
-}
-
 /// A contact of the car with another body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Contact {
+pub(crate) struct Touching {
     /// Its index among the bodies.
     pub body: usize,
     pub face: Face,
@@ -119,7 +99,7 @@ impl World {
     }
 
     /// The first of the other bodies that touches the car at this tick, and where it came upon it.
-    pub fn contact(&mut self, bodies: &[BodyState]) -> Option<Contact> {
+    pub fn contact(&mut self, bodies: &[BodyState]) -> Option<Touching> {
         if self.clearance(bodies) > REACH {
             return None;
         }
@@ -131,7 +111,7 @@ impl World {
             state.present && deepest.is_some_and(|(_, contact)| contact.dist <= 0.0)
         };
         let body = 1 + self.solids[1..].iter().zip(&bodies[1..]).position(touches)?;
-        Some(Contact { body, face: self.face(bodies, body) })
+        Some(Touching { body, face: self.face(bodies, body) })
     }
 
     /// Shows rapier the present poses and lets it look for contacts.

@@ -1,8 +1,8 @@
 //! Bodies that the physics moves: pushed by their programs and by what they run into, held by gravity and friction.
 
 use super::{Solid, isometry};
+use crate::geometry::Pose;
 use crate::object::BodyState;
-use crate::scenario::Pose;
 use crate::vehicle::GRAVITY;
 use nalgebra::Vector2;
 use rapier3d::prelude::{CoefficientCombineRule, ColliderBuilder, ColliderHandle, PhysicsWorld, SharedShape};

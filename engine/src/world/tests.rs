@@ -19,7 +19,7 @@ fn pair(at: Pose, (x, y): (f64, f64)) -> [BodyState; 2] {
 }
 
 /// The contact of a car at the origin with a body that goes from one place to another within a tick.
-fn contact_with(body: Body, from: (f64, f64), to: (f64, f64)) -> Option<Contact> {
+fn contact_with(body: Body, from: (f64, f64), to: (f64, f64)) -> Option<Touching> {
     let mut bodies = pair(pose(0.0, 0.0), from);
     bodies[1].body = body;
     let mut world = World::new(&bodies, &[]);
@@ -29,7 +29,7 @@ fn contact_with(body: Body, from: (f64, f64), to: (f64, f64)) -> Option<Contact>
 }
 
 /// The same with a walker.
-fn contact(from: (f64, f64), to: (f64, f64)) -> Option<Contact> {
+fn contact(from: (f64, f64), to: (f64, f64)) -> Option<Touching> {
     contact_with(Body::adult(), from, to)
 }
 

@@ -9,7 +9,8 @@ mod orders;
 
 use nalgebra::Vector2;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, LaneKind, Network, Place, RoadSegment, Roundabout, Route, TIntersection, grid_city,
+    Composite, CrossIntersection, LaneKind, Place, RoadNetwork, RoadSegment, Roundabout, Route, TIntersection,
+    grid_city,
 };
 use paracosm_engine::traffic::{CarState, Idm, Obstacle, Traffic, TrafficCar, TrafficError};
 use paracosm_engine::{Pose, Side};
@@ -30,11 +31,11 @@ fn run(traffic: &mut Traffic, seconds: f64, obstacles: &[Obstacle]) {
 }
 
 /// A straight road with two lanes for each direction.
-fn road(length: f64) -> Arc<Network> {
+fn road(length: f64) -> Arc<RoadNetwork> {
     RoadSegment::new(length).lanes(4).named("road").build().unwrap()
 }
 
-fn place(net: &Network, element: &str, lane: i32, s: f64) -> Place {
+fn place(net: &RoadNetwork, element: &str, lane: i32, s: f64) -> Place {
     Place { lane: net.lane_of(element, lane).unwrap(), s }
 }
 
@@ -90,7 +91,12 @@ fn drive_on(traffic: &mut Traffic, seconds: f64, patience: f64) -> f64 {
     traffic.cars().map(|car| car.travelled).sum::<f64>() / traffic.cars().len() as f64
 }
 
-fn scattered(net: &Arc<Network>, count: usize, seed: u64, with: impl Fn(usize, TrafficCar) -> TrafficCar) -> Traffic {
+fn scattered(
+    net: &Arc<RoadNetwork>,
+    count: usize,
+    seed: u64,
+    with: impl Fn(usize, TrafficCar) -> TrafficCar,
+) -> Traffic {
     let cars: Vec<_> =
         TrafficCar::scattered(net, count, seed).into_iter().enumerate().map(|(i, c)| with(i, c)).collect();
     assert_eq!(cars.len(), count);
@@ -98,7 +104,7 @@ fn scattered(net: &Arc<Network>, count: usize, seed: u64, with: impl Fn(usize, T
 }
 
 /// A roundabout whose arms are connected in pairs by roads around three bends.
-fn cloverleaf(lanes: i32) -> Arc<Network> {
+fn cloverleaf(lanes: i32) -> Arc<RoadNetwork> {
     const BEND: f64 = 30.0;
     const ARM: f64 = 60.0;
     let circus = Roundabout::new().lanes(lanes).named("circus");
@@ -145,12 +151,12 @@ fn standing(x: f64, y: f64) -> Obstacle {
 }
 
 /// Three arms of 100 m: `east` and `west` of the main road, `south`, which ends at it.
-fn tee() -> Arc<Network> {
+fn tee() -> Arc<RoadNetwork> {
     let arm = |name: &str| RoadSegment::new(100.0).named(name);
     let net = TIntersection::new().named("tee").connect("one", arm("east"), "one").connect("two", arm("south"), "one");
     net.connect("three", arm("west"), "one").build().unwrap()
 }
 
-fn route(net: &Network, from: Place, to: Place) -> Route {
+fn route(net: &RoadNetwork, from: Place, to: Place) -> Route {
     net.route(from, to, 20.0).expect("there is a way")
 }

@@ -1,8 +1,9 @@
 //! What networks are taught, in which tests, and how long.
 
-use paracosm::coverage::{Domain, Value};
+use crate::scenario;
 use paracosm::engine::Program;
-use paracosm::{Error, Study, scenarios};
+use paracosm::space::Domain;
+use paracosm::{Error, Study, StudyBuilder, scenarios};
 use paracosm_neural::learn::Recipe;
 use paracosm_neural::{CLONED, Model, Pilot};
 
@@ -27,7 +28,7 @@ pub struct Course {
     /// In the first one the expert drives, then the network.
     pub rounds: &'static [Round],
     /// The conditions that it is trained in.
-    conditions: fn() -> Result<Study, Error>,
+    conditions: fn() -> Result<StudyBuilder, Error>,
 }
 
 /// Figures 10a and 10c: behind a slow leader in broad daylight.
@@ -44,8 +45,8 @@ pub const FOLLOW: Course = Course {
         Round { tests: 16, epochs: 6 },
     ],
     conditions: || {
-        let range = |lo, hi| Some(Domain::Interval { lo, hi });
-        Study::of("follow-leader")?.open("leader_speed", range(2.0, 12.0))?.open("gap", range(18.0, 40.0))
+        let range = |lo, hi| Domain::Interval { lo, hi };
+        Ok(scenario("follow-leader")?.open_over("leader_speed", range(2.0, 12.0)).open_over("gap", range(18.0, 40.0)))
     },
 };
 
@@ -63,7 +64,7 @@ pub const STOP: Course = Course {
         Round { tests: 14, epochs: 3 },
         Round { tests: 14, epochs: 8 },
     ],
-    conditions: || Study::new(crate::crossing::PROGRAM)?.set("speed", Value::Number(1.0)),
+    conditions: || Ok(Study::of(crate::crossing::PROGRAM).fix("speed", 1.0)),
 };
 
 /// Figure 10b: round the loop, always right, without fog.
@@ -81,32 +82,25 @@ pub const LOOP: Course = Course {
         Round { tests: 1, epochs: 24 },
     ],
     conditions: || {
-        let study = Study::new(LESSON)?.open("speed", Some(Domain::Interval { lo: 7.5, hi: 8.5 }))?;
-        study.set("friction", Value::Number(0.8))
+        let speeds = Domain::Interval { lo: 7.5, hi: 8.5 };
+        Ok(Study::of(LESSON).open_over("speed", speeds).fix("friction", 0.8))
     },
 };
 
 /// Once round the loop: every corner has another light.
-const LESSON: Program = Program {
-    name: "t-loop-lesson",
-    about: "once round the loop",
-    build: |s| {
-        (scenarios::find("t-loop").expect("it comes with the software").build)(s);
-        s.duration(52.0);
-    },
-};
+const LESSON: Program = Program::new("t-loop-lesson", "once round the loop", |s| {
+    scenarios::find("t-loop").expect("it comes with the software").build(s);
+    s.duration(52.0);
+});
 
 impl Course {
     /// So many tests of the conditions that it is trained in.
-    pub fn study(&self, seed: u64, tests: usize) -> Result<Study, Error> {
-        (self.conditions)()?.strategy("halton")?.seed(Some(seed)).budget(tests)
+    pub fn study(&self, seed: u64, tests: usize) -> Result<StudyBuilder, Error> {
+        Ok((self.conditions)()?.seed(seed).budget(tests))
     }
 
-    /// A study with the network at the wheel that came of the course, as it comes with the software.
-    ///
-    /// # Errors
-    /// The study is of no scenario.
-    pub fn drives(&self, study: Study) -> Result<Study, Error> {
+    /// A study that the network drives which came of the course, as it comes with the software.
+    pub fn drives(&self, study: StudyBuilder) -> StudyBuilder {
         let pilot = Pilot::new(self.network());
         study.own_driver("cnn", move || Box::new(pilot.clone()))
     }

@@ -8,7 +8,7 @@ use crate::sampling::write_csv;
 use crate::{Done, print};
 use indicatif::ProgressBar;
 use paracosm::oracles::Verdict;
-use paracosm::{Study, Trial};
+use paracosm::{StudyBuilder, Trial};
 use std::path::Path;
 
 /// How many tests a network is examined on.
@@ -21,7 +21,7 @@ const SEED: u64 = 1000;
 const OTHERS: [&str; 2] = ["expert", "cruise"];
 
 /// The tests of a course's examination.
-pub fn tests(course: &Course) -> Result<Study, paracosm::Error> {
+pub fn tests(course: &Course) -> Result<StudyBuilder, paracosm::Error> {
     course.study(SEED, EXAMINED)
 }
 
@@ -34,9 +34,9 @@ pub fn passing(trials: &[Trial]) -> usize {
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let mut text = format!("{:<12}{:>8}{:>8}{:>8}  of {EXAMINED} tests\n", "network", "passes", OTHERS[0], OTHERS[1]);
     for course in [&FOLLOW, &STOP, &LOOP] {
-        let mut driven = vec![("cnn", trials(&course.drives(tests(course)?)?, bar)?)];
+        let mut driven = vec![("cnn", trials(&course.drives(tests(course)?).build()?, bar)?)];
         for name in OTHERS {
-            driven.push((name, trials(&tests(course)?.driver(name, &[])?, bar)?));
+            driven.push((name, trials(&tests(course)?.driver(name).build()?, bar)?));
         }
         table(&out.join(format!("exam-{}.csv", course.name)), &driven)?;
         let counts: String = driven.iter().map(|(_, trials)| format!("{:>8}", passing(trials))).collect();
@@ -54,7 +54,7 @@ fn table(path: &Path, driven: &[(&str, Vec<Trial>)]) -> Done {
     for (driver, trials) in driven {
         rows.extend(trials.iter().map(|trial| {
             let violated: Vec<&str> = trial.violated().collect();
-            let travelled = trial.metric("travelled").map(ToString::to_string).unwrap_or_default();
+            let travelled = trial.measured.as_ref().map(|measured| measured.travelled.to_string()).unwrap_or_default();
             let became = [(*driver).to_owned(), trial.verdict.to_string(), violated.join(" "), travelled];
             trial.test.iter().map(|(_, value)| value.to_string()).chain(became).collect()
         }));

@@ -10,10 +10,10 @@ mod teacher;
 
 pub use courses::{Course, FOLLOW, LOOP, STOP};
 
-use crate::{Done, print, write};
+use crate::{Done, logged, print, write};
 use indicatif::ProgressBar;
 use paracosm::engine::driver;
-use paracosm::{Campaign, Error, Study, Trial};
+use paracosm::{Error, Study, Trial};
 use paracosm_neural::learn::{Learner, Lesson};
 use paracosm_neural::{Model, Pilot};
 use std::path::Path;
@@ -51,7 +51,7 @@ pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
         write(&out.join("learning.csv"), table.join("\n") + "\n")?;
     }
     let pupil = pupil.expect("there is a round");
-    let study = exam::tests(course)?.own_driver("cnn", move || Box::new(pupil.clone()))?;
+    let study = exam::tests(course)?.own_driver("cnn", move || Box::new(pupil.clone())).build()?;
     let passed = exam::passing(&trials(&study, bar)?);
     let (name, of, minutes) = (course.name, exam::EXAMINED, began.elapsed().as_secs_f64() / 60.0);
     print(&format!("{name}: {passed} of {of} tests of its training conditions pass; {minutes:.1} min\n"))
@@ -73,7 +73,8 @@ fn taught(
     let expert = || driver::find("expert").and_then(|kind| kind.build(&[])).expect("there is an expert");
     let study = course.study(seed, course.rounds[round].tests)?.own_driver("teacher", move || {
         Box::new(Teacher::new(expert(), pupil.clone(), resolution, disturbance, seed, taken.clone()))
-    })?;
+    });
+    let study = study.build()?;
     trials(&study, bar)?;
     drop(study);
     let mut runs = std::mem::take(&mut *notes.lock().expect("nobody panics while taking notes"));
@@ -88,13 +89,7 @@ fn taught(
 
 /// Runs the tests of a study.
 pub fn trials(study: &Study, bar: &ProgressBar) -> Result<Vec<Trial>, Error> {
-    bar.set_length(study.budget as u64);
+    bar.set_length(study.sampling().budget as u64);
     bar.set_position(0);
-    let mut trials = Vec::new();
-    Campaign::new(study)?.run(|trial| {
-        bar.inc(1);
-        trials.push(trial.clone());
-        Ok(())
-    })?;
-    Ok(trials)
+    Ok(logged(study, bar)?.trials().to_vec())
 }

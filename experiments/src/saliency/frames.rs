@@ -2,12 +2,13 @@
 //! colour, or without it, so that nothing else differs.
 
 use crate::cloning::FOLLOW;
-use paracosm::coverage::{Value, Values};
+use crate::scenario;
+use paracosm::campaign::Worker;
 use paracosm::engine::object::Colour;
 use paracosm::engine::sensor::{Cameras, Image};
-use paracosm::record::{Film, Projector, Shot};
 use paracosm::render::{Outputs, Stages};
-use paracosm::{Study, Worker};
+use paracosm::report::record::{Film, Projector, Shot};
+use paracosm::space::{Value, Values};
 use paracosm_neural::camera;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
@@ -73,7 +74,7 @@ pub struct Studio {
 impl Studio {
     /// One with the first image of a test in the conditions of training.
     pub fn open() -> Result<Self, Failure> {
-        let study = FOLLOW.drives(Study::of("follow-leader")?)?;
+        let study = FOLLOW.drives(scenario("follow-leader")?).build()?;
         let mut worker = Worker::new(&study)?;
         let test: Values = [("leader_speed".to_owned(), Value::Number(8.0))].into_iter().collect();
         let (trial, _) = worker.run(0, &test);

@@ -14,9 +14,10 @@ use indicatif::ProgressBar;
 use occlusion::{NOTHING, changes, covered, share, touching};
 use paracosm::engine::object::Colour;
 use paracosm::engine::sensor::Image;
-use paracosm::{Axis, HeatMap, Lines, Picture};
-use paracosm_neural::Model;
+use paracosm::report::{Axis, HeatMap, Lines, Picture};
+use paracosm_neural::{AnswerError, Model};
 use std::path::Path;
+use thiserror::Error;
 
 const RED: Colour = [190, 25, 30];
 const WHITE: Colour = [235, 235, 235];
@@ -88,8 +89,13 @@ struct Rectangle {
     colour: Colour,
 }
 
-fn rectangle_of(seen: &Seen) -> Result<Rectangle, String> {
-    let [left, right, top, bottom] = seen.bounds().ok_or("the leader is not to be seen")?;
+/// An image of a leader without a pixel of it.
+#[derive(Debug, Error)]
+#[error("the leader is not to be seen")]
+struct Unseen;
+
+fn rectangle_of(seen: &Seen) -> Result<Rectangle, Unseen> {
+    let [left, right, top, bottom] = seen.bounds().ok_or(Unseen)?;
     let size = [right - left + 1, bottom - top + 1];
     Ok(Rectangle { size, middle: [left + size[0] / 2, top + size[1] / 2], colour: seen.leaders_colour() })
 }
@@ -101,7 +107,7 @@ fn panels(
     all: &[Covered],
     red_anywhere: &[[f64; 2]],
     rectangle: &Rectangle,
-) -> Result<Vec<HeatMap>, String> {
+) -> Result<Vec<HeatMap>, AnswerError> {
     let mut panels = Vec::new();
     for frame in all {
         let most = [0, 1].map(|output| largest(all.iter().flat_map(|frame| &frame.changes), output));
@@ -248,6 +254,6 @@ fn by_gap(model: &Model, studio: &mut Studio) -> Result<(Lines, String), Box<dyn
     Ok((chart, rows.join("\n") + "\n"))
 }
 
-fn throttles<'a>(model: &Model, seen: impl Iterator<Item = &'a Seen>) -> Result<Vec<f64>, String> {
+fn throttles<'a>(model: &Model, seen: impl Iterator<Item = &'a Seen>) -> Result<Vec<f64>, AnswerError> {
     seen.map(|seen| Ok(f64::from(model.answer(&seen.image, SPEED)?[THROTTLE]))).collect()
 }

@@ -4,7 +4,7 @@
 use super::frames::Seen;
 use paracosm::engine::object::Colour;
 use paracosm::engine::sensor::Image;
-use paracosm_neural::Model;
+use paracosm_neural::{AnswerError, Model};
 use rayon::prelude::*;
 
 /// What the network takes for nothing: it takes half of the range off every colour.
@@ -17,7 +17,7 @@ pub fn changes(
     speed: f64,
     patch: [usize; 2],
     fill: Colour,
-) -> Result<Vec<[f64; 2]>, String> {
+) -> Result<Vec<[f64; 2]>, AnswerError> {
     let before = model.answer(image, speed)?;
     let (width, height) = (image.width as usize, image.height as usize);
     let change = |pixel: usize| {

@@ -4,16 +4,32 @@
 //! and stops at the ends of the axis, so that these are tested too; a word is drawn anew. The temperature starts at half the spread of the costs so
 //! far and falls as one over the number of steps. A walk that finds nothing better for long ends, and another starts.
 
+use super::Adaptive;
 use super::chains::{Chains, Start};
 use super::cube::{Axis, mirrored};
 use super::normal;
 use super::solver::{Cost, Solver, lock};
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use argmin::core::{CostFunction, Error, Executor, IterState};
 use argmin::solver::simulatedannealing::{Anneal, SATempFunc, SimulatedAnnealing};
 use rand::Rng;
 use rand_pcg::Pcg64;
 use std::borrow::Borrow;
 use std::sync::Mutex;
+
+impl Strategy {
+    /// Simulated annealing on the robustness.
+    pub const ANNEAL: Self = Self::of(&Descriptor {
+        name: "anneal",
+        about: "random walks towards failures, uphill now and then: rough robustness, cheap tests",
+        dims: ANY,
+        look: Look::hollow(0xf0_8080, Shape::Tip),
+        method: Method(MethodKind::Search {
+            seeks_a_failure: true,
+            build: |it, request, rules| Adaptive::build(it, request, rules, |axes, rng| Box::new(anneal(axes, rng))),
+        }),
+    });
+}
 
 /// How many walks go on at a time.
 const WALKS: usize = 4;

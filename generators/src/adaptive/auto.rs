@@ -15,12 +15,32 @@ use super::bayes::Bayes;
 use super::cmaes::Cmaes;
 use super::cube::Axis;
 use super::nelder_mead::nelder_mead;
-use super::{Search, Trial};
+use super::{Adaptive, signals};
+use super::{Evaluation, Optimiser};
 use crate::seeded::{Purpose, seeded};
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use nalgebra::DMatrix;
 use rand::Rng;
 use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
+
+impl Strategy {
+    /// Several strategies side by side: what to use where nothing is known.
+    pub const AUTO: Self = Self::of(&Descriptor {
+        name: "auto",
+        about: "gp-cmaes, bayes and nelder-mead side by side, learning from each other: where nothing is known",
+        dims: ANY,
+        look: Look::filled(0x7b_3294, Shape::Diamond),
+        method: Method(MethodKind::Search {
+            seeks_a_failure: true,
+            build: |it, request, rules| {
+                Adaptive::build(it, request, rules, |axes, rng| {
+                    Box::new(Auto::new(axes, signals::covariance(request.space), rng))
+                })
+            },
+        }),
+    });
+}
 
 /// The searches with their shares of the tests.
 pub(super) struct Auto {
@@ -31,7 +51,7 @@ pub(super) struct Auto {
 }
 
 struct Member {
-    search: Box<dyn Search>,
+    search: Box<dyn Optimiser>,
     /// How many tests it chooses for each of the leader.
     share: f64,
     proposals: usize,
@@ -50,7 +70,7 @@ impl Auto {
         let simplices = Box::new(nelder_mead(axes.clone(), chance()));
         let cmaes = Box::new(Cmaes::preselected(axes, covariance, chance()));
         let member = |search, share| Member { search, share, proposals: 0, owed: 0.0 };
-        let members = vec![member(cmaes as Box<dyn Search>, 1.0), member(bayes, 0.5), member(simplices, 0.1)];
+        let members = vec![member(cmaes as Box<dyn Optimiser>, 1.0), member(bayes, 0.5), member(simplices, 0.1)];
         Self { members, out: BTreeMap::new(), proposals: 0 }
     }
 
@@ -70,7 +90,7 @@ impl Auto {
     }
 }
 
-impl Search for Auto {
+impl Optimiser for Auto {
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
         let mut places = Vec::new();
         for index in LEADER + 1..self.members.len() {
@@ -88,7 +108,7 @@ impl Search for Auto {
         places
     }
 
-    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+    fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         let owner = proposal.and_then(|proposal| self.out.remove(&proposal));
         for (index, member) in self.members.iter_mut().enumerate() {
             let own = owner.filter(|owner| owner.0 == index).map(|owner| owner.1);
@@ -107,14 +127,14 @@ mod tests {
             let mut auto = Auto::new(vec![Axis::Continuous; 2], DMatrix::identity(2, 2), seeded(1, Purpose::Search, 0));
             let robustness = |at: &[f64]| Some(1.0 + at[0] + at[1] * at[1]);
             for at in [[0.3, 0.2], [0.7, 0.9], [0.5, 0.4]] {
-                auto.learn(None, &Trial { at: at.into(), robustness: robustness(&at) });
+                auto.learn(None, &Evaluation { at: at.into(), robustness: robustness(&at) });
             }
             let mut told = 0;
             while told < 100 {
                 let places = auto.propose(n);
                 assert!((1..=n).contains(&places.len()));
                 for at in places {
-                    auto.learn(Some(told), &Trial { robustness: robustness(&at), at });
+                    auto.learn(Some(told), &Evaluation { robustness: robustness(&at), at });
                     told += 1;
                 }
             }

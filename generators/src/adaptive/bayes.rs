@@ -8,12 +8,31 @@
 //! Discrete coordinates are distances in the kernel, an order by its steps and a word by 0 or 1; candidates are
 //! always valid levels, never between two.
 
+use super::Adaptive;
 use super::cube::Axis;
 use super::log_ei::log_expected_improvement;
+use super::places::snapped;
 use super::region::Region;
-use super::surrogate::{Surrogate, View, snapped};
-use super::{Search, Trial, anywhere};
+use super::surrogate::{Surrogate, View};
+use super::{Evaluation, Optimiser, anywhere};
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use rand_pcg::Pcg64;
+
+impl Strategy {
+    /// Bayesian optimisation of the robustness in a trust region.
+    pub const BAYES: Self = Self::of(&Descriptor {
+        name: "bayes",
+        about: "a model of the robustness says which test is likely to fail: few, costly tests",
+        dims: ANY,
+        look: Look::filled(0x7b_3294, Shape::Circle),
+        method: Method(MethodKind::Search {
+            seeks_a_failure: true,
+            build: |it, request, rules| {
+                Adaptive::build(it, request, rules, |axes, rng| Box::new(Bayes::new(axes, rng)))
+            },
+        }),
+    });
+}
 
 /// So many candidates for each axis, within limits.
 const CANDIDATES: usize = 80;
@@ -51,7 +70,7 @@ impl Bayes {
     }
 }
 
-impl Search for Bayes {
+impl Optimiser for Bayes {
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
         if self.design > 0 {
             return self.design(n);
@@ -69,7 +88,7 @@ impl Search for Bayes {
         places
     }
 
-    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+    fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         self.surrogate.learn(proposal, trial);
         if proposal.map_or(self.since == 0, |proposal| proposal >= self.since) {
             self.region.learn(trial);

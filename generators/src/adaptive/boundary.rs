@@ -6,11 +6,30 @@
 //! takes for an error is worth that much less. As long as nothing failed the same rule leads to where a failure is likely or
 //! little is known.
 
+use super::Adaptive;
 use super::cube::Axis;
-use super::surrogate::{Surrogate, View, nudged, snapped};
-use super::{Search, Trial, anywhere};
+use super::places::{nudged, snapped};
+use super::surrogate::{Surrogate, View};
+use super::{Evaluation, Optimiser, anywhere};
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use rand::Rng;
 use rand_pcg::Pcg64;
+
+impl Strategy {
+    /// The boundary between passing and failing, by a Gaussian process.
+    pub const BOUNDARY: Self = Self::of(&Descriptor {
+        name: "boundary",
+        about: "a model says where passing turns into failing: maps the border instead of one failure",
+        dims: ANY,
+        look: Look::hollow(0x7b_3294, Shape::Circle),
+        method: Method(MethodKind::Search {
+            seeks_a_failure: false,
+            build: |it, request, rules| {
+                Adaptive::build(it, request, rules, |axes, rng| Box::new(Boundary::new(axes, rng)))
+            },
+        }),
+    });
+}
 
 /// So many candidates for each axis, within limits.
 const CANDIDATES: usize = 120;
@@ -41,8 +60,9 @@ impl Boundary {
     fn candidates(&mut self) -> Vec<Vec<f64>> {
         let axes = self.surrogate.axes();
         let rng = &mut self.rng;
-        let mut ran: Vec<&Trial> = self.surrogate.trials().iter().filter(|trial| trial.robustness.is_some()).collect();
-        let (failed, passed): (Vec<&Trial>, Vec<&Trial>) = ran.iter().partition(|trial| trial.cost() < 0.0);
+        let mut ran: Vec<&Evaluation> =
+            self.surrogate.trials().iter().filter(|trial| trial.robustness.is_some()).collect();
+        let (failed, passed): (Vec<&Evaluation>, Vec<&Evaluation>) = ran.iter().partition(|trial| trial.cost() < 0.0);
         ran.sort_by(|a, b| a.cost().abs().total_cmp(&b.cost().abs()));
         ran.truncate(CLOSE_CALLS);
         (0..(CANDIDATES * axes.len()).clamp(240, 480))
@@ -61,7 +81,7 @@ impl Boundary {
     }
 }
 
-impl Search for Boundary {
+impl Optimiser for Boundary {
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
         let candidates = self.candidates();
         self.surrogate.choose(n, View::Sides, candidates, |_, mean, deviation, runs| {
@@ -69,7 +89,7 @@ impl Search for Boundary {
         })
     }
 
-    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+    fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         self.surrogate.learn(proposal, trial);
     }
 }

@@ -6,7 +6,7 @@
 
 use super::cube::Axis;
 use super::solver::Solver;
-use super::{Search, Trial, anywhere};
+use super::{Evaluation, Optimiser, anywhere};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -23,7 +23,7 @@ pub(super) struct Start<'a> {
     /// The place to start from.
     pub at: Vec<f64>,
     /// All tests so far, the best ones first.
-    pub trials: &'a [Trial],
+    pub trials: &'a [Evaluation],
     /// A source of chance of its own.
     pub rng: Pcg64,
 }
@@ -39,7 +39,7 @@ pub(super) struct Chains {
     running: Vec<Chain>,
     launched: usize,
     started_at: Vec<Vec<f64>>,
-    trials: Vec<Trial>,
+    trials: Vec<Evaluation>,
     proposals: usize,
     rng: Pcg64,
 }
@@ -72,7 +72,7 @@ impl Chains {
     /// Starts another solver.
     fn start(&mut self) -> Chain {
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < NEAR);
-        let far = |trial: &&Trial| self.started_at.iter().all(|start| !near(start, &trial.at));
+        let far = |trial: &&Evaluation| self.started_at.iter().all(|start| !near(start, &trial.at));
         let best = self.trials.iter().filter(|_| self.launched < BEST).find(far).map(|trial| trial.at.clone());
         let at = best.unwrap_or_else(|| anywhere(&self.axes, &mut self.rng));
         self.started_at.push(at.clone());
@@ -107,7 +107,7 @@ impl Chain {
     }
 }
 
-impl Search for Chains {
+impl Optimiser for Chains {
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
         let mut places = Vec::new();
         self.running.retain_mut(Chain::goes_on);
@@ -134,7 +134,7 @@ impl Search for Chains {
         places
     }
 
-    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+    fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         if let Some(proposal) = proposal {
             self.running.iter_mut().for_each(|chain| chain.learn(proposal, trial.cost()));
         }

@@ -16,10 +16,48 @@
 use super::cube::{Axis, level, middle};
 use super::evolution::{Evolution, default_lambda};
 use super::preselection::Preselection;
-use super::{Search, Trial, anywhere};
+use super::{Adaptive, signals};
+use super::{Evaluation, Optimiser, anywhere};
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use nalgebra::DMatrix;
 use rand::Rng;
 use rand_pcg::Pcg64;
+
+impl Strategy {
+    /// CMA-ES with restarts (BIPOP) on the robustness.
+    pub const CMAES: Self = Self::of(&Descriptor {
+        name: "cmaes",
+        about: "a distribution that learns where failures lie: hundreds of tests, narrow valleys",
+        dims: ANY,
+        look: Look::filled(0xa0_1c1c, Shape::Diamond),
+        method: Method(MethodKind::Search {
+            seeks_a_failure: true,
+            build: |it, request, rules| {
+                Adaptive::build(it, request, rules, |axes, rng| {
+                    Box::new(Cmaes::new(axes, signals::covariance(request.space), rng))
+                })
+            },
+        }),
+    });
+}
+
+impl Strategy {
+    /// CMA-ES whose samples a Gaussian process chooses from.
+    pub const GP_CMAES: Self = Self::of(&Descriptor {
+        name: "gp-cmaes",
+        about: "cmaes with a model that chooses from its samples: the fewest tests to a failure nearly everywhere",
+        dims: ANY,
+        look: Look::hollow(0xa0_1c1c, Shape::Diamond),
+        method: Method(MethodKind::Search {
+            seeks_a_failure: true,
+            build: |it, request, rules| {
+                Adaptive::build(it, request, rules, |axes, rng| {
+                    Box::new(Cmaes::preselected(axes, signals::covariance(request.space), rng))
+                })
+            },
+        }),
+    });
+}
 
 /// The first step size.
 const SIGMA: f64 = 0.25;
@@ -41,7 +79,7 @@ pub(super) struct Cmaes {
     /// How many runs had a large population, and what each kind has spent.
     doubled: u32,
     spent: [usize; 2],
-    best: Option<Trial>,
+    best: Option<Evaluation>,
     proposals: usize,
     rng: Pcg64,
 }
@@ -61,7 +99,7 @@ struct Run {
 
 struct Sample {
     proposal: usize,
-    told: Option<Trial>,
+    told: Option<Evaluation>,
 }
 
 impl Cmaes {
@@ -147,7 +185,7 @@ impl Run {
 
     /// Learns from a generation that has been told.
     fn update(&mut self, dims: usize) {
-        let mut told: Vec<Trial> = self.generation.drain(..).filter_map(|sample| sample.told).collect();
+        let mut told: Vec<Evaluation> = self.generation.drain(..).filter_map(|sample| sample.told).collect();
         told.sort_by(|a, b| a.cost().total_cmp(&b.cost()));
         self.spent += told.len();
         let weights = self.evolution.weights().to_vec();
@@ -166,7 +204,7 @@ impl Run {
     }
 }
 
-impl Search for Cmaes {
+impl Optimiser for Cmaes {
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>> {
         if self.run.as_ref().is_none_or(Run::is_over) {
             if let Some(run) = self.run.take() {
@@ -191,7 +229,7 @@ impl Search for Cmaes {
         places
     }
 
-    fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+    fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         if let Some(preselection) = &mut self.preselection {
             preselection.learn(proposal, trial);
         }

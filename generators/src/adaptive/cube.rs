@@ -8,7 +8,8 @@
 //! that a valid test has together with those before it. What is tested keeps all constraints; a search is told how
 //! the repaired test went as the outcome of what it proposed.
 
-use paracosm_coverage::{Point, Space, Value, rules::Rules};
+use paracosm_space::rules::Rules;
+use paracosm_space::{Point, Space, Value};
 
 /// What the numbers along an axis mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

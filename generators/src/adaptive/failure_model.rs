@@ -11,7 +11,7 @@ use super::telling::telling;
 use super::verdicts::{Fitter, Link, Verdicts};
 use super::{MOST_ROBUSTNESS, normal};
 use crate::seeded::{Purpose, seeded};
-use paracosm_coverage::{Point, Space};
+use paracosm_space::{Point, Space};
 use rand::Rng;
 use std::ops::Range;
 

@@ -106,11 +106,11 @@ pub(super) fn fit(from: &Kernel, places: &[Vec<f64>], values: &[f64], steps: usi
 mod tests {
     use super::*;
     use crate::{Request, Strategy};
-    use paracosm_coverage::Space;
+    use paracosm_space::Space;
 
     fn places(n: usize) -> Vec<Vec<f64>> {
         let space = Space::unit_cube(2);
-        let tests = Strategy::Halton.build(&Request::new(&space, n)).unwrap().ask(n);
+        let tests = Strategy::HALTON.build(&Request::new(&space, n)).unwrap().ask(n);
         tests.into_iter().map(|test| test.continuous).collect()
     }
 

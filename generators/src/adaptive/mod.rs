@@ -1,7 +1,7 @@
 //! Strategies that learn: they are driven by the robustness of the tests so far, towards the tests that fail.
 //!
 //! All begin with the same kind of opening (`opening`: corners and Halton points) and search in the same cube (`cube`),
-//! in which discrete parameters are axes too. What a strategy does on its own is a [`Search`]: it proposes places, and is
+//! in which discrete parameters are axes too. What a strategy does on its own is a [`Optimiser`]: it proposes places, and is
 //! told how each test went. [`Adaptive`] makes a generator of it, and looks after what all have in common:
 //!
 //! - A test is never proposed twice: a search that comes back to one is told what is known, at no cost.
@@ -25,6 +25,7 @@ mod fit;
 mod log_ei;
 mod nelder_mead;
 mod opening;
+mod places;
 mod plausible;
 mod preselection;
 mod process;
@@ -42,12 +43,27 @@ use crate::{
     DiscreteFamily, Generator, GeneratorError, Request, Strategy,
     family::Family,
     seeded::{Purpose, mix, seeded},
+    strategy::Descriptor,
 };
 use cube::{Axis, Cube};
 use opening::Opening;
-use paracosm_coverage::{Point, rules::Rules};
+use paracosm_space::Point;
+use paracosm_space::rules::Rules;
 use rand::Rng;
+use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
+
+/// The strategies of this folder, in the order in which they are shown.
+pub(crate) const ALL: &[Strategy] = &[
+    Strategy::ANNEAL,
+    Strategy::PSO,
+    Strategy::NELDER_MEAD,
+    Strategy::CMAES,
+    Strategy::GP_CMAES,
+    Strategy::BAYES,
+    Strategy::BOUNDARY,
+    Strategy::AUTO,
+];
 
 /// Beyond it a robustness says nothing more.
 const MOST_ROBUSTNESS: f64 = 1e6;
@@ -65,24 +81,24 @@ const MOST_ROUNDS: usize = 20;
 const MOST_TRIES: usize = 1000;
 
 /// A search through the cube.
-trait Search: Send {
+trait Optimiser: Send {
     /// The places to test next, at most `n`; none while it waits to be told. They are numbered in order, from 0.
     fn propose(&mut self, n: usize) -> Vec<Vec<f64>>;
 
     /// How a test went: its own proposal of a number, or one from elsewhere.
-    fn learn(&mut self, proposal: Option<usize>, trial: &Trial);
+    fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation);
 }
 
 /// A test with its outcome.
 #[derive(Debug, Clone, PartialEq)]
-struct Trial {
+struct Evaluation {
     /// Where in the cube it is, after all repairs.
     at: Vec<f64>,
     /// Its robustness, a finite number; `None` of an errored test.
     robustness: Option<f64>,
 }
 
-impl Trial {
+impl Evaluation {
     /// What there is to minimise.
     fn cost(&self) -> f64 {
         self.robustness.unwrap_or(ERRORED)
@@ -97,14 +113,14 @@ enum State {
     /// Proposed; these proposals of the search wait for it.
     Asked(Vec<usize>),
     /// Told.
-    Told(Trial),
+    Told(Evaluation),
 }
 
 /// A search as a generator.
-pub(crate) struct Adaptive {
+struct Adaptive {
     cube: Cube,
     opening: Opening,
-    search: Box<dyn Search>,
+    search: Box<dyn Optimiser>,
     proposals: usize,
     tests: BTreeMap<Key, State>,
     /// Without continuous parameters, all rows where they are few, and how many of them have been gone through.
@@ -113,16 +129,21 @@ pub(crate) struct Adaptive {
 }
 
 impl Adaptive {
-    /// A generator of an adaptive strategy.
+    /// A generator of an adaptive strategy: its search through these axes, by these random numbers.
     ///
     /// # Errors
     /// The family is too large, or the request asks for what only open-loop strategies give.
-    pub(crate) fn new(strategy: Strategy, request: &Request, rules: Rules) -> Result<Self, GeneratorError> {
+    fn build(
+        strategy: &Descriptor,
+        request: &Request,
+        rules: Rules,
+        search: impl FnOnce(Vec<Axis>, Pcg64) -> Box<dyn Optimiser>,
+    ) -> Result<Box<dyn Generator>, GeneratorError> {
         if request.epsilon.is_some() {
-            return Err(GeneratorError::NoEpsilon { strategy: strategy.name() });
+            return Err(GeneratorError::NoEpsilon { strategy: strategy.name });
         }
         if !request.existing.is_empty() {
-            return Err(GeneratorError::NoExtension { strategy: strategy.name() });
+            return Err(GeneratorError::NoExtension { strategy: strategy.name });
         }
         let family = Family::new(&rules, request)?;
         let all = if request.space.dims() == 0 {
@@ -135,19 +156,9 @@ impl Adaptive {
         let cube = Cube::new(request.space, rules);
         let seed = request.seed.unwrap_or(0);
         let (axes, rng) = (cube.axes().to_vec(), seeded(seed, Purpose::Search, 0));
-        let search: Box<dyn Search> = match strategy {
-            Strategy::Anneal => Box::new(anneal::anneal(axes, rng)),
-            Strategy::Pso => Box::new(pso::pso(axes, rng)),
-            Strategy::NelderMead => Box::new(nelder_mead::nelder_mead(axes, rng)),
-            Strategy::Cmaes => Box::new(cmaes::Cmaes::new(axes, signals::covariance(request.space), rng)),
-            Strategy::GpCmaes => Box::new(cmaes::Cmaes::preselected(axes, signals::covariance(request.space), rng)),
-            Strategy::Bayes => Box::new(bayes::Bayes::new(axes, rng)),
-            Strategy::Boundary => Box::new(boundary::Boundary::new(axes, rng)),
-            Strategy::Auto => Box::new(auto::Auto::new(axes, signals::covariance(request.space), rng)),
-            _ => unreachable!("`{strategy}` is open-loop"),
-        };
+        let search = search(axes, rng);
         let opening = Opening::new(request, family);
-        Ok(Self { cube, opening, search, proposals: 0, tests: BTreeMap::new(), all, seed })
+        Ok(Box::new(Self { cube, opening, search, proposals: 0, tests: BTreeMap::new(), all, seed }))
     }
 
     /// Proposals of the search that are new.
@@ -237,7 +248,7 @@ impl Generator for Adaptive {
         for (test, robustness) in tests.iter().zip(robustness) {
             let robustness = robustness.filter(|robustness| !robustness.is_nan());
             let robustness = robustness.map(|robustness| robustness.clamp(-MOST_ROBUSTNESS, MOST_ROBUSTNESS));
-            let trial = Trial { at: self.cube.place(test), robustness };
+            let trial = Evaluation { at: self.cube.place(test), robustness };
             let state = self.tests.insert(key(test), State::Told(trial.clone()));
             match state {
                 Some(State::Asked(proposals)) if !proposals.is_empty() => {

@@ -6,15 +6,33 @@
 //! move along their axes like others; where they make steps a simplex ends early, and what finds the right level is the
 //! opening and the next start.
 
+use super::Adaptive;
 use super::chains::{Chains, Start};
 use super::cube::{Axis, mirrored};
 use super::solver::{Cost, Solver, lock};
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use argmin::core::{CostFunction, Error, Executor, IterState};
 use argmin::solver::neldermead::NelderMead;
 use rand::Rng;
 use rand_pcg::Pcg64;
 use std::sync::Mutex;
 use std::vec::IntoIter;
+
+impl Strategy {
+    /// Nelder and Mead's simplices on the robustness.
+    pub const NELDER_MEAD: Self = Self::of(&Descriptor {
+        name: "nelder-mead",
+        about: "simplices downhill to a failure: few parameters and a robustness that slopes",
+        dims: ANY,
+        look: Look::hollow(0xf0_8080, Shape::Triangle),
+        method: Method(MethodKind::Search {
+            seeks_a_failure: true,
+            build: |it, request, rules| {
+                Adaptive::build(it, request, rules, |axes, rng| Box::new(nelder_mead(axes, rng)))
+            },
+        }),
+    });
+}
 
 /// How many simplices move at a time.
 const SIMPLICES: usize = 4;

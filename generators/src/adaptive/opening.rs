@@ -20,7 +20,7 @@ use crate::{
     seeded::{Purpose, seeded},
     sequence::{Halton, Sequence},
 };
-use paracosm_coverage::Point;
+use paracosm_space::Point;
 use rand::Rng;
 
 /// At most so many corners.
@@ -126,7 +126,7 @@ fn is_high(corner: usize, parameter: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use paracosm_coverage::Space;
+    use paracosm_space::Space;
     use std::collections::BTreeSet;
 
     fn corners_of(space: &Space, seed: u64) -> Vec<Vec<bool>> {

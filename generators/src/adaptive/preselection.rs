@@ -8,11 +8,12 @@
 //!
 //! A generation is tested in parts, so that the later samples are chosen by what came of the earlier ones.
 
-use super::Trial;
+use super::Evaluation;
 use super::bend::Bend;
 use super::cube::Axis;
 use super::log_ei::log_expected_improvement;
-use super::surrogate::{Surrogate, View, snapped};
+use super::places::snapped;
+use super::surrogate::{Surrogate, View};
 
 /// How many samples are drawn for each that is tested.
 const DRAWN: usize = 32;
@@ -41,7 +42,7 @@ impl Preselection {
     pub(super) fn choose(
         &mut self,
         n: usize,
-        best: Option<&Trial>,
+        best: Option<&Evaluation>,
         mut sample: impl FnMut() -> Vec<f64>,
     ) -> Vec<Vec<f64>> {
         let mut samples: Vec<Vec<f64>> = (0..DRAWN * n).map(|_| snapped(&self.axes, sample())).collect();
@@ -60,7 +61,7 @@ impl Preselection {
     }
 
     /// How a test went: its own of a number, or one from elsewhere.
-    pub(super) fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+    pub(super) fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         self.surrogate.learn(proposal, trial);
     }
 }
@@ -79,7 +80,7 @@ mod tests {
         let mut trials = Vec::new();
         for index in 0..25 {
             let at = vec![0.1 + 0.2 * f64::from(index % 5), 0.1 + 0.2 * f64::from(index / 5)];
-            trials.push(Trial { robustness: Some(robustness(&at)), at });
+            trials.push(Evaluation { robustness: Some(robustness(&at)), at });
             preselection.learn(None, &trials[index as usize]);
         }
         let best = trials.iter().min_by(|a, b| a.cost().total_cmp(&b.cost()));

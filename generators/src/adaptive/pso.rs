@@ -4,13 +4,29 @@
 //! starts at the best tests so far, which are not tested again. One
 //! whose moves bring nothing better gives way to the next, later ones at random places. A discrete coordinate flies along its axis, and is the level whose slice it is in.
 
+use super::Adaptive;
 use super::chains::{Chains, Start};
 use super::cube::Axis;
 use super::solver::{Cost, Solver};
 use super::{anywhere, normal};
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use argmin::core::{CostFunction, Executor, PopulationState};
 use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use rand_pcg::Pcg64;
+
+impl Strategy {
+    /// Particle swarms on the robustness.
+    pub const PSO: Self = Self::of(&Descriptor {
+        name: "pso",
+        about: "swarms drawn to the worst tests so far: rough robustness, many tests at a time",
+        dims: ANY,
+        look: Look::hollow(0xf0_8080, Shape::Square),
+        method: Method(MethodKind::Search {
+            seeks_a_failure: true,
+            build: |it, request, rules| Adaptive::build(it, request, rules, |axes, rng| Box::new(pso(axes, rng))),
+        }),
+    });
+}
 
 /// How often a swarm moves before the next one starts: by then it has come to rest or never will.
 const MOVES: u64 = 40;

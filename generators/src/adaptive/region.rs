@@ -5,8 +5,8 @@
 //! elsewhere, from a design of its own.
 
 use super::cube::Axis;
-use super::surrogate::{nudged, snapped};
-use super::{Trial, anywhere};
+use super::places::{nudged, snapped};
+use super::{Evaluation, anywhere};
 use rand::Rng;
 
 /// The first side, the longest and the shortest.
@@ -25,7 +25,7 @@ const BEYOND: f64 = 0.03;
 
 /// The box with the best test in it.
 pub(super) struct Region {
-    best: Option<Trial>,
+    best: Option<Evaluation>,
     side: f64,
     successes: usize,
     failures: usize,
@@ -38,14 +38,14 @@ impl Region {
     }
 
     /// The best test since the search came here.
-    pub(super) fn best(&self) -> Option<&Trial> {
+    pub(super) fn best(&self) -> Option<&Evaluation> {
         self.best.as_ref()
     }
 
     /// Takes note of a test.
-    pub(super) fn learn(&mut self, trial: &Trial) {
+    pub(super) fn learn(&mut self, trial: &Evaluation) {
         let cost = trial.cost();
-        let Some(best) = self.best.as_ref().map(Trial::cost) else {
+        let Some(best) = self.best.as_ref().map(Evaluation::cost) else {
             self.best = Some(trial.clone());
             return;
         };
@@ -128,8 +128,8 @@ mod tests {
     use super::*;
     use crate::seeded::{Purpose, seeded};
 
-    fn at(x: f64, robustness: f64) -> Trial {
-        Trial { at: vec![x, x], robustness: Some(robustness) }
+    fn at(x: f64, robustness: f64) -> Evaluation {
+        Evaluation { at: vec![x, x], robustness: Some(robustness) }
     }
 
     #[test]

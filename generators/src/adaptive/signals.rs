@@ -6,7 +6,7 @@
 //! can be anything.
 
 use nalgebra::DMatrix;
-use paracosm_coverage::Space;
+use paracosm_space::Space;
 
 /// The correlation of two pieces that are neighbours.
 const NEIGHBOURS: f64 = 0.9;

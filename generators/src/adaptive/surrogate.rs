@@ -7,15 +7,14 @@
 //!
 //! The tests of a batch, and those that are still out, are believed to come out as the model expects: so a batch spreads.
 
+use super::Evaluation;
 use super::bend::{Bend, is_failure};
-use super::cube::{Axis, level, middle};
+use super::cube::Axis;
 use super::fit::{fit, prior};
 use super::log_ei::normal_below;
 use super::process::{Kernel, Mean, Process};
 use super::telling::telling;
 use super::verdicts::Fitter;
-use super::{Trial, normal};
-use rand::Rng;
 use std::collections::BTreeMap;
 
 /// So many tests the model sees.
@@ -52,7 +51,7 @@ pub(super) struct Surrogate {
     kernel: Kernel,
     is_fitted: bool,
     sides: Fitter,
-    trials: Vec<Trial>,
+    trials: Vec<Evaluation>,
     /// The proposals that are out.
     out: BTreeMap<usize, Vec<f64>>,
     /// Places whose tests are those of other places.
@@ -71,7 +70,7 @@ impl Surrogate {
         &self.axes
     }
 
-    pub(super) fn trials(&self) -> &[Trial] {
+    pub(super) fn trials(&self) -> &[Evaluation] {
         &self.trials
     }
 
@@ -90,7 +89,7 @@ impl Surrogate {
         self.proposals
     }
 
-    pub(super) fn learn(&mut self, proposal: Option<usize>, trial: &Trial) {
+    pub(super) fn learn(&mut self, proposal: Option<usize>, trial: &Evaluation) {
         if let Some(at) = proposal.and_then(|proposal| self.out.remove(&proposal))
             && at != trial.at
         {
@@ -163,7 +162,8 @@ impl Surrogate {
 
     /// The bend, the process of robustness and that of errors.
     fn model(&mut self, view: View) -> Option<(Bend, Process, Option<Process>)> {
-        let (mut errored, ran): (Vec<&Trial>, Vec<&Trial>) = self.trials.iter().partition(|t| t.robustness.is_none());
+        let (mut errored, ran): (Vec<&Evaluation>, Vec<&Evaluation>) =
+            self.trials.iter().partition(|t| t.robustness.is_none());
         if ran.len() < 2 {
             return None;
         }
@@ -171,7 +171,7 @@ impl Surrogate {
         let mut seen = ran;
         match view {
             View::Near(at) => {
-                let distance = |trial: &Trial| self.kernel.scaled_distance(&trial.at, at);
+                let distance = |trial: &Evaluation| self.kernel.scaled_distance(&trial.at, at);
                 seen.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
                 errored.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
                 seen.truncate(MOST_TESTS);
@@ -205,7 +205,7 @@ impl Surrogate {
 }
 
 /// The process of errors, once there are some.
-fn errors(axes: &[Axis], ran: &[Vec<f64>], errored: &[&Trial]) -> Option<Process> {
+fn errors(axes: &[Axis], ran: &[Vec<f64>], errored: &[&Evaluation]) -> Option<Process> {
     let most = MOST_TESTS / 2;
     let ran = ran.iter().take(most).map(|at| (at.clone(), 0.0));
     let errored = errored.iter().take(most).map(|trial| (trial.at.clone(), 1.0));
@@ -218,34 +218,4 @@ fn errors(axes: &[Axis], ran: &[Vec<f64>], errored: &[&Trial]) -> Option<Process
 /// The probability that a label, 0 where a test runs and 1 where it does not, is the former's side of a half.
 fn runs(mean: f64, deviation: f64) -> f64 {
     normal_below((0.5 - mean) / deviation.max(ERROR_NOISE)).max(LEAST_PROBABLE)
-}
-
-/// The same place with its discrete coordinates in the middle of their slices.
-pub(super) fn snapped(axes: &[Axis], mut at: Vec<f64>) -> Vec<f64> {
-    for (u, axis) in at.iter_mut().zip(axes) {
-        *u = match *axis {
-            Axis::Continuous => u.clamp(0.0, 1.0_f64.next_down()),
-            Axis::Ordered(levels) | Axis::Nominal(levels) => middle(level(*u, levels), levels),
-        };
-    }
-    at
-}
-
-/// A place near another: some axes moved by normally distributed steps, now and then a word replaced.
-pub(super) fn nudged(axes: &[Axis], from: &[f64], step: f64, rng: &mut impl Rng) -> Vec<f64> {
-    let share = (3.0 / axes.len() as f64).clamp(0.3, 1.0);
-    let one = rng.random_range(0..axes.len());
-    let mut at = from.to_vec();
-    for (index, (u, axis)) in at.iter_mut().zip(axes).enumerate() {
-        if index != one && rng.random::<f64>() >= share {
-            continue;
-        }
-        *u = match *axis {
-            Axis::Continuous => *u + step * normal(rng),
-            Axis::Ordered(levels) => *u + step.max(0.7 / levels as f64) * normal(rng),
-            Axis::Nominal(_) if rng.random::<f64>() < 0.3 => rng.random(),
-            Axis::Nominal(_) => *u,
-        };
-    }
-    snapped(axes, at)
 }

@@ -19,8 +19,8 @@ use super::bend::{Bend, is_failure};
 use super::cube::Axis;
 use super::fit::{fit, prior};
 use super::log_ei::normal_below;
+use super::places::snapped;
 use super::process::{Kernel, Process};
-use super::surrogate::snapped;
 use crate::seeded::{Purpose, seeded};
 use rand::Rng;
 

@@ -7,7 +7,7 @@
 
 use super::rows::{Columns, OPEN};
 use paracosm_coverage::Deadline;
-use paracosm_coverage::rules::Companions;
+use paracosm_space::rules::Companions;
 
 /// Columns whose combinations of so many are to be covered.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use super::open_rows::OpenRows;
 use super::rows::{Columns, OPEN, Rows};
 use crate::seeded::mix;
 use paracosm_coverage::Deadline;
-use paracosm_coverage::rules::Companions;
+use paracosm_space::rules::Companions;
 use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

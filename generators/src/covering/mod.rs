@@ -5,7 +5,7 @@
 //! same array on every machine.
 //!
 //! ```
-//! use paracosm_coverage::rules::Rules;
+//! use paracosm_space::rules::Rules;
 //! use paracosm_generators::covering::{CoveringRequest, covering_array};
 //!
 //! let rules = Rules::free(&[3, 3, 3, 3]);
@@ -32,8 +32,8 @@ pub use error::CoveringError;
 pub use optimise::optimise;
 
 use paracosm_coverage::Deadline;
-use paracosm_coverage::demand::Kind;
-use paracosm_coverage::rules::Rules;
+use paracosm_space::demand::TestKind;
+use paracosm_space::rules::Rules;
 use task::Task;
 
 /// What a covering array has to cover.
@@ -43,7 +43,7 @@ pub struct CoveringRequest<'a> {
     pub rules: &'a Rules,
     /// The kinds of tests, where negative values set them apart: what is covered by tests of one kind is not by those of
     /// another. None where all tests are of one.
-    pub kinds: &'a [Kind],
+    pub kinds: &'a [TestKind],
     /// Of how many parameters all valid combinations are covered.
     pub k: usize,
     /// Parameters among which combinations of more are covered: their positions, and of how many.

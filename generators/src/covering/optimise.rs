@@ -1,6 +1,6 @@
 //! Making an array smaller for as long as there is time.
 
-use super::search::{Cells, Search};
+use super::search::{Annealing, Cells};
 use super::symmetric::{Symmetric, symmetric_searches};
 use super::task::Task;
 use super::{CoveringArray, CoveringRequest, joined};
@@ -17,12 +17,6 @@ const CELLS_AT_ONCE: usize = 12_000_000;
 
 /// With more cells there is no search for symmetric arrays.
 const CELLS_OF_SYMMETRIC: usize = 1_000_000;
-
-/// The work of polishing, in visits of cells: well below 0.1 s.
-const POLISH_WORK: usize = 3_800_000;
-
-/// The work of a step beside its visits of cells and its look at the rows.
-const STEP_WORK: usize = 300;
 
 /// After how many looks at the clock another kind of symmetry is tried.
 const LOOKS_IN_TURN: usize = 256;
@@ -80,7 +74,7 @@ fn smaller(
     };
     let rows_search = |chain: usize| {
         let seed = mix(task.seed ^ mix(chain as u64));
-        best.search_rows(|rows| Search::new(&task.rules, cells.clone(), rows, kept, seed));
+        best.search_rows(|rows| Annealing::new(&task.rules, cells.clone(), rows, kept, seed));
     };
     // Threads of their own: on a single core, too, the searches share the time.
     thread::scope(|scope| {
@@ -120,7 +114,7 @@ impl Best<'_> {
     }
 
     /// Searches from the best array, and again whenever another search has found a smaller one.
-    fn search_rows(&self, start: impl Fn(&[Vec<usize>]) -> Search) {
+    fn search_rows(&self, start: impl Fn(&[Vec<usize>]) -> Annealing) {
         let start = || start(&self.rows.lock().expect("no search panics"));
         let mut search = start();
         while self.wanted() {
@@ -157,31 +151,4 @@ impl Best<'_> {
             }
         }
     }
-}
-
-/// Shrinks rows with a short search by the rules of [`optimise`], the same on every machine. The work is bounded;
-/// arrays for which it would not suffice stay as they are.
-pub(super) fn polish(task: &Task, rows: Vec<Vec<usize>>, kept: usize, goal: usize) -> Vec<Vec<usize>> {
-    let Some(cells) = task.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
-    let start: usize = cells.iter().map(|cells| cells.in_row() * rows.len()).sum();
-    let changed: usize = cells.iter().map(|cells| 2 * cells.in_row() * cells.strength() / cells.members()).sum();
-    let step = changed + rows.len() / 2 + STEP_WORK;
-    let steps = POLISH_WORK.saturating_sub(start) / step;
-    if steps == 0 {
-        return rows;
-    }
-    let mut search = Search::new(&task.rules, cells, &rows, kept, task.seed);
-    let mut best = rows;
-    for _ in 0..steps {
-        while search.missing() == 0 {
-            if search.len() < best.len() {
-                best = search.rows();
-            }
-            if search.len() <= goal || !search.drop_row() {
-                return best;
-            }
-        }
-        search.steps(1);
-    }
-    if search.missing() == 0 && search.len() < best.len() { search.rows() } else { best }
 }

@@ -1,6 +1,6 @@
 //! Rows whose entries may still be open.
 
-use paracosm_coverage::rules::Rules;
+use paracosm_space::rules::Rules;
 
 /// An entry that no combination needs yet.
 pub(super) const OPEN: u32 = u32::MAX;

@@ -9,10 +9,10 @@
 //! come cheaper than a starter.
 
 use super::field::Field;
-use super::search::{Cells, Orbits, Search};
+use super::search::{Annealing, Cells, Orbits};
 use super::task::Task;
 use crate::seeded::mix;
-use paracosm_coverage::rules::Rules;
+use paracosm_space::rules::Rules;
 use std::collections::BTreeSet;
 
 /// Permutations of levels that form a group.
@@ -31,7 +31,7 @@ pub(super) struct Symmetric {
     /// How many rows these are with their images.
     constants: usize,
     seed: u64,
-    search: Option<Search>,
+    search: Option<Annealing>,
 }
 
 /// A search for each group of permutations that suits the model; none where parameters differ.
@@ -118,7 +118,7 @@ impl Symmetric {
             let entry = |i: usize| ((u128::from(mix(self.seed ^ mix(i as u64))) * v as u128) >> 64) as usize;
             let row = |row: usize| (0..parameters).map(|i| entry(row * parameters + i)).collect();
             let rows: Vec<Vec<usize>> = self.constant.iter().cloned().chain((0..starters).map(row)).collect();
-            let mut search = Search::new(&self.rules, vec![cells], &rows, self.constant.len(), self.seed);
+            let mut search = Annealing::new(&self.rules, vec![cells], &rows, self.constant.len(), self.seed);
             search.demand_all();
             self.search = Some(search);
         }

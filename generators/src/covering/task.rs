@@ -2,17 +2,22 @@
 
 use super::front::Family;
 use super::grow::Growth;
-use super::optimise::polish;
 use super::rows::{Columns, OPEN, Rows};
-use super::search::Cells;
+use super::search::{Annealing, Cells};
 use super::{CoveringError, CoveringRequest, fill, orthogonal};
 use paracosm_coverage::Deadline;
-use paracosm_coverage::demand::Kind;
-use paracosm_coverage::rules::{Companions, Rules};
 use paracosm_coverage::theory::covering::fewest_rows;
+use paracosm_space::demand::TestKind;
+use paracosm_space::rules::{Companions, Rules};
 
 /// With so many rows, only one way to begin is tried.
 const MANY_ROWS: usize = 500;
+
+/// The work of a step beside its visits of cells and its look at the rows.
+const STEP_WORK: usize = 300;
+
+/// The work of polishing, in visits of cells: well below 0.1 s.
+const POLISH_WORK: usize = 3_800_000;
 
 /// The part of a request that tests of one kind answer.
 #[derive(Debug)]
@@ -28,7 +33,7 @@ pub(super) struct Task<'a> {
 impl<'a> Task<'a> {
     /// The tasks of a request, and the positions of existing tests that are of no kind.
     pub(super) fn all(request: &CoveringRequest<'a>) -> (Vec<Self>, Vec<usize>) {
-        let whole = [Kind::of(request.rules)];
+        let whole = [TestKind::of(request.rules)];
         let kinds = if request.kinds.is_empty() { &whole } else { request.kinds };
         let mut tasks: Vec<Self> = kinds.iter().map(|kind| Self::of(request, kind)).collect();
         let mut invalid = Vec::new();
@@ -50,7 +55,7 @@ impl<'a> Task<'a> {
     }
 
     /// The task of a kind. Groups that combine no more than all parameters do add nothing.
-    fn of(request: &CoveringRequest, kind: &Kind) -> Self {
+    fn of(request: &CoveringRequest, kind: &TestKind) -> Self {
         let all: Vec<usize> = (0..request.rules.levels().len()).collect();
         let groups = request.groups.iter().filter(|(_, strength)| *strength > request.k);
         let asked = std::iter::once((&all, request.k)).chain(groups.map(|(members, strength)| (members, *strength)));
@@ -142,4 +147,31 @@ fn grown(growth: &Growth, existing: Rows, companions: &mut Companions) -> Rows {
         rows
     });
     grown.min_by_key(Rows::len).expect("there is one way to begin")
+}
+
+/// Shrinks rows with a short search by the rules of [`optimise`](super::optimise), the same on every machine. The work is bounded;
+/// arrays for which it would not suffice stay as they are.
+fn polish(task: &Task, rows: Vec<Vec<usize>>, kept: usize, goal: usize) -> Vec<Vec<usize>> {
+    let Some(cells) = task.cells().filter(|_| rows.len() < 1 << 16) else { return rows };
+    let start: usize = cells.iter().map(|cells| cells.in_row() * rows.len()).sum();
+    let changed: usize = cells.iter().map(|cells| 2 * cells.in_row() * cells.strength() / cells.members()).sum();
+    let step = changed + rows.len() / 2 + STEP_WORK;
+    let steps = POLISH_WORK.saturating_sub(start) / step;
+    if steps == 0 {
+        return rows;
+    }
+    let mut search = Annealing::new(&task.rules, cells, &rows, kept, task.seed);
+    let mut best = rows;
+    for _ in 0..steps {
+        while search.missing() == 0 {
+            if search.len() < best.len() {
+                best = search.rows();
+            }
+            if search.len() <= goal || !search.drop_row() {
+                return best;
+            }
+        }
+        search.steps(1);
+    }
+    if search.missing() == 0 && search.len() < best.len() { search.rows() } else { best }
 }

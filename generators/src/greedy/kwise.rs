@@ -11,8 +11,10 @@
 
 use super::{Holes, room};
 use crate::{Generator, GeneratorError};
+use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_coverage::kwise_dispersion::{Projection, projections};
-use paracosm_coverage::{Point, empty_boxes::EmptyBoxes, rules::Rules};
+use paracosm_space::Point;
+use paracosm_space::rules::Rules;
 use rand::Rng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;

@@ -34,12 +34,27 @@ mod rows;
 pub(crate) use kwise::KwiseGreedy;
 pub(crate) use rows::GreedyRows;
 
-use crate::GeneratorError;
+use crate::strategy::{Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use holes::Holes;
-use paracosm_coverage::{PointSetError, dispersion::LargestEmptyBox, empty_boxes::EmptyBoxes, nearest};
+use paracosm_coverage::PointSetError;
+use paracosm_coverage::dispersion::LargestEmptyBox;
+use paracosm_coverage::empty_boxes::EmptyBoxes;
 use rand::Rng;
 use rand_pcg::Pcg64;
-use std::str::FromStr;
+
+impl Strategy {
+    /// Every point where it breaks the largest empty boxes.
+    pub const GREEDY: Self = Self::of(&Descriptor {
+        name: "greedy",
+        about: "every test into the largest holes: the lowest dispersion, at some milliseconds a test",
+        dims: 1..=MOST_DIMS,
+        look: Look::filled(0x00_0000, Shape::Triangle),
+        method: Method(MethodKind::Holes),
+    });
+}
+
+/// In how many dimensions points take seconds at most: a box has 2d parts with 2d faces each.
+const MOST_DIMS: usize = 1_000;
 
 /// Random candidates for a point.
 const CANDIDATES: usize = 24;
@@ -53,39 +68,6 @@ const SHORTER: f64 = 0.93;
 
 /// The part of the largest box, in its middle, in which points are placed.
 const ROOM: f64 = 0.7;
-
-/// What greedy tests are to make small.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Aim {
-    /// The largest empty box over all continuous parameters, for every row of the discrete family on its own.
-    Dispersion,
-    /// The largest dispersion that any k parameters show, discrete and continuous ones: there are no rows then.
-    KwiseDispersion,
-}
-
-impl Aim {
-    /// Everything that can be aimed at.
-    pub const ALL: [Self; 2] = [Self::Dispersion, Self::KwiseDispersion];
-
-    /// The name of the measure.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Dispersion => "dispersion",
-            Self::KwiseDispersion => "k-wise-dispersion",
-        }
-    }
-}
-
-impl FromStr for Aim {
-    type Err = GeneratorError;
-
-    fn from_str(name: &str) -> Result<Self, GeneratorError> {
-        Self::ALL.into_iter().find(|aim| aim.name() == name).ok_or_else(|| GeneratorError::UnknownAim {
-            name: name.to_owned(),
-            nearest: nearest(name, Self::ALL.map(Self::name)),
-        })
-    }
-}
 
 /// The points so far, and the holes between them.
 pub(crate) struct Greedy {
@@ -172,7 +154,9 @@ mod tests {
     use super::*;
     use crate::seeded::{Purpose, seeded};
     use crate::{Request, Strategy};
-    use paracosm_coverage::{Deadline, PointSet, Space, dispersion::dispersion};
+    use paracosm_coverage::dispersion::dispersion;
+    use paracosm_coverage::{Deadline, PointSet};
+    use paracosm_space::Space;
 
     fn points(dims: usize, seed: u64, n: usize) -> Vec<Vec<f64>> {
         let mut greedy = Greedy::new(dims, seeded(seed, Purpose::Greedy, 0), [[0.0; 0]; 0]).unwrap();
@@ -186,7 +170,7 @@ mod tests {
     /// The dispersion over that of Halton's points.
     fn ratio(dims: usize, seed: u64, n: usize) -> f64 {
         let space = Space::unit_cube(dims);
-        let mut halton = Strategy::Halton.build(&Request::new(&space, n)).unwrap();
+        let mut halton = Strategy::HALTON.build(&Request::new(&space, n)).unwrap();
         let halton: Vec<_> = halton.ask(n).into_iter().map(|point| point.continuous).collect();
         dispersion_of(dims, &points(dims, seed, n)) / dispersion_of(dims, &halton)
     }

@@ -3,7 +3,25 @@
 //! Many benchmarks fail where every input is at one of its ends. What finds failures only because it goes to ends is no
 //! better than this: every coordinate by itself at a random one of them.
 
-use super::{Sequence, Uniform};
+use super::Sequence;
+use super::uniform::Uniform;
+use crate::strategy::{ANY, Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
+
+impl Strategy {
+    /// Independent random corners of the cube, which repeat: a control.
+    pub const RANDOM_CORNERS: Self = Self::of(&Descriptor {
+        name: "random-corners",
+        about: "every parameter at a random end: the control that a search for failures should beat",
+        dims: ANY,
+        look: Look::hollow(0x99_9999, Shape::Triangle),
+        method: Method(MethodKind::Sequence(Endless {
+            first: None,
+            plain: false,
+            fills: false,
+            build: |dims, seed| Box::new(RandomCorners::new(dims, seed.unwrap_or(0))),
+        })),
+    });
+}
 
 /// The corners nearest to uniformly random points.
 pub(crate) struct RandomCorners(Uniform);

@@ -9,7 +9,23 @@
 //! lattice itself for n = f, exactly n points otherwise, and since f'/f hardly differs from the golden section,
 //! about as even in between.
 
+use super::per_row::PerRow;
 use super::{per_row::RowSet, radical::ratio, shift::Shift};
+use crate::strategy::{Descriptor, Look, Method, MethodKind, Shape, Strategy};
+
+impl Strategy {
+    /// The Fibonacci lattice in two dimensions; with a seed shifted.
+    pub const FIBONACCI: Self = Self::of(&Descriptor {
+        name: "fibonacci",
+        about: "the most even lattice for just two parameters, by exactly the budget of tests",
+        dims: 2..=2,
+        look: Look::hollow(0x8c_510a, Shape::Tip),
+        method: Method(MethodKind::Sets {
+            plain: true,
+            build: |_, seed, deal| Ok(Box::new(PerRow::new(deal, Fibonacci::new(seed)))),
+        }),
+    });
+}
 
 /// The lattice, both of its axes shifted or none.
 pub(crate) struct Fibonacci {

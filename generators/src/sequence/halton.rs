@@ -7,6 +7,24 @@ use super::{
     radical::{INDICES, primes, radical_inverse},
     shift::Shift,
 };
+use crate::strategy::{ANY, Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
+
+impl Strategy {
+    /// The Halton sequence, the paper's choice; with a seed shifted modulo 1 by a random vector.
+    pub const HALTON: Self = Self::of(&Descriptor {
+        name: "halton",
+        about: "low-dispersion sequence of any length: the default for up to about ten parameters",
+        dims: ANY,
+        look: Look::filled(0x00_72b2, Shape::Circle),
+        // Point 0 of the Halton sequence is the corner of the cube.
+        method: Method(MethodKind::Sequence(Endless {
+            first: Some(1),
+            plain: true,
+            fills: true,
+            build: |dims, seed| Box::new(Halton::new(dims, seed)),
+        })),
+    });
+}
 
 /// The Halton sequence in the first primes, shifted or not.
 pub(crate) struct Halton {

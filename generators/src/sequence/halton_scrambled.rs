@@ -13,7 +13,24 @@ use super::{
     radical::{INDICES, primes, ratio},
 };
 use crate::seeded::{Purpose, seeded};
+use crate::strategy::{Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
 use rand::seq::SliceRandom;
+
+impl Strategy {
+    /// The Halton sequence with random permutations of its digits.
+    pub const HALTON_SCRAMBLED: Self = Self::of(&Descriptor {
+        name: "halton-scrambled",
+        about: "halton with random digits: without its stripes in ten parameters and more",
+        dims: 1..=MOST_DIMS,
+        look: Look::filled(0x56_b4e9, Shape::Tip),
+        method: Method(MethodKind::Sequence(Endless {
+            first: Some(0),
+            plain: false,
+            fills: true,
+            build: |dims, seed| Box::new(HaltonScrambled::new(dims, seed.unwrap_or(0))),
+        })),
+    });
+}
 
 /// The permutations of as many dimensions take 37 MB, and twice as many four times that.
 pub(crate) const MOST_DIMS: usize = 1000;

@@ -3,11 +3,27 @@
 //! Of n points, point i has i/n as its first coordinate and the radical inverses of i in the first primes as the
 //! others. One prime fewer is one source of unevenness fewer, at the price that n is known beforehand.
 
+use super::per_row::PerRow;
 use super::{
     per_row::RowSet,
     radical::{primes, radical_inverse, ratio},
     shift::Shift,
 };
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+
+impl Strategy {
+    /// The Hammersley set; with a seed shifted.
+    pub const HAMMERSLEY: Self = Self::of(&Descriptor {
+        name: "hammersley",
+        about: "halton with one axis evenly spaced: more even than halton, by exactly the budget",
+        dims: ANY,
+        look: Look::filled(0xcc_79a7, Shape::Triangle),
+        method: Method(MethodKind::Sets {
+            plain: true,
+            build: |dims, seed, deal| Ok(Box::new(PerRow::new(deal, Hammersley::new(dims, seed)))),
+        }),
+    });
+}
 
 /// The Hammersley set, all of its axes shifted or none.
 pub(crate) struct Hammersley {

@@ -11,7 +11,24 @@
 
 use super::{Sequence, radical::INDICES, unit};
 use crate::seeded::{Purpose, seeded};
+use crate::strategy::{ANY, Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
 use rand::Rng;
+
+impl Strategy {
+    /// The R-sequence, a Kronecker sequence; with a seed from a random point.
+    pub const KRONECKER: Self = Self::of(&Descriptor {
+        name: "kronecker",
+        about: "golden steps on every axis: a sequence of any length, for few parameters",
+        dims: ANY,
+        look: Look::filled(0x00_9e73, Shape::Square),
+        method: Method(MethodKind::Sequence(Endless {
+            first: Some(0),
+            plain: true,
+            fills: true,
+            build: |dims, seed| Box::new(Kronecker::new(dims, seed)),
+        })),
+    });
+}
 
 /// The sequence from one point on.
 pub(crate) struct Kronecker {

@@ -4,13 +4,48 @@
 //! covered as evenly as n points can. The point is anywhere in its cell, or in the middle of it. The set depends
 //! on its size: it is made whole, for the whole budget.
 
+use super::Sequence;
+use super::per_row::PerRow;
 use super::per_row::RowSet;
+use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
 use crate::{
     GeneratorError,
     deal::Deal,
     seeded::{Purpose, seeded},
 };
 use rand::{Rng, seq::SliceRandom};
+
+impl Strategy {
+    /// A random Latin hypercube.
+    pub const LHS: Self = Self::of(&Descriptor {
+        name: "lhs",
+        about: "Latin hypercube: each parameter on its own covered evenly, by exactly the budget of tests",
+        dims: ANY,
+        look: Look::filled(0x99_9999, Shape::Square),
+        method: Method(MethodKind::Sets {
+            plain: false,
+            build: |dims, seed, deal| cells(dims, seed, deal, Place::Random),
+        }),
+    });
+}
+
+impl Strategy {
+    /// A Latin hypercube of points at the centres of their cells.
+    pub const LHS_CENTRED: Self = Self::of(&Descriptor {
+        name: "lhs-centred",
+        about: "Latin hypercube with tests in the middle of their cells: no two close on any axis",
+        dims: ANY,
+        look: Look::filled(0x99_9999, Shape::Diamond),
+        method: Method(MethodKind::Sets {
+            plain: false,
+            build: |dims, seed, deal| cells(dims, seed, deal, Place::Centre),
+        }),
+    });
+}
+
+fn cells(dims: usize, seed: Option<u64>, deal: Deal, place: Place) -> Result<Box<dyn Sequence>, GeneratorError> {
+    Ok(Box::new(PerRow::new(deal, Lhs::new(dims, seed.unwrap_or(0), &deal, place)?)))
+}
 
 const MOST_COORDINATES: u64 = 10_000_000;
 

@@ -19,25 +19,27 @@ mod shift;
 mod sobol;
 mod uniform;
 
-pub(crate) use self::sobol::{MOST_DIMS as MOST_SOBOL_DIMS, Sobol};
-pub(crate) use corners::RandomCorners;
-pub(crate) use fibonacci::Fibonacci;
+pub(crate) use self::sobol::MOST_DIMS as MOST_SOBOL_DIMS;
+pub(crate) use crate::strategy::Sequence;
 pub(crate) use halton::Halton;
-pub(crate) use halton_scrambled::{HaltonScrambled, MOST_DIMS as MOST_HALTON_SCRAMBLED_DIMS};
-pub(crate) use hammersley::Hammersley;
-pub(crate) use kronecker::Kronecker;
-pub(crate) use lhs::{Lhs, Place};
 pub(crate) use per_row::{PerRow, RowSet};
-pub(crate) use uniform::Uniform;
 
-/// Points of `[0,1)^d`, numbered from 0.
-pub(crate) trait Sequence: Send + Sync {
-    /// How many points there are.
-    fn len(&self) -> u64;
+use crate::strategy::Strategy;
 
-    /// The point at `index`, which is below [`Sequence::len`].
-    fn point(&self, index: u64) -> Vec<f64>;
-}
+/// The strategies of this folder, in the order in which they are shown.
+pub(crate) const ALL: &[Strategy] = &[
+    Strategy::RANDOM,
+    Strategy::RANDOM_CORNERS,
+    Strategy::HALTON,
+    Strategy::HALTON_SCRAMBLED,
+    Strategy::SOBOL,
+    Strategy::SOBOL_OWEN,
+    Strategy::KRONECKER,
+    Strategy::HAMMERSLEY,
+    Strategy::FIBONACCI,
+    Strategy::LHS,
+    Strategy::LHS_CENTRED,
+];
 
 /// `word / 2^64`, cut off after the 53 bits that a double has.
 fn unit(word: u64) -> f64 {

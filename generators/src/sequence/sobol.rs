@@ -11,8 +11,41 @@
 
 use super::{Sequence, owen, radical::INDICES, unit};
 use crate::seeded::{Purpose, seeded};
+use crate::strategy::{Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
 use rand::Rng;
 use sobol::params::{JoeKuoD6, JoeKuoD6Dim};
+
+impl Strategy {
+    /// The Sobol sequence; with a seed digitally shifted.
+    pub const SOBOL: Self = Self::of(&Descriptor {
+        name: "sobol",
+        about: "digital sequence for many parameters; best with a power of two of tests",
+        dims: 1..=MOST_DIMS,
+        look: Look::filled(0xd5_5e00, Shape::Diamond),
+        method: Method(MethodKind::Sequence(Endless {
+            first: Some(0),
+            plain: true,
+            fills: true,
+            build: |dims, seed| Box::new(Sobol::new(dims, seed)),
+        })),
+    });
+}
+
+impl Strategy {
+    /// The Sobol sequence with Owen's nested uniform scrambling.
+    pub const SOBOL_OWEN: Self = Self::of(&Descriptor {
+        name: "sobol-owen",
+        about: "sobol with Owen's nested scrambling: repetitions that are as even as sobol",
+        dims: 1..=MOST_DIMS,
+        look: Look::hollow(0xe6_9f00, Shape::Diamond),
+        method: Method(MethodKind::Sequence(Endless {
+            first: Some(0),
+            plain: false,
+            fills: true,
+            build: |dims, seed| Box::new(Sobol::owen(dims, seed.unwrap_or(0))),
+        })),
+    });
+}
 
 /// For how many dimensions there are direction numbers.
 pub(crate) const MOST_DIMS: usize = 21_201;

@@ -4,8 +4,25 @@
 
 use super::Sequence;
 use crate::seeded::{Purpose, seeded};
+use crate::strategy::{ANY, Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
 use rand::Rng;
 use rand_pcg::Pcg64;
+
+impl Strategy {
+    /// Independent uniformly random points.
+    pub const RANDOM: Self = Self::of(&Descriptor {
+        name: "random",
+        about: "independent uniform points: the baseline, and what statistics assume",
+        dims: ANY,
+        look: Look::filled(0x99_9999, Shape::Circle),
+        method: Method(MethodKind::Sequence(Endless {
+            first: None,
+            plain: false,
+            fills: true,
+            build: |dims, seed| Box::new(Uniform::new(dims, seed.unwrap_or(0))),
+        })),
+    });
+}
 
 /// Uniformly random points of 53 bits per coordinate.
 pub(crate) struct Uniform {

@@ -22,7 +22,7 @@ use crate::deal::Deal;
 use crate::seeded::mix;
 use crate::sequence::{PerRow, Sequence};
 use crate::{Generator, GeneratorError, Request, Strategy, family::Family, greedy::GreedyRows};
-use paracosm_coverage::Point;
+use paracosm_space::Point;
 use row::{Limits, Row, Set};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -172,7 +172,7 @@ impl Sets {
             }
         };
         // One greedy set is about as good as another, and takes long.
-        let sets = if strategy == Strategy::Greedy { 1 } else { SETS.min(MOST_SETS / family.len()).max(1) };
+        let sets = if strategy.fills_holes() { 1 } else { SETS.min(MOST_SETS / family.len()).max(1) };
         Self { strategy, dims, seed, plain, first, block: deal.block, copies: sets - 1 }
     }
 

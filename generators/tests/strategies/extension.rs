@@ -3,14 +3,14 @@
 use super::*;
 
 fn extended(space: &Space, existing: &[Point], n: usize) -> Vec<Point> {
-    let more = tests(Strategy::Greedy, &Request { existing, ..Request::new(space, n) });
+    let more = tests(Strategy::GREEDY, &Request { existing, ..Request::new(space, n) });
     [existing, &more].concat()
 }
 
 #[test]
 fn greedy_tests_fill_the_holes_that_existing_ones_leave() {
     let space = Space::unit_cube(2);
-    let left: Vec<Point> = tests(Strategy::Halton, &Request::new(&space, 200));
+    let left: Vec<Point> = tests(Strategy::HALTON, &Request::new(&space, 200));
     let left: Vec<Point> = left.into_iter().filter(|test| test.continuous[0] < 0.5).collect();
     let volume = |tests: &[Point]| {
         let points = PointSet::new(2, tests.iter().map(|test| &test.continuous)).expect("points of the cube");
@@ -28,14 +28,14 @@ fn greedy_tests_of_a_mixed_space_first_cover_its_values_and_then_leave_no_hole_b
             .expect("two of six parameters");
         found.volume.lower
     };
-    let greedy = tests(Strategy::Greedy, &Request::new(&space, 150));
+    let greedy = tests(Strategy::GREEDY, &Request::new(&space, 150));
     let discrete = greedy.iter().map(|test| &test.discrete[..]);
     assert_eq!(
         kwise_coverage(&Rules::free(&space.levels()), 2, discrete.clone().take(16)).expect("two of three").ratio(),
         1.0
     );
     let halton = tests(
-        Strategy::Halton,
+        Strategy::HALTON,
         &Request { discrete: DiscreteFamily::Cross, seed: Some(1), ..Request::new(&space, 150) },
     );
     assert!(kwise(&greedy) < 0.5 * kwise(&halton), "{} against {}", kwise(&greedy), kwise(&halton));
@@ -52,8 +52,8 @@ fn greedy_can_aim_at_what_any_two_of_twenty_parameters_show() {
         let tests = tests(strategy, &Request { seed: Some(1), aim, ..Request::new(&space, 60) });
         kwise_dispersion(20, &Rules::free(&[]), &tests, 2, Deadline::never()).expect("two of twenty").volume.lower
     };
-    let greedy = kwise(Strategy::Greedy, Some(Aim::KwiseDispersion));
-    for strategy in [Strategy::Random, Strategy::HaltonShifted, Strategy::SobolOwen, Strategy::Lhs] {
+    let greedy = kwise(Strategy::GREEDY, Some(Aim::KwiseDispersion));
+    for strategy in [Strategy::RANDOM, Strategy::HALTON, Strategy::SOBOL_OWEN, Strategy::LHS] {
         assert!(greedy < 0.7 * kwise(strategy, None), "{strategy}");
     }
 }
@@ -61,10 +61,10 @@ fn greedy_can_aim_at_what_any_two_of_twenty_parameters_show() {
 #[test]
 fn existing_tests_count_as_rows_where_nothing_is_continuous() {
     let space = mixed(0, &[2, 3]);
-    let all = tests(Strategy::Random, &Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 9) });
+    let all = tests(Strategy::RANDOM, &Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 9) });
     assert_eq!(all.len(), 6);
     let request = Request { discrete: DiscreteFamily::Cross, existing: &all[1..4], ..Request::new(&space, 9) };
-    let more = tests(Strategy::Random, &request);
+    let more = tests(Strategy::RANDOM, &request);
     assert_eq!(more, [all[0].clone(), all[4].clone(), all[5].clone()]);
 }
 
@@ -77,22 +77,22 @@ fn what_cannot_be_extended_or_aimed_is_refused_by_name() {
     };
     let cases = [
         (
-            refused(Strategy::Sobol, &test(0.5, 1), None, None),
+            refused(Strategy::SOBOL, &test(0.5, 1), None, None),
             "`sobol` does not look at existing tests and cannot extend them; use greedy",
         ),
-        (refused(Strategy::Greedy, &test(1.5, 1), None, None), "existing test 0 is none of the space"),
-        (refused(Strategy::Greedy, &test(0.5, 2), None, None), "existing test 0 is none of the space"),
-        (refused(Strategy::Lhs, &[], Some(Aim::Dispersion), None), "`lhs` aims at no measure; greedy does"),
+        (refused(Strategy::GREEDY, &test(1.5, 1), None, None), "existing test 0 is none of the space"),
+        (refused(Strategy::GREEDY, &test(0.5, 2), None, None), "existing test 0 is none of the space"),
+        (refused(Strategy::LHS, &[], Some(Aim::Dispersion), None), "`lhs` aims at no measure; greedy does"),
         (
-            refused(Strategy::Cmaes, &test(0.5, 1), None, None),
+            refused(Strategy::CMAES, &test(0.5, 1), None, None),
             "`cmaes` does not look at existing tests and cannot extend them; use greedy",
         ),
         (
-            refusal(Strategy::Bayes, &Request { epsilon: Some(0.1), ..Request::new(&space, 5) }).to_string(),
+            refusal(Strategy::BAYES, &Request { epsilon: Some(0.1), ..Request::new(&space, 5) }).to_string(),
             "`bayes` goes where tests fail and leaves holes elsewhere; epsilon asks for none: use halton or greedy",
         ),
         (
-            refused(Strategy::Greedy, &[], None, Some(4)),
+            refused(Strategy::GREEDY, &[], None, Some(4)),
             "k is 4, but the space has 3 parameters; k must be from 1 to their number",
         ),
         (

@@ -56,7 +56,7 @@ fn the_search_for_epsilon_ends_with_its_time() {
     let space = mixed(1, &[2, 2]);
     let deadline = Deadline::after(std::time::Duration::ZERO);
     let request = Request { epsilon: Some(0.1), deadline, ..Request::new(&space, 500) };
-    assert!(tests(Strategy::Halton, &request).is_empty());
+    assert!(tests(Strategy::HALTON, &request).is_empty());
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn the_random_family_has_as_many_rows_as_the_proposition_asks_for() {
     let size = family_size(&levels, delta) as usize;
     let space = mixed(1, &levels);
     let request = Request { discrete: DiscreteFamily::Random { delta }, ..Request::new(&space, 3 * size) };
-    let tests = Strategy::Halton.build(&request).expect("a generator").ask(3 * size);
+    let tests = Strategy::HALTON.build(&request).expect("a generator").ask(3 * size);
     // Tests are dealt to the rows in turn.
     assert!((0..2 * size).all(|i| tests[i].discrete == tests[i + size].discrete));
     assert!((1..size).any(|i| tests[0].discrete != tests[i].discrete));
@@ -75,7 +75,7 @@ fn the_random_family_has_as_many_rows_as_the_proposition_asks_for() {
 fn of_fewer_discrete_parameters_than_k_all_combinations_are_covered() {
     let space = mixed(1, &[2, 3]);
     for k in [2, 3] {
-        let all = tests(Strategy::Halton, &Request { k: Some(k), ..Request::new(&space, 6) });
+        let all = tests(Strategy::HALTON, &Request { k: Some(k), ..Request::new(&space, 6) });
         let rows: BTreeSet<_> = all.into_iter().map(|test| test.discrete).collect();
         assert_eq!(rows.len(), 6, "{k}");
     }
@@ -95,8 +95,8 @@ fn the_cross_family_is_all_combinations_the_first_parameter_slowest() {
 fn a_budget_below_the_number_of_rows_gives_its_first_rows_one_test_each() {
     let space = mixed(2, &[10, 10]);
     let request = Request { discrete: DiscreteFamily::Cross, ..Request::new(&space, 7) };
-    for strategy in Strategy::ALL.into_iter().filter(|strategy| !strategy.is_adaptive()) {
-        let aim = (strategy == Strategy::Greedy).then_some(Aim::Dispersion);
+    for strategy in Strategy::all().filter(|strategy| !strategy.is_adaptive()) {
+        let aim = (strategy == Strategy::GREEDY).then_some(Aim::Dispersion);
         let discrete: Vec<_> =
             tests(strategy, &Request { aim, ..request }).into_iter().map(|test| test.discrete).collect();
         assert_eq!(discrete, (0..7).map(|level| vec![0, level]).collect::<Vec<_>>(), "{strategy}");

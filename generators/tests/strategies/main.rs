@@ -5,11 +5,14 @@ mod families;
 mod refusals;
 mod sets;
 
-use paracosm_coverage::{
-    Deadline, Domain, Parameter, Point, PointSet, Space, Value, dispersion::dispersion, kwise::kwise_coverage,
-    kwise_dispersion::kwise_dispersion, rules::Rules, theory::rows::RandomRows,
-};
+use paracosm_coverage::dispersion::dispersion;
+use paracosm_coverage::kwise::kwise_coverage;
+use paracosm_coverage::kwise_dispersion::kwise_dispersion;
+use paracosm_coverage::theory::rows::RandomRows;
+use paracosm_coverage::{Deadline, PointSet};
 use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Request, Strategy};
+use paracosm_space::rules::Rules;
+use paracosm_space::{Domain, Parameter, Point, Space, Value};
 use std::collections::BTreeSet;
 
 fn mixed(dims: usize, levels: &[usize]) -> Space {
@@ -31,6 +34,6 @@ fn refusal(strategy: Strategy, request: &Request) -> GeneratorError {
 
 /// The rows of the family: what is asked for where nothing is continuous.
 fn rows(request: &Request) -> Vec<Vec<usize>> {
-    let mut generator = Strategy::Random.build(request).expect("a family");
+    let mut generator = Strategy::RANDOM.build(request).expect("a family");
     generator.ask(100_000).into_iter().map(|test| test.discrete).collect()
 }

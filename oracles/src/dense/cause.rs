@@ -7,7 +7,8 @@
 //! whether one stands at that instant or on which side of it, and time bounds are rounded, too; so one looks from the instant
 //! itself or from a hair's breadth before or after it, and what is far nearer than that is the same instant.
 
-use super::wave::{Wave, between};
+use super::piece::between;
+use super::wave::Wave;
 use crate::{Connective, Formula, Interval, Modality, Sequence};
 
 /// What worths and times may be rounded by, relative to their size: far more than a formula's sums are, far less than

@@ -6,11 +6,12 @@
 //! a value at that very instant beside the limits on both sides, and all three count in what looks there.
 
 mod cause;
+mod piece;
 mod track;
 mod wave;
 mod window;
 
-use crate::expression::Arithmetic;
+use crate::Arithmetic;
 use crate::{
     Cause, Comparison, Connective, Evaluation, EvaluationError, Expression, Formula, Interval, Modality, Sequence,
 };
@@ -72,7 +73,7 @@ impl<'a> Dense<'a> {
                 let worth = if *truth { f64::INFINITY } else { f64::NEG_INFINITY };
                 Track::settled(Wave::constant(worth, self.end), needed)
             }
-            Formula::Flag(_) => return Err(EvaluationError::NotLinear(formula.to_string())),
+            Formula::Flag(_) => return Err(EvaluationError::NotLinear { formula: formula.to_string() }),
             Formula::Compare(left, comparison, right) => {
                 Track::settled(self.comparison(formula, left, *comparison, right)?, needed)
             }
@@ -112,7 +113,7 @@ impl<'a> Dense<'a> {
     ) -> Result<Wave, EvaluationError> {
         let linear = |expression| {
             let wave = self.number(expression)?;
-            wave.ok_or_else(|| EvaluationError::NotLinear(formula.to_string()))
+            wave.ok_or_else(|| EvaluationError::NotLinear { formula: formula.to_string() })
         };
         let margin = match constant(right) {
             Some(threshold) => linear(left)?.raised(-threshold),

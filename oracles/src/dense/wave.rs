@@ -5,6 +5,7 @@
 //! segment from the end. All take time linear in the number of breakpoints. Where a function jumps it has a value of its
 //! own beside the limits on both sides, so that windows are closed as they are written.
 
+use super::piece::{Piece, between, push};
 use super::window::{Sliding, Window};
 
 /// How far beyond its end a function may be asked because of rounded sums of time bounds, relative to that time.
@@ -264,74 +265,4 @@ fn meeting((h0, h1): (f64, f64), (g0, g1): (f64, f64)) -> f64 {
         return g0 + (g1 - g0) * share;
     }
     h0.min(g0).max(h1.min(g1))
-}
-
-/// The value at an instant of the line through two points.
-pub(super) fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> f64 {
-    if time <= t0 || v0 == v1 {
-        v0
-    } else if time >= t1 {
-        v1
-    } else {
-        v0 + (v1 - v0) * ((time - t0) / (t1 - t0))
-    }
-}
-
-/// Lines from one instant to another, which may be the earlier one, or from one value to another at the same instant.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Piece<const N: usize> {
-    pub from: f64,
-    pub to: f64,
-    pub lines: [(f64, f64); N],
-}
-
-impl<const N: usize> Piece<N> {
-    /// Appends what `join` makes of the lines after their beginning, with a breakpoint wherever two of them cross.
-    #[inline]
-    fn push(self, points: &mut Vec<(f64, f64)>, join: impl Fn([f64; N]) -> f64) {
-        let Self { from, to, lines } = self;
-        let mut crossings = [f64::INFINITY; 3];
-        let mut count = 0;
-        // At a jump there is nothing between the values.
-        let lasting = if from == to { &lines[..0] } else { &lines[..] };
-        for (i, a) in lasting.iter().enumerate() {
-            for b in &lines[..i] {
-                let (before, after) = (a.0 - b.0, a.1 - b.1);
-                if before * after < 0.0 && (before - after).is_finite() {
-                    crossings[count] = before / (before - after);
-                    count += 1;
-                }
-            }
-        }
-        if count > 1 {
-            crossings[..count].sort_by(f64::total_cmp);
-        }
-        let mut last = from;
-        for share in &crossings[..count] {
-            let time = from + (to - from) * share;
-            // Rounding may leave it no instant of its own.
-            if time != last && time != to {
-                let values = lines.map(|(v0, v1)| if v0 == v1 { v0 } else { v0 + (v1 - v0) * share });
-                push(points, (time, join(values)));
-                last = time;
-            }
-        }
-        push(points, (to, join(lines.map(|line| line.1))));
-    }
-}
-
-/// Appends a breakpoint. Of those between equal values none is kept, and of three at an instant one if it is no jump.
-fn push(points: &mut Vec<(f64, f64)>, point: (f64, f64)) {
-    if let [.., before, last] = points[..]
-        && before.1 == point.1
-        && last.1 == point.1
-    {
-        if last.0 != point.0 && before.0 != last.0 {
-            points.pop();
-        } else if last.0 == point.0 && before.0 == last.0 {
-            points.pop();
-            return;
-        }
-    }
-    points.push(point);
 }

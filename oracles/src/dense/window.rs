@@ -3,7 +3,7 @@
 //! The breakpoints in sight that may yet be the greatest are kept in a monotone wedge (D. Lemire, "Streaming
 //! maximum-minimum filter using no more than three comparisons per element", 2006).
 
-use super::wave::{Piece, between};
+use super::piece::{Piece, between};
 use std::collections::VecDeque;
 
 /// What is in sight from an instant, counted from there.

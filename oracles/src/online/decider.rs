@@ -5,8 +5,8 @@
 //! the work is proportional to how often truths change, and not to how far the formula looks ahead.
 
 use super::runs::{Run, Runs};
-use crate::core::{Core, Id, Kind, Sight};
-use crate::interval::FOREVER;
+use crate::core::{Core, CoreKind, Id, Sight};
+use crate::ticks::FOREVER;
 
 /// Ticks of a node at which it is now known to hold, or not to.
 type Event = (Run, bool);
@@ -47,10 +47,10 @@ impl Decider {
         for (id, node) in core.nodes.iter().enumerate() {
             let dual = node.dual;
             let place = match node.kind {
-                Kind::Atom(_) => decider.add(Operator::Atom(id), false),
-                Kind::Or(left, right) => decider.or([places[left], places[right]], dual),
-                Kind::Any { operand, start, sight } => decider.any(places[operand], start, sight, dual),
-                Kind::Until { hold, goal, sight } => {
+                CoreKind::Atom(_) => decider.add(Operator::Atom(id), false),
+                CoreKind::Or(left, right) => decider.or([places[left], places[right]], dual),
+                CoreKind::Any { operand, start, sight } => decider.any(places[operand], start, sight, dual),
+                CoreKind::Until { hold, goal, sight } => {
                     let (hold, goal) = (places[hold], places[goal]);
                     let until = decider.add(Operator::until(hold, goal, sight.past), dual);
                     if sight.end >= FOREVER {

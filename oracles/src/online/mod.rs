@@ -10,7 +10,7 @@ mod runs;
 mod scan;
 mod stream;
 
-use crate::core::{Beyond, Core, Kind};
+use crate::core::{Beyond, Core, CoreKind};
 use crate::worth::Worth;
 use crate::{Evaluation, EvaluationError, Formula, Truth};
 use decider::Decider;
@@ -83,7 +83,7 @@ impl Monitor {
         assert_eq!(row.len(), self.columns, "one sample per signal");
         let now = self.ticks;
         for (id, node) in self.core.nodes.iter().enumerate() {
-            if let Kind::Atom(atom) = &node.kind {
+            if let CoreKind::Atom(atom) = &node.kind {
                 let asked = now < self.needed[id];
                 self.atoms[id] = if asked { Some(atom.at(row, || now as f64 * self.dt)?) } else { None };
             }

@@ -2,7 +2,7 @@
 
 use crate::core::Sight;
 use crate::fold::{Fold, Window, suffixes};
-use crate::interval::FOREVER;
+use crate::ticks::FOREVER;
 use std::collections::VecDeque;
 
 /// How the values in sight are kept.

@@ -5,7 +5,7 @@
 //! what was recorded, once for the worst and once for the best that could have followed.
 
 use super::scan::Scan;
-use crate::core::{Beyond, Core, Id, Kind, Node};
+use crate::core::{Beyond, Core, CoreKind, Id, Node};
 use crate::fold::{Clamp, Fold, Reversed};
 use crate::worth::Worth;
 use std::collections::VecDeque;
@@ -36,11 +36,13 @@ impl Stream {
     /// A stream of a formula whose nodes are needed for so many ticks.
     pub fn new(core: &Core, needed: &[usize]) -> Self {
         let state = |(node, needed): (&Node, &usize)| match node.kind {
-            Kind::Atom(_) => State::Atom,
-            Kind::Or(..) => State::Or(Queues::default()),
-            Kind::Any { start, sight, .. } => State::Any(Scan::new(start, sight, *needed)),
-            Kind::Until { sight, .. } if sight.past => State::Since(Queues::default(), Scan::new(0, sight, *needed)),
-            Kind::Until { sight, .. } => State::Until(Queues::default(), Scan::new(0, sight, *needed)),
+            CoreKind::Atom(_) => State::Atom,
+            CoreKind::Or(..) => State::Or(Queues::default()),
+            CoreKind::Any { start, sight, .. } => State::Any(Scan::new(start, sight, *needed)),
+            CoreKind::Until { sight, .. } if sight.past => {
+                State::Since(Queues::default(), Scan::new(0, sight, *needed))
+            }
+            CoreKind::Until { sight, .. } => State::Until(Queues::default(), Scan::new(0, sight, *needed)),
         };
         let nodes = core.nodes.len();
         Self {
@@ -56,8 +58,8 @@ impl Stream {
             let value = |operand: Id| self.values[operand].map(|worth| worth.flipped(node.dual));
             let worth = match (&mut self.states[id], &node.kind) {
                 (State::Atom, _) => atoms[id],
-                (State::Any(scan), Kind::Any { operand, .. }) => value(*operand).and_then(|worth| scan.push(worth)),
-                (state, Kind::Or(left, right) | Kind::Until { hold: left, goal: right, .. }) => {
+                (State::Any(scan), CoreKind::Any { operand, .. }) => value(*operand).and_then(|worth| scan.push(worth)),
+                (state, CoreKind::Or(left, right) | CoreKind::Until { hold: left, goal: right, .. }) => {
                     state.meet(value(*left), value(*right))
                 }
                 _ => unreachable!("states are made from kinds"),
@@ -78,7 +80,7 @@ impl Stream {
             if dual { (upper.flipped(true), lower.flipped(true)) } else { (lower, upper) }
         };
         flip(match (&self.states[id], &core.nodes[id].kind) {
-            (State::Or(_), Kind::Or(left, right)) => {
+            (State::Or(_), CoreKind::Or(left, right)) => {
                 let (left, right) = (flip(self.bounds(core, *left)), flip(self.bounds(core, *right)));
                 (left.0.max(right.0), left.1.max(right.1))
             }
@@ -100,18 +102,18 @@ impl Stream {
             let clamp = |sight| outside(sight).map_or(Clamp::NEUTRAL, |worth| Clamp { goal: worth, hold: worth });
             let value = |worth: &Worth| worth.flipped(node.dual);
             let mut rest: Vec<Worth> = match (&mut self.states[id], &node.kind) {
-                (State::Any(scan), Kind::Any { operand, sight, .. }) => {
+                (State::Any(scan), CoreKind::Any { operand, sight, .. }) => {
                     let mut rest: Vec<_> = rests[*operand].iter().filter_map(|worth| scan.push(value(worth))).collect();
                     rest.extend(scan.rest(own, outside(*sight).unwrap_or(Worth::NEUTRAL)));
                     rest
                 }
-                (state, Kind::Or(left, right) | Kind::Until { hold: left, goal: right, .. }) => {
+                (state, CoreKind::Or(left, right) | CoreKind::Until { hold: left, goal: right, .. }) => {
                     let mut rest = Vec::new();
                     for at in 0..rests[*left].len().max(rests[*right].len()) {
                         let (left, right) = (rests[*left].get(at).map(value), rests[*right].get(at).map(value));
                         rest.extend(state.meet(left, right));
                     }
-                    if let (State::Until(_, scan), Kind::Until { sight, .. }) = (state, &node.kind) {
+                    if let (State::Until(_, scan), CoreKind::Until { sight, .. }) = (state, &node.kind) {
                         rest.extend(scan.rest(own, clamp(*sight)).iter().map(|clamp| clamp.goal));
                     }
                     rest

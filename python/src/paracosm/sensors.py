@@ -3,7 +3,8 @@
 Positions on the car are as seen from the middle of its box on the ground: x ahead, y to the left, z up.
 """
 
-from dataclasses import dataclass, fields, is_dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,7 @@ class Camera:
     exposure: float = 0.0  # stops
     full_well: float = 0.0  # electrons; 0 for no shot noise
     read_noise: float = 0.0  # electrons
+    lens: Mapping[str, float] = field(default_factory=dict, hash=False)  # further settings, by their names in camera files
 
 
 @dataclass(frozen=True)
@@ -103,11 +105,13 @@ class Imu:
 
 def write(sensor, message):
     """Writes what is set of a sensor to its message."""
-    for field in fields(sensor):
-        value = getattr(sensor, field.name)
+    for setting in fields(sensor):
+        value = getattr(sensor, setting.name)
         if is_dataclass(value):
-            part = getattr(message, field.name)
+            part = getattr(message, setting.name)
             part.SetInParent()
             write(value, part)
+        elif isinstance(value, Mapping):
+            getattr(message, setting.name).update(value)
         elif value is not None:
-            setattr(message, field.name, value)
+            setattr(message, setting.name, value)

@@ -2,18 +2,18 @@
 //! be at all.
 
 use super::{strength, time_limit};
-use crate::Error;
 use crate::cli::interrupt::Interruptible;
 use crate::cli::{Verbosity, complain};
-use crate::coverage::constraint::Constraint;
-use crate::coverage::demand::Demand;
-use crate::coverage::rules::Rules;
-use crate::coverage::{Coordinate, Deadline, Space};
-use crate::estimate::named_level;
+use crate::coverage::Deadline;
 use crate::generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
 use crate::generators::{GeneratorError, Request};
-use crate::tests_file::PartialRow;
+use crate::space::constraint::Constraint;
+use crate::space::demand::Demand;
+use crate::space::rules::Rules;
+use crate::space::{Coordinate, Space};
 use indicatif::{ProgressBar, ProgressStyle};
+use paracosm_analysis::estimate::named_level;
+use paracosm_campaign::{Error, PartialRow};
 use std::collections::BTreeMap;
 use std::time::Duration;
 

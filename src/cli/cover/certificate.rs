@@ -2,21 +2,24 @@
 
 use crate::cli::Verbosity;
 use crate::cli::output::digits;
-use crate::{Coverage, Error, Measure, Tests, Watch};
+use paracosm_analysis::certificate::certify;
+use paracosm_analysis::{Coverage, Watch};
+use paracosm_campaign::{Error, TestSet};
+use paracosm_coverage::Measure;
 use std::path::Path;
 use std::time::Duration;
 
 /// Measures tests and writes a certificate; says what it proves, and where that is less than what was measured.
 pub(super) fn write(
     file: &Path,
-    tests: &Tests,
+    tests: &TestSet,
     measures: &[Measure],
     k: Option<usize>,
     limit: Duration,
     watch: &mut Watch,
     verbosity: Verbosity,
 ) -> Result<Coverage, Error> {
-    let (coverage, certificate) = tests.certify(measures, k, Some(limit), watch)?;
+    let (coverage, certificate) = certify(tests, measures, k, Some(limit), watch)?;
     certificate.write(file)?;
     for claim in &certificate.claims {
         let k = claim.k.map_or(String::new(), |k| format!(", k = {k}"));

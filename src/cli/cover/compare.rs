@@ -3,11 +3,12 @@
 use super::{open_loop, time_limit};
 use crate::cli::output::{Format, json};
 use crate::cli::{Failure, Verbosity, print};
-use crate::compare::{Compared, Comparison};
 use crate::generators::Strategy;
-use crate::{Error, Measure, Tests};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use paracosm_analysis::compare::Comparison;
+use paracosm_campaign::{Error, TestSet};
+use paracosm_coverage::Measure;
 use serde_json::json;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -69,7 +70,7 @@ pub(super) struct Options {
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let plan = self.comparison()?.plan()?;
-        Compared::folder(&self.out)?;
+        paracosm_analysis::asked::new_folder(&self.out)?;
         let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(plan.sets() as u64) };
         let template = "{bar:40.blue/white} {human_pos}/{human_len} sets  {elapsed} gone  {eta} left  {msg}";
         let bar = bar.with_style(ProgressStyle::with_template(template).expect("the template is one"));
@@ -81,13 +82,13 @@ impl Options {
         });
         bar.finish_and_clear();
         let compared = compared?;
-        compared.write(&self.out)?;
+        paracosm_report::compare::write(&compared, &self.out)?;
         for note in &compared.notes {
             verbosity.note(note);
         }
         verbosity.note(format_args!("written to {}", self.out.display()));
         print(&match Format::or_fitting(self.format) {
-            Format::Table => compared.table(),
+            Format::Table => paracosm_report::compare::table(&compared),
             Format::Json => json(&json!({"sets": compared.sets.len(), "baseline": compared.comparison.baseline.name(),
                 "summary": compared.cells, "slopes": compared.slopes, "notes": compared.notes, "out": self.out})),
         })
@@ -97,7 +98,7 @@ impl Options {
         let limit = time_limit("--time-limit", self.time_limit)?;
         let most = |numbers: &[usize]| numbers.iter().copied().max().unwrap_or_default();
         let (dims, budget) = (most(&self.dims), most(&self.budgets));
-        Tests::check_size(budget, dims)?;
+        TestSet::check_size(budget, dims)?;
         let strategies: Vec<Strategy> = self.strategies.iter().map(|name| open_loop(name)).collect::<Result<_, _>>()?;
         let defaults = Comparison::of(&strategies)?;
         let baseline = self.baseline.as_ref().map(|name| open_loop(name)).transpose()?;

@@ -3,13 +3,16 @@
 use super::{certificate, open_loop, strength, time_limit};
 use crate::cli::draw::is_ours_to_write;
 use crate::cli::output::{Format, Table, json, short_bracket};
-use crate::cli::space_file::SpaceFile;
+use crate::cli::usage;
 use crate::cli::{Failure, Verbosity, print};
-use crate::coverage::{Bracket, Parameter, Space};
+use crate::coverage::Bracket;
 use crate::generators::Request;
-use crate::{Error, Measure, Tests};
+use crate::space::{Parameter, Space};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
+use paracosm_analysis::Coverage;
+use paracosm_campaign::{Error, SpaceFile, TestSet, read_tests};
+use paracosm_coverage::Measure;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -80,13 +83,13 @@ impl Options {
             None => self.read(verbosity)?,
         };
         let asked = |measure: &Measure| self.measures.is_empty() || self.measures.contains(measure);
-        let measures: Vec<Measure> = Measure::ALL.into_iter().filter(asked).collect();
-        if !self.strength.is_empty() && !measures.contains(&Measure::KWise) {
+        let measures: Vec<Measure> = Measure::all().filter(asked).collect();
+        if !self.strength.is_empty() && !measures.contains(&Measure::K_WISE) {
             let message = "--strength is about the measure k-wise, which is not among --measures";
-            return Err(Error::Usage(message.into()).into());
+            return Err(usage(message.into()).into());
         }
         tests.demand.groups.extend(strength::groups(&self.strength, &tests.space)?);
-        if measures.contains(&Measure::KWise) {
+        if measures.contains(&Measure::K_WISE) {
             strength::capped(self.k, &tests.space).into_iter().for_each(|note| verbosity.note(note));
         }
         if verbosity.verbose {
@@ -100,7 +103,7 @@ impl Options {
             bar.set_message(format!("{}{}", measure.name(), between.unwrap_or_default()));
         };
         let coverage = match &self.certificate {
-            None => tests.measure_watched(&measures, self.k, Some(limit), &mut watch),
+            None => Coverage::watched(&tests, &measures, self.k, Some(limit), &mut watch),
             Some(file) => certificate::write(file, &tests, &measures, self.k, limit, &mut watch, verbosity),
         };
         bar.finish_and_clear();
@@ -117,23 +120,23 @@ impl Options {
         })
     }
 
-    fn read(&self, verbosity: Verbosity) -> Result<(Tests, String), Error> {
+    fn read(&self, verbosity: Verbosity) -> Result<(TestSet, String), Error> {
         let path = self.tests.clone().unwrap_or_else(|| "paracosm-out".into());
-        let space = self.space.as_deref().map(|path| SpaceFile::read(path, verbosity)).transpose()?;
+        let space = self.space.as_deref().map(SpaceFile::read).transpose()?.map(|file| verbosity.noted(file));
         let (space, demand) = space.map(|file| (file.space, file.demand)).unzip();
-        let tests = Tests { demand: demand.unwrap_or_default(), ..Tests::read(&path, space)? };
+        let tests = TestSet { demand: demand.unwrap_or_default(), ..read_tests(&path, space)? };
         Ok((tests, path.display().to_string()))
     }
 
-    fn generated(&self, name: &str) -> Result<Tests, Error> {
+    fn generated(&self, name: &str) -> Result<TestSet, Error> {
         let (Some(dims), Some(budget)) = (self.dims, self.budget) else {
-            return Err(Error::Usage("--strategy needs --dims and --budget".into()));
+            return Err(usage("--strategy needs --dims and --budget".into()));
         };
-        Tests::check_size(budget, dims)?;
+        TestSet::check_size(budget, dims)?;
         let space = Space::unit_cube(dims);
         let request = Request { seed: self.seed, skip: self.skip, ..Request::new(&space, budget) };
         let points = open_loop(name)?.build(&request)?.ask(budget);
-        Ok(Tests::new(space, points))
+        Ok(TestSet::new(space, points))
     }
 }
 

@@ -5,14 +5,16 @@ use super::reached::Reached;
 use super::{open_loop, strength, time_limit};
 use crate::cli::interrupt::Interruptible;
 use crate::cli::sampling::Sampling;
-use crate::cli::space_file::SpaceFile;
+use crate::cli::usage;
 use crate::cli::{Failure, Verbosity, complain};
-use crate::coverage::demand::Demand;
-use crate::coverage::{Deadline, Point, Space};
+use crate::coverage::Deadline;
 use crate::generators::{DiscreteFamily, Generator, Request, Strategy};
-use crate::{Error, Promise, Tests};
+use crate::space::demand::Demand;
+use crate::space::{Point, Space};
 use clap::{ArgGroup, Args};
 use indicatif::{ProgressBar, ProgressStyle};
+use paracosm_analysis::Promise;
+use paracosm_campaign::{Error, SpaceFile, TestSet};
 use std::io;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -65,11 +67,11 @@ impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
         let (space, mut demand) = match (&self.space, self.dims) {
             (Some(path), _) => {
-                let SpaceFile { space, demand } = SpaceFile::read(path, verbosity)?;
+                let SpaceFile { space, demand, .. } = verbosity.noted(SpaceFile::read(path)?);
                 (Some(space), demand)
             }
             (None, Some(dims)) => {
-                Tests::check_size(1, dims)?;
+                TestSet::check_size(1, dims)?;
                 (Some(Space::unit_cube(dims)), Demand::default())
             }
             (None, None) => (None, Demand::default()),
@@ -77,7 +79,7 @@ impl Options {
         let (space, existing, existing_rows) = match (space, &self.extend) {
             // Rows of a covering array may be begun and left for us to complete.
             (Some(space), Some(path)) if space.dims() == 0 => {
-                let rows = Tests::read_partial(path, &space)?;
+                let rows = TestSet::read_partial(path, &space)?;
                 let complete = rows.iter().filter_map(|(_, row)| row.iter().copied().collect());
                 let existing: Vec<Point> =
                     complete.map(|discrete| Point { continuous: Vec::new(), discrete }).collect();
@@ -85,7 +87,7 @@ impl Options {
                 (space, existing, rows.into_iter().map(named).collect())
             }
             (space, Some(path)) => {
-                let Tests { space, points, .. } = Tests::read(path, space)?;
+                let TestSet { space, points, .. } = TestSet::read(path, space)?;
                 let row = |(number, test): (usize, &Point)| {
                     (format!("test {}", number + 1), test.discrete.iter().copied().map(Some).collect())
                 };
@@ -93,13 +95,13 @@ impl Options {
                 (space, points, rows)
             }
             (Some(space), None) => (space, Vec::new(), Vec::new()),
-            (None, None) => return Err(Error::Usage("expected --space, --dims or --extend".into()).into()),
+            (None, None) => return Err(usage("expected --space, --dims or --extend".into()).into()),
         };
         demand.groups.extend(strength::groups(&self.strength, &space)?);
         let strategy = match &self.strategy {
             Some(name) => open_loop(name)?,
-            None if self.extend.is_some() => Strategy::Greedy,
-            None => Strategy::Halton,
+            None if self.extend.is_some() => Strategy::GREEDY,
+            None => Strategy::HALTON,
         };
         let request = self.request(&space, strategy, &existing)?;
         if strategy.has_rows(&request) {
@@ -116,14 +118,14 @@ impl Options {
             true => Some(options.rows(&space, &demand, existing_rows, verbosity)?),
             false if !self.strength.is_empty() || self.optimise.is_some() => {
                 let message = "--strength and --optimise are about the rows of a covering array, and there are none";
-                return Err(Error::Usage(message.into()).into());
+                return Err(usage(message.into()).into());
             }
             false => None,
         };
         let is_random = matches!(request.discrete, DiscreteFamily::Random { .. });
         if is_random && !space.levels().is_empty() && demand != Demand::default() {
             let message = "random rows promise nothing of sub-models and negative values (`~`); use ipog";
-            return Err(Error::Usage(message.into()).into());
+            return Err(usage(message.into()).into());
         }
         let most = match self.budget {
             Some(budget) => budget,
@@ -158,7 +160,7 @@ impl Options {
             None if is_noted => UNASKED_LIMIT,
             None => Duration::ZERO,
         };
-        let tests = Tests { k: self.sampling.k, demand, ..Tests::new(space.clone(), points) };
+        let tests = TestSet { k: self.sampling.k, demand, ..TestSet::new(space.clone(), points) };
         let reached = Reached::of(tests, existing.len(), measuring);
         // Whether the time was enough is for the tests to say: the limit may have come just after the last of them.
         let end = if interrupted { "an interrupt" } else { &format!("the time limit of {} s", limit.as_secs_f64()) };
@@ -194,7 +196,7 @@ impl Options {
             ..Request::new(space, self.budget.unwrap_or(budget))
         };
         request.discrete = self.sampling.family()?;
-        request.aim = self.sampling.measure(strategy.name()).map(str::parse).transpose()?;
+        request.aim = self.sampling.aim(strategy)?;
         Ok(request)
     }
 }

@@ -10,9 +10,10 @@ mod reached;
 mod strength;
 
 use super::{Failure, Verbosity};
-use crate::Error;
+use crate::cli::usage;
 use crate::generators::Strategy;
 use clap::{Parser, Subcommand};
+use paracosm_campaign::Error;
 use std::time::Duration;
 
 const EXAMPLES: &str = "\
@@ -42,7 +43,7 @@ fn open_loop(name: &str) -> Result<Strategy, Error> {
     match name.parse::<Strategy>()? {
         strategy if strategy.is_adaptive() => {
             let message = "goes by how tests went, and here none is run; it is a strategy for `paracosm-fuzz run`";
-            Err(Error::Usage(format!("`{strategy}` {message}")))
+            Err(usage(format!("`{strategy}` {message}")))
         }
         strategy => Ok(strategy),
     }
@@ -74,5 +75,5 @@ impl Command {
 /// A number of seconds as an option gives it.
 fn time_limit(option: &str, seconds: f64) -> Result<Duration, Error> {
     Duration::try_from_secs_f64(seconds)
-        .map_err(|_| Error::Usage(format!("{option} {seconds}: expected a number of seconds from 0 on")))
+        .map_err(|_| usage(format!("{option} {seconds}: expected a number of seconds from 0 on")))
 }

@@ -2,12 +2,12 @@
 
 use super::{strength, time_limit};
 use crate::cli::output::{Format, Table, json};
-use crate::cli::space_file::SpaceFile;
 use crate::cli::{Failure, Verbosity, print};
-use crate::coverage::Space;
-use crate::coverage::demand::Demand;
-use crate::{Guarantee, Need, Plan, Tests};
+use crate::space::Space;
+use crate::space::demand::Demand;
 use clap::{ArgGroup, Args};
+use paracosm_analysis::{Guarantee, Need, Plan};
+use paracosm_campaign::{SpaceFile, TestSet};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -50,11 +50,11 @@ pub(super) struct Options {
 
 impl Options {
     pub fn execute(&self, verbosity: Verbosity) -> Result<(), Failure> {
-        let SpaceFile { space, mut demand } = match (&self.space, self.dims.unwrap_or(0)) {
-            (Some(path), _) => SpaceFile::read(path, verbosity)?,
+        let SpaceFile { space, mut demand, .. } = match (&self.space, self.dims.unwrap_or(0)) {
+            (Some(path), _) => verbosity.noted(SpaceFile::read(path)?),
             (None, dims) => {
-                Tests::check_size(1, dims)?;
-                SpaceFile { space: Space::unit_cube(dims), demand: Demand::default() }
+                TestSet::check_size(1, dims)?;
+                SpaceFile { space: Space::unit_cube(dims), demand: Demand::default(), notes: Vec::new() }
             }
         };
         demand.groups.extend(strength::groups(&self.strength, &space)?);
@@ -98,7 +98,7 @@ fn table(plan: &Plan, groups: &str, dims: usize) -> String {
 
 fn needs(table: &mut Table, needs: &[Need]) {
     let width = needs.iter().map(|need| need.of.len()).max().unwrap_or(0);
-    for Need { of, tests, over, guarantee } in needs {
+    for Need { of, tests, over, guarantee, .. } in needs {
         let tests = match (tests, over) {
             (Some(tests), _) => tests.to_string(),
             (None, Some(over)) => format!("over {over}"),

@@ -6,15 +6,17 @@ use crate::cli::output::{bracket, digits};
 use crate::coverage::kwise::KwiseError;
 use crate::coverage::kwise_dispersion::row_dispersion;
 use crate::coverage::{Bracket, Deadline};
-use crate::estimate::Discrete;
-use crate::{Error, Measure, Promise, Tests};
+use paracosm_analysis::estimate::Discrete;
+use paracosm_analysis::{Coverage, Promise};
+use paracosm_campaign::{Error, TestSet};
+use paracosm_coverage::Measure;
 use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// Tests that were generated after existing ones, and what is known of them.
 pub(super) struct Reached {
     /// All of them, the existing ones first.
-    pub tests: Tests,
+    pub tests: TestSet,
     pub existing: usize,
     /// The largest hole of any row; none in a space without continuous parameters.
     pub epsilon: Option<Bracket>,
@@ -22,7 +24,7 @@ pub(super) struct Reached {
 
 impl Reached {
     /// Measures the rows of tests for so long.
-    pub fn of(tests: Tests, existing: usize, limit: Duration) -> Self {
+    pub fn of(tests: TestSet, existing: usize, limit: Duration) -> Self {
         let dims = tests.space.dims();
         let epsilon = (dims > 0).then(|| row_dispersion(dims, &tests.points, Deadline::after(limit)));
         Self { tests, existing, epsilon }
@@ -34,8 +36,10 @@ impl Reached {
         let rows: BTreeSet<&Vec<usize>> = added.iter().map(|test| &test.discrete).collect();
         let measured = match self.discrete(Some(promise.k)) {
             Ok(found) => found.map(|found| format!("{} of {} covered", found.covered, found.valid)),
-            Err(Error::Kwise(error @ KwiseError::TooMany { .. })) => Some(format!("not, for {error}")),
-            Err(error) => return Err(error),
+            Err(error) => match error.reason() {
+                Some(KwiseError::TooMany { .. }) => Some(format!("not, for {error}")),
+                _ => return Err(error),
+            },
         };
         let (drawn, different) = (promise.rows, rows.len());
         let measured = measured.expect("there are discrete parameters");
@@ -87,6 +91,6 @@ impl Reached {
     }
 
     fn discrete(&self, k: Option<usize>) -> Result<Option<Discrete>, Error> {
-        Ok(self.tests.measure(&[Measure::KWise], k, Some(Duration::ZERO))?.discrete.flatten())
+        Ok(Coverage::of(&self.tests, &[Measure::K_WISE], k, Some(Duration::ZERO))?.discrete.flatten())
     }
 }

@@ -1,7 +1,8 @@
 //! The option `--strength`: groups of discrete parameters of which more than k are covered together.
 
-use crate::Error;
-use crate::coverage::Space;
+use crate::cli::usage;
+use crate::space::Space;
+use paracosm_campaign::Error;
 
 /// A group, as positions among the discrete parameters, and how many of them are covered together.
 pub(super) type Group = (Vec<usize>, usize);
@@ -12,7 +13,7 @@ pub(super) fn groups(texts: &[String], space: &Space) -> Result<Vec<Group>, Erro
 }
 
 fn group(text: &str, space: &Space) -> Result<Group, Error> {
-    let wrong = |why: String| Error::Usage(format!("--strength {text}: {why}"));
+    let wrong = |why: String| usage(format!("--strength {text}: {why}"));
     let (names, k) = text.rsplit_once('=').ok_or_else(|| wrong("expected NAME,NAME,..=K".into()))?;
     let k: usize = k.trim().parse().map_err(|_| wrong(format!("found `{k}`, expected a number of parameters")))?;
     let discrete: Vec<String> = space.discrete().map(|coordinate| coordinate.name()).collect();

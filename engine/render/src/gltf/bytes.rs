@@ -1,6 +1,6 @@
 //! The numbers in a model's buffers. Nothing that a file says of where they are is taken for granted.
 
-use super::GltfError;
+use super::{GltfError, GltfFlaw};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::{Accessor, Document, buffer};
 use std::path::Path;
@@ -10,13 +10,13 @@ pub(super) struct Bytes(Vec<Vec<u8>>);
 
 impl Bytes {
     pub fn of(document: &Document, mut blob: Option<Vec<u8>>, path: &Path) -> Result<Self, GltfError> {
-        let broken = |problem: &str| GltfError::Format { path: path.to_owned(), problem: problem.to_owned() };
+        let broken = |problem| GltfError::Format { path: path.to_owned(), problem };
         let mut read = |buffer: buffer::Buffer<'_>| match buffer.source() {
-            buffer::Source::Bin => blob.take().ok_or_else(|| broken("it names a binary part that it does not have")),
+            buffer::Source::Bin => blob.take().ok_or_else(|| broken(GltfFlaw::NoBinary)),
             buffer::Source::Uri(uri) => match uri.strip_prefix("data:") {
                 Some(data) => {
                     let text = data.split_once(";base64,").map(|(_, text)| text);
-                    text.and_then(base64).ok_or_else(|| broken("a buffer in it is not written in base64"))
+                    text.and_then(base64).ok_or_else(|| broken(GltfFlaw::NoBase64))
                 }
                 None => {
                     let file = path.with_file_name("").join(unescaped(uri));
@@ -28,11 +28,11 @@ impl Bytes {
     }
 
     /// The bytes of every element of an accessor, `size` each.
-    fn elements(&self, accessor: &Accessor<'_>, size: usize) -> Result<Vec<&[u8]>, String> {
+    fn elements(&self, accessor: &Accessor<'_>, size: usize) -> Result<Vec<&[u8]>, GltfFlaw> {
         let index = accessor.index();
         let view = match (accessor.view(), accessor.sparse()) {
             (Some(view), None) => view,
-            _ => return Err(format!("its accessor {index} is sparse or has no buffer view")),
+            _ => return Err(GltfFlaw::NoView { accessor: index }),
         };
         let buffer = self.0.get(view.buffer().index()).map_or(&[][..], Vec::as_slice);
         let end = view.offset().checked_add(view.length());
@@ -44,17 +44,17 @@ impl Bytes {
         // No more than there can be, whatever the file says.
         let count = accessor.count();
         if count > 0 && element(count - 1).is_none() {
-            return Err(format!("its accessor {index} has {count} elements, which is more than there are bytes for"));
+            return Err(GltfFlaw::TooFewBytes { accessor: index, elements: count });
         }
         Ok((0..count).map_while(element).collect())
     }
 }
 
 /// Vectors of floating-point numbers.
-pub(super) fn floats<const N: usize>(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<[f32; N]>, String> {
+pub(super) fn floats<const N: usize>(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<[f32; N]>, GltfFlaw> {
     if accessor.data_type() != DataType::F32 || accessor.dimensions().multiplicity() != N {
-        let (index, found, of) = (accessor.index(), accessor.data_type(), accessor.dimensions());
-        return Err(format!("its accessor {index} has {of:?} of {found:?}, expected {N} numbers of F32 each"));
+        let (found, shape) = (accessor.data_type(), accessor.dimensions());
+        return Err(GltfFlaw::NoFloats { accessor: accessor.index(), shape, found, expected: N });
     }
     let number = |element: &[u8], i: usize| f32::from_le_bytes(std::array::from_fn(|byte| element[4 * i + byte]));
     let elements = bytes.elements(accessor, 4 * N)?;
@@ -62,12 +62,11 @@ pub(super) fn floats<const N: usize>(accessor: &Accessor<'_>, bytes: &Bytes) -> 
 }
 
 /// Indices of corners.
-pub(super) fn indices(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<u32>, String> {
+pub(super) fn indices(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<u32>, GltfFlaw> {
     let size = accessor.data_type().size();
     let whole = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
     if !whole || accessor.dimensions() != Dimensions::Scalar {
-        let (index, found) = (accessor.index(), accessor.data_type());
-        return Err(format!("its accessor {index} has indices of {found:?}, expected U8, U16 or U32"));
+        return Err(GltfFlaw::NoIndices { accessor: accessor.index(), found: accessor.data_type() });
     }
     let number = |element: &[u8]| element.iter().rev().fold(0, |number, byte| number << 8 | u32::from(*byte));
     Ok(bytes.elements(accessor, size)?.into_iter().map(number).collect())

@@ -11,6 +11,7 @@ mod bytes;
 
 use crate::mesh::{Mesh, Semantic, Surface, Vertex};
 use bytes::{Bytes, floats, indices};
+use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::{Document, Gltf, Material, Node, Primitive};
 use nalgebra::{Matrix4, Point3, Vector3};
@@ -37,8 +38,94 @@ pub enum GltfError {
         /// The model.
         path: PathBuf,
         /// What was found and what was expected.
-        problem: String,
+        problem: GltfFlaw,
     },
+}
+
+/// What keeps a file from being a model.
+#[derive(Debug, Error)]
+pub enum GltfFlaw {
+    /// A binary file whose header says that it is shorter than its header.
+    #[error("its header says that it has {bytes} bytes, expected at least 20")]
+    Header {
+        /// The length that it says.
+        bytes: u32,
+    },
+    /// It is no glTF.
+    #[error(transparent)]
+    NoGltf(#[from] gltf::Error),
+    /// It names an accessor that it does not have.
+    #[error("it names its accessor {accessor}, but it has {count}")]
+    NoAccessor {
+        /// The accessor.
+        accessor: usize,
+        /// How many it has.
+        count: usize,
+    },
+    /// It names a binary part that it does not have.
+    #[error("it names a binary part that it does not have")]
+    NoBinary,
+    /// A buffer is not written in base64.
+    #[error("a buffer in it is not written in base64")]
+    NoBase64,
+    /// An accessor of a kind that is not supported.
+    #[error("its accessor {accessor} is sparse or has no buffer view")]
+    NoView {
+        /// The accessor.
+        accessor: usize,
+    },
+    /// An accessor with more elements than bytes for them.
+    #[error("its accessor {accessor} has {elements} elements, which is more than there are bytes for")]
+    TooFewBytes {
+        /// The accessor.
+        accessor: usize,
+        /// The number of its elements.
+        elements: usize,
+    },
+    /// An accessor of other vectors than are needed.
+    #[error("its accessor {accessor} has {shape:?} of {found:?}, expected {expected} numbers of F32 each")]
+    NoFloats {
+        /// The accessor.
+        accessor: usize,
+        /// The shape of its elements.
+        shape: Dimensions,
+        /// The type of its numbers.
+        found: DataType,
+        /// How many numbers an element should have.
+        expected: usize,
+    },
+    /// An accessor of corners that are no whole numbers.
+    #[error("its accessor {accessor} has indices of {found:?}, expected U8, U16 or U32")]
+    NoIndices {
+        /// The accessor.
+        accessor: usize,
+        /// The type of its numbers.
+        found: DataType,
+    },
+    /// Nodes within nodes without end, or nearly so.
+    #[error("its nodes lie more than {DEPTH} deep within each other")]
+    TooDeep,
+    /// A part that is not made of triangles.
+    #[error("it is drawn of {found:?}, expected Triangles")]
+    NoTriangleList {
+        /// What it is made of.
+        found: Mode,
+    },
+    /// A part without positions.
+    #[error("a part of it has no positions")]
+    NoPositions,
+    /// A part whose corners do not fit each other.
+    #[error("a part of it with {corners} corners says something of others, or has no whole triangles")]
+    Corners {
+        /// The number of its corners.
+        corners: usize,
+    },
+    /// A position that is not finite.
+    #[error("a position in it is no number")]
+    NoPlace,
+    /// It has nothing to draw.
+    #[error("it has no triangles")]
+    NoTriangles,
 }
 
 /// The corners and triangles that have been found.
@@ -56,7 +143,7 @@ struct Found {
 pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfError> {
     let path = path.as_ref();
     let file = std::fs::read(path).map_err(|source| GltfError::Read { path: path.to_owned(), source })?;
-    let broken = |problem: String| GltfError::Format { path: path.to_owned(), problem };
+    let broken = |problem| GltfError::Format { path: path.to_owned(), problem };
     let (document, blob) = parse(&file).map_err(broken)?;
     let bytes = Bytes::of(&document, blob, path)?;
     let mut found = Found::default();
@@ -69,30 +156,30 @@ pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfErro
         found.add(&node, &upright(), &bytes, semantic, DEPTH).map_err(broken)?;
     }
     if found.indices.is_empty() {
-        return Err(broken("it has no triangles".to_owned()));
+        return Err(broken(GltfFlaw::NoTriangles));
     }
     Ok(Mesh::new(found.vertices, found.indices))
 }
 
 /// A document that says nothing of what it does not have, and the binary part of its file.
-fn parse(file: &[u8]) -> Result<(Document, Option<Vec<u8>>), String> {
+fn parse(file: &[u8]) -> Result<(Document, Option<Vec<u8>>), GltfFlaw> {
     // The reader takes for granted that a binary file says that it is longer than its header,
     if let Some(header) = file.strip_prefix(b"glTF") {
         let length =
             header.get(4..8).map_or(0, |bytes| bytes.iter().rev().fold(0, |all, byte| all << 8 | u32::from(*byte)));
         if length < 20 {
-            return Err(format!("its header says that it has {length} bytes, expected at least 20"));
+            return Err(GltfFlaw::Header { bytes: length });
         }
     }
-    let Gltf { document, blob } = Gltf::from_slice_without_validation(file).map_err(|error| error.to_string())?;
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(file)?;
     // and the validation that there are the accessors that are named.
     let json = document.into_json();
     let count = json.accessors.len();
     let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
     if let Some(index) = primitives.flat_map(|of| of.attributes.values()).find(|index| index.value() >= count) {
-        return Err(format!("it names its accessor {}, but it has {count}", index.value()));
+        return Err(GltfFlaw::NoAccessor { accessor: index.value(), count });
     }
-    let document = Document::from_json(json).map_err(|error| error.to_string())?;
+    let document = Document::from_json(json)?;
     Ok((document, blob))
 }
 
@@ -116,9 +203,9 @@ impl Found {
         bytes: &Bytes,
         semantic: Semantic,
         depth: usize,
-    ) -> Result<(), String> {
+    ) -> Result<(), GltfFlaw> {
         if depth == 0 {
-            return Err(format!("its nodes lie more than {DEPTH} deep within each other"));
+            return Err(GltfFlaw::TooDeep);
         }
         let frame = frame * Matrix4::from(node.transform().matrix());
         for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
@@ -133,18 +220,18 @@ impl Found {
         frame: &Matrix4<f32>,
         bytes: &Bytes,
         semantic: Semantic,
-    ) -> Result<(), String> {
+    ) -> Result<(), GltfFlaw> {
         if primitive.mode() != Mode::Triangles {
-            return Err(format!("it is drawn of {:?}, expected Triangles", primitive.mode()));
+            return Err(GltfFlaw::NoTriangleList { found: primitive.mode() });
         }
-        let positions = primitive.get(&gltf::Semantic::Positions).ok_or("a part of it has no positions")?;
+        let positions = primitive.get(&gltf::Semantic::Positions).ok_or(GltfFlaw::NoPositions)?;
         let positions: Vec<[f32; 3]> = floats(&positions, bytes)?;
         let count = positions.len();
         let of_each = |semantic| primitive.get(&semantic).map(|accessor| (semantic, accessor));
         let normals: Option<Vec<[f32; 3]>> =
             of_each(gltf::Semantic::Normals).map(|(_, normals)| floats(&normals, bytes)).transpose()?;
         let uvs: Option<Vec<[f32; 2]>> = match of_each(gltf::Semantic::TexCoords(0)) {
-            Some((_, uvs)) if uvs.data_type() == gltf::accessor::DataType::F32 => Some(floats(&uvs, bytes)?),
+            Some((_, uvs)) if uvs.data_type() == DataType::F32 => Some(floats(&uvs, bytes)?),
             _ => None,
         };
         let indices = match primitive.indices() {
@@ -153,9 +240,7 @@ impl Found {
         };
         let lengths = [normals.as_ref().map_or(count, Vec::len), uvs.as_ref().map_or(count, Vec::len)];
         if lengths != [count; 2] || indices.iter().any(|index| *index as usize >= count) || indices.len() % 3 != 0 {
-            return Err(format!(
-                "a part of it with {count} corners says something of others, or has no whole triangles"
-            ));
+            return Err(GltfFlaw::Corners { corners: count });
         }
         let place = frame.fixed_view::<3, 3>(0, 0).into_owned();
         let Some(turn) = place.try_inverse().map(|inverse| inverse.transpose()) else { return Ok(()) };
@@ -167,7 +252,7 @@ impl Found {
             let [a, b, c] = corners.map(at);
             let Some(flat) = (b - a).cross(&(c - a)).try_normalize(0.0) else { continue };
             if !flat.iter().all(|number| number.is_finite()) {
-                return Err("a position in it is no number".to_owned());
+                return Err(GltfFlaw::NoPlace);
             }
             for (corner, position) in corners.into_iter().zip([a, b, c]) {
                 let own = normals.as_ref().and_then(|normals| {

@@ -72,11 +72,26 @@ fn a_point_becomes_the_kernel_and_an_even_image_stays_as_it_is() {
     assert!(spread.iter().all(|value| (value - 0.25).abs() < 1e-6));
 }
 
+/// A camera with these settings of its lens.
+fn spec(lens: &[(&str, f64)]) -> CameraSpec {
+    let lens = lens.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+    CameraSpec { resolution: [8, 8], position: [0.0, 0.0, 1.0], lens, ..CameraSpec::default() }
+}
+
+/// The light after the lens, before it is written in sRGB.
+fn through(lens: &[(&str, f64)], frame: &Frame, chance: Chance) -> Vec<f32> {
+    let mut light = Light { values: frame.linear.clone().expect("it has light"), camera: &frame.camera };
+    let lens = Lens::of(&spec(lens));
+    let [(effect, values)] = lens.effects.as_slice() else { panic!("one effect is at work") };
+    (effect.apply)(values, &mut light, &mut { chance });
+    light.values
+}
+
 #[test]
 fn corners_lose_light_by_the_fourth_power_of_the_cosine_and_a_stop_doubles_it() {
     let camera = camera(32, 32);
-    let mut light = frame(&camera, |_, _| 0.1).linear.expect("it has light");
-    Effects { vignetting: 1.0, exposure: 1.0, ..Effects::default() }.expose(&mut light, &camera);
+    let even = frame(&camera, |_, _| 0.1);
+    let light = through(&[("vignetting", 1.0), ("exposure", 1.0)], &even, Chance::of(0, "", 0));
     let off_axis = libm::atan(std::f64::consts::SQRT_2 * 15.5 / camera.focal_pixels());
     let expected = 0.2 * libm::pow(libm::cos(off_axis), 4.0);
     assert!((f64::from(light[0]) - expected).abs() < 1e-6, "{} for {expected}", light[0]);
@@ -87,20 +102,17 @@ fn corners_lose_light_by_the_fourth_power_of_the_cosine_and_a_stop_doubles_it() 
 #[test]
 fn noise_keeps_the_mean_and_has_the_variance_of_counting_and_reading() {
     let camera = camera(100, 100);
-    for (effects, level) in [
-        (Effects { full_well: 2000.0, ..Effects::default() }, 0.3),
-        (Effects { full_well: 2000.0, read_noise: 30.0, ..Effects::default() }, 0.5),
-        (Effects { read_noise: 100.0, ..Effects::default() }, 0.5),
-    ] {
-        let mut light = frame(&camera, |_, _| level).linear.expect("it has light");
-        effects.count(&mut light, &mut Chance::of(1, "front", 0));
+    for (full_well, read_noise, level) in [(2000.0, 0.0, 0.3), (2000.0, 30.0, 0.5), (0.0, 100.0, 0.5)] {
+        let even = frame(&camera, |_, _| level);
+        let settings = [("full_well", full_well), ("read_noise", read_noise)];
+        let light = through(&settings, &even, Chance::of(1, "front", 0));
         let n = light.len() as f64;
         let mean = light.iter().map(|value| f64::from(*value)).sum::<f64>() / n;
         let variance =
             light.iter().map(|value| (f64::from(*value) - mean) * (f64::from(*value) - mean)).sum::<f64>() / (n - 1.0);
-        let well = if effects.full_well > 0.0 { effects.full_well } else { USUAL_WELL };
-        let shot = if effects.full_well > 0.0 { f64::from(level) * well } else { 0.0 };
-        let expected = (shot + effects.read_noise * effects.read_noise) / (well * well);
+        let well = if full_well > 0.0 { full_well } else { noise::USUAL_WELL };
+        let shot = if full_well > 0.0 { f64::from(level) * well } else { 0.0 };
+        let expected = (shot + read_noise * read_noise) / (well * well);
         // Five standard deviations of a mean and of a variance of so many normal numbers.
         assert!((mean - f64::from(level)).abs() < 5.0 * (expected / n).sqrt(), "{mean} for {level}");
         assert!((variance / expected - 1.0).abs() < 5.0 * (2.0 / n).sqrt(), "{variance} for {expected}");
@@ -110,8 +122,8 @@ fn noise_keeps_the_mean_and_has_the_variance_of_counting_and_reading() {
 #[test]
 fn noise_is_that_of_the_frame_and_of_no_other() {
     let even = frame(&camera(8, 8), |_, _| 0.5);
-    let noisy = Effects { full_well: 500.0, read_noise: 5.0, ..Effects::default() };
-    let image = |name, number| noisy.develop(&even, &mut Chance::of(7, name, number)).expect("it has light");
+    let noisy = Lens::of(&spec(&[("full_well", 500.0), ("read_noise", 5.0)]));
+    let image = |name, number| noisy.develop(&even, |_| Chance::of(7, name, number)).expect("it has light");
     assert_eq!(image("front", 3), image("front", 3));
     assert_ne!(image("front", 3), image("front", 4));
     assert_ne!(image("front", 3), image("rear", 3));
@@ -123,19 +135,6 @@ fn light_is_written_in_srgb() {
         assert_eq!(srgb(linear), encoded, "{linear}");
     }
     let plain = frame(&camera(4, 4), |_, _| 0.5);
-    assert!(Effects::default().are_none());
-    assert_eq!(Effects::default().develop(&plain, &mut Chance::of(0, "", 0)), Some(vec![188; 48]));
-}
-
-#[test]
-fn effects_that_there_are_not_are_refused_by_name() {
-    let wrong = [
-        Effects { defocus: f64::NAN, ..Effects::default() },
-        Effects { vignetting: 1.5, ..Effects::default() },
-        Effects { full_well: -1.0, ..Effects::default() },
-    ];
-    for (effects, name) in wrong.into_iter().zip(["defocus", "vignetting", "full_well"]) {
-        let error = effects.check().expect_err("it is none").to_string();
-        assert!(error.contains(name), "{error}");
-    }
+    assert!(Lens::default().is_plain() && Lens::of(&spec(&[("motion_angle", 30.0), ("blur", 0.0)])).is_plain());
+    assert_eq!(Lens::default().develop(&plain, |_| Chance::of(0, "", 0)), Some(vec![188; 48]));
 }

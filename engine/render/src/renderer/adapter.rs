@@ -1,6 +1,6 @@
 //! What draws: finding it, describing it, and hearing of its troubles.
 
-use crate::RenderError;
+use crate::{LossReason, RenderError};
 use std::pin::pin;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
@@ -32,7 +32,7 @@ impl Trouble {
     fn note(&self, error: RenderError) {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         // That the device is lost says more than what failed because of it.
-        if first.is_none() || matches!(error, RenderError::Lost(_)) {
+        if first.is_none() || matches!(error, RenderError::Lost { .. }) {
             *first = Some(error);
         }
     }
@@ -42,7 +42,7 @@ impl Trouble {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match &*first {
             None => Ok(()),
-            Some(lost @ RenderError::Lost(_)) => Err(lost.clone()),
+            Some(lost @ RenderError::Lost { .. }) => Err(lost.clone()),
             Some(_) => Err(first.take().expect("there is one")),
         }
     }
@@ -71,14 +71,18 @@ impl Gpu {
             ..Default::default()
         };
         let (device, queue) = now(adapter.request_device(&wanted))
-            .map_err(|error| RenderError::NotOpened { adapter: description.name.clone(), reason: error.to_string() })?;
+            .map_err(|error| RenderError::NotOpened { adapter: description.name.clone(), source: Arc::new(error) })?;
         let trouble = Arc::new(Trouble::default());
         let (lost, failed) = (Arc::clone(&trouble), Arc::clone(&trouble));
         device.set_device_lost_callback(move |reason, message| {
-            lost.note(RenderError::Lost(format!("{reason:?}, {message}")));
+            let reason = match reason {
+                wgpu::DeviceLostReason::Unknown => LossReason::Unknown,
+                wgpu::DeviceLostReason::Destroyed => LossReason::Destroyed,
+            };
+            lost.note(RenderError::Lost { reason, message });
         });
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            failed.note(RenderError::Failed(error.to_string()));
+            failed.note(RenderError::Failed(Arc::new(error)));
         }));
         Ok(Self { adapter: description, limits, device, queue, trouble })
     }
@@ -91,7 +95,7 @@ impl Gpu {
             let _ = self.device.poll(wgpu::PollType::Poll);
         }
         self.trouble.check()?;
-        waited.map(|_| ()).map_err(|error| RenderError::Failed(error.to_string()))
+        waited.map(|_| ()).map_err(|error| RenderError::Failed(Arc::new(error)))
     }
 }
 
@@ -107,7 +111,7 @@ fn best() -> Result<wgpu::Adapter, RenderError> {
     let instance = wgpu::Instance::default();
     let wanted =
         wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
-    now(instance.request_adapter(&wanted)).map_err(|error| RenderError::NoAdapter(error.to_string()))
+    now(instance.request_adapter(&wanted)).map_err(|error| RenderError::NoAdapter(Arc::new(error)))
 }
 
 fn describe(adapter: &wgpu::Adapter) -> Adapter {

@@ -1,9 +1,9 @@
 //! Meshes on the adapter: uploaded once, kept for as long as anybody has them.
 
 use super::adapter::Gpu;
-use super::raw::RawCorner;
-use crate::{Mesh, Surface, Vertex};
-use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
+use super::raw::{RawCorner, Shape};
+use crate::{InstanceFlaw, Mesh, Surface, Vertex};
+use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Arc, Weak};
@@ -50,7 +50,7 @@ impl Finish {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Unfit {
     /// A corner with a number that is not finite.
-    Corner(String),
+    Corner(InstanceFlaw),
     /// This many bytes are more than a buffer may have.
     TooLarge(u64),
 }
@@ -92,7 +92,7 @@ impl GpuMesh {
         let finite = |vertex: &Vertex| vertex.position.iter().chain(&vertex.uv).all(|number| number.is_finite());
         if let Some(index) = mesh.vertices().iter().position(|vertex| !finite(vertex)) {
             let Vertex { position, uv, .. } = mesh.vertices()[index];
-            return Err(Unfit::Corner(format!("corner {index} at {position:?} with texture coordinates {uv:?}")));
+            return Err(Unfit::Corner(InstanceFlaw::Corner { index, position, uv }));
         }
         let (corners, triangles) = spoken_for(mesh);
         let (indices, parts) = parted(&triangles);
@@ -186,26 +186,7 @@ fn raw(vertex: &Vertex) -> RawCorner {
     }
 }
 
-/// Where an instance's mesh is before a camera.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Shape {
-    /// From the mesh's coordinates, scaled, to the camera's.
-    pub to_camera: Isometry3<f64>,
-    /// How much larger than the mesh it is.
-    pub scale: Vector3<f64>,
-}
-
 impl Shape {
-    /// The linear part of what takes the mesh to the camera.
-    pub fn turn(&self) -> Matrix3<f64> {
-        self.to_camera.rotation.to_rotation_matrix() * Matrix3::from_diagonal(&self.scale)
-    }
-
-    /// The pinhole in the mesh's coordinates.
-    pub fn eye(&self) -> Vector3<f64> {
-        self.to_camera.inverse().translation.vector.component_div(&self.scale)
-    }
-
     /// The ball around the mesh, in the camera's coordinates: its middle and radius.
     pub fn ball(&self, mesh: &GpuMesh) -> (Point3<f64>, f64) {
         let middle = (mesh.low + mesh.high) / 2.0;

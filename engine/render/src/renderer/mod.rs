@@ -6,6 +6,7 @@
 mod adapter;
 mod bands;
 mod deal;
+mod images;
 mod inside;
 mod meshes;
 mod pipelines;
@@ -266,7 +267,7 @@ impl Renderer {
         let Batch { targets, submission, layers } = batch;
         let wait = wgpu::PollType::Wait { submission_index: Some(submission), timeout: None };
         self.gpu.wait(wait)?;
-        let unread = |error: wgpu::MapRangeError| RenderError::Failed(error.to_string());
+        let unread = |error: wgpu::MapRangeError| RenderError::Failed(std::sync::Arc::new(error));
         let format = targets.format;
         let cameras: Vec<_> = layers.iter().map(|layer| layer.camera).collect();
         let mut read = read::frames(format, &targets.readback.slice(..).get_mapped_range().map_err(unread)?, &cameras);

@@ -1,11 +1,11 @@
 //! The programs of the adapter: one for each set of images that is asked for.
 
 use super::adapter::Gpu;
+use super::images::{DEPTH_FORMAT, Image};
 use super::meshes::Finish;
 use super::prepare::Weather;
 use super::raw::{RawCorner, RawInstance, RawView};
 use super::shadow::TEXELS;
-use super::targets::{DEPTH_FORMAT, Image};
 use crate::Outputs;
 use std::collections::BTreeMap;
 use std::num::NonZeroU64;

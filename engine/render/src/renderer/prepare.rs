@@ -2,10 +2,11 @@
 
 use super::adapter::Gpu;
 use super::inside::inside;
-use super::meshes::{GpuMesh, Meshes, Shape, Unfit};
+use super::meshes::{GpuMesh, Meshes, Unfit};
+use super::raw::Shape;
 use super::raw::{RawInstance, RawView, four};
 use super::shadow::{ShadowMap, to_sun};
-use crate::{Camera, Instance, Outputs, View, ViewError};
+use crate::{Camera, Instance, InstanceFlaw, Outputs, View, ViewError};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -145,33 +146,30 @@ fn check(view: &View<'_>) -> Result<(), ViewError> {
     let lamps = view.head_lamps.unwrap_or_default();
     let numbers = view.pose.translation.vector.iter().chain(view.pose.rotation.coords.iter()).chain(lamps.iter());
     if !numbers.copied().all(f64::is_finite) {
-        return Err(ViewError::Pose(format!("{}, head lamps {:?}", view.pose, view.head_lamps)));
+        return Err(ViewError::Pose { pose: view.pose, head_lamps: view.head_lamps });
     }
     view.scene.air.check()
 }
 
 fn check_instance(index: usize, instance: &Instance) -> Result<(), ViewError> {
-    let wrong =
-        |what, found: String, expected| Err(ViewError::Instance { index, id: instance.id, what, found, expected });
+    let wrong = |flaw| Err(ViewError::Instance { index, id: instance.id, flaw });
     let pose = &instance.pose;
     let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
     if !numbers.copied().all(f32::is_finite) {
-        return wrong("pose", pose.to_string(), "finite numbers");
+        return wrong(InstanceFlaw::Pose(*pose));
     }
     if !instance.scale.iter().all(|along| along.is_normal() && *along > 0.0) {
-        return wrong("scale", format!("{:?}", instance.scale), "finite numbers above 0");
+        return wrong(InstanceFlaw::Scale(instance.scale));
     }
     if !instance.paint.iter().all(|part| (0.0..=1.0).contains(part)) {
-        return wrong("paint", format!("{:?}", instance.paint), "numbers from 0 to 1");
+        return wrong(InstanceFlaw::Paint(instance.paint));
     }
     Ok(())
 }
 
 fn not_drawable(gpu: &Gpu, index: usize, id: u16, unfit: &Unfit) -> ViewError {
     match unfit {
-        Unfit::Corner(found) => {
-            ViewError::Instance { index, id, what: "mesh", found: found.clone(), expected: "finite numbers" }
-        }
+        Unfit::Corner(flaw) => ViewError::Instance { index, id, flaw: flaw.clone() },
         Unfit::TooLarge(bytes) => {
             ViewError::TooMuch { what: "a mesh", bytes: *bytes, limit: gpu.limits.max_buffer_size }
         }

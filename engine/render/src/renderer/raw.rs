@@ -1,6 +1,5 @@
 //! What is written to the adapter, byte for byte as the shaders read it.
 
-use crate::renderer::meshes::Shape;
 use bytemuck::{Pod, Zeroable};
 use nalgebra::{Isometry3, Matrix3, Vector3};
 use wgpu::{VertexAttribute, VertexBufferLayout, VertexStepMode, vertex_attr_array};
@@ -49,6 +48,27 @@ impl RawCorner {
         step_mode: VertexStepMode::Vertex,
         attributes: &Self::ATTRIBUTES,
     };
+}
+
+/// Where an instance's mesh is before a camera.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shape {
+    /// From the mesh's coordinates, scaled, to the camera's.
+    pub to_camera: Isometry3<f64>,
+    /// How much larger than the mesh it is.
+    pub scale: Vector3<f64>,
+}
+
+impl Shape {
+    /// The linear part of what takes the mesh to the camera.
+    pub fn turn(&self) -> Matrix3<f64> {
+        self.to_camera.rotation.to_rotation_matrix() * Matrix3::from_diagonal(&self.scale)
+    }
+
+    /// The pinhole in the mesh's coordinates.
+    pub fn eye(&self) -> Vector3<f64> {
+        self.to_camera.inverse().translation.vector.component_div(&self.scale)
+    }
 }
 
 /// An instance before a camera.

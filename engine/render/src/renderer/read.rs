@@ -1,6 +1,7 @@
 //! From the bytes of a batch to its frames.
 
-use super::targets::{Format, Image};
+use super::images::Image;
+use super::targets::Format;
 use crate::frame::Extent;
 use crate::{Camera, Frame};
 use std::collections::BTreeMap;

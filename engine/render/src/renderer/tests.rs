@@ -76,7 +76,7 @@ fn a_lost_device_is_an_error_and_a_new_renderer_sees_again() {
     let new = board();
     for views in [[View::new(&new, &camera, Isometry3::identity())], views, views] {
         let error = renderer.render(&views, INSTANCES).expect_err("it is lost");
-        assert!(matches!(error, RenderError::Lost(_)), "{error}");
+        assert!(matches!(error, RenderError::Lost { .. }), "{error}");
     }
     let mut renderer = self::renderer().expect("there was an adapter a moment ago");
     let frames = renderer.render(&views, INSTANCES).expect("the adapter works");

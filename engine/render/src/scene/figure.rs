@@ -3,10 +3,12 @@
 //! A mesh has the size of its kind and is stretched to that of the body. Trees and signs are wider than their outline,
 //! which is that of the trunk or the pole.
 
+mod gait;
+
 use super::Instance;
-use super::gait::walker;
 use crate::mesh::models::{Models, linear};
 use crate::mesh::{Mesh, bicycle, car, furniture, house, truck};
+use gait::walker;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use paracosm_engine::object::{Body, BodyState, Class, Outline};
 use std::f32::consts::FRAC_PI_2;
@@ -21,7 +23,7 @@ const LAMP_POST: f32 = 3.8;
 /// A bicycle lower than this has no rider, in metres.
 const RIDDEN: f32 = 1.3;
 /// A person smaller than this is a child, in metres.
-pub(super) const CHILD: f32 = 1.4;
+const CHILD: f32 = 1.4;
 
 /// A body that is being drawn.
 pub(super) struct Figure<'a> {

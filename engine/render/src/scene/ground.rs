@@ -7,7 +7,7 @@ use super::Instance;
 use crate::mesh::clay::{Clay, Matter, at};
 use crate::mesh::{Mesh, Semantic, Surface};
 use nalgebra::{Isometry3, Vector2};
-use paracosm_engine::road::{Bounds, Curve, Network, Strip, Surface as Paved};
+use paracosm_engine::road::{Bounds, Curve, RoadNetwork, Strip, Surface as Paved};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -62,7 +62,7 @@ fn lie(surface: Paved) -> Lie {
 }
 
 /// The road network and the plain around it.
-pub(super) fn ground(network: &Network) -> Vec<Instance> {
+pub(super) fn ground(network: &RoadNetwork) -> Vec<Instance> {
     let mut chunks: BTreeMap<[i64; 2], Clay> = BTreeMap::new();
     for strip in network.strips().iter().flat_map(Strip::solid_parts) {
         lay(&strip, &mut chunks);

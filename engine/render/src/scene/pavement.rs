@@ -2,7 +2,7 @@
 
 use super::ground::{KERB, cuts};
 use nalgebra::Vector2;
-use paracosm_engine::road::{Network, Strip, Surface};
+use paracosm_engine::road::{RoadNetwork, Strip, Surface};
 use std::collections::BTreeMap;
 
 /// The sides of a cell in metres.
@@ -22,7 +22,7 @@ fn cell(point: Vector2<f64>) -> [i64; 2] {
 }
 
 impl Pavement {
-    pub fn of(network: &Network) -> Self {
+    pub fn of(network: &RoadNetwork) -> Self {
         let mut strips = network.strips();
         strips.retain(|strip| strip.surface == Surface::Sidewalk);
         let mut cells: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();

@@ -8,7 +8,7 @@ use crate::Mesh;
 use nalgebra::{Isometry3, Vector3};
 use paracosm_engine::Run;
 use paracosm_engine::object::{BodyState, Class};
-use paracosm_engine::road::Network;
+use paracosm_engine::road::RoadNetwork;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
@@ -44,7 +44,7 @@ pub type Cast = BTreeMap<usize, Arc<Model>>;
 
 impl Stage {
     /// The stage of a network.
-    pub fn of(network: &Network) -> Self {
+    pub fn of(network: &RoadNetwork) -> Self {
         Self { still: ground(network), pavement: Pavement::of(network), models: BTreeMap::new() }
     }
 
@@ -111,15 +111,15 @@ impl Model {
 /// The stages of networks, as long as the networks live.
 #[derive(Debug, Default)]
 pub struct Stages {
-    known: Mutex<Vec<(Weak<Network>, Arc<Stage>)>>,
+    known: Mutex<Vec<(Weak<RoadNetwork>, Arc<Stage>)>>,
 }
 
 impl Stages {
     /// The stage of a network: the same for the same network, so that tests on it share it.
-    pub fn of(&self, network: &Arc<Network>) -> Arc<Stage> {
+    pub fn of(&self, network: &Arc<RoadNetwork>) -> Arc<Stage> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|(of, _)| of.strong_count() > 0);
-        let same = |(of, _): &&(Weak<Network>, Arc<Stage>)| of.as_ptr() == Arc::as_ptr(network);
+        let same = |(of, _): &&(Weak<RoadNetwork>, Arc<Stage>)| of.as_ptr() == Arc::as_ptr(network);
         if let Some((_, stage)) = known.iter().find(same) {
             return stage.clone();
         }

@@ -1,13 +1,14 @@
 //! Whole runs, over gRPC as in process.
 
 use super::open;
+use super::programs::{BEHIND, CROSSING, TURNING};
 use super::scripted::{Act, ready, scripted, welcome};
 use crate::wire::{self, answer};
 use crate::{Address, serve};
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
-use paracosm_engine::sensor::{Cameras, Image, Mounted, Rig};
-use paracosm_engine::vehicle::{Model, Vehicle};
-use paracosm_engine::{Briefing, Control, Observation, Program, Run, Setup, Step, simulate};
+use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Rig};
+use paracosm_engine::vehicle::{Vehicle, VehicleModel};
+use paracosm_engine::{Briefing, Control, Observation, Run, Setup, Step, simulate};
 use paracosm_oracles::Verdict;
 use std::net::TcpListener;
 use std::sync::{Arc, Mutex};
@@ -24,37 +25,34 @@ fn built_in(name: &str) -> Box<dyn Driver> {
     find(name).unwrap().build(&[]).unwrap()
 }
 
-fn program(name: &str) -> &'static Program {
-    paracosm_scenarios::find(name).unwrap()
-}
-
 #[test]
 fn the_same_driver_gives_the_same_trace_in_process_and_over_grpc() {
-    for (scenario, name) in [("pedestrian-crossing", "aeb"), ("follow-leader", "cc"), ("t-loop", "cruise")] {
-        let program = program(scenario);
+    for (program, name) in [(&CROSSING, "aeb"), (&BEHIND, "cc"), (&TURNING, "cruise")] {
         let test = program.declare().unwrap().nominal();
         let address = served(move || built_in(name));
         let mut far = open(&address).unwrap();
-        let near = simulate(program, &test, Model::SingleTrack, built_in(name).as_mut());
-        assert_eq!(near.error, None);
+        let near = simulate(program, &test, VehicleModel::SingleTrack, built_in(name).as_mut());
+        assert_eq!(near.ending.message(), None);
         for _ in 0..2 {
-            let over = simulate(program, &test, Model::SingleTrack, &mut far);
-            assert_eq!(over, near, "{name} in {scenario}");
+            let over = simulate(program, &test, VehicleModel::SingleTrack, &mut far);
+            assert_eq!(over, near, "{name} in {}", program.name());
         }
         let hash = |outcome: &paracosm_engine::Outcome| outcome.trace.as_ref().unwrap().hash();
-        assert_eq!(hash(&simulate(program, &test, Model::SingleTrack, &mut open(&address).unwrap())), hash(&near));
+        assert_eq!(
+            hash(&simulate(program, &test, VehicleModel::SingleTrack, &mut open(&address).unwrap())),
+            hash(&near)
+        );
     }
 }
 
 #[test]
 fn sessions_of_one_server_do_not_disturb_each_other() {
     let address = served(|| built_in("aeb"));
-    let program = program("pedestrian-crossing");
-    let test = program.declare().unwrap().nominal();
-    let expected = simulate(program, &test, Model::SingleTrack, built_in("aeb").as_mut());
+    let test = CROSSING.declare().unwrap().nominal();
+    let expected = simulate(&CROSSING, &test, VehicleModel::SingleTrack, built_in("aeb").as_mut());
     let mut sessions: Vec<_> = (0..8).map(|_| open(&address).unwrap()).collect();
     let mut runs: Vec<Run> =
-        sessions.iter().map(|one| Run::new(program, &test, Setup::asking_every(one.period())).unwrap()).collect();
+        sessions.iter().map(|one| Run::new(&CROSSING, &test, Setup::asking_every(one.period())).unwrap()).collect();
     for (run, session) in runs.iter().zip(&mut sessions) {
         session.reset(&run.briefing()).unwrap();
     }
@@ -77,7 +75,20 @@ fn sessions_of_one_server_do_not_disturb_each_other() {
 struct Watcher(Arc<Mutex<Vec<Image>>>);
 
 fn cameras() -> Cameras {
-    let mounted = |width| Mounted {
+    let lens = [
+        ("motion", 1.0),
+        ("motion_angle", 45.0),
+        ("defocus", 2.0),
+        ("blur", 0.5),
+        ("vignetting", 0.3),
+        ("exposure", -1.0),
+        ("full_well", 5000.0),
+        ("read_noise", 3.0),
+        // The protocol has no fields for these.
+        ("a setting of another lens", 0.0),
+        ("another one", 4.0),
+    ];
+    let spec = |width| CameraSpec {
         resolution: [width, 2],
         focal_mm: 4.0,
         sensor_mm: 6.0,
@@ -86,16 +97,9 @@ fn cameras() -> Cameras {
         rate: 10.0,
         latency: 0.05,
         dropped: 0.1,
-        motion: 1.0,
-        motion_angle: 45.0,
-        defocus: 2.0,
-        blur: 0.5,
-        vignetting: 0.3,
-        exposure: -1.0,
-        full_well: 5000.0,
-        read_noise: 3.0,
+        lens: lens.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
     };
-    let all = [("front", mounted(3)), ("back", mounted(2))].map(|(name, camera)| (name.to_owned(), camera));
+    let all = [("front", spec(3)), ("back", spec(2))].map(|(name, camera)| (name.to_owned(), camera));
     Cameras { seed: 0, all: all.into() }
 }
 
@@ -164,12 +168,11 @@ fn readings_of_sensors_arrive_when_they_are_there() {
         Act::Say(answer::Kind::Control(wire::Control { throttle: 0.1, steering: 0.0 }))
     }));
     let mut session = open(&address).unwrap();
-    let program = program("follow-leader");
-    let test = program.declare().unwrap().nominal();
-    let mut run = Run::new(program, &test, Setup::asking_every(session.period())).unwrap();
+    let test = BEHIND.declare().unwrap().nominal();
+    let mut run = Run::new(&BEHIND, &test, Setup::asking_every(session.period())).unwrap();
     run.equip(session.equipment().rig);
     let outcome = run.drive(&mut session);
-    assert_eq!(outcome.error, None);
+    assert_eq!(outcome.ending.message(), None);
     let steps = steps.lock().unwrap();
     let times = |inertia: &[wire::Inertia]| inertia.iter().map(|one| (one.time * 100.0).round()).collect::<Vec<_>>();
     assert_eq!(times(&steps[0].inertia), []);
@@ -191,11 +194,10 @@ fn a_control_that_cannot_be_ends_the_test() {
     for (throttle, says) in [(f64::NAN, "the driver's throttle is NaN"), (1.5, "the driver's throttle is 1.5")] {
         let control = wire::Control { throttle, steering: 0.0 };
         let address = scripted(ready(welcome(), move |_| Act::Say(answer::Kind::Control(control))));
-        let program = program("pedestrian-crossing");
-        let test = program.declare().unwrap().nominal();
-        let outcome = simulate(program, &test, Model::SingleTrack, &mut open(&address).unwrap());
-        assert_eq!(outcome.verdict, Verdict::Error);
-        let message = outcome.error.unwrap();
+        let test = CROSSING.declare().unwrap().nominal();
+        let outcome = simulate(&CROSSING, &test, VehicleModel::SingleTrack, &mut open(&address).unwrap());
+        assert_eq!(outcome.verdict(), Verdict::Error);
+        let message = outcome.ending.message().unwrap();
         assert!(message.contains(says) && message.contains("expected -1 to 1 at 0.000 s"), "{message}");
     }
 }
@@ -228,6 +230,6 @@ fn a_driver_with_a_rig_and_one_that_panics_are_no_loss_to_others() {
     for _ in 0..2 {
         let mut session = open(&address).unwrap();
         let fault = session.reset(&Briefing { cruise_speed: 1.0, vehicle: Vehicle::BMW_320I }).unwrap_err();
-        assert_eq!(fault.0, "the driver panicked: no brakes");
+        assert_eq!(fault.message, "the driver panicked: no brakes");
     }
 }

@@ -2,9 +2,11 @@
 
 mod driving;
 mod faults;
+mod programs;
 mod scripted;
 
 use crate::{Address, OpenError, Session, Terms};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -40,13 +42,36 @@ fn what_is_no_address_is_refused_with_the_reason() {
     }
 }
 
+/// Compares a file of the repository with what is made of `driver.proto`; with `UPDATE_GOLDEN=1` writes it instead.
+fn is_of_the_protocol(path: &str, made: &[u8]) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(&path, made).unwrap();
+    }
+    let kept = std::fs::read(&path).unwrap_or_default();
+    assert!(kept == made, "{} is of another driver.proto; UPDATE_GOLDEN=1 writes it anew", path.display());
+}
+
+/// The description of the protocol, without an installed protoc.
+fn compiler() -> protox::Compiler {
+    let mut compiler = protox::Compiler::new([concat!(env!("CARGO_MANIFEST_DIR"), "/proto")]).unwrap();
+    compiler.open_file("paracosm/driver/v1/driver.proto").unwrap();
+    compiler
+}
+
 #[test]
 fn the_python_package_has_the_protocol_as_it_is_described() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../python/src/paracosm/driver.binpb");
-    let made: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/driver.binpb"));
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(path, made).unwrap();
-    }
-    let kept = std::fs::read(path).unwrap_or_default();
-    assert!(kept == made, "{path} is of another driver.proto; UPDATE_GOLDEN=1 writes it anew");
+    is_of_the_protocol("../../python/src/paracosm/driver.binpb", &compiler().encode_file_descriptor_set());
+}
+
+#[test]
+fn the_messages_are_generated_from_the_protocol_as_it_is_described() {
+    let folder = tempfile::tempdir().unwrap();
+    let with_comments = compiler().include_source_info(true).file_descriptor_set();
+    let generator =
+        tonic_prost_build::configure().bytes(".").btree_map(".paracosm.driver.v1.Camera").out_dir(folder.path());
+    let generator = generator.server_mod_attribute(".", "#[cfg(feature = \"serve\")]");
+    generator.compile_fds(with_comments).unwrap();
+    let made = std::fs::read(folder.path().join("paracosm.driver.v1.rs")).unwrap();
+    is_of_the_protocol("src/wire/generated.rs", &made);
 }

@@ -2,10 +2,10 @@
 
 use super::{Fix, Image as WireImage, Inertia, Scan, Step, Welcome};
 use nalgebra::Vector3;
-use paracosm_engine::driver::{Equipment, Fault};
+use paracosm_engine::driver::{Equipment, Fault, FaultKind};
 use paracosm_engine::sensor::{
-    Cameras, Delivery, Gnss, GnssSettings, Handle, Image, Imu, ImuSettings, Inaccuracy, Lidar, LidarSettings, Mount,
-    Mounted, Rig, Sample, Sensor, SensorError,
+    CameraSpec, Cameras, Delivery, Gnss, GnssSettings, Handle, Image, Imu, ImuSettings, Inaccuracy, Lidar,
+    LidarSettings, Mount, Rig, Sample, Sensor, SensorError,
 };
 
 /// What a driver has said of itself.
@@ -33,15 +33,23 @@ impl Described {
     pub fn new(welcome: Welcome, seed: u64) -> Result<Self, Fault> {
         let Welcome { name, period, others, .. } = welcome;
         if !(period > 0.0 && period.is_finite()) {
-            return Err(Fault(format!("the driver's period is {period} s, expected a number above 0")));
+            return Err(Fault::of(
+                FaultKind::Equipment,
+                format!("the driver's period is {period} s, expected a number above 0"),
+            ));
         }
         let mut cameras = Cameras { seed, ..Cameras::default() };
         for camera in &welcome.cameras {
             if cameras.all.insert(camera.name.clone(), camera.into()).is_some() {
-                return Err(Fault(format!("two of the driver's cameras are called `{}`", camera.name)));
+                return Err(Fault::of(
+                    FaultKind::Equipment,
+                    format!("two of the driver's cameras are called `{}`", camera.name),
+                ));
             }
         }
-        let sensor = |error: SensorError| Fault(format!("the driver asks for a sensor that cannot be: {error}"));
+        let sensor = |error: SensorError| {
+            Fault::of(FaultKind::Equipment, format!("the driver asks for a sensor that cannot be: {error}"))
+        };
         let lidars = welcome.lidars.iter().map(|lidar| {
             let made = Lidar::new(lidar.into())?;
             Ok(Fitting::new(&lidar.name, made, lidar.delivery.as_ref()))
@@ -142,9 +150,9 @@ impl<S: Sensor + Clone> Fitting<S> {
     }
 }
 
-impl From<&super::Camera> for Mounted {
+impl From<&super::Camera> for CameraSpec {
     fn from(camera: &super::Camera) -> Self {
-        Self {
+        let mut spec = Self {
             resolution: [camera.width, camera.height],
             focal_mm: camera.focal_mm,
             sensor_mm: camera.sensor_mm,
@@ -153,48 +161,63 @@ impl From<&super::Camera> for Mounted {
             rate: camera.rate,
             latency: camera.latency,
             dropped: camera.dropped,
-            motion: camera.motion,
-            motion_angle: camera.motion_angle_degrees,
-            defocus: camera.defocus,
-            blur: camera.blur,
-            vignetting: camera.vignetting,
-            exposure: camera.exposure,
-            full_well: camera.full_well,
-            read_noise: camera.read_noise,
-        }
+            ..Self::default()
+        };
+        // A field that is 0 was not said.
+        let said = OF_LENS.iter().map(|(name, of, _)| (*name, of(camera))).filter(|(_, value)| *value != 0.0);
+        said.for_each(|(name, value)| spec.lens.set(name, value));
+        camera.lens.iter().for_each(|(name, value)| spec.lens.set(name, *value));
+        spec
     }
 }
 
-impl From<(&String, &Mounted)> for super::Camera {
-    fn from((name, mounted): (&String, &Mounted)) -> Self {
-        let [x, y, z] = mounted.position;
-        let [yaw_degrees, pitch_degrees, roll_degrees] = mounted.yaw_pitch_roll;
-        Self {
+impl From<(&String, &CameraSpec)> for super::Camera {
+    fn from((name, spec): (&String, &CameraSpec)) -> Self {
+        let [x, y, z] = spec.position;
+        let [yaw_degrees, pitch_degrees, roll_degrees] = spec.yaw_pitch_roll;
+        let mut camera = Self {
             name: name.clone(),
-            width: mounted.resolution[0],
-            height: mounted.resolution[1],
-            focal_mm: mounted.focal_mm,
-            sensor_mm: mounted.sensor_mm,
+            width: spec.resolution[0],
+            height: spec.resolution[1],
+            focal_mm: spec.focal_mm,
+            sensor_mm: spec.sensor_mm,
             x,
             y,
             z,
             yaw_degrees,
             pitch_degrees,
             roll_degrees,
-            rate: mounted.rate,
-            latency: mounted.latency,
-            dropped: mounted.dropped,
-            motion: mounted.motion,
-            motion_angle_degrees: mounted.motion_angle,
-            defocus: mounted.defocus,
-            blur: mounted.blur,
-            vignetting: mounted.vignetting,
-            exposure: mounted.exposure,
-            full_well: mounted.full_well,
-            read_noise: mounted.read_noise,
+            rate: spec.rate,
+            latency: spec.latency,
+            dropped: spec.dropped,
+            ..Self::default()
+        };
+        for (name, value) in spec.lens.iter() {
+            match OF_LENS.iter().find(|(own, ..)| *own == name) {
+                Some((_, _, at)) => *at(&mut camera) = *value,
+                None => {
+                    camera.lens.insert(name.to_owned(), *value);
+                }
+            }
         }
+        camera
     }
 }
+
+/// Reads a field of a message, and writes it.
+type Field = (&'static str, fn(&super::Camera) -> f64, fn(&mut super::Camera) -> &mut f64);
+
+/// The settings of lenses that have a field of their own in the protocol, from before it had a map of them.
+const OF_LENS: [Field; 8] = [
+    ("motion", |camera| camera.motion, |camera| &mut camera.motion),
+    ("motion_angle", |camera| camera.motion_angle_degrees, |camera| &mut camera.motion_angle_degrees),
+    ("defocus", |camera| camera.defocus, |camera| &mut camera.defocus),
+    ("blur", |camera| camera.blur, |camera| &mut camera.blur),
+    ("vignetting", |camera| camera.vignetting, |camera| &mut camera.vignetting),
+    ("exposure", |camera| camera.exposure, |camera| &mut camera.exposure),
+    ("full_well", |camera| camera.full_well, |camera| &mut camera.full_well),
+    ("read_noise", |camera| camera.read_noise, |camera| &mut camera.read_noise),
+];
 
 fn mount(described: Option<&super::Mount>, usual: Mount) -> Mount {
     described.map_or(usual, |at| Mount { position: Vector3::new(at.x, at.y, at.z), heading: at.heading })

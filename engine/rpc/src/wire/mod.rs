@@ -1,16 +1,19 @@
-//! The messages of the protocol, and what they stand for.
+//! The messages of the protocol, and what they stand for. `generated` is made of `driver.proto`; a test keeps it so.
 
 mod equipment;
 mod observation;
+#[cfg(feature = "serve")]
+mod read;
 
 #[allow(clippy::all, missing_docs)]
-mod generated {
-    tonic::include_proto!("paracosm.driver.v1");
-}
+#[rustfmt::skip]
+mod generated;
 
 pub use equipment::Described;
 pub use generated::*;
-pub use observation::{read, write};
+pub use observation::write;
+#[cfg(feature = "serve")]
+pub use read::read;
 
 use crate::{PROTOCOL, Terms};
 

@@ -37,7 +37,7 @@ fn control(driver: &mut dyn Driver, time: f64, images: &[Image]) -> Control {
 #[test]
 fn the_lane_is_seen_where_it_is() {
     for (lateral, slope) in [(0.0, 0.0), (0.8, 0.0), (-0.6, 0.0), (0.0, 0.03), (0.3, -0.04)] {
-        let mut camera = LaneCamera::new(&KIND.settings(&[]).unwrap());
+        let mut camera = LaneCamera::new(&DESCRIPTOR.settings(&[]).unwrap());
         camera.look(&image(|distance| Some(lateral + slope * distance - 1.75)));
         for metres in [6.0, 10.0, 15.0] {
             let found = camera.target(metres).unwrap();
@@ -73,6 +73,6 @@ fn its_camera_is_as_it_is_set() {
     let changes = [("rate", 20.0), ("latency", 0.3), ("dropped", 0.1), ("blur", 2.0)];
     let camera = driver(&changes.map(|(name, value)| (name.to_owned(), value))).equipment().cameras.all;
     let camera = &camera["front"];
-    assert_eq!((camera.rate, camera.latency, camera.dropped, camera.blur), (20.0, 0.3, 0.1, 2.0));
+    assert_eq!((camera.rate, camera.latency, camera.dropped, camera.lens.get("blur")), (20.0, 0.3, 0.1, Some(&2.0)));
     assert_eq!(camera.resolution, [200, 66]);
 }

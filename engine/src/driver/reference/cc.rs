@@ -14,7 +14,7 @@
 //! the way, or the gap no longer shrinks and the other does not brake. The 0.85 g of the table's row for vehicles that
 //! overlap wholly are those of an emergency brake (UN R152) and left out.
 
-use super::super::{Kind, Setting, setting};
+use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, LANE_WIDTH, Situation};
@@ -63,7 +63,7 @@ const STANDARD: Cc = Cc {
     brake: 0.0,
 };
 
-pub(in super::super) const KIND: Kind = Kind {
+pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "cc",
     about: "the competent and careful human of UN R157, who is told the truth",
     settings: &SETTINGS,

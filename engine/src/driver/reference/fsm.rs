@@ -19,7 +19,7 @@
 //! Our reading: tau is the time for which there has been a reason to brake without a break; after it the measures of the
 //! moment count. Nothing is asked of a car that is no faster than the other. The two margins of 2 m are the two places of `d1`.
 
-use super::super::{Kind, Setting, setting};
+use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, Situation};
@@ -57,7 +57,7 @@ const STANDARD: Fsm = Fsm {
 /// Seconds by which the other may be late and still be looked at.
 const LATE: f64 = 0.1;
 
-pub(in super::super) const KIND: Kind = Kind {
+pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "fsm",
     about: "brakes by the fuzzy surrogate safety measures of UN R157, and is told the truth",
     settings: &SETTINGS,

@@ -15,7 +15,7 @@
 //! other goes on as it does, looks some seconds ahead, wants some room on all sides, or none if there is none to be had, and does
 //! what the best profile does first. What it did not foresee it may collide with.
 
-use super::super::{Kind, Setting, setting};
+use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
 use crate::kinematic::{BrakingModel, Course, Encounter, Ended, Situation, Size};
 use crate::vehicle::GRAVITY;
@@ -33,7 +33,7 @@ pub struct Ideal {
 
 const STANDARD: Ideal = Ideal { deceleration: GRAVITY, horizon: 5.0, margin: 0.3 };
 
-pub(in super::super) const KIND: Kind = Kind {
+pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "ideal",
     about: "brakes without delay and only as hard as it must, and is told the truth",
     settings: &SETTINGS,

@@ -32,11 +32,11 @@ pub use ideal::{Ideal, Profile};
 pub use reg157::Reg157;
 pub use rss::Rss;
 
-pub(super) use cc::KIND as CC;
-pub(super) use fsm::KIND as FSM;
-pub(super) use ideal::KIND as IDEAL;
-pub(super) use reg157::KIND as REG157;
-pub(super) use rss::KIND as RSS;
+pub(super) use cc::DESCRIPTOR as CC;
+pub(super) use fsm::DESCRIPTOR as FSM;
+pub(super) use ideal::DESCRIPTOR as IDEAL;
+pub(super) use reg157::DESCRIPTOR as REG157;
+pub(super) use rss::DESCRIPTOR as RSS;
 
 use crate::kinematic::{Encounter, Ended};
 

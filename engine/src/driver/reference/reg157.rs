@@ -10,7 +10,7 @@
 //! best also where the regulation asks nothing of it (a movement that was visible for less than 0.72 s). The intrusion is that of
 //! the other's body, which stands for its front wheel.
 
-use super::super::{Kind, Setting, setting};
+use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, LANE_WIDTH, Situation};
@@ -32,7 +32,7 @@ pub struct Reg157 {
 const STANDARD: Reg157 =
     Reg157 { lane_width: LANE_WIDTH, intrusion: 0.3, reaction: 0.35, deceleration: 6.0, intruded: Held::NEVER };
 
-pub(in super::super) const KIND: Kind = Kind {
+pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "reg157",
     about: "brakes as late and as little as UN R157 allows, and is told the truth",
     settings: &SETTINGS,

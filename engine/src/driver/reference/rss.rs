@@ -15,7 +15,7 @@
 //! that). rho, a, mu and `b_min` are those used with UN R157's scenarios; `b_max` is taken equal to `b_min`; `a_lat` and `b_lat`,
 //! for which no value is given there, are those in wide use with RSS, 0.2 and 0.8 m/s².
 
-use super::super::{Kind, Setting, setting};
+use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, Situation};
@@ -51,7 +51,7 @@ const STANDARD: Rss = Rss {
     danger: Held::NEVER,
 };
 
-pub(in super::super) const KIND: Kind = Kind {
+pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
     name: "rss",
     about: "keeps the distances of Responsibility-Sensitive Safety, and is told the truth",
     settings: &SETTINGS,

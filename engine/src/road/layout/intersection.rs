@@ -9,7 +9,8 @@
 
 use super::conflicts::find_conflicts;
 use super::{LanePlan, Layout, Mouth, STOP_LINE, arm, pose};
-use crate::road::curve::{Curve, wrapped};
+use crate::geometry::wrapped;
+use crate::road::curve::Curve;
 use crate::road::element::Profile;
 use crate::road::lane::LaneKind;
 use crate::road::strip::{Strip, Surface};

@@ -9,7 +9,7 @@ use super::curve::Curve;
 use super::element::{Profile, Shape};
 use super::lane::LaneKind;
 use super::strip::{Strip, Surface};
-use crate::scenario::Pose;
+use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
 

@@ -1,11 +1,12 @@
 //! A straight or curved road.
 
 use super::{LINE, LanePlan, Layout, Mouth, Port};
-use crate::road::curve::{Curve, wrapped};
+use crate::geometry::Pose;
+use crate::geometry::wrapped;
+use crate::road::curve::Curve;
 use crate::road::element::{Profile, Segment};
 use crate::road::lane::LaneKind;
 use crate::road::strip::{Strip, Surface};
-use crate::scenario::Pose;
 use std::f64::consts::PI;
 
 /// How wide a zebra crossing is, in metres along the road.

@@ -17,10 +17,15 @@ mod scanner;
 
 pub use depth::{Pinhole, scan_of_depth};
 
+use super::Descriptor;
 use super::error::{Checks, SensorError};
-use super::{Chance, Mount, Sensor, View};
+use super::{Chance, Mount, Sensor, SensorView};
 use nalgebra::{Vector2, Vector3};
 use scanner::Scanner;
+
+/// How lists show this kind of sensor.
+pub(super) const DESCRIPTOR: Descriptor =
+    Descriptor { name: "lidar", about: "points where beams of light come back, with their intensity" };
 
 /// The steepest beam in radians, up or down: 85 degrees.
 const STEEPEST: f64 = 1.483_529_864_195_180_3;
@@ -183,7 +188,7 @@ impl Sensor for Lidar {
         self.settings.period
     }
 
-    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Scan) {
+    fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Scan) {
         let LidarSettings { mount, range, noise, attenuation, .. } = self.settings;
         let sensor = mount.pose(view.car);
         self.scanner.begin(mount.position.z, range);

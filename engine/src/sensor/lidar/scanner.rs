@@ -6,8 +6,8 @@
 //! any tree.
 
 use super::unit;
+use crate::geometry::Pose;
 use crate::object::{BodyState, Outline};
-use crate::scenario::Pose;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 

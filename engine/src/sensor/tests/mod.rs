@@ -7,11 +7,12 @@ mod radar;
 mod rig;
 mod truth;
 
-use super::{Air, SensorError, View};
+use super::{Air, SensorError, SensorView};
+use crate::geometry::Pose;
 use crate::object::{Body, BodyState, Class};
-use crate::road::{Network, RoadSegment};
-use crate::scenario::{Pose, Weather};
+use crate::road::{RoadNetwork, RoadSegment};
 use crate::vehicle::VehicleState;
+use crate::weather::Weather;
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -20,7 +21,7 @@ use std::sync::Arc;
 struct World {
     car: VehicleState,
     bodies: Vec<BodyState>,
-    network: Arc<Network>,
+    network: Arc<RoadNetwork>,
     extinction: f64,
 }
 
@@ -46,10 +47,10 @@ impl World {
         self
     }
 
-    fn view(&self, time: f64) -> View<'_> {
+    fn view(&self, time: f64) -> SensorView<'_> {
         let air = Air { extinction: self.extinction, ..Air::default() };
         let weather = Weather::default();
-        View { time, car: &self.car, bodies: &self.bodies, network: &self.network, weather, air }
+        SensorView { time, car: &self.car, bodies: &self.bodies, network: &self.network, weather, air }
     }
 }
 

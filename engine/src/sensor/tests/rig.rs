@@ -28,7 +28,7 @@ impl Sensor for Clock {
         self.readings = 0;
     }
 
-    fn sense(&mut self, view: &View<'_>, chance: &mut Chance, reading: &mut Tick) {
+    fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Tick) {
         self.readings += 1;
         *reading = Tick { time: view.time, luck: chance.unit(), count: self.readings };
     }

@@ -18,8 +18,8 @@
 mod corner;
 
 use super::{Drive, Dynamics, GRAVITY, Pedals, Vehicle, VehicleState, Wheel};
-use crate::road::wrapped;
-use crate::scenario::Pose;
+use crate::geometry::Pose;
+use crate::geometry::wrapped;
 use corner::{Chassis, Corner, Step, Torque};
 use nalgebra::Vector2;
 use rapier3d::dynamics::{MassProperties, RigidBody};

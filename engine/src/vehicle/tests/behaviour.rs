@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 #[test]
 fn both_models_change_lanes_alike_and_the_left_is_on_the_left() {
-    let [track, jointed] = Model::ALL.map(|model| {
+    let [track, jointed] = VehicleModel::ALL.map(|model| {
         let mut car = model.build(&CAR, ORIGIN, 20.0);
         for i in 0..400 {
             let steering = 0.02 * libm::sin(0.01 * f64::from(i) * std::f64::consts::PI);
@@ -46,7 +46,7 @@ fn wild(car: &mut dyn Dynamics) -> VehicleState {
 
 #[test]
 fn a_way_is_the_same_twice_and_on_any_thread() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         let once = wild(model.build(&CAR, ORIGIN, 12.0).as_mut());
         let mut car = model.build(&CAR, ORIGIN, 12.0);
         let again = std::thread::spawn(move || wild(car.as_mut())).join().unwrap();
@@ -58,7 +58,7 @@ fn a_way_is_the_same_twice_and_on_any_thread() {
 #[test]
 fn a_way_does_not_depend_on_where_it_begins() {
     let start = Pose { position: Vector2::new(4000.0, -700.0), heading: 2.0 };
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         let here = wild(model.build(&CAR, ORIGIN, 12.0).as_mut());
         let there = wild(model.build(&CAR, start, 12.0).as_mut());
         assert!((start.then(&here.pose()).position - there.position).norm() < 1e-6);
@@ -69,7 +69,7 @@ fn a_way_does_not_depend_on_where_it_begins() {
 
 #[test]
 fn the_car_goes_on_without_a_jump_wherever_it_is() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         let mut car = model.build(&CAR, ORIGIN, 30.0);
         for i in 0..2000 {
             let before = *car.state();
@@ -93,7 +93,9 @@ fn inputs_that_are_no_numbers_leave_a_state_that_is_none_and_stays_none() {
         (pedals(1.0, 0.0), -0.1, DT),
         (pedals(1.0, 0.0), 0.8, 0.0),
     ];
-    for (model, (input, friction, dt)) in Model::ALL.into_iter().flat_map(|model| inputs.map(|input| (model, input))) {
+    for (model, (input, friction, dt)) in
+        VehicleModel::ALL.into_iter().flat_map(|model| inputs.map(|input| (model, input)))
+    {
         let mut car = model.build(&CAR, ORIGIN, 10.0);
         car.step(pedals(0.0, 0.1), 0.8, DT);
         assert!(car.state().is_finite());
@@ -109,7 +111,7 @@ fn inputs_that_are_no_numbers_leave_a_state_that_is_none_and_stays_none() {
 
 #[test]
 fn on_a_road_without_friction_nothing_changes_the_motion() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         let mut car = model.build(&CAR, ORIGIN, 10.0);
         for i in 0..300 {
             car.step(pedals(if i < 150 { 1.0 } else { -1.0 }, 0.5), 0.0, DT);
@@ -122,7 +124,7 @@ fn on_a_road_without_friction_nothing_changes_the_motion() {
 
 #[test]
 fn wheels_report_what_they_carry_and_how_they_slip() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         let mut car = model.build(&CAR, ORIGIN, 30.0);
         for _ in 0..150 {
             car.step(pedals(-1.0, 0.0), 0.8, DT);
@@ -139,7 +141,7 @@ fn wheels_report_what_they_carry_and_how_they_slip() {
         bend(car.as_mut(), 0.06, 15.0, 0.8, 5.0);
         let wheels = car.wheels();
         assert!(wheels.iter().all(|wheel| (-0.09..-0.02).contains(&wheel.slip_angle)), "{} {wheels:?}", model.name());
-        if model == Model::Jointed {
+        if model == VehicleModel::Jointed {
             assert!(wheels[0].load < wheels[1].load && wheels[2].load < wheels[3].load, "{wheels:?}");
         }
     }
@@ -213,7 +215,7 @@ proptest! {
         inputs in prop::collection::vec((-1.5..1.5_f64, -1.5..1.5_f64), 1..8),
     ) {
         let may_tip = friction > LEAST_TIPPING * CAR.track / (2.0 * CAR.centre_of_gravity);
-        for model in Model::ALL {
+        for model in VehicleModel::ALL {
             let mut car = model.build(&CAR, ORIGIN, speed);
             'way: for (throttle, steering) in &inputs {
                 let before = energy(car.state());

@@ -11,7 +11,7 @@ fn km_h(speed: f64) -> f64 {
 }
 
 /// The way to standstill under constant pedals.
-fn stopping_distance(model: Model, speed: f64, throttle: f64, friction: f64, dt: f64) -> f64 {
+fn stopping_distance(model: VehicleModel, speed: f64, throttle: f64, friction: f64, dt: f64) -> f64 {
     let mut car = model.build(&CAR, ORIGIN, speed);
     for _ in 0..(60.0 / dt) as usize {
         if car.state().speed() == 0.0 {
@@ -27,7 +27,7 @@ fn stopping_distance(model: Model, speed: f64, throttle: f64, friction: f64, dt:
 
 #[test]
 fn full_brakes_stop_the_car_within_two_percent_of_the_friction_limit_at_any_step() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         for speed in [30.0, 50.0, 80.0, 120.0].map(km_h) {
             for friction in [0.2, 0.4, 0.6, 0.8] {
                 let ideal = speed * speed / (2.0 * friction * GRAVITY);
@@ -56,7 +56,7 @@ fn a_car_of_another_make_brakes_as_well() {
         ..CAR
     };
     let small = Vehicle { front_axle: 1.5, mass: 650.0, yaw_inertia: 900.0, wheel_mass: 18.0, ..CAR };
-    for (model, vehicle) in Model::ALL.into_iter().flat_map(|model| [(model, van), (model, small)]) {
+    for (model, vehicle) in VehicleModel::ALL.into_iter().flat_map(|model| [(model, van), (model, small)]) {
         assert_eq!(vehicle.problem(), None);
         let ideal = 20.0 * 20.0 / (2.0 * 0.7 * GRAVITY);
         let mut car = model.build(&vehicle, ORIGIN, 20.0);
@@ -70,14 +70,14 @@ fn a_car_of_another_make_brakes_as_well() {
 
 #[test]
 fn a_command_of_6_m_s2_from_50_km_h_takes_16_to_17_metres() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         let distance = stopping_distance(model, km_h(50.0), -6.0 / CAR.max_acceleration, 0.8, DT);
         assert!((16.0..17.0).contains(&distance), "{}: {distance} m", model.name());
     }
 }
 
 /// Radius of the middle's way, and side acceleration, in a steady bend.
-fn circle(model: Model, angle: f64, speed: f64, friction: f64) -> (f64, f64) {
+fn circle(model: VehicleModel, angle: f64, speed: f64, friction: f64) -> (f64, f64) {
     let mut car = model.build(&CAR, ORIGIN, speed);
     bend(car.as_mut(), angle, speed, friction, 20.0);
     let state = car.state();
@@ -87,7 +87,7 @@ fn circle(model: Model, angle: f64, speed: f64, friction: f64) -> (f64, f64) {
 #[test]
 fn a_wide_circle_has_the_radius_along_which_the_wheels_point() {
     let ideal = CAR.wheelbase / libm::tan(0.03);
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         for speed in [5.0, 10.0, 15.0, 20.0] {
             for friction in [0.6, 0.8, DRY] {
                 let (radius, _) = circle(model, 0.03, speed, friction);
@@ -101,7 +101,7 @@ fn a_wide_circle_has_the_radius_along_which_the_wheels_point() {
 /// line through a sweep of speeds, in rad s²/m.
 #[test]
 fn the_understeer_gradient_is_the_one_that_is_documented() {
-    for (model, documented) in [(Model::SingleTrack, 1.4e-5), (Model::Jointed, 4.0e-5)] {
+    for (model, documented) in [(VehicleModel::SingleTrack, 1.4e-5), (VehicleModel::Jointed, 4.0e-5)] {
         let sweep = (5..=20).map(|speed| {
             let (radius, side) = circle(model, 0.03, f64::from(speed), DRY);
             (side, 0.03 - libm::atan(CAR.wheelbase / radius))
@@ -115,7 +115,7 @@ fn the_understeer_gradient_is_the_one_that_is_documented() {
 
 #[test]
 fn side_acceleration_saturates_at_the_friction() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         for friction in [0.2, 0.4, 0.6, 0.8] {
             let speed = 20.0;
             let mut car = model.build(&CAR, ORIGIN, speed);
@@ -132,7 +132,7 @@ fn side_acceleration_saturates_at_the_friction() {
 
 #[test]
 fn a_car_at_rest_stays_where_it_is() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         for throttle in [0.0, -1.0] {
             let mut car = model.build(&CAR, ORIGIN, 0.0);
             for _ in 0..6000 {
@@ -163,7 +163,7 @@ fn launch(vehicle: &Vehicle, speed: f64, friction: f64, idle: f64) -> f64 {
 }
 
 /// The times of a car from rest to 40, 60, 80 and 100 km/h at full throttle, by those in closed form.
-fn launched(model: Model, vehicle: &Vehicle, friction: f64, idle: f64) -> [f64; 4] {
+fn launched(model: VehicleModel, vehicle: &Vehicle, friction: f64, idle: f64) -> [f64; 4] {
     let mut car = model.build(vehicle, ORIGIN, 0.0);
     let mut time = 0.0;
     [40.0, 60.0, 80.0, 100.0].map(|speed| {
@@ -177,7 +177,7 @@ fn launched(model: Model, vehicle: &Vehicle, friction: f64, idle: f64) -> [f64; 
 
 #[test]
 fn the_car_gains_speed_as_traction_and_power_allow() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         for friction in [0.6, 0.8, DRY] {
             for ratio in launched(model, &CAR, friction, 0.0) {
                 assert!((ratio - 1.0).abs() < 0.02, "{} mu {friction}: {ratio}", model.name());
@@ -188,9 +188,10 @@ fn the_car_gains_speed_as_traction_and_power_allow() {
 
 #[test]
 fn whichever_wheels_drive_gain_speed_as_their_load_allows() {
-    for (model, drive) in Model::ALL.into_iter().flat_map(|model| [(model, Drive::Front), (model, Drive::Four)]) {
+    for (model, drive) in VehicleModel::ALL.into_iter().flat_map(|model| [(model, Drive::Front), (model, Drive::Four)])
+    {
         let vehicle = Vehicle { drive, ..CAR };
-        let turns_idle = model == Model::Jointed && drive == Drive::Front;
+        let turns_idle = model == VehicleModel::Jointed && drive == Drive::Front;
         let idle = if turns_idle { 2.0 * CAR.wheel_inertia / (CAR.wheel_radius * CAR.wheel_radius) } else { 0.0 };
         for ratio in launched(model, &vehicle, 0.8, idle) {
             assert!((ratio - 1.0).abs() < 0.02, "{} {drive:?}: {ratio}", model.name());
@@ -200,7 +201,7 @@ fn whichever_wheels_drive_gain_speed_as_their_load_allows() {
 
 #[test]
 fn a_slow_car_goes_where_its_wheels_point() {
-    for model in Model::ALL {
+    for model in VehicleModel::ALL {
         for (speed, angle) in [(0.3, 0.5), (1.0, 1.0), (2.0, 0.5), (3.0, 0.3), (5.0, 0.2)] {
             for dt in [0.002, 0.01, 0.03] {
                 let mut car = model.build(&CAR, ORIGIN, speed);
@@ -260,7 +261,7 @@ proptest! {
     #[test]
     fn any_car_bends_and_stops(car in any_car(), friction in 0.2..0.8_f64, dt in 0.002..0.02_f64) {
         prop_assert_eq!(car.problem(), None);
-        for model in Model::ALL {
+        for model in VehicleModel::ALL {
             let mut moving = model.build(&car, ORIGIN, 15.0);
             let angle = 0.3 * friction * GRAVITY * car.wheelbase / (15.0 * 15.0);
             for _ in 0..(4.0 / dt) as usize {

@@ -4,7 +4,7 @@ use super::*;
 use crate::{Request, Strategy};
 
 fn tests(space: &Space, n: usize) -> Vec<Point> {
-    Strategy::Halton.build(&Request::new(space, n)).unwrap().ask(n)
+    Strategy::HALTON.build(&Request::new(space, n)).unwrap().ask(n)
 }
 
 /// How much of 2,000 other tests the model tells right.
@@ -12,7 +12,7 @@ fn right(space: &Space, n: usize, robustness: impl Fn(&Point) -> f64) -> f64 {
     let known = tests(space, n);
     let told: Vec<f64> = known.iter().map(&robustness).collect();
     let model = FailureModel::fit(space, &known, &told).unwrap();
-    let others = Strategy::Random.build(&Request::new(space, 2000)).unwrap().ask(2000);
+    let others = Strategy::RANDOM.build(&Request::new(space, 2000)).unwrap().ask(2000);
     let probabilities = model.probabilities(&others);
     let right = others.iter().zip(probabilities).filter(|(at, p)| (*p > 0.5) == (robustness(at) < 0.0)).count();
     right as f64 / 2000.0
@@ -35,7 +35,7 @@ fn where_the_robustness_jumps_it_knows_more_than_the_nearest_test() {
     let known = tests(&space, 150);
     let square =
         |a: &Point, b: &Point| -> f64 { a.continuous.iter().zip(&b.continuous).map(|(a, b)| (a - b) * (a - b)).sum() };
-    let others = Strategy::Random.build(&Request::new(&space, 2000)).unwrap().ask(2000);
+    let others = Strategy::RANDOM.build(&Request::new(&space, 2000)).unwrap().ask(2000);
     let nearest = |at: &Point| known.iter().min_by(|a, b| square(a, at).total_cmp(&square(b, at))).unwrap();
     let told = others.iter().filter(|at| (jumping(nearest(at)) < 0.0) == (jumping(at) < 0.0)).count();
     let (nearest, model) = (told as f64 / 2000.0, right(&space, 150, jumping));
@@ -114,7 +114,7 @@ fn decided(dimensions: usize, n: usize, planes: u64) -> (f64, f64) {
             let side: f64 = at.continuous.iter().zip(&slopes).map(|(u, slope)| slope * (u - 0.5)).sum();
             side + 0.1
         };
-        let known = Strategy::Random.build(&Request { seed: Some(plane), ..Request::new(&space, n) }).unwrap().ask(n);
+        let known = Strategy::RANDOM.build(&Request { seed: Some(plane), ..Request::new(&space, n) }).unwrap().ask(n);
         let told: Vec<f64> = known.iter().map(worth).collect();
         let failing = told.iter().filter(|told| **told < 0.0).count();
         if failing == 0 || failing == n {
@@ -122,7 +122,7 @@ fn decided(dimensions: usize, n: usize, planes: u64) -> (f64, f64) {
         }
         let model = FailureModel::fit(&space, &known, &told).unwrap();
         let others = Request { seed: Some(plane + 1000), ..Request::new(&space, 128) };
-        let others = Strategy::Random.build(&others).unwrap().ask(128);
+        let others = Strategy::RANDOM.build(&others).unwrap().ask(128);
         let at = |x: f64, y: f64| -> Vec<(Point, f64)> {
             let place = |mut other: Point| {
                 (other.continuous[0], other.continuous[1]) = (x, y);
@@ -164,7 +164,7 @@ fn where_little_can_be_told_as_many_are_said_to_fail_as_do() {
         (0..600_u64).map(|i| if crate::seeded::mix(i).is_multiple_of(8) { -3.0 } else { 1.0 }).collect();
     let counted = told.iter().filter(|told| **told < 0.0).count() as f64 / 600.0;
     let model = FailureModel::fit(&space, &known, &told).unwrap();
-    let others = Strategy::Random.build(&Request::new(&space, 2000)).unwrap().ask(2000);
+    let others = Strategy::RANDOM.build(&Request::new(&space, 2000)).unwrap().ask(2000);
     let mean = model.probabilities(&others).iter().sum::<f64>() / 2000.0;
     assert!((mean - counted).abs() < 0.02, "{mean}, counted {counted}");
 }

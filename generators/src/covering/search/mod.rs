@@ -12,4 +12,4 @@ mod state;
 mod tally;
 
 pub(super) use cells::{Cells, Orbits};
-pub(super) use state::Search;
+pub(super) use state::Annealing;

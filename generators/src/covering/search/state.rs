@@ -3,7 +3,7 @@
 use super::cells::{Cells, Chosen};
 use super::tally::{Missing, Tally};
 use crate::seeded::mix;
-use paracosm_coverage::rules::Rules;
+use paracosm_space::rules::Rules;
 
 /// One step in so many takes any change that covers the combination.
 const WANDER: usize = 500;
@@ -21,7 +21,7 @@ const LOOKED_AT: usize = 256;
 
 /// Rows, what they cover, and what is missing.
 #[derive(Debug, Clone)]
-pub(crate) struct Search {
+pub(crate) struct Annealing {
     rules: Rules,
     families: Vec<Cells>,
     /// The families with each parameter, and its place there.
@@ -52,7 +52,7 @@ struct Change {
     level: usize,
 }
 
-impl Search {
+impl Annealing {
     /// Starts from rows that keep the constraints, fewer than 2^16; the first `kept` of them never change. What
     /// they do not cover is not asked for.
     pub(crate) fn new(rules: &Rules, families: Vec<Cells>, rows: &[Vec<usize>], kept: usize, seed: u64) -> Self {

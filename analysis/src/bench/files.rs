@@ -1,0 +1,130 @@
+//! The folder of a bench: `bench.json` says what is run, `runs.csv` grows by a row with every run, and the rest is derived
+//! from the rows at the end.
+
+use super::row::RowFlaw;
+use super::{Bench, BenchFlaw, Row};
+use crate::asked::{make_folder, new_folder};
+use paracosm_campaign::files::write_whole;
+use paracosm_campaign::{Error, differing_key};
+use serde_json::{Value, json};
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+const BENCH: &str = "bench.json";
+const RUNS: &str = "runs.csv";
+
+/// The rows of a bench in its folder, open for appending.
+#[derive(Debug)]
+pub struct Rows {
+    path: PathBuf,
+    file: File,
+}
+
+impl Rows {
+    /// Begins a bench in a folder that is empty or not there; `maps` says against which maps its runs are held.
+    ///
+    /// # Errors
+    /// The folder cannot be written, or has something in it.
+    pub fn create(folder: &Path, bench: &Bench, maps: &Value) -> Result<Self, Error> {
+        new_folder(folder)?;
+        Self::begin(folder, bench, maps)
+    }
+
+    fn begin(folder: &Path, bench: &Bench, maps: &Value) -> Result<Self, Error> {
+        let mut text = serde_json::to_string_pretty(&description(bench, maps)).expect("a description is always JSON");
+        text.push('\n');
+        write_whole(&folder.join(BENCH), text.as_bytes())?;
+        let mut rows = Self::open(folder)?;
+        rows.write(&Row::COLUMNS.map(str::to_owned))?;
+        Ok(rows)
+    }
+
+    /// Continues this bench in its folder, or begins it if there is nothing yet; the rows that are there.
+    ///
+    /// # Errors
+    /// The folder holds something else, or a row that is broken or none of this bench.
+    pub fn resume(folder: &Path, bench: &Bench, maps: &Value) -> Result<(Self, Vec<Row>), Error> {
+        make_folder(folder)?;
+        let (file, runs) = (folder.join(BENCH), folder.join(RUNS));
+        if !file.exists() {
+            return Self::create(folder, bench, maps).map(|rows| (rows, Vec::new()));
+        }
+        let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+        let there: Value = serde_json::from_str(&text).map_err(|error| Error::in_file(&file, error.line(), error))?;
+        if let Some(key) = differing_key(&there, &description(bench, maps)) {
+            return Err(BenchFlaw::Other { folder: folder.to_owned(), key: key.to_owned() }.into());
+        }
+        let text =
+            if runs.exists() { fs::read_to_string(&runs).map_err(Error::io("read", &runs))? } else { String::new() };
+        // What a kill leaves behind has no end.
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        if whole == 0 {
+            write_whole(&runs, b"")?;
+            return Self::begin(folder, bench, maps).map(|rows| (rows, Vec::new()));
+        }
+        let known = parse(&runs, &text[..whole], bench)?;
+        let rows = Self::open(folder)?;
+        rows.file.set_len(whole as u64).map_err(Error::io("write", &runs))?;
+        Ok((rows, known))
+    }
+
+    fn open(folder: &Path) -> Result<Self, Error> {
+        let path = folder.join(RUNS);
+        let file = File::options().append(true).create(true).open(&path).map_err(Error::io("write", &path))?;
+        Ok(Self { path, file })
+    }
+
+    /// Appends the next row.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn append(&mut self, row: &Row) -> Result<(), Error> {
+        self.write(&row.fields())
+    }
+
+    fn write(&mut self, fields: &[String]) -> Result<(), Error> {
+        let mut csv = csv::Writer::from_writer(Vec::new());
+        csv.write_record(fields).expect("a row fits into memory");
+        let line = csv.into_inner().expect("memory does not fail to flush");
+        self.file.write_all(&line).map_err(Error::io("write", &self.path))
+    }
+}
+
+/// What makes a bench this one.
+fn description(bench: &Bench, maps: &Value) -> Value {
+    json!({
+        "format": 2,
+        "version": env!("CARGO_PKG_VERSION"),
+        "strategies": bench.strategies.iter().map(|strategy| strategy.name()).collect::<Vec<_>>(),
+        "budget": bench.budget,
+        "seeds": bench.seeds,
+        "first_seed": bench.first_seed,
+        "batch": bench.batch,
+        "scenarios": bench.targets.iter().map(super::Target::description).collect::<Vec<_>>(),
+        "maps": maps,
+    })
+}
+
+fn parse(path: &Path, text: &str, bench: &Bench) -> Result<Vec<Row>, Error> {
+    let mut csv = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
+    let mut rows = Vec::new();
+    let cases = bench.cases();
+    for (index, fields) in csv.records().enumerate() {
+        let line = index + 1;
+        let fields = fields.map_err(|error| Error::in_csv(path, error))?;
+        if index == 0 {
+            if fields != Row::COLUMNS[..] {
+                return Err(Error::in_file(path, line, RowFlaw::Header));
+            }
+            continue;
+        }
+        let row = Row::parse(path, line, &fields)?;
+        let expected = cases.get(index - 1).map(|case| (bench.targets[case.target].name(), case.strategy, case.seed));
+        if expected != Some((row.scenario.as_str(), row.strategy, row.seed)) {
+            return Err(Error::in_file(path, line, RowFlaw::Foreign));
+        }
+        rows.push(row);
+    }
+    Ok(rows)
+}

@@ -1,0 +1,258 @@
+//! What is said of many runs: how soon and how often a strategy finds a failure, how it stands against the others, and
+//! whether those with a low dispersion know more of where tests fail.
+
+use super::{Bench, Benched, Row};
+use crate::statistics::{
+    Lifetime, Survival, Versus, bootstrap_interval, correct, holm, log_rank_p, median_and_quartiles, spearman, wilson,
+};
+use paracosm_generators::Strategy;
+use serde::{Serialize, Serializer};
+
+/// What is said of a strategy on a target.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cell {
+    /// The name of the target.
+    pub scenario: String,
+    /// The strategy.
+    #[serde(serialize_with = "strategy_name")]
+    pub strategy: Strategy,
+    /// How many runs there were.
+    pub runs: usize,
+    /// How many of them found a failure.
+    pub found: usize,
+    /// How many of the others ended before the budget, for the strategy had nothing more to propose.
+    pub exhausted: usize,
+    /// Their share.
+    pub rate: f64,
+    /// Wilson's 95 % interval of the share.
+    pub rate_interval: [f64; 2],
+    /// The mean number of tests to the first failure over those; it says too little where others found none.
+    pub mean_found: Option<f64>,
+    /// After how many tests one half have found one; `None` where fewer did.
+    pub median: Option<f64>,
+    /// The restricted mean: how many tests a run takes that ends with the first failure, or with the budget; one that is
+    /// exhausted never finds a failure, and counts as the budget too.
+    pub restricted_mean: f64,
+    /// Its 95 % bootstrap interval over the seeds.
+    pub restricted_interval: [f64; 2],
+    /// The restricted mean over the least one of any strategy but `auto`, which is made of others, and the control.
+    pub over_best: Option<f64>,
+    /// Restricted means against the baseline's, over pairs of the same seed; none for the baseline itself.
+    pub versus: Option<Versus>,
+    /// The curve of Kaplan and Meier against the baseline's, which takes no notice of pairs.
+    pub log_rank: Option<LogRank>,
+    /// The mean number of failure modes.
+    pub modes: Option<f64>,
+    /// The mean recall.
+    pub recall: Option<f64>,
+    /// The mean precision of the runs that tell anything to fail.
+    pub precision: Option<f64>,
+    /// The median dispersion.
+    pub dispersion: Option<f64>,
+}
+
+/// What the log-rank test says of two curves.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LogRank {
+    /// The p-value, two-sided.
+    pub p: f64,
+    /// The same after Holm's correction for all comparisons of the bench.
+    pub p_holm: f64,
+}
+
+/// How dispersion and recall go together on a target.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Correlation {
+    /// The name of the target.
+    pub scenario: String,
+    /// Among which runs: those of `all` strategies but the control, or of these that do not go by robustness, `open loop`.
+    pub among: &'static str,
+    /// How many these are.
+    pub runs: usize,
+    /// Spearman's rank correlation: below 0, runs that leave smaller holes know more of where tests fail.
+    pub spearman: f64,
+    /// Its 95 % bootstrap interval over the seeds.
+    pub interval: [f64; 2],
+}
+
+/// A strategy over all targets: its restricted means over the least of any strategy but `auto` and the control.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Standing {
+    /// The strategy.
+    #[serde(serialize_with = "strategy_name")]
+    pub strategy: Strategy,
+    /// The largest of the ratios.
+    pub worst: f64,
+    /// On which target.
+    pub worst_scenario: String,
+    /// Their geometric mean.
+    pub geometric_mean: f64,
+}
+
+fn strategy_name<S: Serializer>(strategy: &Strategy, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(strategy.name())
+}
+
+/// All that is said of the rows of a bench.
+pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<Cell>, Vec<Correlation>, Vec<Standing>) {
+    let (mut cells, mut correlations) = (Vec::new(), Vec::new());
+    let per_target = bench.strategies.len() * bench.seeds;
+    for of_target in rows.chunks(per_target) {
+        cells.extend(cells_of(bench, of_target));
+        // The control leaves all of the inside empty on purpose.
+        let all: Vec<&Row> = of_target.iter().filter(|row| row.strategy != Strategy::RANDOM_CORNERS).collect();
+        let some: Vec<&Row> = all.iter().copied().filter(|row| !row.strategy.is_adaptive()).collect();
+        correlations.extend(correlation(bench, "all", &all));
+        // Where all are, it would be said twice.
+        if some.len() < all.len() {
+            correlations.extend(correlation(bench, "open loop", &some));
+        }
+    }
+    correct(cells.iter_mut().filter_map(|cell| cell.versus.as_mut()));
+    let mut log_ranks: Vec<&mut LogRank> = cells.iter_mut().filter_map(|cell| cell.log_rank.as_mut()).collect();
+    let p: Vec<f64> = log_ranks.iter().map(|log_rank| log_rank.p).collect();
+    log_ranks.iter_mut().zip(holm(&p)).for_each(|(log_rank, p_holm)| log_rank.p_holm = p_holm);
+    let standings = bench.strategies.iter().filter_map(|&strategy| standing(strategy, &cells)).collect();
+    (cells, correlations, standings)
+}
+
+/// How long a run waits for its first failure: longer than its budget where that is spent, for ever where it is exhausted.
+pub(super) fn lifetime(bench: &Bench, row: &Row) -> Lifetime {
+    let time = match row.first_failure {
+        Some(tests) => tests as f64,
+        None if row.is_exhausted(bench.budget) => f64::INFINITY,
+        None => bench.budget as f64,
+    };
+    Lifetime { time, happened: row.first_failure.is_some() }
+}
+
+/// How many tests a run waits for its first failure, at most the budget.
+fn waited(bench: &Bench, row: &Row) -> f64 {
+    lifetime(bench, row).time.min(bench.budget as f64)
+}
+
+fn lifetimes<'a>(bench: &Bench, rows: impl IntoIterator<Item = &'a Row>) -> Vec<Lifetime> {
+    rows.into_iter().map(|row| lifetime(bench, row)).collect()
+}
+
+impl Benched {
+    /// The share of the runs of a strategy on a target without a failure, over their tests.
+    pub fn survival(&self, scenario: &str, strategy: Strategy) -> Survival {
+        Survival::of(&lifetimes(&self.bench, self.rows_of(scenario, strategy)))
+    }
+}
+
+fn cells_of(bench: &Bench, rows: &[Row]) -> Vec<Cell> {
+    let lines: Vec<&[Row]> = rows.chunks(bench.seeds).collect();
+    let waited = |line: &[Row]| -> Vec<f64> { line.iter().map(|row| waited(bench, row)).collect() };
+    let base = lines.iter().find(|line| line[0].strategy == bench.baseline);
+    let base = base.map(|line| (waited(line), lifetimes(bench, *line)));
+    let mut cells: Vec<Cell> = lines
+        .iter()
+        .map(|line| {
+            let times = waited(line);
+            let base = base.as_ref().filter(|_| line[0].strategy != bench.baseline);
+            let versus = base.map(|(base, _)| Versus::of_means(&times, base));
+            let p = base.map(|(_, base)| log_rank_p(&lifetimes(bench, *line), base));
+            let log_rank = p.map(|p| LogRank { p, p_holm: p });
+            Cell { versus, log_rank, ..cell(bench, line, &times) }
+        })
+        .collect();
+    let single = cells.iter().filter(|cell| ![Strategy::AUTO, Strategy::RANDOM_CORNERS].contains(&cell.strategy));
+    let least = single.map(|cell| cell.restricted_mean).reduce(f64::min);
+    cells.iter_mut().for_each(|cell| cell.over_best = least.map(|least| cell.restricted_mean / least));
+    cells
+}
+
+fn cell(bench: &Bench, line: &[Row], times: &[f64]) -> Cell {
+    let survival = Survival::of(&lifetimes(bench, line));
+    let found: Vec<f64> = line.iter().filter_map(|row| row.first_failure).map(|tests| tests as f64).collect();
+    let of = |value: fn(&Row) -> Option<f64>| line.iter().filter_map(value).collect::<Vec<f64>>();
+    Cell {
+        scenario: line[0].scenario.clone(),
+        strategy: line[0].strategy,
+        runs: line.len(),
+        found: found.len(),
+        exhausted: line.iter().filter(|row| row.is_exhausted(bench.budget)).count(),
+        rate: found.len() as f64 / line.len() as f64,
+        rate_interval: wilson(found.len(), line.len(), 0.95),
+        mean_found: mean(&found),
+        median: survival.median(),
+        restricted_mean: survival.restricted_mean(bench.budget as f64),
+        restricted_interval: bootstrap_interval(times.len(), |drawn| {
+            drawn.iter().map(|&index| times[index]).sum::<f64>() / drawn.len() as f64
+        }),
+        over_best: None,
+        versus: None,
+        log_rank: None,
+        modes: mean(&of(|row| row.modes.map(|modes| modes as f64))),
+        recall: mean(&of(|row| row.recall)),
+        precision: mean(&of(|row| row.precision)),
+        dispersion: Some(of(|row| row.dispersion))
+            .filter(|all| !all.is_empty())
+            .map(|all| median_and_quartiles(&all).0),
+    }
+}
+
+fn mean(values: &[f64]) -> Option<f64> {
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// None where either is not known of every run, or does not vary.
+fn correlation(bench: &Bench, among: &'static str, rows: &[&Row]) -> Option<Correlation> {
+    let both: Option<Vec<(f64, f64)>> = rows.iter().map(|row| Some((row.dispersion?, row.recall?))).collect();
+    let (dispersion, recall): (Vec<f64>, Vec<f64>) = both?.into_iter().unzip();
+    let rho = spearman(&dispersion, &recall)?;
+    // The runs of a strategy are one after the other, one for each seed: runs of a seed are drawn together.
+    let interval = bootstrap_interval(bench.seeds, |drawn| {
+        let lines = (0..rows.len()).step_by(bench.seeds);
+        let (x, y): (Vec<f64>, Vec<f64>) = lines
+            .flat_map(|line| drawn.iter().map(move |seed| line + seed))
+            .map(|i| (dispersion[i], recall[i]))
+            .unzip();
+        spearman(&x, &y).unwrap_or(0.0)
+    });
+    Some(Correlation { scenario: rows[0].scenario.clone(), among, runs: rows.len(), spearman: rho, interval })
+}
+
+fn standing(strategy: Strategy, cells: &[Cell]) -> Option<Standing> {
+    let ratios =
+        || cells.iter().filter(|cell| cell.strategy == strategy).filter_map(|cell| Some((cell.over_best?, cell)));
+    // Of equal ones the first.
+    let worst = ratios().reduce(|worst, next| if next.0 > worst.0 { next } else { worst })?;
+    let logs: Vec<f64> = ratios().map(|(ratio, _)| libm::log(ratio)).collect();
+    let geometric_mean = libm::exp(mean(&logs)?);
+    Some(Standing { strategy, worst: worst.0, worst_scenario: worst.1.scenario.clone(), geometric_mean })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bench::Target;
+    use paracosm_generators::functions::Function;
+
+    #[test]
+    fn a_run_waits_longer_than_its_budget_or_for_ever() {
+        let targets = vec![Target::function(Function::ALL[0])];
+        let bench = Bench { budget: 50, ..Bench::of(&[Strategy::RANDOM], targets).unwrap() };
+        let row = |tests: usize, first_failure: Option<usize>| Row {
+            scenario: "corner5".into(),
+            strategy: Strategy::RANDOM,
+            seed: 1,
+            tests,
+            first_failure,
+            failures: usize::from(first_failure.is_some()),
+            modes: None,
+            recall: None,
+            precision: None,
+            dispersion: None,
+        };
+        let rows = [row(50, Some(7)), row(50, None), row(8, None)];
+        let lifetimes = lifetimes(&bench, &rows);
+        let expected = [(7.0, true), (50.0, false), (f64::INFINITY, false)];
+        assert_eq!(lifetimes, expected.map(|(time, happened)| Lifetime { time, happened }));
+        assert_eq!(rows.map(|row| waited(&bench, &row)), [7.0, 50.0, 50.0]);
+        let survival = Survival::of(&lifetimes);
+        assert_eq!((survival.restricted_mean(50.0), survival.at(50.0)), (107.0 / 3.0, 2.0 / 3.0));
+    }
+}

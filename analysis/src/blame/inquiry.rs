@@ -1,0 +1,130 @@
+//! Runs failing tests with the reference drivers, all pairs of a test and a driver on all cores.
+
+use super::{Blame, Blamed};
+use paracosm_campaign::darkroom::Darkroom;
+use paracosm_campaign::executor::{in_order, pool};
+use paracosm_campaign::{Error, Log, Reason, Study, Subject, Trial, Worker};
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
+use thiserror::Error;
+
+/// Who failures of a study are judged by.
+pub struct Inquiry {
+    references: Vec<Reference>,
+    jobs: NonZeroUsize,
+    stop: Arc<AtomicBool>,
+}
+
+/// A driver that failures are judged by.
+struct Reference {
+    name: String,
+    /// The study in which it drives.
+    study: Study,
+    /// What draws for it on all threads, if it sees.
+    darkroom: Option<Arc<Darkroom>>,
+}
+
+/// Why nobody can be asked.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum InquiryFlaw {
+    /// The campaign is of a system.
+    #[error(
+        "the campaign is of the system `{command}`, whose place no driver can take: only failures in scenarios have \
+         somebody to blame"
+    )]
+    System {
+        /// The command of the system.
+        command: String,
+    },
+    /// There is no driver.
+    #[error("no driver is named, expected at least one to judge by")]
+    NoDriver,
+    /// There is a driver twice.
+    #[error("driver `{name}` is named twice")]
+    Twice {
+        /// Its name.
+        name: String,
+    },
+}
+
+impl Reason for InquiryFlaw {}
+
+impl Reference {
+    fn new(study: &Study, name: &str) -> Result<Self, Error> {
+        let study = study.driven_by(name, &[])?;
+        let darkroom = Worker::new(&study)?.darkroom().cloned();
+        Ok(Self { name: name.to_owned(), study, darkroom })
+    }
+
+    fn worker(&self) -> Worker<'_> {
+        let worker = Worker::beside(&self.study, Arc::default(), self.darkroom.clone());
+        worker.expect("one like it was made before")
+    }
+}
+
+impl Inquiry {
+    /// An inquiry on all cores, with these drivers in their standard settings.
+    ///
+    /// # Errors
+    /// The study is of a system, which has no driver to take the place of; or its scenario, or a driver, does not exist;
+    /// or there is no driver, or one twice.
+    pub fn new(study: &Study, references: &[&str]) -> Result<Self, Error> {
+        if let Subject::System(system) = study.subject() {
+            return Err(InquiryFlaw::System { command: system.command.clone() }.into());
+        }
+        if references.is_empty() {
+            return Err(InquiryFlaw::NoDriver.into());
+        }
+        if let Some((_, name)) = references.iter().enumerate().find(|(i, name)| references[..*i].contains(name)) {
+            return Err(InquiryFlaw::Twice { name: (*name).to_owned() }.into());
+        }
+        let references = references.iter().map(|name| Reference::new(study, name)).collect::<Result<_, _>>()?;
+        let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        Ok(Self { references, jobs, stop: Arc::default() })
+    }
+
+    /// Runs this many tests at a time. Results do not depend on it.
+    pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
+        self.jobs = jobs;
+        self
+    }
+
+    /// What ends it with [`Error::Interrupted`] once it is set.
+    pub fn stop(&self) -> Arc<AtomicBool> {
+        self.stop.clone()
+    }
+
+    /// Runs every failing test of a campaign with each of the references; `watch` sees them in order.
+    ///
+    /// # Errors
+    /// It was told to stop.
+    pub fn run(&self, log: &Log, mut watch: impl FnMut(&Blamed)) -> Result<Blame, Error> {
+        let failing: Vec<&Trial> = log.trials().iter().filter(|trial| trial.is_failure()).collect();
+        let names = || self.references.iter().map(|reference| reference.name.clone());
+        let hire = || -> Vec<Worker> { self.references.iter().map(Reference::worker).collect() };
+        let drivers = self.references.len();
+        let work = |workers: &mut Vec<Worker>, i: usize| {
+            let failing = failing[i / drivers];
+            let stopped = self.stop.load(Ordering::Relaxed);
+            (!stopped).then(|| workers[i % drivers].run(failing.index, &failing.test).0)
+        };
+        let mut failures = Vec::new();
+        let mut ran = Vec::new();
+        let pairs = failing.len() * drivers;
+        in_order(&pool(self.jobs.get().min(pairs).max(1))?, 0..pairs, hire, work, |trial| {
+            ran.push(trial);
+            if ran.len() == drivers {
+                let blamed = Blamed::new(failing[failures.len()], names().zip(ran.drain(..)));
+                watch(&blamed);
+                failures.push(blamed);
+            }
+            Ok::<(), Error>(())
+        })?;
+        if failures.len() < failing.len() {
+            return Err(Error::Interrupted);
+        }
+        Ok(Blame { references: names().collect(), tests: log.trials().len(), failures })
+    }
+}

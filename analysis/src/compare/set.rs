@@ -1,0 +1,75 @@
+//! One set of points, and how evenly it covers its cube.
+
+use crate::estimate::Coverage;
+use paracosm_campaign::Error;
+use paracosm_campaign::TestSet;
+use paracosm_coverage::Bracket;
+use paracosm_coverage::Measure;
+use paracosm_coverage::measure::Method;
+use paracosm_generators::{Request, Strategy};
+use paracosm_space::Space;
+use std::time::Duration;
+
+/// A set that is to be made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Case {
+    pub strategy: Strategy,
+    pub dims: usize,
+    pub budget: usize,
+    /// None is the plain set.
+    pub seed: Option<u64>,
+}
+
+/// A set of points with all that was measured of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredSet {
+    /// The strategy that made it.
+    pub strategy: Strategy,
+    /// The dimension of its cube.
+    pub dims: usize,
+    /// The number of its points.
+    pub budget: usize,
+    /// The seed it was made with; none for a plain set.
+    pub seed: Option<u64>,
+    /// What was measured; `None` where the time limit left nothing to say.
+    pub values: Vec<(Measure, Option<Bracket>)>,
+}
+
+impl Case {
+    /// Makes the set and measures it, each measure within a time limit.
+    pub fn measure(&self, measures: &[Measure], k: usize, limit: Duration) -> Result<MeasuredSet, Error> {
+        let Self { strategy, dims, budget, seed } = *self;
+        let space = Space::unit_cube(dims);
+        let points = strategy.build(&Request { seed, ..Request::new(&space, budget) })?.ask(budget);
+        let tests = TestSet::new(space, points);
+        let value = |&measure: &Measure| {
+            // A measure that is not about k parameters must not stumble over a k that is too large.
+            let k = k.min(dims);
+            let coverage = Coverage::of(&tests, &[measure], Some(k), Some(limit))?;
+            Ok((measure, value(&coverage, measure)))
+        };
+        let values = measures.iter().map(value).collect::<Result<_, Error>>()?;
+        Ok(MeasuredSet { strategy, dims, budget, seed, values })
+    }
+}
+
+impl MeasuredSet {
+    /// The value of a measure, if it has one.
+    pub fn value(&self, measure: Measure) -> Option<Bracket> {
+        self.values.iter().find(|(of, _)| *of == measure).and_then(|(_, value)| *value)
+    }
+
+    /// Whether the time limit kept a measure from being exact.
+    pub fn is_cut_short(&self) -> bool {
+        self.values.iter().any(|(_, value)| value.is_none_or(|bracket| !bracket.is_exact()))
+    }
+}
+
+/// A measure in a report of the coverage of continuous parameters.
+fn value(coverage: &Coverage, measure: Measure) -> Option<Bracket> {
+    match measure.descriptor().method {
+        Method::Combinations => None,
+        Method::KwiseHole => coverage.k_wise_dispersion.as_ref().map(|hole| hole.volume),
+        _ => coverage.continuous.as_ref()?.bracket(measure),
+    }
+}

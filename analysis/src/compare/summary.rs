@@ -1,0 +1,172 @@
+//! What is said of many sets: medians and quartiles over the seeds, each strategy held against the baseline, and how
+//! fast values fall with the budget.
+
+use super::{Comparison, MeasuredSet};
+use crate::statistics::{Versus, bootstrap_interval, correct, median_and_quartiles, median_of, power_law_slope};
+use paracosm_coverage::Bracket;
+use paracosm_coverage::Measure;
+use paracosm_generators::Strategy;
+use rayon::prelude::*;
+use serde::{Serialize, Serializer};
+
+/// A strategy's values of a measure at one dimension and budget. Values that are brackets count as their lower ends.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Cell {
+    /// The measure.
+    #[serde(serialize_with = "measure_name")]
+    pub measure: Measure,
+    /// The dimension.
+    pub dims: usize,
+    /// The number of points.
+    pub budget: usize,
+    /// The strategy.
+    #[serde(serialize_with = "strategy_name")]
+    pub strategy: Strategy,
+    /// Over how many seeds.
+    pub seeds: usize,
+    /// Whether every value was computed to the end.
+    pub exact: bool,
+    /// The value of the plain set, if the strategy has one.
+    pub plain: Option<f64>,
+    /// The median over the seeds.
+    pub median: f64,
+    /// The lower and the upper quartile over the seeds.
+    pub quartiles: [f64; 2],
+    /// How it compares; none for the baseline itself, where a value of either is a bracket, and where neither differs
+    /// between seeds, as with measures that do not see a shift.
+    pub versus: Option<Versus>,
+}
+
+/// The exponent with which a strategy's values of a measure fall with the budget: that of the power law fitted by least
+/// squares to their logarithms.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Slope {
+    /// The measure.
+    #[serde(serialize_with = "measure_name")]
+    pub measure: Measure,
+    /// The dimension.
+    pub dims: usize,
+    /// The strategy.
+    #[serde(serialize_with = "strategy_name")]
+    pub strategy: Strategy,
+    /// The budgets it is fitted to.
+    pub budgets: Vec<usize>,
+    /// That of the medians over the seeds.
+    pub slope: f64,
+    /// Its 95 % bootstrap interval over the seeds.
+    pub interval: [f64; 2],
+    /// That of the plain sets, if the strategy has them.
+    pub plain: Option<f64>,
+}
+
+fn measure_name<S: Serializer>(measure: &Measure, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(measure.name())
+}
+
+fn strategy_name<S: Serializer>(strategy: &Strategy, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(strategy.name())
+}
+
+/// All cells and slopes, each where every seed has a value.
+pub(super) fn summarise(comparison: &Comparison, sets: &[MeasuredSet]) -> (Vec<Cell>, Vec<Slope>) {
+    let Comparison { dims, budgets, strategies, baseline, .. } = comparison;
+    let (mut cells, mut slopes) = (Vec::new(), Vec::new());
+    for measure in comparison.all_measures() {
+        let lines = dims.iter().flat_map(|&d| strategies.iter().map(move |&strategy| (d, strategy)));
+        let lines: Vec<Line> = lines.map(|(d, s)| Line::of(measure, d, s, budgets, sets)).collect();
+        let base = |line: &Line, budget| {
+            let base = lines.iter().find(|other| other.dims == line.dims && other.strategy == *baseline)?;
+            base.places.iter().find(|place| place.budget == budget)
+        };
+        let mut of_measure: Vec<Cell> = lines
+            .par_iter()
+            .flat_map_iter(|line| line.places.iter().map(|place| line.cell(place, base(line, place.budget), *baseline)))
+            .collect();
+        // By budget before strategy; the order within is that of the strategies.
+        of_measure.sort_by_key(|cell| (cell.dims, cell.budget));
+        correct(of_measure.iter_mut().filter_map(|cell| cell.versus.as_mut()));
+        cells.extend(of_measure);
+        slopes.par_extend(lines.par_iter().filter_map(Line::slope));
+    }
+    (cells, slopes)
+}
+
+/// A strategy's values of a measure in one dimension, over the budgets.
+struct Line {
+    measure: Measure,
+    dims: usize,
+    strategy: Strategy,
+    places: Vec<Place>,
+}
+
+/// The values at one budget: those of the seeds in order.
+struct Place {
+    budget: usize,
+    values: Vec<f64>,
+    plain: Option<f64>,
+    exact: bool,
+}
+
+impl Place {
+    /// Whether the values differ by more than rounding.
+    fn spreads(&self) -> bool {
+        let ends = self.values.iter().fold([f64::INFINITY, 0.0], |[low, high], &v| [v.min(low), v.max(high)]);
+        ends[1] - ends[0] > 1e-9 * ends[1].abs()
+    }
+}
+
+impl Line {
+    fn of(measure: Measure, dims: usize, strategy: Strategy, budgets: &[usize], sets: &[MeasuredSet]) -> Self {
+        let place = |&budget: &usize| {
+            let here = sets.iter().filter(|set| (set.strategy, set.dims, set.budget) == (strategy, dims, budget));
+            let (plain, seeds): (Vec<_>, Vec<_>) = here.partition(|set| set.seed.is_none());
+            let seeds: Vec<Bracket> = seeds.iter().map(|set| set.value(measure)).collect::<Option<_>>()?;
+            let plain = plain.first().and_then(|set| set.value(measure));
+            (!seeds.is_empty()).then(|| Place {
+                budget,
+                values: seeds.iter().map(|bracket| bracket.lower).collect(),
+                plain: plain.map(|bracket| bracket.lower),
+                exact: seeds.iter().chain(&plain).all(Bracket::is_exact),
+            })
+        };
+        Self { measure, dims, strategy, places: budgets.iter().filter_map(place).collect() }
+    }
+
+    fn cell(&self, place: &Place, base: Option<&Place>, baseline: Strategy) -> Cell {
+        let (median, quartiles) = median_and_quartiles(&place.values);
+        // Of bracketed values the order is not known, and of values that chance does not move no test can be made.
+        let tells = |base: &&Place| place.exact && base.exact && (place.spreads() || base.spreads());
+        let base = base.filter(|_| self.strategy != baseline).filter(tells);
+        Cell {
+            measure: self.measure,
+            dims: self.dims,
+            budget: place.budget,
+            strategy: self.strategy,
+            seeds: place.values.len(),
+            exact: place.exact,
+            plain: place.plain,
+            median,
+            quartiles,
+            versus: base.map(|base| Versus::of_medians(&place.values, &base.values)),
+        }
+    }
+
+    /// The slope; none where a value is a bracket.
+    fn slope(&self) -> Option<Slope> {
+        if self.places.iter().any(|place| !place.exact) {
+            return None;
+        }
+        let at = |value: &dyn Fn(&Place) -> Option<f64>| {
+            let points = self.places.iter().map(|place| Some((place.budget as f64, value(place)?)));
+            power_law_slope(&points.collect::<Option<Vec<_>>>()?)
+        };
+        let slope = at(&|place| Some(median_and_quartiles(&place.values).0))?;
+        let seeds = self.places[0].values.len();
+        let interval = bootstrap_interval(seeds, |drawn| {
+            at(&|place| Some(median_of(drawn, &place.values))).expect("there are budgets enough for a slope")
+        });
+        let budgets = self.places.iter().map(|place| place.budget).collect();
+        let plain = at(&|place| place.plain);
+        Some(Slope { measure: self.measure, dims: self.dims, strategy: self.strategy, budgets, slope, interval, plain })
+    }
+}

@@ -1,0 +1,297 @@
+//! How well tests cover their space: what `paracosm-cover estimate` prints.
+
+mod report;
+
+pub use report::{Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measured, Strength};
+
+use paracosm_campaign::{Error, Reason, TestSet};
+use paracosm_coverage::dispersion::{Dispersion, LargestEmptyBox};
+use paracosm_coverage::kwise::{KwiseCoverage, coverage_of_kinds};
+use paracosm_coverage::kwise_dispersion::{KwiseDispersion, kwise_dispersion, row_dispersion};
+use paracosm_coverage::measure::Finding;
+use paracosm_coverage::{Bracket, Deadline, Measure, PointSet};
+use paracosm_space::demand::TestKind;
+use paracosm_space::{Coordinate, Point, Record, Value};
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+/// What is told who watches a measurement: the measure at work, and its bracket by now.
+pub type Watch<'a> = dyn FnMut(Measure, Option<Bracket>) + 'a;
+
+/// A number of parameters that the space does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("k is {k}, expected 1 to {parameters}, the number of parameters")]
+pub struct StrengthFlaw {
+    /// How many were to be looked at together.
+    pub k: usize,
+    /// How many there are.
+    pub parameters: usize,
+}
+
+impl Reason for StrengthFlaw {}
+
+/// The holes behind a report, in coordinates.
+#[derive(Debug, Default)]
+pub struct Holes {
+    /// The largest empty box of the continuous coordinates.
+    pub dispersion: Option<Dispersion>,
+    /// With how many parameters were looked at together.
+    pub k_wise: Option<(usize, KwiseDispersion)>,
+}
+
+impl Coverage {
+    /// Measures how well tests cover their space: `k` parameters at a time, where that matters (where nothing is
+    /// said, as the tests were made to; else 2, or as many as there are), and all that takes long within a time limit.
+    ///
+    /// # Errors
+    /// There are not `k` parameters, or too many combinations of them to count.
+    pub fn of(tests: &TestSet, measures: &[Measure], k: Option<usize>, limit: Option<Duration>) -> Result<Self, Error> {
+        Self::watched(tests, measures, k, limit, &mut |_, _| ())
+    }
+
+    /// [`Coverage::of`], while `watch` is told which measure is at work, and within which bracket it knows the number
+    /// by now.
+    ///
+    /// # Errors
+    /// As [`Coverage::of`].
+    pub fn watched(
+        tests: &TestSet,
+        measures: &[Measure],
+        k: Option<usize>,
+        limit: Option<Duration>,
+        watch: &mut Watch,
+    ) -> Result<Self, Error> {
+        Ok(measure_holes(tests, measures, k, limit, watch)?.0)
+    }
+}
+
+/// [`Coverage::watched`], with the holes as they were found.
+pub fn measure_holes(
+    tests: &TestSet,
+    measures: &[Measure],
+    k: Option<usize>,
+    limit: Option<Duration>,
+    watch: &mut Watch,
+) -> Result<(Coverage, Holes), Error> {
+    let parameters = tests.space.coordinates().count();
+    let k = k.or(tests.k).unwrap_or(parameters.min(2));
+    if !(1..=parameters).contains(&k) {
+        return Err(StrengthFlaw { k, parameters }.into());
+    }
+    let rules = tests.space.rules()?;
+    let kinds = tests.demand.kinds(&tests.space)?;
+    let keeping = keeping(tests, &kinds);
+    let violating = tests.points.len() - keeping.points.len();
+    if violating > 0 {
+        let (coverage, holes) = measure_holes(&keeping, measures, Some(k), limit, watch)?;
+        return Ok((Coverage { tests: tests.points.len(), violating, ..coverage }, holes));
+    }
+    let levels = tests.space.levels();
+    let is_mixed = !levels.is_empty() && tests.space.dims() > 0;
+    // In a mixed space k-wise coverage brings (k, epsilon)-covering with it, which takes time.
+    let takes_time = |measure: &&Measure| **measure != Measure::K_WISE || is_mixed;
+    let mut clock = Clock::new(limit, measures.iter().filter(takes_time).count());
+    let mut holes = Holes::default();
+    let continuous = match tests.space.dims() {
+        0 => None,
+        _ => Some(continuous(tests, measures, &mut clock, &mut holes, watch)?),
+    };
+    let discrete = match levels.len() {
+        0 => Some(None),
+        _ if !measures.contains(&Measure::K_WISE) => None,
+        parameters => {
+            watch(Measure::K_WISE, None);
+            Some(Some(discrete(tests, k.min(parameters), &kinds)?))
+        }
+    };
+    let combinations = discrete.as_ref().and_then(Option::as_ref);
+    let dims = tests.space.dims();
+    let k_epsilon = combinations.map(|discrete| {
+        let complete = discrete.covered == discrete.valid;
+        // Without continuous parameters a row has no hole to leave.
+        let Bracket { lower, upper } =
+            if dims == 0 { Bracket::exact(0.0) } else { row_dispersion(dims, &tests.points, clock.next()) };
+        KEpsilon {
+            k: discrete.k,
+            complete,
+            epsilon: complete.then_some(upper),
+            epsilon_over_covered_rows: upper,
+            epsilon_at_least: lower,
+        }
+    });
+    let k_wise_dispersion = if measures.contains(&Measure::K_WISE_DISPERSION) {
+        watch(Measure::K_WISE_DISPERSION, None);
+        let found = match tests.space.dims() {
+            // Which tests count for a combination is for their kinds to say.
+            0 if !tests.demand.negatives.is_empty() => {
+                let all: Vec<usize> = (0..levels.len()).collect();
+                KwiseDispersion::of_coverage(counted(tests, &all, k, &kinds)?)
+            }
+            dims => kwise_dispersion(dims, &rules, &tests.points, k, clock.next())?,
+        };
+        let worst = place(tests, &found.fixed, &found.axes, found.witness.as_ref());
+        let volume = found.volume;
+        holes.k_wise = Some((k, found));
+        Some(KwiseHole { k, volume, worst })
+    } else {
+        None
+    };
+    Ok((Coverage { tests: tests.points.len(), continuous, violating, discrete, k_epsilon, k_wise_dispersion }, holes))
+}
+
+/// The tests that keep the constraints.
+pub fn keeping(tests: &TestSet, kinds: &[TestKind]) -> TestSet {
+    let keeps = |point: &&Point| kinds.iter().any(|kind| kind.rules().allows(&point.discrete));
+    let points = tests.points.iter().filter(keeps).cloned().collect();
+    TestSet { space: tests.space.clone(), points, k: tests.k, demand: tests.demand.clone() }
+}
+
+/// The place of a hole, as values.
+pub fn place(
+    tests: &TestSet,
+    fixed: &[(usize, usize)],
+    axes: &[usize],
+    witness: Option<&LargestEmptyBox>,
+) -> KwiseWorst {
+    let discrete: Vec<Coordinate> = tests.space.discrete().collect();
+    let continuous: Vec<Coordinate> = tests.space.continuous().collect();
+    let fixed = fixed.iter().map(|&(parameter, level)| named_level(&discrete, parameter, level)).collect();
+    let axes = axes.iter().map(|&axis| continuous[axis]);
+    KwiseWorst { fixed, empty_box: witness.map(|witness| sides(axes, witness)).unwrap_or_default() }
+}
+
+fn continuous(
+    tests: &TestSet,
+    measures: &[Measure],
+    clock: &mut Clock,
+    holes: &mut Holes,
+    watch: &mut Watch,
+) -> Result<Continuous, Error> {
+    let points = PointSet::new(tests.space.dims(), tests.points.iter().map(|point| &point.continuous))?;
+    let parameters: Vec<Coordinate> = tests.space.continuous().collect();
+    // From the fastest to the slowest: a measure leaves the rest of its time to the measures after it.
+    let mut order: Vec<Measure> = measures.iter().copied().filter(|measure| measure.is_of_points()).collect();
+    order.sort_by_key(|measure| measure.descriptor().pace);
+    let mut taken = Vec::new();
+    for measure in order {
+        watch(measure, None);
+        let found = measure.take(&points, clock.next(), &mut |bracket| watch(measure, Some(bracket)));
+        taken.push((measure, in_values(found.expect("the measure is one of points"), &parameters, holes)));
+    }
+    let place = |measure: Measure| Measure::all().position(|other| other == measure);
+    taken.sort_by_key(|(measure, _)| (place(*measure).is_none(), place(*measure)));
+    Ok(Continuous { parameters: parameters.iter().map(Coordinate::name).collect(), measured: taken })
+}
+
+/// What a measure found, in the values of the parameters instead of coordinates. A box is noted among the holes.
+fn in_values(found: Finding, parameters: &[Coordinate], holes: &mut Holes) -> Measured {
+    match found {
+        Finding::Number(number) => Measured::Number(number),
+        Finding::Bracket(bracket) => Measured::Bracket(bracket),
+        Finding::Hole(found) => {
+            let largest_empty_box = sides(parameters.iter().copied(), &found.witness);
+            let volume = found.volume;
+            holes.dispersion = Some(found);
+            Measured::Hole(Hole { volume, largest_empty_box })
+        }
+        Finding::Ball(found) => Measured::Ball(found.map(|found| {
+            let places = parameters.iter().zip(&found.centre);
+            let centre = places.map(|(p, &u)| (p.name(), p.parameter.value_at(u))).collect();
+            Ball { radius: found.radius, centre }
+        })),
+    }
+}
+
+fn discrete(tests: &TestSet, k: usize, kinds: &[TestKind]) -> Result<Discrete, Error> {
+    let parameters: Vec<Coordinate> = tests.space.discrete().collect();
+    let named = |tuples: &[Vec<(usize, usize)>]| {
+        let name = |&(parameter, level): &(usize, usize)| named_level(&parameters, parameter, level);
+        tuples.iter().map(|tuple| tuple.iter().map(name).collect()).collect()
+    };
+    let of_group = |(members, k): &(Vec<usize>, usize)| {
+        let counted = counted(tests, members, *k, kinds)?;
+        Ok(Strength {
+            parameters: members.iter().map(|&member| parameters[member].name()).collect(),
+            k: *k,
+            valid: counted.valid,
+            covered: counted.covered,
+            ratio: counted.ratio(),
+            missing: named(&counted.missing),
+        })
+    };
+    let all: Vec<usize> = (0..parameters.len()).collect();
+    let counted = counted(tests, &all, k, kinds)?;
+    Ok(Discrete {
+        k,
+        valid: counted.valid,
+        covered: counted.covered,
+        ratio: counted.ratio(),
+        missing: named(&counted.missing),
+        combinations: counted.combinations,
+        strengths: tests.demand.groups.iter().map(of_group).collect::<Result<_, Error>>()?,
+    })
+}
+
+/// What the tests cover of some discrete parameters.
+fn counted(tests: &TestSet, parameters: &[usize], k: usize, kinds: &[TestKind]) -> Result<KwiseCoverage, Error> {
+    Ok(coverage_of_kinds(kinds, parameters, k, tests.points.iter().map(|point| point.discrete.as_slice()))?)
+}
+
+/// A discrete coordinate with one of its values.
+pub fn named_level(coordinates: &[Coordinate], coordinate: usize, level: usize) -> (String, Value) {
+    let coordinate = coordinates[coordinate];
+    let levels = coordinate.parameter.levels().expect("it is a discrete parameter");
+    (coordinate.name(), levels[level].clone())
+}
+
+/// A box over some continuous coordinates, as values.
+fn sides<'a>(coordinates: impl Iterator<Item = Coordinate<'a>>, witness: &LargestEmptyBox) -> Record<[f64; 2]> {
+    let ends = witness.lower.iter().zip(&witness.upper);
+    coordinates.zip(ends).map(|(c, (&lo, &hi))| (c.name(), [lo, hi].map(|u| c.parameter.value_at(u)))).collect()
+}
+
+/// A time limit for several measures: what one leaves of the time is for those after it.
+struct Clock {
+    end: Option<Instant>,
+    /// How many measures are still to come.
+    waiting: u32,
+}
+
+impl Clock {
+    fn new(limit: Option<Duration>, waiting: usize) -> Self {
+        Self { end: limit.and_then(|limit| Instant::now().checked_add(limit)), waiting: waiting as u32 }
+    }
+
+    /// The deadline of the next measure: its share of the time that is left.
+    fn next(&mut self) -> Deadline {
+        let waiting = self.waiting.max(1);
+        self.waiting = waiting - 1;
+        let left = self.end.map(|end| end.saturating_duration_since(Instant::now()));
+        left.map_or_else(Deadline::never, |left| Deadline::after(left / waiting))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use paracosm_generators::{Request, Strategy};
+    use paracosm_space::Space;
+
+    #[test]
+    fn scaling_a_space_changes_nothing() {
+        let unit = Space::unit_cube(3);
+        let scaled = "parameter = [{ name = \"x\", interval = [-4, 12] }, { name = \"y\", interval = [0, 0.25] },
+            { name = \"z\", interval = [1024, 1088] }]";
+        let scaled = Space::from_toml(scaled).unwrap();
+        let points = Strategy::SOBOL.build(&Request::new(&unit, 60)).unwrap().ask(60);
+        // By way of values, as tests in a file would come: widths are powers of two, so that nothing is rounded.
+        let values = points.iter().map(|point| scaled.encode(&scaled.decode(point)).unwrap()).collect();
+        let measure = |space, points| {
+            let coverage =
+                Coverage::of(&TestSet::new(space, points), &Measure::all().collect::<Vec<_>>(), None, None).unwrap();
+            let numbers: Vec<_> = coverage.continuous.unwrap().measured.iter().map(|(_, m)| m.bracket()).collect();
+            (numbers, coverage.k_wise_dispersion.unwrap().volume)
+        };
+        assert_eq!(measure(unit, points), measure(scaled, values));
+    }
+}

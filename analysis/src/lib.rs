@@ -1,0 +1,34 @@
+//! A log to knowledge.
+
+pub mod asked;
+pub mod bench;
+pub mod blame;
+pub mod certificate;
+pub mod compare;
+pub mod estimate;
+pub mod explanation;
+pub mod failure_estimate;
+pub mod likelihood;
+pub mod live;
+pub mod modes;
+pub mod plan;
+pub mod promise;
+pub mod shrink;
+pub mod statistics;
+pub mod summary;
+pub mod suspects;
+pub mod traceability;
+
+pub use estimate::{
+    Ball, Continuous, Coverage, Discrete, Hole, KEpsilon, KwiseHole, KwiseWorst, Measured, Strength, Watch,
+};
+pub use explanation::{Accuracy, Explanation, Rule};
+pub use failure_estimate::FailureEstimate;
+pub use live::LiveCoverage;
+pub use modes::{Extent, Mode, Modes, Touch};
+pub use plan::{Guarantee, Need, Plan};
+pub use promise::Promise;
+pub use shrink::{Change, Sameness, Shrunk};
+pub use summary::{Judged, Summary, Worst};
+pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
+pub use traceability::{Became, Gap, Traceability, Traced, Tried};

@@ -1,0 +1,304 @@
+//! How likely a test fails, when parameters are distributed as their user says.
+//!
+//! The algorithms know nothing of scenarios: they are given what turns points of the unit cube, uniform and independent,
+//! into robustness values, and say with which probability these are below zero. Every number is an estimate and
+//! comes with a confidence interval; none of them proves that there is no failure.
+
+mod monte_carlo;
+mod qmc;
+mod study;
+mod subset;
+
+pub use study::of_study;
+
+use paracosm_campaign::{Error, Problem, Reason};
+use paracosm_space::{did_you_mean, nearest};
+use serde::Serialize;
+use std::fmt;
+use std::str::FromStr;
+use thiserror::Error;
+
+/// How a probability of failure is estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Independent tests, with the exact interval of Clopper and Pearson.
+    MonteCarlo,
+    /// Repetitions of Owen-scrambled Sobol points, with Student's interval over the repetitions: narrower than Monte Carlo
+    /// where few parameters decide and failures are not rare.
+    Qmc,
+    /// Subset simulation: a chain of ever worse tests, for failures too rare for the others.
+    Subset,
+}
+
+impl Method {
+    /// All methods.
+    pub const ALL: [Self; 3] = [Self::MonteCarlo, Self::Qmc, Self::Subset];
+
+    /// The name by which it is chosen.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MonteCarlo => "monte-carlo",
+            Self::Qmc => "qmc",
+            Self::Subset => "subset",
+        }
+    }
+
+    /// The least budget with which it can say anything.
+    pub fn least_budget(self) -> usize {
+        match self {
+            Self::MonteCarlo => 1,
+            Self::Qmc => qmc::REPLICATES,
+            Self::Subset => subset::LEAST_BUDGET,
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A name that no method has.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("no method is called `{name}`{}; there are {}", did_you_mean(.nearest), Method::ALL.map(Method::name).join(", "))]
+pub struct UnknownMethod {
+    /// The name.
+    pub name: String,
+    /// A name that was perhaps meant.
+    pub nearest: Option<&'static str>,
+}
+
+/// Why there is no estimate.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum LikelihoodFlaw {
+    /// The confidence is none.
+    #[error("the confidence is {found}, expected a number above 0 and below 1")]
+    Confidence {
+        /// The confidence.
+        found: f64,
+    },
+    /// There are too few tests for the method.
+    #[error("the budget is {budget}, expected at least {least} for the method {method}")]
+    Budget {
+        /// The budget.
+        budget: usize,
+        /// The least budget of the method.
+        least: usize,
+        /// The method.
+        method: Method,
+    },
+    /// There is nothing that chance could decide.
+    #[error("no parameter is open, so there is no probability to ask for")]
+    NothingOpen,
+    /// The distribution of the tests is not known.
+    #[error(
+        "the space has constraints, expected none: distributions of parameters that depend on each other are not known"
+    )]
+    Constraints,
+    /// All tests broke, or their worlds cannot be.
+    #[error(
+        "not one of the tests could be judged{}", first.as_ref().map(|first| format!("; the first: {first}")).unwrap_or_default()
+    )]
+    NothingJudged {
+        /// What was wrong with the first, if that is known.
+        first: Option<Problem>,
+    },
+}
+
+impl Reason for UnknownMethod {}
+impl Reason for LikelihoodFlaw {}
+
+impl FromStr for Method {
+    type Err = UnknownMethod;
+
+    fn from_str(text: &str) -> Result<Self, UnknownMethod> {
+        let unknown = || UnknownMethod { name: text.to_owned(), nearest: nearest(text, Self::ALL.map(Self::name)) };
+        Self::ALL.into_iter().find(|method| method.name() == text).ok_or_else(unknown)
+    }
+}
+
+/// What is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Question {
+    /// How the probability is estimated.
+    pub method: Method,
+    /// How many tests are run at most.
+    pub budget: usize,
+    /// How often the interval is to cover the truth, above 0 and below 1.
+    pub confidence: f64,
+    /// The source of all chance.
+    pub seed: u64,
+}
+
+impl Question {
+    fn check(&self) -> Result<(), LikelihoodFlaw> {
+        let Self { method, budget, confidence, .. } = *self;
+        if !(confidence > 0.0 && confidence < 1.0) {
+            return Err(LikelihoodFlaw::Confidence { found: confidence });
+        }
+        let least = method.least_budget();
+        if budget < least {
+            return Err(LikelihoodFlaw::Budget { budget, least, method });
+        }
+        Ok(())
+    }
+}
+
+/// An estimated probability of failure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Likelihood {
+    /// The estimate: of a failure, given that the test can be judged.
+    pub probability: f64,
+    /// The lower end of the interval, in which tests that could not be judged count as passed.
+    pub lower: f64,
+    /// The upper end, in which they count as failed.
+    pub upper: f64,
+    /// How often such an interval covers the truth.
+    pub confidence: f64,
+    /// How the estimate was made.
+    pub method: Method,
+    /// What the interval goes by, in words.
+    pub interval: String,
+    /// How many tests were run.
+    pub evaluations: usize,
+    /// How many of them failed. Only of `monte-carlo` it is a share that the probability follows from.
+    pub failures: usize,
+    /// How many of them could not be judged: they broke, or their world cannot be.
+    pub unjudged: usize,
+    /// What else has to be known to read the numbers.
+    pub notes: Vec<String>,
+}
+
+/// Runs tests: the robustness at each point of the unit cube, negative (-0 too) of a failure, `None` where the test could
+/// not be judged.
+pub type Evaluate<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<f64>>, Error> + 'a;
+
+/// How likely a uniformly distributed point of the unit cube of so many dimensions is a failure.
+///
+/// How many points are evaluated at a time is for the method to say; the result depends on the question and the values
+/// alone.
+///
+/// ```
+/// use paracosm_analysis::likelihood::{Method, Question, estimate};
+/// let question = Question { method: Method::MonteCarlo, budget: 1000, confidence: 0.95, seed: 0 };
+/// let found = estimate(&question, 2, &mut |points| Ok(points.iter().map(|x| Some(x[0] - 0.25)).collect()))?;
+/// assert!(found.lower < 0.25 && 0.25 < found.upper);
+/// # Ok::<(), paracosm_campaign::Error>(())
+/// ```
+///
+/// # Errors
+/// The budget is too small for the method, the confidence is none, no test could be judged, or an error of `evaluate`.
+pub fn estimate(question: &Question, dims: usize, evaluate: &mut Evaluate) -> Result<Likelihood, Error> {
+    question.check()?;
+    if dims == 0 {
+        return Err(LikelihoodFlaw::NothingOpen.into());
+    }
+    let mut runs = Runs { evaluate, evaluations: 0, failures: 0, unjudged: 0 };
+    let found = match question.method {
+        Method::MonteCarlo => monte_carlo::estimate(question, dims, &mut runs),
+        Method::Qmc => qmc::estimate(question, dims, &mut runs),
+        Method::Subset => subset::estimate(question, dims, &mut runs),
+    }?;
+    let mut notes = found.notes;
+    if runs.unjudged > 0 {
+        let count = runs.unjudged;
+        notes.push(format!(
+            "{count} of the tests could not be judged: they count as passed in the lower end and as failed in the upper"
+        ));
+    }
+    let [lower, upper] = found.interval;
+    Ok(Likelihood {
+        probability: found.probability,
+        lower: lower.clamp(0.0, found.probability),
+        upper: upper.clamp(found.probability, 1.0),
+        confidence: question.confidence,
+        method: question.method,
+        interval: found.source,
+        evaluations: runs.evaluations,
+        failures: runs.failures,
+        unjudged: runs.unjudged,
+        notes,
+    })
+}
+
+/// What a method finds.
+struct Tail {
+    probability: f64,
+    interval: [f64; 2],
+    source: String,
+    notes: Vec<String>,
+}
+
+/// What runs tests, and counts them.
+struct Runs<'a, 'b> {
+    evaluate: &'a mut Evaluate<'b>,
+    evaluations: usize,
+    failures: usize,
+    unjudged: usize,
+}
+
+impl Runs<'_, '_> {
+    /// The robustness at each point.
+    fn run(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<f64>>, Error> {
+        if points.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut values = (self.evaluate)(points)?;
+        assert_eq!(values.len(), points.len(), "a value for every point");
+        for value in &mut values {
+            *value = value.filter(|robustness| !robustness.is_nan());
+        }
+        let Tally { failures, unjudged, .. } = Tally::of(&values);
+        self.evaluations += points.len();
+        self.failures += failures;
+        self.unjudged += unjudged;
+        Ok(values)
+    }
+}
+
+/// Whether a robustness is that of a failure: negative, or the zero that is.
+fn is_failure(robustness: f64) -> bool {
+    robustness.is_sign_negative()
+}
+
+/// How independent tests went.
+#[derive(Clone, Copy, Default)]
+struct Tally {
+    tests: usize,
+    failures: usize,
+    unjudged: usize,
+}
+
+impl Tally {
+    fn of(values: &[Option<f64>]) -> Self {
+        let failures = values.iter().flatten().filter(|robustness| is_failure(**robustness)).count();
+        let unjudged = values.iter().filter(|value| value.is_none()).count();
+        Self { tests: values.len(), failures, unjudged }
+    }
+
+    fn add(&mut self, other: Self) {
+        self.tests += other.tests;
+        self.failures += other.failures;
+        self.unjudged += other.unjudged;
+    }
+
+    /// The share of failures among the tests that were judged.
+    fn share(self) -> Result<f64, LikelihoodFlaw> {
+        match self.tests - self.unjudged {
+            0 => Err(LikelihoodFlaw::NothingJudged { first: None }),
+            judged => Ok(self.failures as f64 / judged as f64),
+        }
+    }
+
+    /// The exact interval of that share.
+    fn interval(self, confidence: f64) -> [f64; 2] {
+        let Self { tests, failures, unjudged } = self;
+        let end = |failures, which: usize| crate::statistics::clopper_pearson(failures, tests, confidence)[which];
+        [end(failures, 0), end(failures + unjudged, 1)]
+    }
+}
+
+#[cfg(test)]
+mod tests;

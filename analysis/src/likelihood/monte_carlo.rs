@@ -1,0 +1,33 @@
+//! Plain Monte Carlo: independent tests, counted.
+
+use super::{Question, Runs, Tail, Tally};
+use crate::statistics::random::SplitMix64;
+use paracosm_campaign::Error;
+
+/// How many tests are run at a time: enough for many cores, few enough for the memory.
+pub(super) const BATCH: usize = 4096;
+
+/// What the interval goes by.
+pub(super) const SOURCE: &str = "Clopper and Pearson, independent tests";
+
+pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Result<Tail, Error> {
+    let mut random = SplitMix64(question.seed);
+    let mut tally = Tally::default();
+    while tally.tests < question.budget {
+        let batch = BATCH.min(question.budget - tally.tests);
+        let points: Vec<Vec<f64>> = (0..batch).map(|_| (0..dims).map(|_| random.unit()).collect()).collect();
+        tally.add(Tally::of(&runs.run(&points)?));
+    }
+    let notes = if tally.failures == 0 {
+        let note = "no test failed: rarer failures are for a larger budget or for the method subset";
+        vec![note.to_owned()]
+    } else {
+        Vec::new()
+    };
+    Ok(Tail {
+        probability: tally.share()?,
+        interval: tally.interval(question.confidence),
+        source: SOURCE.to_owned(),
+        notes,
+    })
+}

@@ -1,0 +1,109 @@
+//! Populations of tests at a level, and the chains by which they grow.
+
+use crate::likelihood::monte_carlo::BATCH;
+use crate::likelihood::{Runs, Tally, is_failure};
+use crate::statistics::random::SplitMix64;
+use paracosm_campaign::Error;
+use paracosm_space::distribution::normal_cdf;
+
+/// A test: independent standard normal coordinates, and its robustness.
+#[derive(Clone)]
+pub(super) struct Member {
+    place: Vec<f64>,
+    pub robustness: f64,
+}
+
+/// Tests that were judged.
+pub(super) struct Population(pub Vec<Member>);
+
+impl Population {
+    /// The judged ones of so many independent tests, and how all of them went.
+    pub fn independent(
+        size: usize,
+        dims: usize,
+        runs: &mut Runs,
+        random: &mut SplitMix64,
+    ) -> Result<(Self, Tally), Error> {
+        let (mut members, mut tally) = (Vec::with_capacity(size), Tally::default());
+        while tally.tests < size {
+            let batch = BATCH.min(size - tally.tests);
+            let places: Vec<Vec<f64>> = (0..batch).map(|_| (0..dims).map(|_| random.normal()).collect()).collect();
+            let values = judge(&places, runs)?;
+            tally.add(Tally::of(&values));
+            let judged = places.into_iter().zip(values);
+            members.extend(judged.filter_map(|(place, value)| Some(Member { place, robustness: value? })));
+        }
+        if members.is_empty() {
+            tally.share()?;
+        }
+        Ok((Self(members), tally))
+    }
+
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Those at a level.
+    pub fn below(self, threshold: f64) -> Vec<Member> {
+        self.0.into_iter().filter(|member| reaches(member.robustness, threshold)).collect()
+    }
+
+    pub fn failures(&self) -> usize {
+        self.0.iter().filter(|member| is_failure(member.robustness)).count()
+    }
+}
+
+/// Whether a test is at a level: zeros have signs here, as they decide.
+pub(super) fn reaches(robustness: f64, threshold: f64) -> bool {
+    robustness.total_cmp(&threshold).is_le()
+}
+
+fn judge(places: &[Vec<f64>], runs: &mut Runs) -> Result<Vec<Option<f64>>, Error> {
+    let points: Vec<Vec<f64>> = places.iter().map(|place| place.iter().map(|z| normal_cdf(*z)).collect()).collect();
+    runs.run(&points)
+}
+
+/// A population of `size` tests at a level: the seeds, and from each of them a chain that stays at the level.
+///
+/// A chain steps by conditional sampling (Papaioannou, Betz, Zwirglmaier and Straub, MCMC algorithms for subset
+/// simulation, Probabilistic Engineering Mechanics 41, 2015): the mean of a place and a new normal one, weighted so that
+/// it is normal again, is taken if it is at the level. All chains take a step together; `step` is told which share of
+/// them the last one moved, nothing before the first, and says how far the next one goes.
+pub(super) fn grow(
+    seeds: Vec<Member>,
+    size: usize,
+    threshold: f64,
+    mut step: impl FnMut(Option<f64>) -> f64,
+    runs: &mut Runs,
+    random: &mut SplitMix64,
+) -> Result<Population, Error> {
+    let mut heads = shuffled(seeds, random);
+    let mut members = heads.clone();
+    let mut moved = None;
+    while members.len() < size {
+        // Chains differ in length by one at most; which are longer is up to chance.
+        heads.truncate(size - members.len());
+        let far = step(moved);
+        let keep = (1.0 - far * far).sqrt();
+        let propose = |head: &Member| head.place.iter().map(|z| keep * z + far * random.normal()).collect();
+        let places: Vec<Vec<f64>> = heads.iter().map(propose).collect();
+        let values = judge(&places, runs)?;
+        let mut accepted = 0;
+        for ((head, place), value) in heads.iter_mut().zip(places).zip(values) {
+            if let Some(robustness) = value.filter(|robustness| reaches(*robustness, threshold)) {
+                *head = Member { place, robustness };
+                accepted += 1;
+            }
+        }
+        moved = Some(accepted as f64 / heads.len() as f64);
+        members.extend(heads.iter().cloned());
+    }
+    Ok(Population(members))
+}
+
+fn shuffled(mut members: Vec<Member>, random: &mut SplitMix64) -> Vec<Member> {
+    for i in (1..members.len()).rev() {
+        members.swap(i, random.below(i + 1));
+    }
+    members
+}

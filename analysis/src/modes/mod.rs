@@ -1,0 +1,252 @@
+//! The ways in which a campaign's tests fail: failing tests grouped by what went wrong, not by where they are in the space.
+//!
+//! Two failures are of one mode if they violate the same requirements by the same part of their formulas, and the car
+//! touched the same object with the same side while doing the same (driving, braking or standing). What words tell no
+//! further apart, figures do: the
+//! critical time, the way that the car had come by then, and its speed. Where one of them leaves a gap the
+//! mode is two.
+
+mod gap;
+#[cfg(test)]
+mod tests;
+mod words;
+
+use gap::{Figure, Group};
+use paracosm_campaign::{JsonArtefact, Log, Trial};
+use paracosm_engine::object::Class;
+use paracosm_engine::{Contact, Face, Motion, Violation};
+use paracosm_space::{Record, Value};
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
+/// A figure that divides modes: its name, the figure of a violation, and how much is no difference in it.
+type FigureOf = (&'static str, fn(&Violation) -> Option<f64>, f64);
+
+/// The figures that divide modes: 0.5 s, 2 m and 1 m/s are no differences.
+const FIGURES: [FigureOf; 3] = [
+    ("critical_time", |violation| Some(violation.time), 0.5),
+    ("critical_travelled", |violation| violation.travelled, 2.0),
+    ("critical_speed", |violation| violation.speed, 1.0),
+];
+
+/// The failure modes of a campaign.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Modes {
+    /// How many tests failed.
+    pub failures: usize,
+    /// The ways in which they did, the most frequent first.
+    pub modes: Vec<Mode>,
+}
+
+/// Failing tests in which the same went wrong.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mode {
+    /// What sets it apart, in a few words: `no-collision/pedestrian/left/braking`; `#2` where figures divide it further.
+    pub name: String,
+    /// What happens, in a sentence.
+    pub words: String,
+    /// How many tests fail so.
+    pub count: usize,
+    /// The index of a typical one: the one nearest to the medians of the figures.
+    pub representative: usize,
+    /// The index of the one that is worst.
+    pub worst: usize,
+    /// What they violate.
+    pub violates: Vec<String>,
+    /// The part of each of these formulas on which its robustness depends, by the requirement's id, as far as is known.
+    pub parts: Record<String>,
+    /// What the car touched, and how.
+    pub contact: Option<Touch>,
+    /// The least and the greatest critical time (s), way come (m) and speed (m/s) of the car then.
+    pub figures: Record<[f64; 2]>,
+    /// Where they are in the space: from the least to the greatest value of a continuous parameter, all values of a
+    /// discrete one.
+    pub parameters: Record<Extent>,
+    /// Their indices.
+    pub trials: Vec<usize>,
+}
+
+/// A contact of the car under test.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Touch {
+    /// The name of the object.
+    pub with: String,
+    /// What it is taken for.
+    #[serde(serialize_with = "in_a_word")]
+    pub class: Class,
+    /// The side of the car.
+    #[serde(serialize_with = "in_a_word")]
+    pub face: Face,
+    /// What the car was doing.
+    #[serde(serialize_with = "in_a_word")]
+    pub motion: Motion,
+}
+
+fn in_a_word<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(value)
+}
+
+/// The values of a parameter among some tests.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Extent {
+    /// From here to there.
+    Interval([f64; 2]),
+    /// All of them, in the order of the choice.
+    Values(Vec<Value>),
+}
+
+impl JsonArtefact for Modes {
+    const FILE: &'static str = "modes.json";
+}
+
+impl Modes {
+    /// Groups the failing trials of a campaign.
+    pub fn of(log: &Log) -> Self {
+        let failing: Vec<&Trial> = log.trials().iter().filter(|trial| trial.is_failure()).collect();
+        let mut kinds: BTreeMap<Kind, Vec<&Trial>> = BTreeMap::new();
+        for trial in &failing {
+            let violates = trial.violated().map(str::to_owned).collect();
+            kinds.entry((violates, Touch::of(trial))).or_default().push(trial);
+        }
+        let mut modes: Vec<Mode> = kinds.iter().flat_map(|(kind, trials)| divided(log, kind, trials)).collect();
+        modes.sort_by_key(|mode| (std::cmp::Reverse(mode.count), mode.trials[0]));
+        words::tell_apart(&mut modes);
+        Self { failures: failing.len(), modes }
+    }
+}
+
+impl Touch {
+    /// How a trial ended, if the car touched anything.
+    pub fn of(trial: &Trial) -> Option<Self> {
+        let Contact { with, class, face, motion, .. } = trial.contact()?.clone();
+        Some(Self { with, class, face, motion })
+    }
+}
+
+/// What failures have in common in words: what they violate, and what the car touched.
+type Kind = (Vec<String>, Option<Touch>);
+
+/// The modes of trials of one kind.
+fn divided(log: &Log, kind: &Kind, trials: &[&Trial]) -> Vec<Mode> {
+    let mut by_parts: BTreeMap<Vec<Option<&str>>, Vec<&Trial>> = BTreeMap::new();
+    for trial in trials {
+        let parts = kind.0.iter().map(|id| Some(trial.violation(id)?.part.as_str())).collect();
+        by_parts.entry(parts).or_default().push(trial);
+    }
+    let is_told_by_part = by_parts.len() > 1;
+    let modes = by_parts.iter().flat_map(|(parts, trials)| of_parts(log, kind, parts, is_told_by_part, trials));
+    let mut modes: Vec<Mode> = modes.collect();
+    modes.sort_by_key(|mode| mode.trials[0]);
+    if modes.len() > 1 {
+        modes.iter_mut().enumerate().for_each(|(i, mode)| mode.name.push_str(&format!("#{}", i + 1)));
+    }
+    modes
+}
+
+/// The modes of trials that words do not tell apart.
+fn of_parts(
+    log: &Log,
+    (violates, contact): &Kind,
+    parts: &[Option<&str>],
+    is_told_by_part: bool,
+    trials: &[&Trial],
+) -> Vec<Mode> {
+    let figures = figures(violates, trials);
+    let known: Vec<Figure> =
+        figures.iter().map(|(_, values, resolution)| Figure { values, resolution: *resolution }).collect();
+    let name = [Some(violates.join("+")), contact.as_ref().map(Touch::name)];
+    let name = name.into_iter().flatten().collect::<Vec<_>>().join("/");
+    let parts: Vec<(&str, &str)> =
+        violates.iter().zip(parts).filter_map(|(id, part)| Some((id.as_str(), (*part)?))).collect();
+    let mode = |Group { members, set_apart_by }: Group| {
+        let all: Vec<&Trial> = members.iter().map(|member| trials[*member]).collect();
+        let ranges: Vec<(&str, [f64; 2])> = figures
+            .iter()
+            .map(|(name, values, _)| (*name, range(members.iter().map(|member| values[*member]))))
+            .collect();
+        let typical = typical(log, trials, &members, &known);
+        let apart: Vec<&str> = set_apart_by.iter().map(|figure| figures[*figure].0).collect();
+        let story = words::Story { violates, parts: &parts, is_told_by_part, ranges: &ranges, apart: &apart };
+        Mode {
+            name: name.clone(),
+            words: story.words(contact.as_ref(), trials[typical]),
+            count: members.len(),
+            representative: trials[typical].index,
+            worst: all.iter().min_by(|a, b| severity(log, a).total_cmp(&severity(log, b))).map_or(0, |t| t.index),
+            violates: violates.clone(),
+            parts: parts.iter().map(|(id, part)| ((*id).to_owned(), (*part).to_owned())).collect(),
+            contact: contact.clone(),
+            figures: ranges.iter().map(|(name, range)| ((*name).to_owned(), *range)).collect(),
+            parameters: extents(log, &all),
+            trials: all.iter().map(|trial| trial.index).collect(),
+        }
+    };
+    gap::groups(trials.len(), &known).into_iter().map(mode).collect()
+}
+
+impl Touch {
+    fn name(&self) -> String {
+        format!("{}/{}/{}", self.with, self.face, self.motion)
+    }
+}
+
+/// The figures that all trials have, of the requirement that was the first to be violated in most of them.
+fn figures(violates: &[String], trials: &[&Trial]) -> Vec<(&'static str, Vec<f64>, f64)> {
+    let time = |trial: &Trial, id: &str| trial.violation(id).map_or(f64::INFINITY, |violation| violation.time);
+    let first = |trial: &Trial| violates.iter().min_by(|a, b| time(trial, a).total_cmp(&time(trial, b)));
+    let all = FIGURES.iter().filter_map(|(name, of, resolution)| {
+        let value = |trial: &&Trial| of(trial.violation(first(trial)?)?).filter(|value| value.is_finite());
+        Some((*name, trials.iter().map(value).collect::<Option<Vec<f64>>>()?, *resolution))
+    });
+    all.collect()
+}
+
+/// The one of some trials that comes nearest to the medians of the figures, by the figure in which it is farthest off,
+/// each in shares of its range; among equals the worst.
+fn typical(log: &Log, trials: &[&Trial], members: &[usize], figures: &[Figure]) -> usize {
+    let scales: Vec<(f64, f64)> = figures
+        .iter()
+        .map(|figure| {
+            let mut values: Vec<f64> = members.iter().map(|member| figure.values[*member]).collect();
+            values.sort_by(f64::total_cmp);
+            (values[values.len() / 2], (values[values.len() - 1] - values[0]).max(figure.resolution))
+        })
+        .collect();
+    let off = |member: usize| {
+        let off =
+            figures.iter().zip(&scales).map(|(figure, (median, range))| (figure.values[member] - median).abs() / range);
+        off.fold(0.0, f64::max)
+    };
+    let rank = |a: &usize, b: &usize| {
+        off(*a).total_cmp(&off(*b)).then(severity(log, trials[*a]).total_cmp(&severity(log, trials[*b])))
+    };
+    members.iter().copied().min_by(rank).expect("a mode has a test")
+}
+
+/// The worst robustness in multiples of its scale: less is worse.
+fn severity(log: &Log, trial: &Trial) -> f64 {
+    log.scales().worst(trial).map_or(0.0, |(_, robustness)| robustness)
+}
+
+/// The least and the greatest.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| [least.min(value), most.max(value)])
+}
+
+/// Where some trials are in the space.
+fn extents(log: &Log, trials: &[&Trial]) -> Record<Extent> {
+    let extent = |name: &str, levels: Option<&[Value]>| {
+        let scalars = trials.iter().filter_map(|trial| trial.test.get(name)).flat_map(Value::scalars);
+        match levels {
+            None => Extent::Interval(range(scalars.filter_map(Value::number))),
+            Some(levels) => {
+                let there: Vec<&Value> = scalars.collect();
+                Extent::Values(levels.iter().filter(|level| there.contains(level)).cloned().collect())
+            }
+        }
+    };
+    let parameters = log.study().space().parameters().iter();
+    parameters.map(|parameter| (parameter.name.clone(), extent(&parameter.name, parameter.levels()))).collect()
+}

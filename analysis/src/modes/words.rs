@@ -1,0 +1,124 @@
+//! What happens in a failure mode, in words.
+
+use super::{Mode, Touch};
+use paracosm_campaign::Trial;
+use paracosm_engine::object::Class;
+use paracosm_engine::{Face, Motion};
+
+/// Speed in m/s below which what the car touched stood.
+const STANDING: f64 = 0.1;
+
+/// What the trials of a mode have in common.
+pub(super) struct Story<'a> {
+    pub violates: &'a [String],
+    /// The parts of their formulas that were violated.
+    pub parts: &'a [(&'a str, &'a str)],
+    /// Whether these tell it from other modes.
+    pub is_told_by_part: bool,
+    pub ranges: &'a [(&'a str, [f64; 2])],
+    /// Those of the ranges that set it apart.
+    pub apart: &'a [&'a str],
+}
+
+impl Story<'_> {
+    /// A sentence about it, with what was touched and a typical trial.
+    pub fn words(&self, contact: Option<&Touch>, typical: &Trial) -> String {
+        let time = || self.range("critical_time").map(|range| format!("{} s after the start", span(range)));
+        let place = || self.range("critical_travelled").map(|range| format!("after {} m", span(range)));
+        let speed = || self.range("critical_speed").map(|range| format!("at {} m/s", span(range)));
+        let Some(contact) = contact else {
+            let rest = [self.part(), time(), place(), speed()].into_iter().flatten();
+            let violates = format!("violates {}", self.violates.join(" and "));
+            return [violates].into_iter().chain(rest).collect::<Vec<_>>().join(", ");
+        };
+        let also = [
+            self.part().filter(|_| self.is_told_by_part),
+            time().filter(|_| self.apart.contains(&"critical_time")),
+            place().filter(|_| self.apart.contains(&"critical_travelled")),
+        ];
+        let motion = match contact.motion {
+            Motion::Standing => "stands",
+            Motion::Braking => "brakes",
+            Motion::Driving => "goes on",
+        };
+        let at =
+            speed().filter(|_| contact.motion != Motion::Standing).map(|speed| format!(" {speed}")).unwrap_or_default();
+        let also: String = also.into_iter().flatten().map(|text| format!(", {text}")).collect();
+        format!("the car {motion}{at}{}{also}", meeting(contact, typical))
+    }
+
+    fn range(&self, figure: &str) -> Option<[f64; 2]> {
+        self.ranges.iter().find(|(name, _)| *name == figure).map(|(_, range)| *range)
+    }
+
+    /// What of the formulas is not so.
+    fn part(&self) -> Option<String> {
+        by_parts(self.parts.iter().map(|(_, part)| *part))
+    }
+}
+
+/// What there is to say of a mode, if anything.
+type Difference<'a> = dyn Fn(&Mode) -> Option<String> + 'a;
+
+/// Adds to the words that several modes share what tells these apart: what they violate, by which part of it, and when,
+/// where and how fast the car was; and where nothing of that does, their names.
+pub(super) fn tell_apart(modes: &mut [Mode]) {
+    let figure =
+        |mode: &Mode, name: &str| mode.figures.iter().find(|(other, _)| *other == name).map(|(_, at)| span(*at));
+    let differences: [&Difference; 6] = [
+        &|mode| Some(format!("violating {}", mode.violates.join(" and "))),
+        &|mode| by_parts(mode.parts.iter().map(|(_, part)| part.as_str())),
+        &|mode| figure(mode, "critical_time").map(|time| format!("{time} s after the start")),
+        &|mode| figure(mode, "critical_travelled").map(|place| format!("after {place} m")),
+        &|mode| figure(mode, "critical_speed").map(|speed| format!("at {speed} m/s")),
+        &|mode| Some(mode.name.clone()),
+    ];
+    for difference in differences {
+        let told: Vec<(String, Option<String>)> =
+            modes.iter().map(|mode| (mode.words.clone(), difference(mode))).collect();
+        for (mode, (words, own)) in modes.iter_mut().zip(&told) {
+            let differs = told.iter().any(|(others, theirs)| others == words && theirs != own);
+            own.iter().filter(|_| differs).for_each(|own| mode.words.push_str(&format!(", {own}")));
+        }
+    }
+}
+
+/// By which parts formulas are violated.
+fn by_parts<'a>(parts: impl Iterator<Item = &'a str>) -> Option<String> {
+    let parts: Vec<String> = parts.map(|part| format!("`{part}`")).collect();
+    (!parts.is_empty()).then(|| format!("by {}", parts.join(" and ")))
+}
+
+/// How the car and the other meet, after what the car does.
+fn meeting(contact: &Touch, typical: &Trial) -> String {
+    let Touch { with, class, face, motion } = contact;
+    let other =
+        if with.starts_with(&class.to_string()) { format!("the {with}") } else { format!("the {class} `{with}`") };
+    let goes = match class {
+        Class::Pedestrian => "walks",
+        Class::Bicycle => "rides",
+        Class::Car | Class::Truck => "drives",
+        Class::Building | Class::Tree | Class::Sign | Class::Prop => "comes",
+    };
+    let side = match face {
+        Face::Left | Face::Right => format!("{face} side"),
+        Face::Front | Face::Rear => face.to_string(),
+    };
+    let comes = typical.contact().is_some_and(|contact| contact.other_speed > STANDING);
+    match face {
+        Face::Front if *motion != Motion::Standing => format!(" and hits {other} with its front"),
+        _ if comes => format!("; {other} {goes} into its {side}"),
+        _ => format!(" and touches {other} with its {side}"),
+    }
+}
+
+/// A range with one decimal; a single number where there is no more to it.
+fn span([least, most]: [f64; 2]) -> String {
+    let short = |number: f64| {
+        let text = format!("{number:.1}");
+        let text = text.strip_suffix(".0").unwrap_or(&text);
+        if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    };
+    let [from, to] = [short(least), short(most)];
+    if from == to { from } else { format!("{from} to {to}") }
+}

@@ -1,0 +1,335 @@
+//! How many tests a guarantee asks for, before any is run: what `paracosm-cover plan` prints.
+//!
+//! A bound that is proved, a probability and a measurement are different things. Every number here says which it is, and
+//! numbers of two halves are only joined into one that claims no more than either.
+
+use paracosm_campaign::{Error, Reason};
+use paracosm_coverage::dispersion::is_at_most;
+use paracosm_coverage::theory::points;
+use paracosm_coverage::theory::rows::RandomRows;
+use paracosm_coverage::{Deadline, PointSet};
+use paracosm_generators::covering::{CoveringError, CoveringRequest, covering_array};
+use paracosm_generators::{Generator, GeneratorError, Request, Strategy};
+use paracosm_space::Space;
+use paracosm_space::demand::Demand;
+use serde::{Serialize, Serializer};
+use std::time::Duration;
+use thiserror::Error;
+
+/// What a number of tests is good for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Guarantee {
+    /// Proved: no smaller set can do it, whatever its tests.
+    NeededByAny,
+    /// Proved of this set.
+    Proved,
+    /// So many random tests do it with this probability or a higher one.
+    Probable,
+    /// Measured: so many tests of this strategy do it, and one fewer does not.
+    Measured,
+    /// Worked out from measured numbers, but not measured as a whole.
+    Estimated,
+}
+
+impl Guarantee {
+    /// The guarantee in words, as it is printed.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::NeededByAny => "needed by any set",
+            Self::Proved => "proved for this set",
+            Self::Probable => "with probability 1-delta",
+            Self::Measured => "measured",
+            Self::Estimated => "estimated from measured",
+        }
+    }
+}
+
+impl Serialize for Guarantee {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.words())
+    }
+}
+
+/// A number of tests with what it guarantees.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Need {
+    /// The tests in question.
+    pub of: String,
+    /// The strategy that proposes them, if they are those of one.
+    #[serde(skip)]
+    pub strategy: Option<Strategy>,
+    /// How many; `None` where they cannot be counted in 64 bits, or were not measured in time.
+    pub tests: Option<u64>,
+    /// So many are not enough: what a measurement knew when its time was up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub over: Option<u64>,
+    /// What is known about that number.
+    pub guarantee: Guarantee,
+}
+
+/// How many tests each guarantee of a (k, epsilon)-covering set asks for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Plan {
+    /// How many discrete parameters are to be covered together.
+    pub k: Option<usize>,
+    /// The dispersion that is not to be exceeded for any row.
+    pub epsilon: f64,
+    /// How improbable a failure of a random set is to be.
+    pub delta: f64,
+    /// Rows that cover the discrete parameters k-wise; `None` where the space has none.
+    pub rows: Option<Vec<Need>>,
+    /// Points that leave no hole above epsilon in the continuous parameters; `None` where the space has none.
+    pub points: Option<Vec<Need>>,
+    /// Tests that do both, each row with points of its own; `None` where one half is all.
+    pub tests: Option<Vec<Need>>,
+}
+
+/// What nothing can be planned for.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum PlanFlaw {
+    /// A share is none.
+    #[error("{name} is {found}, expected a number above 0 and below 1")]
+    NoShare {
+        /// Which share.
+        name: &'static str,
+        /// What it is.
+        found: f64,
+    },
+    /// The space is empty.
+    #[error("the space has no parameters, so there is nothing to plan")]
+    Empty,
+    /// There are no discrete parameters to cover together.
+    #[error("--k is for discrete parameters, of which there are none")]
+    NoDiscrete,
+}
+
+impl Reason for PlanFlaw {}
+
+/// The strategies that are measured: a longer beginning of each is never worse.
+const MEASURED: [Strategy; 3] = [Strategy::HALTON, Strategy::SOBOL, Strategy::GREEDY];
+
+/// No covering array of more combinations than this is made: it would take minutes, and gigabytes.
+const MOST_COMBINATIONS: u128 = 1 << 31;
+
+/// More points than this are not measured.
+const MOST_MEASURED: usize = 1 << 20;
+
+impl Plan {
+    /// The plan for a space, of whose discrete parameters `demand` may ask for more than all combinations of k values.
+    /// Making a covering array may take half of `limit`, and the measuring what is left of it.
+    ///
+    /// # Errors
+    /// The space is empty, `k` is not in 1 to the number of parameters, or epsilon or delta not in (0, 1).
+    pub fn of(
+        space: &Space,
+        k: Option<usize>,
+        demand: &Demand,
+        epsilon: f64,
+        delta: f64,
+        limit: Duration,
+    ) -> Result<Self, Error> {
+        for (name, share) in [("epsilon", epsilon), ("delta", delta)] {
+            if !(share > 0.0 && share < 1.0) {
+                return Err(PlanFlaw::NoShare { name, found: share }.into());
+            }
+        }
+        if space.parameters().is_empty() {
+            return Err(PlanFlaw::Empty.into());
+        }
+        let (dims, levels) = (space.dims(), space.levels());
+        if k.is_some() && levels.is_empty() {
+            return Err(PlanFlaw::NoDiscrete.into());
+        }
+        let k = Request { k, ..Request::new(space, 1) }.discrete_strength()?;
+        let (rules, kinds) = (space.rules()?, demand.kinds(space)?);
+        let deadline = Deadline::after(limit);
+        let request = CoveringRequest {
+            kinds: &kinds,
+            groups: &demand.groups,
+            deadline: deadline.part(if dims == 0 { 1.0 } else { 0.5 }),
+            ..CoveringRequest::new(&rules, k)
+        };
+        let rows = if levels.is_empty() { None } else { Some(rows_needed(&request, delta)?) };
+        let points = if dims == 0 { None } else { Some(points_needed(dims, epsilon, delta, deadline)?) };
+        let tests = rows.as_ref().zip(points.as_ref()).map(|(rows, points)| joined(rows, points));
+        Ok(Self { k: (!levels.is_empty()).then_some(k), epsilon, delta, rows, points, tests })
+    }
+}
+
+/// How many rows cover discrete parameters k-wise, and groups as they ask for.
+fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error> {
+    let &CoveringRequest { rules, k, .. } = request;
+    let need = |of: &str, tests, guarantee| Need { of: of.into(), strategy: None, tests, over: None, guarantee };
+    let countable = |tests| (tests < u64::MAX).then_some(tests);
+    // No row has two combinations of the same parameters.
+    let least = u64::try_from(request.lower_bound().map_err(GeneratorError::from)?).ok();
+    let array = if request.combinations().map_err(GeneratorError::from)? > MOST_COMBINATIONS {
+        None
+    } else {
+        match covering_array(request) {
+            Ok(array) => Some(array.rows.len() as u64),
+            Err(CoveringError::OutOfTime | CoveringError::TooLarge { .. }) => None,
+            Err(error) => return Err(GeneratorError::from(error).into()),
+        }
+    };
+    // One row fewer than are needed by any set is not enough for the array either.
+    let over = least.filter(|_| array.is_none()).map(|least| least - 1);
+    let all = rules.tests().filter(|all| *all < 9e15).map(|all| all as u64);
+    let mut needs = vec![
+        need("any rows", least, Guarantee::NeededByAny),
+        Need { over, ..need("ipog, the array of seed 0", array, Guarantee::Proved) },
+        need("all combinations", all, Guarantee::Proved),
+    ];
+    let has_negatives = request.kinds.iter().any(|kind| kind.negative().is_some());
+    if has_negatives || request.groups.iter().any(|(_, strength)| *strength > k) {
+        // The bounds for random rows are about any k parameters, no more.
+        return Ok(needs);
+    }
+    // Where constraints entangle too many parameters, nobody knows how probable a combination is.
+    if let Some(random) = RandomRows::new(rules, k) {
+        if rules.groups() == 0 && rules.levels().iter().all(|&v| v == 2) {
+            let of = "random rows, Proposition 3.2";
+            needs.push(need(of, countable(random.family_size(delta)), Guarantee::Probable));
+        }
+        needs.push(need("random rows, union bound", countable(random.union_bound(delta)), Guarantee::Probable));
+    }
+    Ok(needs)
+}
+
+/// How many points have a dispersion of at most epsilon.
+fn points_needed(dims: usize, epsilon: f64, delta: f64, deadline: Deadline) -> Result<Vec<Need>, Error> {
+    let need = |of: &str, tests, guarantee| Need { of: of.to_owned(), strategy: None, tests, over: None, guarantee };
+    let proved = |strategy: Strategy, tests| {
+        let of = format!("{}, a-priori bound", strategy.name());
+        Need { strategy: Some(strategy), ..need(&of, tests, Guarantee::Proved) }
+    };
+    let mut needs = vec![
+        need("any points", points::needed_by_any_set(dims, epsilon), Guarantee::NeededByAny),
+        proved(Strategy::HALTON, points::enough_of_halton(dims, epsilon)),
+        proved(Strategy::HAMMERSLEY, points::enough_of_hammersley(dims, epsilon)),
+        proved(Strategy::SOBOL, points::enough_of_sobol(dims, epsilon)),
+        need("random, a-priori bound", points::enough_at_random(dims, epsilon, delta), Guarantee::Probable),
+    ];
+    for (i, strategy) in MEASURED.into_iter().enumerate().filter(|(_, strategy)| strategy.dims().contains(&dims)) {
+        let share = 1.0 / (MEASURED.len() - i) as f64;
+        let (tests, over) = match enough_of(strategy, dims, epsilon, deadline.part(share))? {
+            Enough::Least(tests) => (Some(tests), None),
+            Enough::Over(tests) => (None, Some(tests)),
+        };
+        needs.push(Need { strategy: Some(strategy), over, ..need(strategy.name(), tests, Guarantee::Measured) });
+    }
+    Ok(needs)
+}
+
+/// How many points are enough.
+enum Enough {
+    /// So many, and no fewer.
+    Least(u64),
+    /// More than so many.
+    Over(u64),
+}
+
+/// With how many points a strategy begins that have a dispersion of at most epsilon.
+fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) -> Result<Enough, Error> {
+    let space = Space::unit_cube(dims);
+    let mut generator = strategy.build(&Request::new(&space, MOST_MEASURED))?;
+    let mut all = Vec::new();
+    let mut is_enough = |n: usize, generator: &mut dyn Generator| -> Result<Option<bool>, Error> {
+        while all.len() < n {
+            if deadline.passed() {
+                return Ok(None);
+            }
+            // In very many dimensions a few points take long enough to look at the clock again.
+            all.extend(generator.ask((n - all.len()).min(1 + 10_000 / dims)));
+        }
+        let points = PointSet::new(dims, all[..n].iter().map(|point| &point.continuous))?;
+        Ok(is_at_most(&points, epsilon, deadline))
+    };
+    // Longer beginnings are never worse: double until one is enough, then halve the distance.
+    let (mut short, mut long) = (0, 1);
+    loop {
+        match is_enough(long, generator.as_mut())? {
+            Some(true) => break,
+            Some(false) if long < MOST_MEASURED => (short, long) = (long, 2 * long),
+            _ => return Ok(Enough::Over(short as u64)),
+        }
+    }
+    while long - short > 1 {
+        let middle = short + (long - short) / 2;
+        match is_enough(middle, generator.as_mut())? {
+            Some(true) => long = middle,
+            Some(false) => short = middle,
+            None => return Ok(Enough::Over(short as u64)),
+        }
+    }
+    Ok(Enough::Least(long as u64))
+}
+
+/// Every row with points of its own: the fewest tests of each guarantee.
+fn joined(rows: &[Need], points: &[Need]) -> Vec<Need> {
+    let fewest = |needs: &[Need], guarantee: Guarantee| {
+        let known = needs.iter().filter(|need| need.guarantee == guarantee);
+        known.filter(|need| need.tests.is_some()).min_by_key(|need| need.tests).cloned()
+    };
+    // Rows get stretches of one Halton sequence, for which its bound is proved wherever they begin; it is not for the
+    // shifted copies that rows get of other sets.
+    let halton: Vec<Need> = points.iter().filter(|need| need.strategy == Some(Strategy::HALTON)).cloned().collect();
+    let pair = |of_rows, of_points, guarantee| {
+        let points = if of_points == Guarantee::Proved { &halton[..] } else { points };
+        let (row, point) = (fewest(rows, of_rows)?, fewest(points, of_points)?);
+        let tests = row.tests.zip(point.tests).and_then(|(rows, points)| rows.checked_mul(points));
+        let of = match guarantee {
+            Guarantee::NeededByAny => "any tests".to_owned(),
+            _ => format!("{} x {}", row.of, point.of),
+        };
+        Some(Need { of, strategy: None, tests, over: None, guarantee })
+    };
+    use Guarantee::{Estimated, Measured, NeededByAny, Probable, Proved};
+    let pairs = [
+        pair(NeededByAny, NeededByAny, NeededByAny),
+        pair(Proved, Proved, Proved),
+        pair(Probable, Proved, Probable),
+        // The points of one row were measured; those of the others are others.
+        pair(Probable, Measured, Estimated),
+        pair(Proved, Measured, Estimated),
+    ];
+    pairs.into_iter().flatten().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tests_of(needs: &[Need], of: &str) -> Option<u64> {
+        needs.iter().find(|need| need.of == of).unwrap_or_else(|| panic!("no {of}")).tests
+    }
+
+    #[test]
+    fn measured_numbers_are_the_least_that_do_and_lie_between_the_bounds() {
+        let points = points_needed(3, 0.1, 0.05, Deadline::never()).unwrap();
+        let space = Space::unit_cube(3);
+        for strategy in MEASURED {
+            let n = tests_of(&points, strategy.name()).unwrap();
+            assert!(n >= tests_of(&points, "any points").unwrap(), "{strategy}");
+            let all = strategy.build(&Request::new(&space, n as usize)).unwrap().ask(n as usize);
+            let set = |n: usize| PointSet::new(3, all[..n].iter().map(|point| &point.continuous)).unwrap();
+            assert_eq!(is_at_most(&set(n as usize), 0.1, Deadline::never()), Some(true), "{strategy}");
+            assert_eq!(is_at_most(&set(n as usize - 1), 0.1, Deadline::never()), Some(false), "{strategy}");
+        }
+        assert!(tests_of(&points, "halton") < tests_of(&points, "halton, a-priori bound"));
+    }
+
+    #[test]
+    fn the_reference_s_example_of_five_dimensions_comes_out() {
+        let points = points_needed(5, 0.1, 0.05, Deadline::never()).unwrap();
+        assert_eq!(tests_of(&points, "halton, a-priori bound"), Some(739_200));
+        assert_eq!(tests_of(&points, "halton"), Some(141));
+    }
+
+    #[test]
+    fn what_was_not_measured_in_time_is_unknown() {
+        let points = points_needed(6, 0.01, 0.05, Deadline::after(Duration::ZERO)).unwrap();
+        assert_eq!(tests_of(&points, "halton"), None);
+        assert_eq!(tests_of(&points, "any points"), Some(120));
+    }
+}

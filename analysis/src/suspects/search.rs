@@ -1,0 +1,266 @@
+//! The search for the guilty combination of one failing test after the other, with a memory of all tests.
+
+use super::Evidence;
+use super::location::{Conclusion, Location, TestOfLocation};
+use paracosm_campaign::Error;
+use paracosm_coverage::suspects::{JudgedTest, Located as Combination, Locator, Standing};
+use paracosm_oracles::Verdict;
+use paracosm_space::rules::{Clause, Literal, Rules};
+use paracosm_space::{Point, Values};
+use std::collections::HashMap;
+
+/// How many passing tests are tried as the start.
+const MOST_STARTS: usize = 3;
+
+/// How often a search begins anew after tests have refuted what it located.
+const MOST_RESTARTS: usize = 5;
+
+/// Into how many passing tests located values are put where they do not explain all failures.
+const CONFIRMATIONS: usize = 2;
+
+/// (parameter, level) pairs.
+pub(super) type Pairs = Vec<(usize, usize)>;
+
+/// Why a search ends early.
+enum Stop {
+    /// A test could not be run.
+    Failed(Error),
+    /// There is no more to find.
+    Ended(Conclusion),
+}
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// The continuous values of a test, bit by bit, and its levels.
+type Key = (Vec<u64>, Vec<usize>);
+
+fn key(point: &Point) -> Key {
+    (point.continuous.iter().map(|x| x.to_bits()).collect(), point.discrete.clone())
+}
+
+/// All searches of a campaign, with what is known from the tests so far.
+pub(super) struct LocationSearch<'e, R> {
+    evidence: &'e Evidence<'e>,
+    /// What further tests keep: the constraints, and that they have nothing that was found guilty.
+    rules: Rules,
+    /// The tests that failed or passed: those of the campaign, then further ones.
+    known: Vec<JudgedTest>,
+    verdicts: HashMap<Key, Verdict>,
+    run: R,
+    limit: usize,
+    ran: usize,
+}
+
+/// One search, with its tests and those of earlier searches with the same failing test.
+struct Attempt {
+    failing: usize,
+    is_first: bool,
+    tests: Vec<TestOfLocation>,
+    starting: usize,
+    confirming: usize,
+    restarts: usize,
+}
+
+impl<'e, R> LocationSearch<'e, R> {
+    pub fn new(evidence: &'e Evidence<'e>, limit: usize, run: R) -> Self {
+        let mut verdicts = HashMap::new();
+        for (test, point) in evidence.tests.iter().zip(&evidence.points) {
+            verdicts.entry(key(point)).or_insert(if test.failed { Verdict::Fail } else { Verdict::Pass });
+        }
+        let (rules, known) = (evidence.rules.clone(), evidence.tests.clone());
+        Self { evidence, rules, known, verdicts, run, limit, ran: 0 }
+    }
+
+    /// How many further tests were run.
+    pub fn ran(&self) -> usize {
+        self.ran
+    }
+
+    /// Keeps guilty combinations, which no passing test has, out of further tests.
+    pub fn forbid<'p>(&mut self, guilty: impl Iterator<Item = &'p Pairs>) {
+        let levels = self.evidence.rules.levels();
+        let literal = |&(parameter, level): &(usize, usize)| {
+            let levels = (0..levels[parameter]).filter(|&other| other != level).collect();
+            Literal { parameter, levels }
+        };
+        let clause = |values: &Pairs| vec![Clause { literals: values.iter().map(literal).collect() }];
+        let mut constraints = self.evidence.space.clauses();
+        constraints.extend(guilty.map(clause));
+        self.rules = Rules::new(levels, &constraints).expect("passing tests keep all of them");
+    }
+
+    /// The conclusion from passing tests that have these values, if there are any.
+    pub fn refuted(&self, values: &[(usize, usize)]) -> Option<Conclusion> {
+        let passed: Vec<usize> = self.having(values, false).collect();
+        let trials = self.trials(&passed);
+        (!passed.is_empty()).then(|| Conclusion::Refuted { further: passed.len() - trials.len(), trials })
+    }
+
+    /// The known tests that have these values and failed, or passed.
+    fn having(&self, values: &[(usize, usize)], failed: bool) -> impl Iterator<Item = usize> {
+        let fits = move |test: &JudgedTest| test.failed == failed && test.contains(values);
+        self.known.iter().enumerate().filter(move |(_, test)| fits(test)).map(|(position, _)| position)
+    }
+
+    /// Those of the known tests that are trials of the campaign, by their indices.
+    fn trials(&self, known: &[usize]) -> Vec<usize> {
+        known.iter().filter_map(|&test| self.evidence.indices.get(test).copied()).collect()
+    }
+
+    /// Passing tests that have these values, those first that share least with another test; each choice of levels once.
+    fn unlike(&self, test: &[usize], values: &[(usize, usize)]) -> Vec<usize> {
+        let shared = |other: usize| test.iter().zip(&self.known[other].levels).filter(|(a, b)| a == b).count();
+        let mut found: Vec<usize> =
+            self.having(values, false).filter(|&other| self.known[other].levels != test).collect();
+        found.sort_by_key(|&other| (shared(other), &self.known[other].levels, other));
+        found.dedup_by_key(|other| &self.known[*other].levels);
+        found
+    }
+}
+
+impl<R: FnMut(&Values) -> Result<Verdict, Error>> LocationSearch<'_, R> {
+    /// Looks for a guilty combination in a failing test that has none of the forbidden ones; `known` is what was found
+    /// about it before. Also the values to which it came.
+    ///
+    /// # Errors
+    /// That of running a test.
+    pub fn location(&mut self, failing: usize, known: Option<Location>) -> Result<(Location, Pairs), Error> {
+        let is_first = known.is_none();
+        let (tests, starting, confirming, restarts) =
+            known.map(|known| (known.tests, known.starting, known.confirming, known.restarts)).unwrap_or_default();
+        let mut attempt = Attempt { failing, is_first, tests, starting, confirming, restarts };
+        let (conclusion, located) = match self.conclude(&mut attempt) {
+            Ok(concluded) => concluded,
+            Err(Stop::Ended(conclusion)) => (conclusion, None),
+            Err(Stop::Failed(error)) => return Err(error),
+        };
+        let evidence = self.evidence;
+        let all = || evidence.tests[failing].levels.iter().copied().enumerate().collect();
+        let (values, undivided, bound) =
+            located.map(|located| (located.values, located.undivided, located.bound)).unwrap_or_default();
+        let explains: Vec<usize> =
+            if conclusion == Conclusion::Guilty { self.having(&values, true).collect() } else { Vec::new() };
+        let location = Location {
+            failing: evidence.indices[failing],
+            conclusion,
+            values: evidence.named(&values),
+            undivided: evidence.named(&undivided),
+            explains: self.trials(&explains),
+            starting: attempt.starting,
+            confirming: attempt.confirming,
+            restarts: attempt.restarts,
+            bound: bound.filter(|_| attempt.is_first && attempt.restarts == 0),
+            tests: attempt.tests,
+        };
+        Ok((location, if values.is_empty() { all() } else { values }))
+    }
+
+    fn conclude(&mut self, attempt: &mut Attempt) -> Result<(Conclusion, Option<Combination>), Stop> {
+        let mut start = self.start(attempt, &[])?;
+        for restarts in 0.. {
+            let located = self.between(attempt, &start, restarts > 0)?;
+            if let Standing::OneOfSeveral(_) = located.standing(&self.known) {
+                self.confirm(attempt, &located)?;
+            }
+            let Some(refuted) = self.refuted(&located.values) else {
+                return Ok((Conclusion::Guilty, Some(located)));
+            };
+            if restarts == MOST_RESTARTS {
+                return Ok((refuted, Some(located)));
+            }
+            // A passing test that has the values is a start from which they cannot be all that is found.
+            match self.start(attempt, &located.values) {
+                Ok(next) => start = next,
+                Err(Stop::Ended(_)) => return Ok((refuted, Some(located))),
+                Err(failed) => return Err(failed),
+            }
+            attempt.restarts += 1;
+        }
+        unreachable!("it ends with the last restart")
+    }
+
+    /// The levels of the first passing test with these values that passes with the continuous values of the failing one,
+    /// too.
+    fn start(&mut self, attempt: &mut Attempt, values: &[(usize, usize)]) -> Result<Vec<usize>, Stop> {
+        let mut starts = self.unlike(&self.evidence.tests[attempt.failing].levels, values);
+        starts.truncate(MOST_STARTS);
+        let before = attempt.tests.len();
+        let passing = self.first_passing(attempt, &starts);
+        attempt.starting += attempt.tests.len() - before;
+        let none =
+            || if starts.is_empty() { Conclusion::NoPassingTest } else { Conclusion::NoStart(self.trials(&starts)) };
+        passing?.ok_or_else(|| Stop::Ended(none()))
+    }
+
+    fn first_passing(&mut self, attempt: &mut Attempt, starts: &[usize]) -> Result<Option<Vec<usize>>, Stop> {
+        for &start in starts {
+            let levels = self.known[start].levels.clone();
+            if !self.fails(attempt, levels.clone())? {
+                return Ok(Some(levels));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Locates between the failing test and a start; cautiously with values changed to no level that always failed.
+    fn between(&mut self, attempt: &mut Attempt, start: &[usize], cautiously: bool) -> Result<Combination, Stop> {
+        let failing = &self.evidence.tests[attempt.failing].levels;
+        let passes = |parameter, level| self.having(&[(parameter, level)], false).next().is_some();
+        let is_safe = |parameter, level| !cautiously || passes(parameter, level);
+        let rules = self.rules.clone();
+        let mut locator = Locator::cautious(&rules, failing, start, is_safe).expect("valid tests that differ");
+        while let Some(levels) = locator.question().map(<[usize]>::to_vec) {
+            locator.tell(self.fails(attempt, levels)?);
+        }
+        Ok(locator.located().expect("there are no more questions"))
+    }
+
+    /// Puts located values into some passing tests, until one still passes.
+    fn confirm(&mut self, attempt: &mut Attempt, located: &Combination) -> Result<(), Stop> {
+        let before = attempt.tests.len();
+        for other in self.unlike(&self.evidence.tests[attempt.failing].levels, &[]).into_iter().take(10 * CONFIRMATIONS)
+        {
+            let levels = located.put_into(&self.rules, &self.known[other].levels);
+            match self.fails(attempt, levels) {
+                Ok(true) | Err(Stop::Ended(Conclusion::Undecided(_))) => (),
+                Ok(false) | Err(Stop::Ended(_)) => break,
+                Err(failed) => return Err(failed),
+            }
+            if attempt.tests.len() - before == CONFIRMATIONS {
+                break;
+            }
+        }
+        attempt.confirming += attempt.tests.len() - before;
+        Ok(())
+    }
+
+    /// Whether the test with these levels and the continuous values of the failing one fails.
+    fn fails(&mut self, attempt: &mut Attempt, levels: Vec<usize>) -> Result<bool, Stop> {
+        let continuous = self.evidence.points[attempt.failing].continuous.clone();
+        let point = Point { continuous, discrete: levels };
+        let verdict = match self.verdicts.get(&key(&point)) {
+            Some(verdict) => *verdict,
+            None if self.ran == self.limit => return Err(Stop::Ended(Conclusion::LimitReached)),
+            None => {
+                let test = self.evidence.space.decode(&point);
+                let verdict = (self.run)(&test)?;
+                self.ran += 1;
+                attempt.tests.push(TestOfLocation { test, verdict });
+                self.verdicts.insert(key(&point), verdict);
+                if let Verdict::Fail | Verdict::Pass = verdict {
+                    self.known.push(JudgedTest { levels: point.discrete, failed: verdict == Verdict::Fail });
+                }
+                verdict
+            }
+        };
+        match verdict {
+            Verdict::Fail => Ok(true),
+            Verdict::Pass => Ok(false),
+            other => Err(Stop::Ended(Conclusion::Undecided(other))),
+        }
+    }
+}

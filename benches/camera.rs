@@ -1,0 +1,80 @@
+//! Frames per second of `pedestrian-crossing`, 64 cameras a batch, each at another moment of a test. Divan's items per second are the
+//! figures. They are the adapter's: on the processor, of as many cores as there are.
+
+use divan::counter::ItemsCount;
+use divan::{Bencher, black_box};
+use nalgebra::{Isometry3, Point3, Vector3};
+use paracosm::engine::{Run, Setup, driver};
+use paracosm::render::{Camera, Outputs, Renderer, Scene, Stages, View};
+
+const BATCH: usize = 64;
+
+fn main() {
+    if let Ok(adapter) = paracosm::render::adapter() {
+        eprintln!("{} ({}, {})", adapter.name, adapter.kind, adapter.driver);
+    }
+    divan::main();
+}
+
+/// 128 x 128, RGB with depth and classes.
+#[divan::bench(sample_count = 20)]
+fn rgb_depth_semantic(bencher: Bencher) {
+    batches(bencher, &camera(128, 128), Outputs { rgb: true, depth: true, semantic: true, ..Outputs::default() });
+}
+
+/// 200 x 66, RGB.
+#[divan::bench(sample_count = 20)]
+fn rgb(bencher: Bencher) {
+    batches(bencher, &camera(200, 66), Outputs { rgb: true, ..Outputs::default() });
+}
+
+/// 200 x 66, RGB with shadows: what drivers that see are shown.
+#[divan::bench(sample_count = 20)]
+fn rgb_shadows_small(bencher: Bencher) {
+    batches(bencher, &camera(200, 66), Outputs { rgb: true, shadows: true, ..Outputs::default() });
+}
+
+/// 640 x 480, RGB with shadows.
+#[divan::bench(sample_count = 5)]
+fn rgb_shadows(bencher: Bencher) {
+    batches(bencher, &camera(640, 480), Outputs { rgb: true, shadows: true, ..Outputs::default() });
+}
+
+/// What a camera behind the windscreen looks at, and from where, three times a second.
+fn moments() -> Vec<(Scene, Isometry3<f64>)> {
+    let program = paracosm::scenarios::find("pedestrian-crossing").expect("it is in the catalogue");
+    let test = program.declare().expect("it is sound").nominal();
+    let mut run = Run::new(program, &test, Setup::asking_every(0.1)).expect("its nominal test is sound");
+    let stage = Stages::default().of(run.network());
+    let mut driver = driver::find("aeb").and_then(|driver| driver.build(&[])).expect("it is in the catalogue");
+    let mut moments = Vec::new();
+    run.watch(driver.as_mut(), |run| {
+        if moments.len() < BATCH && run.time() >= moments.len() as f64 / 3.0 {
+            let mut scene = stage.scene(run);
+            scene.instances.retain(|instance| instance.id != 1);
+            let pose = run.bodies()[0].pose;
+            let place = Vector3::new(pose.position.x, pose.position.y, 0.0);
+            moments.push((scene, Isometry3::new(place, Vector3::z() * pose.heading)));
+        }
+    });
+    moments
+}
+
+fn camera(width: u32, height: u32) -> Camera {
+    let camera = Camera::new(width, height, 24.0, 36.0).expect("a sound camera");
+    camera.mounted(Point3::new(0.3, 0.0, 1.35), 0.0, 0.03, 0.0).expect("a sound place")
+}
+
+fn batches(bencher: Bencher, camera: &Camera, wanted: Outputs) {
+    let mut renderer = Renderer::new().expect("there is an adapter");
+    let moments = moments();
+    assert_eq!(moments.len(), BATCH);
+    bencher.counter(ItemsCount::new(BATCH)).bench_local(|| draw(&mut renderer, &moments, camera, wanted));
+}
+
+fn draw(renderer: &mut Renderer, moments: &[(Scene, Isometry3<f64>)], camera: &Camera, wanted: Outputs) {
+    let views: Vec<_> = moments.iter().map(|(scene, pose)| View::new(scene, camera, *pose)).collect();
+    for frame in renderer.render(&views, wanted).expect("the adapter works") {
+        black_box(frame.expect("the view is sound"));
+    }
+}

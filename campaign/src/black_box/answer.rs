@@ -1,0 +1,325 @@
+//! What a system answers, read and checked.
+
+use crate::json::Number;
+use crate::samples::TraceFlaw;
+use paracosm_oracles::Trace;
+use paracosm_space::Record;
+use serde::de::Visitor;
+use serde::{Deserialize, Deserializer};
+use serde_json::error::Category;
+use std::fmt;
+use thiserror::Error;
+
+/// The answer to a test.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Answer {
+    /// What happened, to its end.
+    Trace(Trace),
+    /// The robustness of requirements by their ids.
+    Robustness(Vec<(String, f64)>),
+    /// The system says that it could not do the test, and why.
+    Error(String),
+}
+
+/// What is expected of an answer, in words.
+const EXPECTED: &str = "an answer as JSON, {\"index\": …} with `trace`, `robustness` or `error`";
+
+/// By how much of the sample period a time may be off.
+const TOLERANCE: f64 = 1e-3;
+
+/// How much of an answer is quoted, in characters.
+const QUOTED: usize = 40;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Line {
+    index: usize,
+    trace: Option<Record<Vec<Sample>>>,
+    robustness: Option<Record<Number>>,
+    error: Option<String>,
+}
+
+/// A sample of a signal: a truth is 1 or 0, and what has no value is NaN.
+#[derive(Clone, Copy)]
+struct Sample(f64);
+
+/// What keeps a line from being the answer to a test.
+#[derive(Debug, Error)]
+pub enum AnswerFlaw {
+    /// It is no JSON, or JSON of another kind.
+    #[error("found `{found}` in column {column} ({}), expected {EXPECTED}", words(.source))]
+    NoAnswer {
+        /// What stands there.
+        found: String,
+        /// Where, in bytes from 1.
+        column: usize,
+        /// What the reader of JSON says.
+        source: serde_json::Error,
+    },
+    /// It is the answer to another test.
+    #[error("found the answer to test {found}, expected that to test {expected}")]
+    Index {
+        /// The test that it answers.
+        found: usize,
+        /// The test that was asked.
+        expected: usize,
+    },
+    /// It says nothing.
+    #[error("found only an index, expected {EXPECTED}")]
+    Empty,
+    /// It says several things.
+    #[error("found several of `trace`, `robustness` and `error`, expected one")]
+    Several,
+    /// A robustness is no number.
+    #[error("the robustness of `{requirement}` is no number")]
+    Robustness {
+        /// The requirement.
+        requirement: String,
+    },
+    /// There is no robustness.
+    #[error("found the robustness of nothing, expected a requirement")]
+    NoRobustness,
+    /// Its trace is none.
+    #[error(transparent)]
+    Trace(#[from] TraceFlaw),
+}
+
+impl Answer {
+    /// Reads the answer to the test of this index.
+    ///
+    /// # Errors
+    /// The line is no such answer.
+    pub fn read(line: &str, index: usize) -> Result<Self, AnswerFlaw> {
+        let text = line.trim();
+        let answer: Line = match serde_json::from_str(text) {
+            Ok(answer) => answer,
+            // Some languages write numbers that JSON does not have. The error says where they stand.
+            Err(error) => serde_json::from_str(&without_nan(text)).map_err(|_| no_answer(text, error))?,
+        };
+        if answer.index != index {
+            return Err(AnswerFlaw::Index { found: answer.index, expected: index });
+        }
+        match (answer.trace, answer.robustness, answer.error) {
+            (Some(trace), None, None) => Ok(Self::Trace(read_trace(&trace)?)),
+            (None, Some(robustness), None) => read_robustness(&robustness).map(Self::Robustness),
+            (None, None, Some(error)) => Ok(Self::Error(error)),
+            (None, None, None) => Err(AnswerFlaw::Empty),
+            _ => Err(AnswerFlaw::Several),
+        }
+    }
+}
+
+/// The line with infinities as JSON can have them, and with `null` for NaN, outside of words.
+fn without_nan(text: &str) -> String {
+    let parts = text.split('"').enumerate().map(|(place, part)| {
+        if place % 2 == 1 {
+            return part.to_owned();
+        }
+        let written = [("-Infinity", r#""-inf""#), ("Infinity", r#""inf""#), ("NaN", "null")];
+        written.iter().fold(part.to_owned(), |part, (word, other)| part.replace(word, other))
+    });
+    parts.collect::<Vec<_>>().join("\"")
+}
+
+/// What is wrong with a line that is no answer: the place, if it is no JSON.
+fn no_answer(text: &str, error: serde_json::Error) -> AnswerFlaw {
+    let column = if error.is_data() { 1 } else { error.column() };
+    // The column counts bytes from 1.
+    let at = (0..column.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
+    // An error about the contents of JSON names no place when the JSON was read before.
+    let contents = serde_json::from_str(text).ok().and_then(|json| serde_json::from_value::<Line>(json).err());
+    AnswerFlaw::NoAnswer {
+        found: text[at..].chars().take(QUOTED).collect(),
+        column: at + 1,
+        source: contents.unwrap_or(error),
+    }
+}
+
+/// What is wrong with JSON; the place is said beside it.
+fn words(error: &serde_json::Error) -> String {
+    match error.classify() {
+        Category::Syntax => "it is no JSON".to_owned(),
+        Category::Eof => "it ends too early".to_owned(),
+        Category::Data | Category::Io => error.to_string(),
+    }
+}
+
+fn read_robustness(robustness: &Record<Number>) -> Result<Vec<(String, f64)>, AnswerFlaw> {
+    let worth = |(id, number): (&str, &Number)| {
+        let number = number.0.filter(|number| !number.is_nan());
+        let number = number.ok_or_else(|| AnswerFlaw::Robustness { requirement: id.to_owned() })?;
+        Ok((id.to_owned(), number))
+    };
+    let all: Vec<_> = robustness.iter().map(worth).collect::<Result<_, AnswerFlaw>>()?;
+    if all.is_empty() { Err(AnswerFlaw::NoRobustness) } else { Ok(all) }
+}
+
+fn read_trace(answer: &Record<Vec<Sample>>) -> Result<Trace, TraceFlaw> {
+    let no_time = || TraceFlaw::NoTime { signals: answer.iter().map(|(name, _)| name.to_owned()).collect() };
+    let time = answer.get("time").ok_or_else(no_time)?;
+    for (name, samples) in answer.iter() {
+        let signal = name.to_owned();
+        if samples.len() != time.len() {
+            return Err(TraceFlaw::Length { signal, found: samples.len(), expected: time.len() });
+        }
+        if let Some(sample) = samples.iter().position(|sample| !sample.0.is_finite()) {
+            let time = time.get(sample).map(|time| time.0).filter(|time| time.is_finite());
+            return Err(TraceFlaw::NoValue { signal, sample, time });
+        }
+    }
+    let dt = period(time)?;
+    let (names, signals): (Vec<_>, Vec<_>) = answer.iter().filter(|(name, _)| *name != "time").unzip();
+    if names.is_empty() {
+        return Err(TraceFlaw::NoSignal);
+    }
+    let mut trace = Trace::new(dt, names.into_iter().map(str::to_owned).collect());
+    trace.reserve(time.len());
+    for tick in 0..time.len() {
+        trace.record(&signals.iter().map(|samples| samples[tick].0).collect::<Vec<_>>());
+    }
+    trace.finish();
+    Ok(trace)
+}
+
+/// The sample period of evenly spaced times from 0 on, in seconds.
+fn period(time: &[Sample]) -> Result<f64, TraceFlaw> {
+    let [first, .., last] = time else {
+        return Err(TraceFlaw::TooShort { samples: time.len() });
+    };
+    if first.0 != 0.0 {
+        return Err(TraceFlaw::Begins { at: first.0 });
+    }
+    if let Some(at) = time.windows(2).position(|pair| pair[1].0 <= pair[0].0) {
+        return Err(TraceFlaw::Falls { from: time[at].0, to: time[at + 1].0, sample: at + 1 });
+    }
+    // Rounded to twelve digits, so that times that were added up give the period that was meant.
+    let mean = last.0 / (time.len() - 1) as f64;
+    let dt: f64 = format!("{mean:.11e}").parse().expect("a number as it was written");
+    let uneven = |(tick, at): (usize, &Sample)| (at.0 - tick as f64 * dt).abs() > TOLERANCE * dt;
+    match time.iter().enumerate().position(uneven) {
+        None if dt > 0.0 => Ok(dt),
+        at => {
+            let sample = at.unwrap_or(0);
+            Err(TraceFlaw::Uneven { sample, found: time[sample].0, expected: sample as f64 * dt })
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Sample {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct AnySample;
+        impl Visitor<'_> for AnySample {
+            type Value = Sample;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("a number or a truth")
+            }
+
+            fn visit_bool<E>(self, truth: bool) -> Result<Sample, E> {
+                Ok(Sample(f64::from(u8::from(truth))))
+            }
+
+            fn visit_i64<E>(self, number: i64) -> Result<Sample, E> {
+                Ok(Sample(number as f64))
+            }
+
+            fn visit_u64<E>(self, number: u64) -> Result<Sample, E> {
+                Ok(Sample(number as f64))
+            }
+
+            fn visit_f64<E>(self, number: f64) -> Result<Sample, E> {
+                Ok(Sample(number))
+            }
+
+            fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<Sample, E> {
+                match word {
+                    "inf" => Ok(Sample(f64::INFINITY)),
+                    "-inf" => Ok(Sample(f64::NEG_INFINITY)),
+                    _ => Err(E::invalid_value(serde::de::Unexpected::Str(word), &self)),
+                }
+            }
+
+            fn visit_unit<E>(self) -> Result<Sample, E> {
+                Ok(Sample(f64::NAN))
+            }
+        }
+        deserializer.deserialize_any(AnySample)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn refuses(line: &str, says: &str) {
+        let message = Answer::read(line, 3).unwrap_err().to_string();
+        assert!(message.contains(says), "{message}");
+    }
+
+    #[test]
+    fn answers_are_traces_robustness_and_errors() {
+        let mut trace = Trace::new(0.1, vec!["a".into(), "b".into()]);
+        [[1.0, 1.0], [2.0, 0.0], [3.5, 1.0]].iter().for_each(|row| trace.record(row));
+        trace.finish();
+        // The sum of three tenths is not quite 0.3.
+        let line = r#"{"index":3,"trace":{"a":[1,2,3.5],"time":[0,0.1,0.20000000000000001],"b":[true,false,true]}}"#;
+        assert_eq!(Answer::read(line, 3).unwrap(), Answer::Trace(trace));
+        let line = r#" {"robustness":{"x":-1,"y":"inf"},"index":3} "#;
+        let robustness = vec![("x".to_owned(), -1.0), ("y".to_owned(), f64::INFINITY)];
+        assert_eq!(Answer::read(line, 3).unwrap(), Answer::Robustness(robustness));
+        assert_eq!(Answer::read(r#"{"index":3,"error":"no"}"#, 3).unwrap(), Answer::Error("no".into()));
+    }
+
+    #[test]
+    fn the_period_of_times_that_were_added_up_is_the_one_that_was_meant() {
+        let mut time = vec![Sample(0.0)];
+        for tick in 0..3000 {
+            time.push(Sample(time[tick].0 + 0.01));
+        }
+        assert_eq!(period(&time), Ok(0.01));
+        let thirds: Vec<Sample> = (0..1000).map(|tick| Sample(f64::from(tick) / 60.0)).collect();
+        assert!((period(&thirds).unwrap() * 60.0 - 1.0).abs() < 1e-11);
+    }
+
+    #[test]
+    fn what_is_no_answer_is_quoted() {
+        refuses("", "found `` in column 1");
+        refuses("é hello", "found `é hello` in column 1");
+        refuses(r#"{"index":3,"trace":{"time":[0,wrong]}}"#, "found `wrong]}}` in column 31");
+        let infinite = Answer::read(r#"{"index":3,"robustness":{"a":-Infinity,"b":Infinity}}"#, 3).unwrap();
+        let expected = [("a".to_owned(), f64::NEG_INFINITY), ("b".to_owned(), f64::INFINITY)];
+        assert!(matches!(infinite, Answer::Robustness(all) if all == expected));
+        refuses(r#"{"index":3,"robustness":{"a":NaN}}"#, "the robustness of `a` is no number");
+        refuses(r#"{"index":3,"robustness":{"a":"NaN"}}"#, "expected a number");
+        refuses(r#"{"trace":{"time":[0,1],"a":[0,1]}}"#, "missing field `index`");
+        refuses(r#"{"index":3,"robustnes":{"a":1}}"#, "unknown field `robustnes`, expected one of");
+        refuses(r#"{"index":3}"#, "found only an index");
+        refuses(r#"{"index":3,"error":"x","robustness":{"a":1}}"#, "several");
+        refuses(r#"{"index":3.5,"error":"x"}"#, "invalid type");
+        refuses(r#"{"index":4,"error":"x"}"#, "found the answer to test 4, expected that to test 3");
+        refuses(r#"[1,2]"#, "expected an answer as JSON");
+        refuses(r#"{"index":3,"robustness":{}}"#, "robustness of nothing");
+        refuses(r#"{"index":3,"robustness":{"a":null}}"#, "the robustness of `a` is no number");
+        refuses(r#"{"index":3,"robustness":{"a":1,"a":2}}"#, "`a` has two values");
+    }
+
+    #[test]
+    fn what_is_no_trace_says_where() {
+        let trace = |columns: &str| format!(r#"{{"index":3,"trace":{{{columns}}}}}"#);
+        refuses(&trace(r#""a":[0,1]"#), "found a, expected `time` among them");
+        refuses(&trace(r#""time":[0,1]"#), "found no signal beside `time`");
+        refuses(&trace(r#""time":[],"a":[]"#), "found 0 samples, expected two");
+        refuses(&trace(r#""time":[0],"a":[1]"#), "found 1 samples, expected two");
+        refuses(&trace(r#""time":[0,1],"a":[1,2,3]"#), "`a` has 3 samples, expected 2");
+        let nothing = "has no finite value (NaN, infinity or null) at sample 1";
+        refuses(&trace(r#""time":[0,0.5],"a":[1,null]"#), &format!("`a` {nothing}, 0.5 s"));
+        refuses(&trace(r#""time":[0,0.5],"NaN":[1,NaN]"#), &format!("`NaN` {nothing}, 0.5 s"));
+        refuses(&trace(r#""time":[0,0.5],"a":[1,-Infinity]"#), &format!("`a` {nothing}, 0.5 s"));
+        refuses(&trace(r#""time":[0,Infinity],"a":[1,2]"#), &format!("`time` {nothing}"));
+        refuses(&trace(r#""time":[0,1],"a":[1,"x"]"#), "expected a number or a truth");
+        refuses(&trace(r#""time":[1,2],"a":[1,2]"#), "begins at 1 s, expected 0 s");
+        refuses(&trace(r#""time":[0,1,1],"a":[1,2,3]"#), "from 1 to 1 at sample 2");
+        refuses(&trace(r#""time":[0,1,3],"a":[1,2,3]"#), "not evenly spaced: sample 1 is at 1 s, expected 1.5 s");
+    }
+}

@@ -1,0 +1,154 @@
+//! A process that answers lines with lines.
+//!
+//! Two threads stand between it and whoever waits, so that nothing that it does or leaves undone can hold up the
+//! campaign for longer than the time-out: one writes to it, one reads its answers.
+
+use crate::process::{self, ARRIVAL};
+use crate::{Problem, ProblemKind, Reason};
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::process::ExitStatus;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::thread;
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+/// The longest answer in bytes.
+const LONGEST_ANSWER: u64 = 1 << 28;
+
+/// How often a process that says nothing is looked after.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+/// What is read from a process.
+enum Heard {
+    Line(String),
+    Noise(Noise),
+}
+
+/// What no answer can be.
+#[derive(Debug, Error)]
+enum Noise {
+    #[error("found a line without an end, expected an answer of at most {LONGEST_ANSWER} bytes")]
+    TooLong,
+    #[error("found bytes that are no UTF-8, expected an answer as JSON")]
+    NoText,
+}
+
+/// A system that cannot be started.
+#[derive(Debug, Error)]
+#[error("cannot start the system `{program}`: {source}")]
+pub struct NotStarted {
+    /// The program.
+    pub program: String,
+    /// What the system said.
+    pub source: io::Error,
+}
+
+impl Reason for NotStarted {}
+
+pub(super) struct Process {
+    // Before the process, which may end by itself when nothing more is asked.
+    questions: Sender<Vec<u8>>,
+    heard: Receiver<Heard>,
+    process: process::Process,
+    answered: bool,
+}
+
+impl Process {
+    /// Starts the command of these words, of which there is at least one.
+    pub fn start(words: &[String]) -> Result<Self, NotStarted> {
+        let started = process::Process::start(words, &[]);
+        let mut process = started.map_err(|source| NotStarted { program: words[0].clone(), source })?;
+        let (mut stdin, stdout) = (process.stdin().expect("it is new"), process.stdout().expect("it is new"));
+        let (questions, asked) = mpsc::channel::<Vec<u8>>();
+        // A process that does not listen is known by its silence; that a question was not heard says nothing more.
+        thread::spawn(move || asked.iter().try_for_each(|question| stdin.write_all(&question)));
+        let (speaker, heard) = mpsc::channel();
+        thread::spawn(move || hear(stdout, &speaker));
+        Ok(Self { questions, heard, process, answered: false })
+    }
+
+    /// Whether it has answered anything.
+    pub fn has_answered(&self) -> bool {
+        self.answered
+    }
+
+    /// The line with which it answers a question, or why there is none. Nobody waits for it once `stop` is set.
+    pub fn ask(&mut self, question: &[u8], timeout: Duration, stop: &AtomicBool) -> Result<String, Problem> {
+        let asked = Instant::now();
+        // The thread that writes ends with the process, which is noticed below.
+        let _ = self.questions.send(question.to_vec());
+        loop {
+            let left = timeout.saturating_sub(asked.elapsed());
+            match self.heard.recv_timeout(left.min(PATIENCE)) {
+                Ok(heard) => return self.take(heard),
+                Err(RecvTimeoutError::Disconnected) => return Err(self.post_mortem()),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if stop.load(Ordering::Relaxed) {
+                return Err(Problem::new(ProblemKind::Interrupted, "interrupted"));
+            }
+            if asked.elapsed() >= timeout {
+                let message = format!("no answer within {} s", timeout.as_secs_f64());
+                return Err(Problem::new(ProblemKind::TimedOut, message));
+            }
+            // Its children may hold its end of the pipe open.
+            if self.status().is_some() {
+                return match self.heard.recv_timeout(ARRIVAL) {
+                    Ok(heard) => self.take(heard),
+                    Err(_) => Err(self.post_mortem()),
+                };
+            }
+        }
+    }
+
+    fn take(&mut self, heard: Heard) -> Result<String, Problem> {
+        match heard {
+            Heard::Line(line) => {
+                self.answered = true;
+                Ok(line)
+            }
+            Heard::Noise(noise) => Err(Problem::new(ProblemKind::Answer, noise.to_string())),
+        }
+    }
+
+    fn status(&mut self) -> Option<ExitStatus> {
+        self.process.status()
+    }
+
+    /// How it ended without an answer.
+    fn post_mortem(&mut self) -> Problem {
+        let how = match self.process.ended() {
+            Some(status) => format!("the system ended without an answer ({status})"),
+            None => "the system closed its output without an answer".to_owned(),
+        };
+        Problem::new(ProblemKind::Process, self.process.post_mortem(how))
+    }
+
+    /// Ends it and all that it started, at once.
+    pub fn kill(mut self) {
+        self.process.end();
+    }
+}
+
+/// Passes on what a process says line by line, until it says no more or nobody listens.
+fn hear(stdout: impl Read, speaker: &Sender<Heard>) {
+    let mut stdout = BufReader::new(stdout);
+    loop {
+        let mut bytes = Vec::new();
+        let read = stdout.by_ref().take(LONGEST_ANSWER).read_until(b'\n', &mut bytes);
+        if read.is_err() || bytes.is_empty() {
+            return;
+        }
+        let heard = match String::from_utf8(bytes) {
+            Ok(line) if line.ends_with('\n') => Heard::Line(line),
+            Ok(line) if line.len() as u64 == LONGEST_ANSWER => Heard::Noise(Noise::TooLong),
+            // A last line without an end is what is left of an answer.
+            Ok(_) => return,
+            Err(_) => Heard::Noise(Noise::NoText),
+        };
+        if speaker.send(heard).is_err() {
+            return;
+        }
+    }
+}

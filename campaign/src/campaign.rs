@@ -1,0 +1,340 @@
+//! The loop: ask for tests, run them on all cores, show each trial in order, tell how it went.
+//!
+//! The campaign itself writes and prints nothing: the log, the progress bar and the summary are [observers](Observer). A test
+//! that panics is a trial with the verdict `error`; the campaign goes on.
+
+use crate::darkroom::Darkroom;
+use crate::executor::{Desk, from_desk, in_order, pool};
+use crate::expected::Expected;
+use crate::observer::{FirstFailure, Observer};
+use crate::scales::Learned;
+use crate::steering::Steering;
+use crate::{Error, Extension, Log, Reason, Study, Trial, Worker};
+use paracosm_oracles::Verdict;
+use paracosm_space::{Point, Values};
+use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::available_parallelism;
+use thiserror::Error;
+
+/// How many tests are asked for at a time, where it does not matter to the strategy: enough to keep many cores busy, few enough to keep in memory.
+const BATCH: usize = 4096;
+
+/// How many tests run in lockstep, where their drivers see: enough for a graphics card to be worth its while, and so few
+/// that their worlds and drivers fit in memory.
+const AT_ONCE: NonZeroUsize = NonZeroUsize::new(32).expect("it is more than 0");
+
+/// A study being run.
+pub struct Campaign<'a> {
+    study: &'a Study,
+    jobs: NonZeroUsize,
+    at_once: NonZeroUsize,
+    /// What draws for the drivers, if they see.
+    darkroom: Option<Arc<Darkroom>>,
+    /// The tests that count as done.
+    existing: Vec<Point>,
+    known: Vec<Trial>,
+    stop: Arc<AtomicBool>,
+    /// Workers keep what they have started from one batch of tests to the next.
+    idle: Mutex<Vec<Worker<'a>>>,
+}
+
+/// How a campaign came to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Finish {
+    /// Its budget is spent.
+    Budget,
+    /// The strategy has no more tests.
+    Exhausted,
+    /// An observer ended it, or a failing test where the study stops at the first.
+    Stopped,
+}
+
+/// A trial of a log that is not of the campaign that is to be resumed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("trial {index} of the log is not the test that this study proposes there; was the log edited?")]
+pub struct ForeignTrial {
+    /// Its index.
+    pub index: usize,
+}
+
+impl Reason for ForeignTrial {}
+
+impl<'a> Campaign<'a> {
+    /// A campaign on all cores.
+    ///
+    /// # Errors
+    /// The study cannot be run: its scenario, driver, system or strategy does not exist or cannot do what is asked; or its
+    /// driver sees through cameras, and there is nothing to draw with.
+    pub fn new(study: &'a Study) -> Result<Self, Error> {
+        Self::until(study, Arc::default())
+    }
+
+    /// A campaign that ends with [`Error::Interrupted`] once `stop` is set, whatever a test is waiting for.
+    ///
+    /// # Errors
+    /// As [`Campaign::new`].
+    pub fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
+        let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
+        let mut worker = Worker::until(study, Arc::clone(&stop))?;
+        worker.start()?;
+        let (darkroom, idle) = (worker.darkroom().cloned(), Mutex::new(vec![worker]));
+        let (existing, known) = (Vec::new(), Vec::new());
+        Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, existing, known, stop, idle })
+    }
+
+    /// Counts these tests as done, so that the tests of the study complete them.
+    ///
+    /// # Errors
+    /// They cannot be read.
+    pub fn extending(mut self, extension: &Extension) -> Result<Self, Error> {
+        self.existing = extension.points(self.study.space())?;
+        Ok(self)
+    }
+
+    /// Runs tests on this many threads. Results do not depend on it.
+    pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
+        self.jobs = jobs;
+        self
+    }
+
+    /// Runs this many tests in lockstep where their drivers see through cameras, so that all that they see is drawn at once;
+    /// without it, 32. Results do not depend on it.
+    pub fn at_once(mut self, tests: NonZeroUsize) -> Self {
+        self.at_once = tests;
+        self
+    }
+
+    /// Takes the first trials as known rather than running them.
+    pub fn resume(mut self, known: Vec<Trial>) -> Self {
+        self.known = known;
+        self
+    }
+
+    /// The flag that ends the campaign with [`Error::Interrupted`] once it is set.
+    pub fn stop(&self) -> Arc<AtomicBool> {
+        self.stop.clone()
+    }
+
+    /// Checks that the strategy can do what is asked of it.
+    ///
+    /// # Errors
+    /// It cannot.
+    pub fn check(&self) -> Result<(), Error> {
+        Ok(self.study.generator(&self.existing).map(drop)?)
+    }
+
+    /// Runs the tests that are not known yet. Every observer sees every trial in order.
+    ///
+    /// # Errors
+    /// An error of an observer, a strategy that cannot do what is asked of it, a known trial that is not of this campaign, or a
+    /// system that did none of its first tests.
+    pub fn run(mut self, observers: &mut [&mut dyn Observer]) -> Result<Finish, Error> {
+        let study = self.study;
+        let (batch, budget) = (study.sampling().batch_size().unwrap_or(BATCH), study.sampling().budget);
+        let mut first_failure = FirstFailure;
+        let mut observers: Vec<&mut dyn Observer> =
+            observers.iter_mut().map(|observer| &mut **observer as &mut dyn Observer).collect();
+        if study.sampling().stop_at_first {
+            observers.push(&mut first_failure);
+        }
+        let mut steering = Steering::new(study, std::mem::take(&mut self.existing))?;
+        observers.iter_mut().try_for_each(|observer| observer.begun())?;
+        let mut expected = Expected::of(study, &self.known);
+        let mut done = 0;
+        let mut finish = Finish::Budget;
+        while done < budget {
+            expected.go_on()?;
+            let points = steering.ask(batch.min(budget - done));
+            if points.is_empty() {
+                finish = Finish::Exhausted;
+                break;
+            }
+            let tests: Vec<Values> = points.iter().map(|point| study.space().decode(point)).collect();
+            let known = self.known.get(done..).unwrap_or_default();
+            if let Some((trial, _)) = known.iter().zip(&tests).find(|(trial, test)| trial.test != **test) {
+                return Err(foreign(trial));
+            }
+            let mut trials: Vec<Trial> = Vec::with_capacity(tests.len());
+            for trial in known.iter().take(tests.len()) {
+                trials.push(trial.clone());
+                if all(&mut observers, |observer| observer.known(trial))?.is_break() {
+                    if let Some(trial) = known.get(trials.len()) {
+                        return Err(foreign(trial));
+                    }
+                    observers.iter_mut().try_for_each(|observer| observer.ended())?;
+                    return Ok(Finish::Stopped);
+                }
+            }
+            let begun = trials.len();
+            let went_on = self.run_batch(&tests[begun..], done + begun, &mut expected, |trial| {
+                trials.push(trial.clone());
+                all(&mut observers, |observer| observer.trial(trial))
+            })?;
+            if went_on.is_break() {
+                observers.iter_mut().try_for_each(|observer| observer.ended())?;
+                return Ok(Finish::Stopped);
+            }
+            let before = steering.scales().learned().len();
+            steering.tell(&points, &trials)?;
+            let learned = steering.scales().learned();
+            if learned.len() > before {
+                observers.iter_mut().try_for_each(|observer| observer.learned(learned))?;
+            }
+            done += points.len();
+        }
+        if let Some(trial) = self.known.get(done) {
+            return Err(foreign(trial));
+        }
+        observers.iter_mut().try_for_each(|observer| observer.ended())?;
+        Ok(finish)
+    }
+
+    /// Runs the tests that are not known yet, and keeps the trials in memory.
+    ///
+    /// # Errors
+    /// As [`Campaign::run`].
+    pub fn into_log(self) -> Result<Log, Error> {
+        let (study, mut trials) = (self.study.clone(), self.known.clone());
+        self.run(&mut [&mut |trial: &Trial| trials.push(trial.clone())])?;
+        Ok(Log::new(study, Learned::new(), None, trials))
+    }
+
+    /// Runs these tests instead of those that the strategy proposes; the first one gets the index `first`.
+    ///
+    /// # Errors
+    /// That of `watch`.
+    pub fn run_tests(
+        &self,
+        tests: &[Values],
+        first: usize,
+        mut watch: impl FnMut(&Trial) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let mut expected = Expected::of(self.study, &self.known);
+        let watch = |trial: &Trial| watch(trial).map(ControlFlow::Continue);
+        self.run_batch(tests, first, &mut expected, watch).map(drop)
+    }
+
+    fn run_batch(
+        &self,
+        tests: &[Values],
+        first: usize,
+        expected: &mut Expected,
+        mut watch: impl FnMut(&Trial) -> Result<ControlFlow<()>, Error>,
+    ) -> Result<ControlFlow<()>, Error> {
+        let hire = || Hired { campaign: self, worker: Some(self.worker().expect("one like it was made before")) };
+        let pool = pool(self.jobs.get().min(tests.len()).max(1))?;
+        let mut shown = 0;
+        let mut show = |trial| {
+            let went_on = watch(&expected.check(trial))?;
+            expected.go_on()?;
+            Ok(went_on)
+        };
+        // The workers stop at an error. Nobody has to wait for a system when the results are not wanted any more.
+        let sink = |trial| {
+            let end = match show(trial) {
+                Ok(ControlFlow::Continue(())) => {
+                    shown += 1;
+                    return Ok(());
+                }
+                Ok(ControlFlow::Break(())) => None,
+                Err(error) => Some(error),
+            };
+            self.stop.store(true, Ordering::Relaxed);
+            Err(end)
+        };
+        let result = if self.darkroom.is_some() {
+            let at_once = self.at_once.get().div_ceil(pool.current_num_threads());
+            let work = |desk: &Desk<Trial>| hire().run_in_lockstep((desk, at_once), (first, tests));
+            from_desk(&pool, 0..tests.len(), work, sink)
+        } else {
+            let work = |hired: &mut Hired, i: usize| hired.run(first + i, &tests[i]);
+            in_order(&pool, 0..tests.len(), hire, work, sink)
+        };
+        match result {
+            Err(end) => {
+                self.stop.store(false, Ordering::Relaxed);
+                end.map_or(Ok(ControlFlow::Break(())), Err)
+            }
+            Ok(()) if shown < tests.len() => Err(Error::Interrupted),
+            Ok(()) => Ok(ControlFlow::Continue(())),
+        }
+    }
+
+    /// What draws for the drivers.
+    #[cfg(all(test, feature = "camera"))]
+    pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
+        self.darkroom.as_ref()
+    }
+
+    /// A worker that has nothing to do, or a new one.
+    fn worker(&self) -> Result<Worker<'a>, Error> {
+        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        idle.map_or_else(|| Worker::beside(self.study, self.stop.clone(), self.darkroom.clone()), Ok)
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    fn dismiss(&self, worker: Worker<'a>) {
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner).push(worker);
+    }
+}
+
+/// A worker at work, which comes back to its campaign.
+struct Hired<'c, 'a> {
+    campaign: &'c Campaign<'a>,
+    worker: Option<Worker<'a>>,
+}
+
+impl<'a> Hired<'_, 'a> {
+    fn worker(&mut self) -> &mut Worker<'a> {
+        self.worker.as_mut().expect("it is at work")
+    }
+
+    /// A trial, unless the campaign was told to stop before it had ended.
+    fn run(&mut self, index: usize, test: &Values) -> Option<Trial> {
+        let campaign = self.campaign;
+        if campaign.is_stopped() {
+            return None;
+        }
+        let (trial, _) = self.worker().run(index, test);
+        let cut_off = trial.verdict == Verdict::Error && campaign.is_stopped();
+        (!cut_off).then_some(trial)
+    }
+
+    /// The trials of those of these tests that the desk gives out, until the campaign is told to stop.
+    fn run_in_lockstep(&mut self, desk: (&Desk<Trial>, usize), tests: (usize, &[Values])) {
+        let campaign = self.campaign;
+        self.worker().run_in_lockstep(desk, tests, || campaign.is_stopped());
+    }
+}
+
+impl Drop for Hired<'_, '_> {
+    fn drop(&mut self) {
+        if let Some(worker) = self.worker.take() {
+            self.campaign.dismiss(worker);
+        }
+    }
+}
+
+fn foreign(trial: &Trial) -> Error {
+    ForeignTrial { index: trial.index }.into()
+}
+
+/// Shows something to every observer, and says whether one of them wants an end.
+fn all(
+    observers: &mut [&mut dyn Observer],
+    mut show: impl FnMut(&mut dyn Observer) -> Result<ControlFlow<()>, Error>,
+) -> Result<ControlFlow<()>, Error> {
+    let mut went_on = ControlFlow::Continue(());
+    for observer in observers {
+        if show(&mut **observer)?.is_break() {
+            went_on = ControlFlow::Break(());
+        }
+    }
+    Ok(went_on)
+}

@@ -1,0 +1,96 @@
+//! Where scenarios come from, by name or by file.
+//!
+//! A campaign knows no scenario. It is given a catalogue: a list of programs, and readers that make a program of a file.
+
+use crate::{Error, Reason};
+use paracosm_engine::Program;
+use paracosm_space::{did_you_mean, nearest};
+use std::ffi::OsStr;
+use std::path::Path;
+use thiserror::Error;
+
+/// The scenarios that a command or a program can name.
+///
+/// ```
+/// use paracosm_campaign::Catalogue;
+///
+/// let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+/// assert_eq!(catalogue.find("cut-in")?.name(), "cut-in");
+/// let error = catalogue.find("cut-inn").unwrap_err();
+/// assert!(error.to_string().contains("did you mean `cut-in`?"));
+/// # Ok::<(), paracosm_campaign::Error>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Catalogue {
+    programs: Vec<Program>,
+    readers: Vec<Reader>,
+}
+
+/// Makes programs of files.
+#[derive(Debug, Clone, Copy)]
+pub struct Reader {
+    /// The ending of the files that it reads, without the dot.
+    pub ending: &'static str,
+    /// What the files are, in a few words.
+    pub about: &'static str,
+    /// Reads a file.
+    pub read: fn(&Path) -> Result<Program, Error>,
+}
+
+/// A name that no scenario has.
+#[derive(Debug, Error, PartialEq)]
+#[error("no scenario is called `{name}`{}; `paracosm-fuzz list` shows them all", did_you_mean(.nearest))]
+pub struct UnknownScenario {
+    /// The name.
+    pub name: String,
+    /// A name that was perhaps meant.
+    pub nearest: Option<String>,
+}
+
+impl Reason for UnknownScenario {}
+
+impl Catalogue {
+    /// A catalogue of these programs.
+    pub fn of(programs: &[&Program]) -> Self {
+        Self { programs: programs.iter().copied().cloned().collect(), readers: Vec::new() }
+    }
+
+    /// The same with a further program. A program of the same name gives way.
+    pub fn with(mut self, program: Program) -> Self {
+        self.programs.retain(|other| other.name() != program.name());
+        self.programs.push(program);
+        self
+    }
+
+    /// The same with a reader of files.
+    pub fn reading(mut self, reader: Reader) -> Self {
+        self.readers.push(reader);
+        self
+    }
+
+    /// All programs that have a name, in order.
+    pub fn programs(&self) -> &[Program] {
+        &self.programs
+    }
+
+    /// The readers of files, in order.
+    pub fn readers(&self) -> &[Reader] {
+        &self.readers
+    }
+
+    /// The program of that name, or that a file holds.
+    ///
+    /// # Errors
+    /// There is none; the error suggests the nearest name. Or a reader cannot make a program of the file.
+    pub fn find(&self, name: &str) -> Result<Program, Error> {
+        if let Some(program) = self.programs.iter().find(|program| program.name() == name) {
+            return Ok(program.clone());
+        }
+        let ending = Path::new(name).extension().and_then(OsStr::to_str);
+        if let Some(reader) = self.readers.iter().find(|reader| Some(reader.ending) == ending) {
+            return (reader.read)(Path::new(name));
+        }
+        let nearest = nearest(name, self.programs.iter().map(Program::name)).map(str::to_owned);
+        Err(UnknownScenario { name: name.to_owned(), nearest }.into())
+    }
+}

@@ -1,0 +1,172 @@
+//! Where the drivers of a campaign get their images: whose images are drawn when.
+//!
+//! An image depends on its test, its moment, its camera and its number alone, and not on the images that are drawn with it:
+//! so a driver sees what a recording shows, and everything that waits to be drawn is drawn in one go.
+
+use crate::study::{Appearances, ModelFlaw};
+use crate::{Error, Reason};
+use paracosm_engine::Run;
+use paracosm_engine::sensor::{Cameras, Image, Moment, Sample};
+use paracosm_render::{
+    Cast, Developer, Exposure, Frame, NoCamera, Optics, Outputs, RenderError, Sight, Stage, Stages, Undrawn,
+};
+use std::mem::take;
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use thiserror::Error;
+
+/// What draws for the drivers of a campaign, on whatever threads they are.
+///
+/// Who wants something drawn leaves an order and waits for the developer; who gets to it first draws all that was ordered
+/// by then, so that the more threads there are, the more is drawn at once.
+#[derive(Debug)]
+pub struct Darkroom {
+    orders: Mutex<Vec<Order>>,
+    developer: Mutex<Developer>,
+    stages: Stages,
+    appearances: Appearances,
+}
+
+/// What somebody wants to see.
+#[derive(Debug)]
+struct Order {
+    sights: Vec<Sight>,
+    reply: Sender<Vec<Result<Frame, Undrawn>>>,
+}
+
+/// A driver that sees, and cannot be shown anything.
+#[derive(Debug, Error)]
+pub enum Blind {
+    /// It has a camera that cannot be.
+    #[error("the driver sees through cameras: {0}")]
+    Camera(NoCamera),
+    /// There is nothing to draw with.
+    #[error("the driver sees through cameras, but {0}")]
+    Nothing(RenderError),
+}
+
+impl Reason for Blind {}
+impl Reason for NoCamera {}
+
+/// Why a driver was not shown what its cameras see.
+#[derive(Debug, Clone, Error)]
+pub enum NoImage {
+    /// There is nothing to draw with.
+    #[error("{0}")]
+    Closed(Arc<Error>),
+    /// A camera cannot be.
+    #[error(transparent)]
+    Camera(#[from] NoCamera),
+    /// A model cannot be shown.
+    #[error(transparent)]
+    Model(#[from] Arc<ModelFlaw>),
+    /// An image cannot be drawn.
+    #[error("camera `{camera}`, image {number}: {why}")]
+    Undrawn {
+        /// The camera.
+        camera: String,
+        /// Which of its images.
+        number: u64,
+        /// Why.
+        why: Undrawn,
+    },
+}
+
+impl Darkroom {
+    /// A darkroom for the cameras that a driver sees through, to which actors look so.
+    ///
+    /// # Errors
+    /// There is nothing to draw with, or no such camera.
+    pub fn open(cameras: &Cameras, appearances: &Appearances) -> Result<Self, Error> {
+        Optics::of(cameras).map_err(Blind::Camera)?;
+        let developer = Developer::new().map_err(|source| Error::unavailable(Blind::Nothing(source)))?;
+        let developer = Mutex::new(developer);
+        let (stages, appearances) = (Stages::default(), appearances.clone());
+        Ok(Self { orders: Mutex::default(), developer, stages, appearances })
+    }
+
+    /// What the drivers of these runs see of the moments that have arrived. What keeps an image from being drawn is told
+    /// of its run alone.
+    pub fn develop(&self, runs: &[&Run]) -> Vec<Result<Vec<Image>, NoImage>> {
+        let seen: Vec<_> = runs.iter().map(|run| Seen::by(run, self)).collect();
+        let colours = Outputs { rgb: true, ..Outputs::default() };
+        let exposures = seen.iter().flatten().flat_map(Seen::exposures);
+        let mut drawn = self.order(exposures.map(|exposure| exposure.sight(colours)).collect()).into_iter();
+        let images = |seen: Result<Seen<'_>, NoImage>| seen.and_then(|seen| seen.images(&mut drawn));
+        seen.into_iter().map(images).collect()
+    }
+
+    fn order(&self, sights: Vec<Sight>) -> Vec<Result<Frame, Undrawn>> {
+        let (reply, frames) = channel();
+        self.orders.lock().unwrap_or_else(PoisonError::into_inner).push(Order { sights, reply });
+        let mut developer = self.developer.lock().unwrap_or_else(PoisonError::into_inner);
+        let orders = take(&mut *self.orders.lock().unwrap_or_else(PoisonError::into_inner));
+        let sights: Vec<&Sight> = orders.iter().flat_map(|order| &order.sights).collect();
+        let mut drawn = developer.render(&sights).into_iter();
+        drop(developer);
+        for Order { sights, reply } in &orders {
+            // Who does not wait any more needs no answer.
+            let _ = reply.send(drawn.by_ref().take(sights.len()).collect());
+        }
+        drop(orders);
+        frames.recv().unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+impl Darkroom {
+    /// Loses the device that it draws with; `open` makes the next one.
+    pub fn lose(&self, open: fn() -> Result<paracosm_render::Renderer, RenderError>) {
+        self.developer.lock().unwrap_or_else(PoisonError::into_inner).lose(open);
+    }
+}
+
+/// What has arrived from the eyes of a run.
+struct Seen<'a> {
+    stage: Arc<Stage>,
+    cast: Cast,
+    optics: Vec<Optics>,
+    /// Each with the place of its camera.
+    moments: Vec<(usize, &'a Sample<Moment>)>,
+}
+
+impl<'a> Seen<'a> {
+    fn by(run: &'a Run, darkroom: &Darkroom) -> Result<Self, NoImage> {
+        let optics = Optics::of(run.eyes().cameras())?;
+        let cast = darkroom.appearances.cast(run).map_err(Arc::new)?;
+        let stage = darkroom.stages.of(run.network());
+        Ok(Self { stage, cast, optics, moments: run.eyes().arrived().collect() })
+    }
+
+    fn exposures(&self) -> impl Iterator<Item = Exposure<'_>> {
+        self.moments.iter().map(|(camera, sample)| Exposure {
+            stage: &self.stage,
+            cast: &self.cast,
+            moment: &sample.reading,
+            optics: &self.optics[*camera],
+            number: sample.number,
+        })
+    }
+
+    /// The images of what was drawn of these moments, which comes next of all that was drawn.
+    fn images(&self, drawn: &mut impl Iterator<Item = Result<Frame, Undrawn>>) -> Result<Vec<Image>, NoImage> {
+        let mine: Vec<_> = drawn.take(self.moments.len()).collect();
+        let mut images = Vec::with_capacity(mine.len());
+        for (((camera, sample), exposure), frame) in self.moments.iter().zip(self.exposures()).zip(mine) {
+            let (number, time) = (sample.number, sample.time);
+            match frame {
+                Err(Undrawn::Inside(_)) => (),
+                Err(why) => {
+                    return Err(NoImage::Undrawn { camera: exposure.optics.name.clone(), number, why });
+                }
+                Ok(frame) => {
+                    let frame = exposure.through_lens(frame);
+                    let (width, height) = (frame.width(), frame.height());
+                    let rgb = frame.rgb.expect("colours were asked for");
+                    images.push(Image { camera: *camera, number, time, width, height, rgb });
+                }
+            }
+        }
+        Ok(images)
+    }
+}

@@ -1,0 +1,179 @@
+//! Drivers in a process that is started for them, and again when it has ended.
+
+use super::{Late, NoDriver};
+use crate::process::Process;
+use crate::{Problem, ProblemKind};
+use paracosm_engine::driver::{Driver, Equipment, Fault, FaultKind};
+use paracosm_engine::sensor::{Image, Rig};
+use paracosm_engine::{Briefing, Control, Observation};
+use paracosm_rpc::{Address, OpenError, Session, Terms};
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Where a process is told to listen.
+const ADDRESS: &str = "PARACOSM_ADDRESS";
+
+/// The ports that processes are told to listen at.
+const PORTS: Range<u16> = 20_000..32_000;
+
+/// How many times as long as for an answer a process may take to start: an interpreter that loads its packages, or a network,
+/// takes longer than to answer, the more so on a loaded machine.
+const STARTING: u32 = 10;
+
+/// How often it is looked whether a process listens by now.
+const PATIENCE: Duration = Duration::from_millis(10);
+
+/// A command, and the process that it has started.
+pub(super) struct Launcher {
+    words: Vec<String>,
+    terms: Terms,
+    latency: f64,
+    stop: Arc<AtomicBool>,
+    running: Option<Running>,
+}
+
+/// A process and where it listens. All its drivers know of it.
+#[derive(Clone)]
+struct Running {
+    process: Arc<Mutex<Process>>,
+    address: SocketAddr,
+}
+
+impl Launcher {
+    pub fn new(words: Vec<String>, terms: Terms, latency: f64, stop: Arc<AtomicBool>) -> Self {
+        Self { words, terms, latency, stop, running: None }
+    }
+
+    /// A driver of the process, which is started if there is none.
+    ///
+    /// # Errors
+    /// It cannot be started, ends, does not listen, or is no driver.
+    pub fn driver(&mut self) -> Result<Box<dyn Driver>, NoDriver> {
+        let wrong = |problem: Problem| NoDriver::Command { command: shell_words::join(&self.words), problem };
+        let running = match self.running.take().filter(Running::is_alive) {
+            Some(running) => running,
+            None => Running::start(&self.words).map_err(wrong)?,
+        };
+        // What cannot be talked to is ended.
+        let session = running.session(&self.terms, &self.stop).map_err(wrong)?;
+        self.running = Some(running.clone());
+        Ok(Box::new(Late { driver: Box::new(ProcessDriver { session, running }), latency: self.latency }))
+    }
+}
+
+impl Running {
+    fn start(words: &[String]) -> Result<Self, Problem> {
+        let gone = |message: String| Problem::new(ProblemKind::Process, message);
+        let address = free_address().map_err(|error| gone(format!("found no port for it to listen at: {error}")))?;
+        let started = Process::start(words, &[(ADDRESS, address.to_string())]);
+        let mut process = started.map_err(|error| gone(format!("cannot start `{}`: {error}", words[0])))?;
+        if let Some(stdout) = process.stdout() {
+            process.keep_last_of(stdout);
+        }
+        Ok(Self { process: Arc::new(Mutex::new(process)), address })
+    }
+
+    fn with<T>(&self, act: impl FnOnce(&mut Process) -> T) -> T {
+        act(&mut self.process.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn is_alive(&self) -> bool {
+        self.with(|process| process.status().is_none())
+    }
+
+    /// A session, as soon as the process listens.
+    fn session(&self, terms: &Terms, stop: &Arc<AtomicBool>) -> Result<Session, Problem> {
+        let (begun, limit) = (Instant::now(), terms.timeout.saturating_mul(STARTING));
+        loop {
+            match Session::open(&Address::from(self.address), terms, stop.clone()) {
+                Ok(session) => return Ok(session),
+                Err(OpenError::Unreachable) if !self.is_alive() => {
+                    let how = self.post_mortem("before it listened at PARACOSM_ADDRESS", "");
+                    return Err(Problem::new(ProblemKind::Process, how));
+                }
+                Err(OpenError::Unreachable) if stop.load(Ordering::Relaxed) => {
+                    return Err(Problem::new(ProblemKind::Interrupted, "interrupted"));
+                }
+                Err(OpenError::Unreachable) if begun.elapsed() < limit => thread::sleep(PATIENCE),
+                Err(OpenError::Unreachable) => {
+                    let within = limit.as_secs_f64();
+                    let how = self.post_mortem("", &format!("it does not listen at {ADDRESS} within {within} s"));
+                    return Err(Problem::new(ProblemKind::TimedOut, how));
+                }
+                Err(error) => return Err(Problem::unopened(&error)),
+            }
+        }
+    }
+
+    /// What happened to the process: it ended at some time, or, if it has not, something else. It is ended then.
+    fn post_mortem(&self, when: &str, otherwise: &str) -> String {
+        self.with(|process| {
+            let how = match process.ended() {
+                Some(status) => format!("it ended {when} ({status})"),
+                None => otherwise.to_owned(),
+            };
+            process.post_mortem(how)
+        })
+    }
+}
+
+/// A port of this machine that nobody listens at.
+///
+/// It is none of those that systems give to whoever connects, from 32768 on: connecting to one of these where nobody listens
+/// yet may well meet oneself. Processes begin at different places, so that they seldom come upon the same port.
+fn free_address() -> io::Result<SocketAddr> {
+    static TAKEN: AtomicU32 = AtomicU32::new(0);
+    let mut found = Err(io::ErrorKind::AddrInUse.into());
+    for _ in 0..PORTS.len() {
+        let place = std::process::id().wrapping_mul(61).wrapping_add(TAKEN.fetch_add(1, Ordering::Relaxed));
+        let port = PORTS.start + (place % PORTS.len() as u32) as u16;
+        found = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).and_then(|listener| listener.local_addr());
+        if found.is_ok() {
+            break;
+        }
+    }
+    found
+}
+
+/// A driver in a process that was started for it.
+struct ProcessDriver {
+    session: Session,
+    running: Running,
+}
+
+impl ProcessDriver {
+    /// Says what became of the process, if its end is why there is no answer. One that does not answer is ended.
+    fn ask<T>(&mut self, question: impl FnOnce(&mut Session) -> Result<T, Fault>) -> Result<T, Fault> {
+        question(&mut self.session).map_err(|fault| match self.session.is_lost() {
+            true => Fault::of(FaultKind::Lost, self.running.post_mortem("without an answer", &fault.message)),
+            false => fault,
+        })
+    }
+}
+
+impl Driver for ProcessDriver {
+    fn period(&self) -> f64 {
+        self.session.period()
+    }
+
+    fn equipment(&mut self) -> Equipment {
+        self.session.equipment()
+    }
+
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.ask(|session| session.reset(briefing))
+    }
+
+    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
+        self.session.perceive(rig, images)
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        self.ask(|session| session.step(observation))
+    }
+}

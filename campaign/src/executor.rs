@@ -1,0 +1,185 @@
+//! Work on all cores, results in order.
+//!
+//! Workers take the next index as soon as they are free, so that what is finished is nearly a prefix; results
+//! wait for the ones before them and reach the sink in the order of their indices, whatever the number of
+//! workers. The first error of the sink stops the work, and so does a worker that gives up: then the sink still sees
+//! what was finished before.
+
+use crate::Failure;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, Sender};
+
+/// The name that worker threads begin with, by which a panic of a test can be told from a panic of the program.
+pub const WORKER: &str = "paracosm-worker";
+
+/// Threads for this many workers.
+///
+/// # Errors
+/// The system has no more threads.
+pub fn pool(workers: usize) -> Result<ThreadPool, Failure> {
+    let builder = ThreadPoolBuilder::new().num_threads(workers).thread_name(|i| format!("{WORKER}-{i}"));
+    builder.build().map_err(|source| Failure::Threads { threads: workers, source })
+}
+
+/// What is left to do, for one of those who do it.
+pub struct Desk<'a, T> {
+    next: &'a AtomicUsize,
+    end: usize,
+    closed: &'a AtomicBool,
+    results: Sender<(usize, Option<T>)>,
+}
+
+impl<T> Desk<'_, T> {
+    /// The next index, until there is none or nobody wants it any more.
+    pub fn next(&self) -> Option<usize> {
+        let index = || self.next.fetch_add(1, Ordering::Relaxed);
+        (!self.is_closed()).then(index).filter(|index| *index < self.end)
+    }
+
+    /// Whether nobody wants results any more.
+    pub fn is_closed(&self) -> bool {
+        self.closed.load(Ordering::Relaxed)
+    }
+
+    /// Takes the result of an index, or that there is none, which closes the desk.
+    pub fn hand_in(&self, index: usize, result: Option<T>) {
+        let gives_up = result.is_none();
+        if self.results.send((index, result)).is_err() || gives_up {
+            self.closed.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Does work on one thread, whatever threads it would take elsewhere.
+///
+/// # Errors
+/// The system has no more threads.
+pub fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
+    let single = pool(1)?;
+    // A worker that waited for another pool itself would take up the work of its neighbour meanwhile.
+    Ok(std::thread::scope(|scope| scope.spawn(|| single.install(work)).join()).expect("the work does not panic"))
+}
+
+/// Calls `work` for every index on the threads of the pool, each with a worker of its own, and `sink` with the
+/// results in order, up to the first index at which a worker gave up.
+pub fn in_order<W, T: Send, E>(
+    pool: &ThreadPool,
+    indices: Range<usize>,
+    new_worker: impl Fn() -> W + Sync,
+    work: impl Fn(&mut W, usize) -> Option<T> + Sync,
+    sink: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
+    let one_by_one = |desk: &Desk<T>| {
+        let mut worker = new_worker();
+        while let Some(index) = desk.next() {
+            desk.hand_in(index, work(&mut worker, index));
+        }
+    };
+    from_desk(pool, indices, one_by_one, sink)
+}
+
+/// [`in_order`] for those who do several things at a time: calls `work` once on every thread of the pool, which takes what
+/// it does from the desk and hands in what comes of it.
+pub fn from_desk<T: Send, E>(
+    pool: &ThreadPool,
+    indices: Range<usize>,
+    work: impl Fn(&Desk<T>) + Sync,
+    mut sink: impl FnMut(T) -> Result<(), E>,
+) -> Result<(), E> {
+    let next = AtomicUsize::new(indices.start);
+    let closed = AtomicBool::new(false);
+    let (sender, results) = mpsc::channel();
+    pool.in_place_scope(|scope| {
+        for _ in 0..pool.current_num_threads() {
+            let desk = Desk { next: &next, end: indices.end, closed: &closed, results: sender.clone() };
+            scope.spawn(|_| {
+                let desk = desk;
+                work(&desk);
+            });
+        }
+        drop(sender);
+        let mut waiting = BTreeMap::new();
+        let mut due = indices.start;
+        for (index, result) in results {
+            waiting.insert(index, result);
+            while let Some(result) = waiting.remove(&due) {
+                let Some(result) = result else { return Ok(()) };
+                due += 1;
+                if let Err(error) = sink(result) {
+                    closed.store(true, Ordering::Relaxed);
+                    return Err(error);
+                }
+            }
+        }
+        Ok(())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn results_come_in_order_whatever_the_number_of_workers() {
+        for jobs in [1, 2, 8] {
+            let mut seen = Vec::new();
+            let work = |_: &mut (), i: usize| {
+                std::thread::sleep(Duration::from_micros((i * 7919 % 50) as u64));
+                Some(i)
+            };
+            let result: Result<(), ()> = in_order(
+                &pool(jobs).unwrap(),
+                5..200,
+                || (),
+                work,
+                |i| {
+                    seen.push(i);
+                    Ok(())
+                },
+            );
+            assert_eq!(result, Ok(()));
+            assert!(seen.iter().copied().eq(5..200), "{jobs} jobs: {seen:?}");
+        }
+    }
+
+    #[test]
+    fn an_error_of_the_sink_stops_the_work() {
+        let mut seen = 0;
+        let result = in_order(
+            &pool(2).unwrap(),
+            0..1_000_000,
+            || (),
+            |(), i| Some(i),
+            |i| {
+                seen += 1;
+                if i == 10 { Err("full") } else { Ok(()) }
+            },
+        );
+        assert_eq!((result, seen), (Err("full"), 11));
+    }
+
+    #[test]
+    fn what_was_finished_before_a_worker_gave_up_is_seen() {
+        for jobs in [1, 2, 8] {
+            let mut seen = Vec::new();
+            let work = |(): &mut (), i| (!(20..=22).contains(&i)).then_some(i);
+            let slow = |i| {
+                std::thread::sleep(Duration::from_millis(1));
+                seen.push(i);
+                Ok::<(), ()>(())
+            };
+            assert_eq!(in_order(&pool(jobs).unwrap(), 0..1000, || (), work, slow), Ok(()));
+            assert!(seen.iter().copied().eq(0..20), "{jobs} jobs: {seen:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_to_do_is_done_at_once() {
+        let result: Result<(), ()> = in_order(&pool(2).unwrap(), 7..7, || (), |(), _| Some(()), |()| Err(()));
+        assert_eq!(result, Ok(()));
+    }
+}

@@ -1,0 +1,122 @@
+//! Tests that a campaign counts as done, and so runs only the tests that they lack.
+//!
+//! The campaign names them by their number and their hash, which is that of the CSV they would be written as: how the
+//! file they came from is formatted, and what else is in it, changes nothing. The folder of the campaign keeps that CSV
+//! as `extended.csv`, so that the campaign can be measured when the file is gone. A replay needs neither.
+
+use crate::test_set::read_values;
+use crate::{Error, Reason, Study};
+use paracosm_space::{Point, Space, Values};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+use xxhash_rust::xxh3::xxh3_128;
+
+/// Tests that are there already.
+#[derive(Debug, Clone)]
+pub struct Extension {
+    record: ExtensionRecord,
+    tests: Kept,
+}
+
+/// Where the tests are.
+#[derive(Debug, Clone)]
+enum Kept {
+    Here(Vec<Values>),
+    In(PathBuf),
+}
+
+/// What is written down of tests that are there already.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExtensionRecord {
+    /// The file that they were read from.
+    pub name: String,
+    /// How many there are.
+    pub tests: usize,
+    /// The hash of the tests: XXH3, 128 bits, of `extended.csv`.
+    pub hash: String,
+}
+
+/// A file that does not hold the tests that a campaign extends.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error(
+    "found {} tests of hash {}, expected the {} of hash {} that the campaign extends",
+    found.tests, found.hash, expected.tests, expected.hash
+)]
+pub struct OtherTests {
+    /// The tests of the file.
+    pub found: ExtensionRecord,
+    /// The tests that the campaign extends.
+    pub expected: ExtensionRecord,
+}
+
+impl Reason for OtherTests {}
+
+impl Extension {
+    /// Reads tests of a study's space. A column with the name of a fixed parameter must not differ from its value.
+    ///
+    /// # Errors
+    /// The file cannot be read, does not hold tests of the open parameters, or has other values for fixed ones: the error
+    /// says in which line and why.
+    pub fn read(path: &Path, study: &Study) -> Result<Self, Error> {
+        Ok(Self::of_values(path, study.space(), read_values(path, study.space(), study.fixed())?))
+    }
+
+    fn of_values(path: &Path, space: &Space, values: Vec<Values>) -> Self {
+        let hash = format!("{:032x}", xxh3_128(&csv(space, &values)));
+        let record = ExtensionRecord { name: path.display().to_string(), tests: values.len(), hash };
+        Self { record, tests: Kept::Here(values) }
+    }
+
+    /// The tests of this record, which a campaign keeps in a file. They are read when they are needed.
+    pub fn kept(record: ExtensionRecord, path: PathBuf) -> Self {
+        Self { record, tests: Kept::In(path) }
+    }
+
+    /// What is written down of them.
+    pub fn record(&self) -> &ExtensionRecord {
+        &self.record
+    }
+
+    /// The tests as points.
+    ///
+    /// # Errors
+    /// Their file cannot be read, or holds other tests.
+    pub fn points(&self, space: &Space) -> Result<Vec<Point>, Error> {
+        self.values(space)?.iter().map(|test| Ok(space.encode(test)?)).collect()
+    }
+
+    /// The tests as `extended.csv` has them.
+    ///
+    /// # Errors
+    /// As [`points`](Self::points).
+    pub fn csv(&self, space: &Space) -> Result<Vec<u8>, Error> {
+        Ok(csv(space, &self.values(space)?))
+    }
+
+    fn values(&self, space: &Space) -> Result<Cow<'_, [Values]>, Error> {
+        let path = match &self.tests {
+            Kept::Here(values) => return Ok(Cow::Borrowed(values)),
+            Kept::In(path) => path,
+        };
+        let values = read_values(path, space, &Values::default())?;
+        let found = Self::of_values(path, space, values.clone()).record;
+        if found.hash != self.record.hash {
+            return Err(Error::in_file(path, None, OtherTests { found, expected: self.record.clone() }));
+        }
+        Ok(Cow::Owned(values))
+    }
+}
+
+/// Tests as CSV, a column for every coordinate.
+fn csv(space: &Space, tests: &[Values]) -> Vec<u8> {
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
+    write(space.coordinates().map(|coordinate| coordinate.name()).collect());
+    for test in tests {
+        write(test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string).collect());
+    }
+    csv.into_inner().expect("memory does not fail to flush")
+}

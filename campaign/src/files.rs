@@ -1,0 +1,48 @@
+//! Files that are written whole or not at all.
+
+use crate::{Error, Reason};
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A file that must not be replaced.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{} exists; {what} does not replace a file", path.display())]
+pub struct Exists {
+    /// The file.
+    pub path: PathBuf,
+    /// What was to be written, with its article.
+    pub what: &'static str,
+}
+
+impl Reason for Exists {}
+
+/// Checks that a file does not exist yet.
+///
+/// # Errors
+/// It exists; `what` names what was to be written, with its article.
+pub fn is_new(path: &Path, what: &'static str) -> Result<(), Exists> {
+    if path.exists() { Err(Exists { path: path.to_owned(), what }) } else { Ok(()) }
+}
+
+/// Writes a file so that it is never seen half-written, not even after a crash.
+///
+/// # Errors
+/// It cannot be written: the disk is full, say.
+pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = PathBuf::from(part);
+    let write = || {
+        let mut file = File::create(&part)?;
+        file.write_all(contents)?;
+        file.sync_all()?;
+        fs::rename(&part, path)
+    };
+    write().map_err(|source| {
+        // What is left of it is of no use to anybody; that it cannot be removed either changes nothing.
+        let _ = fs::remove_file(&part);
+        Error::io("write", path)(source)
+    })
+}

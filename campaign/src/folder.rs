@@ -1,0 +1,245 @@
+//! The folder of a campaign, open for appending: `campaign.json` says which tests are run, `trials.jsonl` what became of them.
+//!
+//! Nothing is lost and nothing is overwritten: the study is written whole or not at all, every trial is handed
+//! to the system as one line as soon as those before it are there, and a folder that holds anything of ours is
+//! not begun anew. A line without its end is what a kill leaves behind; it is dropped when the campaign is
+//! resumed, and its test run again.
+
+use crate::files::write_whole;
+use crate::json::differing_key;
+use crate::scales::Learned;
+use crate::study_file::StudyFile;
+use crate::trials_file::parse_trials;
+use crate::{Catalogue, Error, Extension, Failure, Reason, Study, Trial};
+use std::ffi::OsStr;
+use std::fs::{self, File, TryLockError};
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+pub(crate) const STUDY: &str = "campaign.json";
+pub(crate) const TRIALS: &str = "trials.jsonl";
+/// The tests that the study counts as done.
+pub(crate) const EXTENDED: &str = "extended.csv";
+/// The files of artefacts, which are derived from the trials at the end of a campaign, or later.
+pub const DERIVED: [&str; 13] = [
+    "trials.csv",
+    "coverage.json",
+    "failure-map.svg",
+    "failure-map.png",
+    "failure-map.csv",
+    "modes.json",
+    "explanation.json",
+    "located.json",
+    "blame.json",
+    "blame.csv",
+    "blame-map.svg",
+    "blame-map.png",
+    "junit.xml",
+];
+
+/// The folder of a campaign, open for appending.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    log: File,
+}
+
+/// Why a campaign cannot be begun or continued in a folder.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FolderFlaw {
+    /// It is a file.
+    #[error("{} is a file, expected a folder to write to", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+    },
+    /// It holds a campaign.
+    #[error(
+        "{} holds a campaign already ({name}): continue it with --resume, or write elsewhere with --out", path.display()
+    )]
+    Occupied {
+        /// The folder.
+        path: PathBuf,
+        /// A file of the campaign.
+        name: &'static str,
+    },
+    /// It holds a part of a campaign.
+    #[error("{} has {name} but no {STUDY}, so it cannot be continued", path.display())]
+    NoStudy {
+        /// The folder.
+        path: PathBuf,
+        /// A file of the campaign.
+        name: &'static str,
+    },
+    /// It holds another campaign.
+    #[error("{} holds a different campaign: its `{key}` is {there}, this command's is {here}", path.display())]
+    OtherStudy {
+        /// The folder.
+        path: PathBuf,
+        /// The entry of campaign.json in which they differ.
+        key: String,
+        /// The entry in the folder.
+        there: String,
+        /// The entry of the study.
+        here: String,
+    },
+    /// Another process writes to it.
+    #[error("another process is writing to {}", path.display())]
+    InUse {
+        /// The log.
+        path: PathBuf,
+    },
+}
+
+/// A name that only a campaign's own files have.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{} has the name of a campaign's own file, which {what} must not replace", path.display())]
+pub struct NotYours {
+    /// The file.
+    pub path: PathBuf,
+    /// What was to be written, with its article.
+    pub what: &'static str,
+}
+
+impl Reason for FolderFlaw {}
+impl Reason for NotYours {}
+
+impl Folder {
+    /// Begins a campaign in a folder that is made if need be.
+    ///
+    /// # Errors
+    /// The folder cannot be written, or holds a campaign.
+    pub fn create(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<Self, Error> {
+        if path.exists() && !path.is_dir() {
+            return Err(FolderFlaw::File { path: path.to_owned() }.into());
+        }
+        fs::create_dir_all(path).map_err(Error::io("create", path))?;
+        if let Some(name) = present(path, &[STUDY]) {
+            return Err(FolderFlaw::Occupied { path: path.to_owned(), name }.into());
+        }
+        write_study(path, study, &Learned::new(), extension)?;
+        keep_extended(path, study, extension)?;
+        Self::open(path)
+    }
+
+    /// Continues the campaign of this study in its folder, or begins it if there is none yet; with the trials that are there.
+    ///
+    /// # Errors
+    /// The folder holds another campaign, or a log that is broken before its end.
+    pub fn resume(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<(Self, Vec<Trial>), Error> {
+        if !path.join(STUDY).exists() {
+            if let Some(name) = present(path, &[]) {
+                return Err(FolderFlaw::NoStudy { path: path.to_owned(), name }.into());
+            }
+            return Self::create(path, study, extension).map(|folder| (folder, Vec::new()));
+        }
+        same_study(path, study, extension)?;
+        keep_extended(path, study, extension)?;
+        let mut folder = Self::open(path)?;
+        let file = path.join(TRIALS);
+        let mut bytes = Vec::new();
+        folder.log.read_to_end(&mut bytes).map_err(Error::io("read", &file))?;
+        let (trials, whole) = parse_trials(&file, &bytes)?;
+        folder.log.set_len(whole as u64).map_err(Error::io("write", &file))?;
+        folder.log.seek(SeekFrom::End(0)).map_err(Error::io("write", &file))?;
+        Ok((folder, trials))
+    }
+
+    fn open(path: &Path) -> Result<Self, Error> {
+        let file = path.join(TRIALS);
+        let mut options = File::options();
+        let log = options.read(true).write(true).create(true).truncate(false);
+        let log = log.open(&file).map_err(Error::io("write", &file))?;
+        match log.try_lock() {
+            Ok(()) => Ok(Self { path: path.to_owned(), log }),
+            Err(TryLockError::WouldBlock) => Err(FolderFlaw::InUse { path: file }.into()),
+            Err(TryLockError::Error(source)) => Err(Error::io("lock", &file)(source)),
+        }
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Writes `campaign.json` again, with the scales that the campaign has learned.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write_study(&self, study: &Study, learned: &Learned, extension: Option<&Extension>) -> Result<(), Error> {
+        write_study(&self.path, study, learned, extension)
+    }
+
+    /// Writes a trial down.
+    ///
+    /// # Errors
+    /// The log cannot be written: the disk is full, say.
+    pub fn append(&mut self, trial: &Trial) -> Result<(), Error> {
+        let file = self.path.join(TRIALS);
+        // A folder that was removed takes the log with it, though writing goes on without a complaint.
+        if !file.exists() {
+            return Err(Failure::Removed { path: file }.into());
+        }
+        let mut line = serde_json::to_string(trial).expect("a trial is always JSON");
+        line.push('\n');
+        self.log.write_all(line.as_bytes()).map_err(Error::io("write", &file))
+    }
+
+    /// Writes a file beside the trials, whole or not at all.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), Error> {
+        write_whole(&self.path.join(name), contents)
+    }
+
+    /// Whether a file of that name in a campaign's folder is the campaign's own, not to be written by anybody else.
+    pub fn owns(name: &OsStr) -> bool {
+        [STUDY, TRIALS, EXTENDED].into_iter().chain(DERIVED).any(|ours| ours == name)
+    }
+}
+
+/// A file of a campaign that is there: one of these, or one that follows from them.
+fn present(path: &Path, first: &[&'static str]) -> Option<&'static str> {
+    let mut ours = first.iter().copied().chain([TRIALS, EXTENDED]).chain(DERIVED);
+    ours.find(|name| path.join(name).exists())
+}
+
+fn write_study(path: &Path, study: &Study, learned: &Learned, extension: Option<&Extension>) -> Result<(), Error> {
+    write_whole(&path.join(STUDY), StudyFile::new(study, learned, extension).text().as_bytes())
+}
+
+/// Keeps the tests that the study counts as done, if they are not kept yet.
+fn keep_extended(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<(), Error> {
+    let file = path.join(EXTENDED);
+    match extension {
+        Some(extension) if !file.exists() => write_whole(&file, &extension.csv(study.space())?),
+        _ => Ok(()),
+    }
+}
+
+/// Checks that a folder holds the campaign of this study.
+fn same_study(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<(), Error> {
+    let file = path.join(STUDY);
+    let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+    let there = StudyFile::parse(&text, &Catalogue::default());
+    let there = there.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
+    let here = StudyFile::new(study, &Learned::new(), extension);
+    let [there, here] = [there, here].map(|study| serde_json::to_value(study).expect("a study is always JSON"));
+    // The same tests may be read from another file, and a campaign that learns on its way stays the same one.
+    let [tests_there, tests_here] = [&there, &here].map(|study| {
+        let mut study = study.clone();
+        if let Some(extends) = study.get_mut("extends") {
+            *extends = extends["hash"].take();
+        }
+        if let Some(entries) = study.as_object_mut() {
+            entries.remove("learned_scales");
+        }
+        study
+    });
+    let Some(key) = differing_key(&tests_there, &tests_here) else { return Ok(()) };
+    let show = |study: &serde_json::Value| study.get(key).map_or("nothing".into(), ToString::to_string);
+    let (there, here) = (show(&there), show(&here));
+    Err(FolderFlaw::OtherStudy { path: path.to_owned(), key: key.to_owned(), there, here }.into())
+}

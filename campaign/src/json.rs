@@ -1,0 +1,37 @@
+//! JSON: numbers that serde has no form for, infinities as "inf" and "-inf"; and where two files differ.
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// A number of a log, or none: infinities are words, NaN is null.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number(pub Option<f64>);
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            Some(f64::INFINITY) => serializer.serialize_str("inf"),
+            Some(f64::NEG_INFINITY) => serializer.serialize_str("-inf"),
+            Some(number) if number.is_finite() => serializer.serialize_f64(number),
+            _ => serializer.serialize_none(),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match serde_json::Value::deserialize(deserializer)? {
+            serde_json::Value::Null => Ok(Self(None)),
+            serde_json::Value::Number(number) => Ok(Self(number.as_f64())),
+            serde_json::Value::String(word) if word == "inf" => Ok(Self(Some(f64::INFINITY))),
+            serde_json::Value::String(word) if word == "-inf" => Ok(Self(Some(f64::NEG_INFINITY))),
+            other => Err(D::Error::custom(format!("found {other}, expected a number, \"inf\", \"-inf\" or null"))),
+        }
+    }
+}
+
+/// The first entry in which two objects differ.
+pub fn differing_key<'v>(there: &'v serde_json::Value, here: &'v serde_json::Value) -> Option<&'v str> {
+    let keys = there.as_object().into_iter().chain(here.as_object()).flatten().map(|(key, _)| key.as_str());
+    keys.into_iter().find(|key| there.get(key) != here.get(key))
+}

@@ -1,0 +1,89 @@
+//! A study to a log.
+//!
+//! A [`Study`] says what is tested; [`Campaign::run`] runs its tests and shows every [`Trial`] to its [observers](Observer); a
+//! [`Folder`] keeps them, and a [`Log`] is what was kept. A campaign knows no scenario: it is given a [`Catalogue`].
+
+mod artefact;
+mod black_box;
+mod campaign;
+mod catalogue;
+#[cfg(feature = "camera")]
+pub mod darkroom;
+#[cfg(not(feature = "camera"))]
+#[path = "darkroom/none.rs"]
+pub mod darkroom;
+mod drivers;
+mod error;
+pub mod executor;
+mod expected;
+mod extension;
+pub mod files;
+mod folder;
+mod json;
+mod judge;
+mod log;
+mod observer;
+mod process;
+mod regression;
+mod samples;
+mod scales;
+mod simulator;
+mod space_file;
+mod steering;
+pub mod study;
+mod study_file;
+mod test_set;
+mod trace_file;
+mod trial;
+mod trials_file;
+mod worker;
+
+pub use artefact::{Artefact, JsonArtefact};
+pub use black_box::BlackBox;
+pub use campaign::{Campaign, Finish};
+pub use catalogue::{Catalogue, Reader};
+pub use error::{BadFile, Error, Failure, Reason};
+pub use expected::Expected;
+pub use extension::{Extension, ExtensionRecord};
+pub use folder::{DERIVED, Folder};
+pub use json::{Number, differing_key};
+pub use log::{Log, read_tests};
+pub use observer::Observer;
+pub use regression::{Expectation, Regression, Replayed};
+pub use scales::{Learned, Scales};
+pub use space_file::{SpaceFile, is_model};
+pub use steering::Steering;
+pub use study::{Sampling, StatedRequirement, Study, StudyBuilder, Subject};
+pub use study_file::StudyFile;
+pub use test_set::{PartialRow, TestSet};
+pub use trace_file::{read_trace, write_trace};
+pub use trial::{Metric, Problem, ProblemKind, Trial};
+pub use worker::Worker;
+
+/// Everything that can be wrong with what a user asks for: the types behind [`Error::Use`] and [`BadFile`].
+pub mod reasons {
+    pub use crate::black_box::{AnswerFlaw, NoSystem, NotStarted, TimeoutFlaw};
+    pub use crate::campaign::ForeignTrial;
+    pub use crate::catalogue::UnknownScenario;
+    pub use crate::darkroom::Blind;
+    pub use crate::drivers::NoDriver;
+    pub use crate::error::CsvFlaw;
+    pub use crate::extension::OtherTests;
+    pub use crate::files::Exists;
+    pub use crate::folder::{FolderFlaw, NotYours};
+    pub use crate::log::HasSpace;
+    pub use crate::process::CommandFlaw;
+    pub use crate::regression::{NoRegressionName, RegressionFlaw};
+    pub use crate::samples::TraceFlaw;
+    pub use crate::space_file::SpaceFileFlaw;
+    pub use crate::study::{
+        AppearanceFlaw, DriverFlaw, FormulaFlaw, MissingScenario, ModelFlaw, NetworkFlaw, NoScenario, OddFlaw,
+        ParameterMisuse, RequirementFlaw, SamplingFlaw, SpecFlaw, TomlFlaw, WithoutCameras,
+    };
+    pub use crate::study_file::FormatFlaw;
+    pub use crate::test_set::{CellFlaw, HeaderFlaw, IsFolder, TooManyTests, WrongCell};
+    pub use crate::trials_file::LogFlaw;
+}
+
+/// The target triple for which this software was built.
+pub const TARGET: &str = env!("PARACOSM_TARGET");

@@ -1,0 +1,115 @@
+//! The log of a campaign: its study, and what became of each test.
+
+use crate::folder::{EXTENDED, STUDY, TRIALS};
+use crate::scales::{Learned, Scales};
+use crate::study_file::StudyFile;
+use crate::test_set::TestSet;
+use crate::trials_file::parse_trials;
+use crate::{Catalogue, Error, Extension, Reason, Study, Trial};
+use paracosm_space::{Point, Space};
+use std::fs;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A campaign that was run, or a part of one: all that analyses need.
+#[derive(Debug, Clone)]
+pub struct Log {
+    study: Study,
+    scales: Scales,
+    extension: Option<Extension>,
+    trials: Vec<Trial>,
+}
+
+/// The folder of a campaign where a space was named as well.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{} is the folder of a campaign, which has its own space: leave --space out", path.display())]
+pub struct HasSpace {
+    /// The folder.
+    pub path: PathBuf,
+}
+
+impl Reason for HasSpace {}
+
+impl Log {
+    /// The log of these trials of a study. Scales that the campaign has not learned yet are learned from them.
+    pub fn new(study: Study, learned: Learned, extension: Option<Extension>, trials: Vec<Trial>) -> Self {
+        let mut scales = Scales::of(&study, learned);
+        scales.learn(&trials);
+        Self { study, scales, extension, trials }
+    }
+
+    /// Reads the folder of a campaign: its study and the trials that are there.
+    ///
+    /// # Errors
+    /// There is none, or one of its files is broken. If the catalogue does not have its scenario, only a test that is run says
+    /// so.
+    pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Self, Error> {
+        let file = path.join(STUDY);
+        let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+        let read = StudyFile::parse(&text, catalogue);
+        let StudyFile { study, learned, extends } = read.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
+        let log = path.join(TRIALS);
+        let (trials, _) = parse_trials(&log, &fs::read(&log).map_err(Error::io("read", &log))?)?;
+        let extension = extends.map(|record| Extension::kept(record, path.join(EXTENDED)));
+        Ok(Self::new(study, learned, extension, trials))
+    }
+
+    /// What was tested.
+    pub fn study(&self) -> &Study {
+        &self.study
+    }
+
+    /// How much robustness is a lot.
+    pub fn scales(&self) -> &Scales {
+        &self.scales
+    }
+
+    /// The tests that count as done.
+    pub fn extension(&self) -> Option<&Extension> {
+        self.extension.as_ref()
+    }
+
+    /// The trials, in the order of their indices from 0 on.
+    pub fn trials(&self) -> &[Trial] {
+        &self.trials
+    }
+
+    /// The same campaign with other trials.
+    pub fn with_trials(&self, trials: Vec<Trial>) -> Self {
+        Self { trials, ..self.clone() }
+    }
+
+    /// The tests that count as done, as points.
+    ///
+    /// # Errors
+    /// Their file cannot be read, or holds other tests.
+    pub fn existing(&self) -> Result<Vec<Point>, Error> {
+        self.extension.as_ref().map_or(Ok(Vec::new()), |extension| extension.points(self.study.space()))
+    }
+
+    /// The tests that say anything of the place where they are: not those with the verdict `error` or `invalid`. Tests that
+    /// count as done come first.
+    ///
+    /// # Errors
+    /// A test is not of the space, or those that are done cannot be read.
+    pub fn test_set(&self) -> Result<TestSet, Error> {
+        let space = self.study.space();
+        let mut points = self.existing()?;
+        for trial in self.trials.iter().filter(|trial| trial.covers()) {
+            points.push(space.encode(&trial.test)?);
+        }
+        Ok(TestSet { k: self.study.sampling().k, ..TestSet::new(space.clone(), points) })
+    }
+}
+
+/// Reads tests of a space from a CSV, or those of the campaign in a folder.
+///
+/// # Errors
+/// The file cannot be read, or does not hold tests of the space; or a space is named for a folder.
+pub fn read_tests(path: &Path, space: Option<Space>) -> Result<TestSet, Error> {
+    match (path.is_dir(), space) {
+        (false, space) => TestSet::read(path, space),
+        (true, Some(_)) => Err(HasSpace { path: path.to_owned() }.into()),
+        (true, None) => Log::read(path, &Catalogue::default())?.test_set(),
+    }
+}

@@ -1,0 +1,69 @@
+//! Whoever watches a campaign: a log, a progress bar, an early stop.
+
+use crate::scales::Learned;
+use crate::{Error, Trial};
+use std::ops::ControlFlow;
+
+/// Watches a campaign. It sees every trial, in the order of their indices whatever the number of threads, and may end the
+/// campaign, but changes nothing about its tests.
+///
+/// A closure that takes a `&Trial` is an observer that sees new trials.
+pub trait Observer {
+    /// Sees that the campaign begins.
+    ///
+    /// # Errors
+    /// An error of the observer ends the campaign.
+    fn begun(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Sees the next trial that was run.
+    ///
+    /// # Errors
+    /// An error of the observer ends the campaign.
+    fn trial(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error>;
+
+    /// Sees a trial that was run before the campaign was resumed. These come first.
+    ///
+    /// # Errors
+    /// An error of the observer ends the campaign.
+    fn known(&mut self, _trial: &Trial) -> Result<ControlFlow<()>, Error> {
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Sees that the campaign has run its last test. Whatever is derived from the trials comes next.
+    ///
+    /// # Errors
+    /// An error of the observer ends the work.
+    fn ended(&mut self) -> Result<(), Error> {
+        Ok(())
+    }
+
+    /// Sees the scales of requirements that state none as soon as the campaign has learned them.
+    ///
+    /// # Errors
+    /// An error of the observer ends the campaign.
+    fn learned(&mut self, _scales: &Learned) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+impl<F: FnMut(&Trial)> Observer for F {
+    fn trial(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error> {
+        self(trial);
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+/// Ends a campaign with the first test that violates a requirement.
+pub(crate) struct FirstFailure;
+
+impl Observer for FirstFailure {
+    fn trial(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error> {
+        Ok(if trial.is_failure() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    }
+
+    fn known(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error> {
+        self.trial(trial)
+    }
+}

@@ -1,0 +1,179 @@
+//! Runs the tests of a scenario: one by one, or many in lockstep where drivers see.
+//!
+//! Tests in lockstep go on to where their drivers wait for images, and what all their cameras have taken is drawn in one go.
+//! A test that is over makes room for the next one, so that there is always as much to draw as can be. None has anything to
+//! do with another, so that how many there are changes nothing but the speed.
+
+mod ride;
+#[cfg(all(test, feature = "camera"))]
+mod tests;
+
+use crate::darkroom::{Darkroom, NoImage};
+use crate::drivers::{Drivers, NoDriver};
+use crate::executor::Desk;
+use crate::study::{Appearances, Simulation};
+use crate::{Error, Problem};
+use paracosm_engine::sensor::{Cameras, Shutters};
+use paracosm_engine::vehicle::VehicleModel;
+use paracosm_engine::{Outcome, Program, Run, Test};
+use paracosm_space::{Space, Values};
+use ride::{Ride, is_broken};
+use std::slice;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// A scenario, its drivers, and what draws for them.
+pub struct Simulator<'a> {
+    program: Program,
+    model: VehicleModel,
+    drivers: Drivers<'a>,
+    appearances: Appearances,
+    darkroom: Option<Arc<Darkroom>>,
+}
+
+impl<'a> Simulator<'a> {
+    /// A simulator of a scenario, whose drivers see what others draw for them, if anything, and are not waited for any more
+    /// once `stop` is set.
+    ///
+    /// # Errors
+    /// The scenario or the driver does not exist.
+    pub fn new(
+        simulation: &'a Simulation,
+        stop: Arc<AtomicBool>,
+        darkroom: Option<Arc<Darkroom>>,
+    ) -> Result<Self, Error> {
+        let drivers = Drivers::new(simulation.driver(), stop)?;
+        let simulator = Self::with(simulation.program()?.clone(), simulation.vehicle(), drivers, darkroom);
+        Ok(Self { appearances: simulation.appearances().clone(), ..simulator })
+    }
+
+    /// A simulator of a program, in which these drivers drive a car that this model moves.
+    fn with(program: Program, model: VehicleModel, drivers: Drivers<'a>, darkroom: Option<Arc<Darkroom>>) -> Self {
+        Self { program, model, drivers, appearances: Appearances::default(), darkroom }
+    }
+
+    /// A test under way.
+    fn begin(&mut self, place: usize, test: Test<'_>) -> Ride {
+        Ride::begin(place, &self.program, test, self.model, self.drivers.hire())
+    }
+
+    /// Has a driver at hand, and what draws for it.
+    ///
+    /// # Errors
+    /// There is no driver to be had, or it sees through cameras and there is nothing to draw with.
+    pub fn start(&mut self) -> Result<(), Error> {
+        let cameras = self.eyes()?;
+        if cameras.all.is_empty() { Ok(()) } else { self.open(&cameras).map(drop) }
+    }
+
+    /// The cameras that its drivers see through, if any.
+    ///
+    /// # Errors
+    /// There is no driver to be had.
+    pub fn eyes(&mut self) -> Result<Cameras, NoDriver> {
+        let mut driver = self.drivers.hire()?;
+        let cameras = driver.equipment().cameras;
+        self.drivers.dismiss(Some(driver));
+        Ok(cameras)
+    }
+
+    /// What draws for its drivers, if they see.
+    pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
+        self.darkroom.as_ref()
+    }
+
+    /// Runs a test.
+    pub fn run(&mut self, test: Test<'_>) -> Result<Outcome, Problem> {
+        let has_past = self.drivers.any_idle();
+        let outcome = self.ride(test, None, |_| ());
+        let is_doubtful = has_past && is_broken(&outcome) && self.drivers.gives_another_chance();
+        if is_doubtful { self.watch(test, None, |_| ()) } else { outcome }
+    }
+
+    /// Runs a test, which is filmed with these cameras, with a look at the run whenever the driver is asked, and at the end.
+    pub fn watch(&mut self, test: Test<'_>, film: Option<Shutters>, see: impl FnMut(&Run)) -> Result<Outcome, Problem> {
+        // A test that has to be run again would be seen twice.
+        self.drivers.renew();
+        self.ride(test, film, see)
+    }
+
+    fn ride(&mut self, test: Test<'_>, film: Option<Shutters>, mut see: impl FnMut(&Run)) -> Result<Outcome, Problem> {
+        let mut ride = self.begin(0, test);
+        if let Some(film) = film {
+            ride.film(film);
+        }
+        loop {
+            ride.go_on(&mut see);
+            if ride.is_over() {
+                return self.dismiss(ride).1;
+            }
+            self.draw(slice::from_mut(&mut ride));
+        }
+    }
+
+    /// Runs the tests that the desk gives out, at most so many at a time, until `stopped`. What a test is, by its index,
+    /// `tests` says, and `judged` what comes of it.
+    pub fn run_in_lockstep<T>(
+        &mut self,
+        desk: &Desk<T>,
+        at_once: usize,
+        (tests, space): (&dyn Fn(usize) -> Values, &Space),
+        stopped: impl Fn() -> bool,
+        judged: impl Fn(usize, Result<Outcome, Problem>) -> T,
+    ) {
+        let mut rides: Vec<Ride> = Vec::new();
+        loop {
+            while rides.len() < at_once.max(1)
+                && let Some(index) = desk.next()
+            {
+                rides.push(self.begin(index, Test::new(&tests(index), space)));
+            }
+            rides.iter_mut().for_each(|ride| ride.go_on(|_| ()));
+            // What broke because it was stopped came to nothing.
+            if rides.is_empty() || desk.is_closed() || stopped() {
+                return;
+            }
+            for over in rides.extract_if(.., |ride| ride.is_over()) {
+                let (index, mut outcome) = self.dismiss(over);
+                if is_broken(&outcome) && self.drivers.gives_another_chance() {
+                    outcome = self.watch(Test::new(&tests(index), space), None, |_| ());
+                }
+                if stopped() {
+                    return;
+                }
+                desk.hand_in(index, Some(judged(index, outcome)));
+            }
+            self.draw(&mut rides);
+        }
+    }
+
+    /// What became of a test, with its place; its driver has nothing to do any more.
+    fn dismiss(&mut self, ride: Ride) -> (usize, Result<Outcome, Problem>) {
+        let (ended, driver) = ride.end();
+        self.drivers.dismiss(driver);
+        ended
+    }
+
+    /// Draws what the drivers of these wait for.
+    fn draw(&mut self, rides: &mut [Ride]) {
+        let runs: Vec<&Run> = rides.iter().filter_map(Ride::run).collect();
+        let Some(first) = runs.first() else { return };
+        let images = match self.open(first.eyes().cameras()) {
+            Ok(darkroom) => darkroom.develop(&runs),
+            Err(error) => {
+                let error = Arc::new(error);
+                runs.iter().map(|_| Err(NoImage::Closed(Arc::clone(&error)))).collect()
+            }
+        };
+        let waiting = rides.iter_mut().filter(|ride| !ride.is_over());
+        waiting.zip(images).for_each(|(ride, images)| ride.show(images));
+    }
+
+    /// What draws for its drivers.
+    fn open(&mut self, cameras: &Cameras) -> Result<&Darkroom, Error> {
+        match &mut self.darkroom {
+            Some(darkroom) => Ok(darkroom),
+            none => Ok(none.insert(Arc::new(Darkroom::open(cameras, &self.appearances)?))),
+        }
+    }
+}

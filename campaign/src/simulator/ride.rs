@@ -1,0 +1,132 @@
+//! One test under way: a run and its driver, on their way from image to image.
+
+use crate::darkroom::NoImage;
+use crate::drivers::NoDriver;
+use crate::{Problem, ProblemKind};
+use paracosm_engine::driver::Driver;
+use paracosm_engine::sensor::{Image, Shutters};
+use paracosm_engine::vehicle::VehicleModel;
+use paracosm_engine::{Outcome, Program, Run, Test};
+use paracosm_oracles::Verdict;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// The place of a test among the others, and how the test ended.
+pub type Became = (usize, Result<Outcome, Problem>);
+
+/// A test under way. A panic of the run or of its driver ends this one alone.
+pub(super) struct Ride {
+    /// Which of the tests it is.
+    place: usize,
+    driver: Option<Box<dyn Driver>>,
+    run: Option<Run>,
+    /// What the driver is to be shown before it answers.
+    images: Vec<Image>,
+    /// Whether the run waits for the driver.
+    asked: bool,
+    outcome: Option<Result<Outcome, Problem>>,
+}
+
+impl Ride {
+    /// Lets a driver take its seat in the run of a test; without a driver, the test is over.
+    pub fn begin(
+        place: usize,
+        program: &Program,
+        test: Test<'_>,
+        model: VehicleModel,
+        driver: Result<Box<dyn Driver>, NoDriver>,
+    ) -> Self {
+        let mut ride = Self { place, driver: None, run: None, images: Vec::new(), asked: false, outcome: None };
+        match driver {
+            Ok(driver) => {
+                let driver = ride.driver.insert(driver).as_mut();
+                let seated = || Run::seated(program, test, model, driver);
+                match catch_unwind(AssertUnwindSafe(seated)) {
+                    Ok(Ok(run)) => ride.run = Some(run),
+                    Ok(Err(outcome)) => ride.outcome = Some(Ok(*outcome)),
+                    Err(panic) => ride.outcome = Some(Err(panicked(panic.as_ref()))),
+                }
+            }
+            Err(error) => ride.outcome = Some(Err(error.into())),
+        }
+        ride
+    }
+
+    /// Films it.
+    pub fn film(&mut self, cameras: Shutters) {
+        if let Some(run) = &mut self.run {
+            run.film(cameras);
+        }
+    }
+
+    /// Goes on until the driver waits for images or the test is over. `see` has a look whenever the driver is asked, and at
+    /// the end.
+    pub fn go_on(&mut self, see: impl FnMut(&Run)) {
+        if self.outcome.is_none() {
+            let went = catch_unwind(AssertUnwindSafe(|| self.until_images(see)));
+            self.outcome = match went {
+                Ok(outcome) => outcome.map(Ok),
+                Err(panic) => Some(Err(panicked(panic.as_ref()))),
+            };
+        }
+    }
+
+    fn until_images(&mut self, mut see: impl FnMut(&Run)) -> Option<Outcome> {
+        let (run, driver) = (self.run.as_mut()?, self.driver.as_mut()?);
+        loop {
+            if self.asked {
+                if let Err(fault) = run.answer(driver.as_mut(), &self.images) {
+                    return Some(run.broken_by(fault));
+                }
+                self.images.clear();
+            }
+            let outcome = run.advance().outcome();
+            self.asked = true;
+            see(run);
+            if outcome.is_some() || run.eyes().arrived().next().is_some() {
+                return outcome;
+            }
+        }
+    }
+
+    /// The run, if it goes on.
+    pub fn run(&self) -> Option<&Run> {
+        self.run.as_ref().filter(|_| self.outcome.is_none())
+    }
+
+    /// Whether it has come to its end.
+    pub fn is_over(&self) -> bool {
+        self.outcome.is_some()
+    }
+
+    /// Gives the driver what it waits for, or says why there is nothing.
+    pub fn show(&mut self, images: Result<Vec<Image>, NoImage>) {
+        match images {
+            Ok(images) => self.images = images,
+            Err(error) => {
+                let time = self.run.as_ref().map_or(0.0, Run::time);
+                let message = format!("the driver could not see at {time:.3} s: {error}");
+                self.outcome = Some(Err(Problem::new(ProblemKind::Camera, message)));
+            }
+        }
+    }
+
+    /// How the test ended with its place, and the driver, unless that may be in any state.
+    pub fn end(self) -> (Became, Option<Box<dyn Driver>>) {
+        let left = || Err(Problem::new(ProblemKind::Interrupted, "the test was left before its end"));
+        let outcome = self.outcome.unwrap_or_else(left);
+        let driver = self.driver.filter(|_| !is_broken(&outcome));
+        ((self.place, outcome), driver)
+    }
+}
+
+/// Whether a test came to nothing.
+pub(super) fn is_broken(outcome: &Result<Outcome, Problem>) -> bool {
+    outcome.as_ref().map_or(true, |outcome| outcome.verdict() == Verdict::Error)
+}
+
+fn panicked(panic: &(dyn Any + Send)) -> Problem {
+    let message = panic.downcast_ref::<String>().map(String::as_str);
+    let message = message.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
+    Problem::new(ProblemKind::Panic, format!("the run panicked: {message}"))
+}

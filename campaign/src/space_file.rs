@@ -1,0 +1,106 @@
+//! Spaces as files: SPACE.toml, or a model file of PICT.
+
+use crate::{Error, Reason};
+use paracosm_space::demand::Demand;
+use paracosm_space::pict::{Model, PictError};
+use paracosm_space::{Position, Space, SpaceError};
+use std::ffi::OsStr;
+use std::fs;
+use std::path::Path;
+use thiserror::Error;
+
+/// The endings by which a file is known as a model of PICT; any other is taken for TOML.
+const PICT: [&str; 3] = ["pict", "txt", "model"];
+
+/// What a file says of a space.
+#[derive(Debug, Clone)]
+pub struct SpaceFile {
+    /// The parameters.
+    pub space: Space,
+    /// What a model asks for beside all combinations of k values.
+    pub demand: Demand,
+    /// What a reader should know of how the file was understood, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// What is wrong with the file of a space.
+#[derive(Debug, Error)]
+pub enum SpaceFileFlaw {
+    /// It is no text.
+    #[error("found bytes that are no UTF-8, expected a text in UTF-8")]
+    NoText,
+    /// It is no model of PICT.
+    #[error("column {}: {}", .0.column, .0.message)]
+    Pict(PictError),
+    /// It is no space.
+    #[error("{}{}", column.map(|column| format!("column {column}: ")).unwrap_or_default(), words(.error))]
+    Space {
+        /// What is wrong.
+        error: SpaceError,
+        /// In which column of the line, from 1, if that is known.
+        column: Option<usize>,
+    },
+}
+
+impl Reason for SpaceFileFlaw {}
+
+/// What is wrong; the place is said beside it.
+fn words(error: &SpaceError) -> String {
+    match error {
+        SpaceError::Syntax { message, at: Some(_) } => message.clone(),
+        error => error.to_string(),
+    }
+}
+
+/// Whether a file is a model of PICT by its name.
+pub fn is_model(path: &Path) -> bool {
+    let ending = path.extension().and_then(OsStr::to_str);
+    ending.is_some_and(|ending| PICT.contains(&ending.to_lowercase().as_str()))
+}
+
+impl SpaceFile {
+    /// Reads a model of PICT, if the file is called so, or a SPACE.toml.
+    ///
+    /// # Errors
+    /// The file cannot be read, or is none; the error says in which line and column. Or no test keeps its constraints.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let text = String::from_utf8(fs::read(path).map_err(Error::io("read", path))?);
+        let text = text.map_err(|error| {
+            let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = good.iter().filter(|byte| **byte == b'\n').count() + 1;
+            Error::in_file(path, line, SpaceFileFlaw::NoText)
+        })?;
+        if is_model(path) {
+            let model = Model::from_pict(&text)
+                .map_err(|error| Error::in_file(path, error.line, SpaceFileFlaw::Pict(error)))?;
+            check(path, &model.space, &model.statements)?;
+            let notes = model.notes.iter().map(|note| format!("{}: {note}", path.display())).collect();
+            return Ok(Self { space: model.space, demand: model.demand, notes });
+        }
+        let space = Space::from_toml(&text).map_err(|error| {
+            let (line, column) = match &error {
+                SpaceError::Syntax { at: Some(Position { line, column }), .. } => (Some(*line), Some(*column)),
+                _ => (None, None),
+            };
+            Error::in_file(path, line, SpaceFileFlaw::Space { error, column })
+        })?;
+        let texts = space.constraints().iter().map(|constraint| constraint.text().to_owned());
+        let written: Vec<(usize, String)> = Space::constraint_lines(&text).into_iter().zip(texts).collect();
+        check(path, &space, &written)?;
+        Ok(Self { space, demand: Demand::default(), notes: Vec::new() })
+    }
+}
+
+/// Checks that some test keeps all constraints; the first of them stand written in the file, each from a line on.
+fn check(path: &Path, space: &Space, written: &[(usize, String)]) -> Result<(), Error> {
+    let located = |(index, text): (usize, String)| match written.get(index) {
+        Some((line, statement)) => (index, format!("{}:{line}: {statement}", path.display())),
+        None => (index, text),
+    };
+    space.rules().map(drop).map_err(|mut error| {
+        if let SpaceError::Conflict { constraints, .. } = &mut error {
+            *constraints = std::mem::take(constraints).into_iter().map(located).collect();
+        }
+        Error::in_file(path, None, SpaceFileFlaw::Space { error, column: None })
+    })
+}

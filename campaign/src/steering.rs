@@ -1,0 +1,169 @@
+//! What a campaign asks for tests: one search, driven by the worst of all requirements; or, where a strategy is after a
+//! failure and there are several requirements to violate, one search for each and a bandit between them.
+//!
+//! Which requirements there are follows from the study or, of a system that answers with robustness, from its first
+//! answer. So everything follows from the study and the trials in their order, and a resumed campaign goes on as it
+//! would have.
+
+use crate::scales::{Learned, Scales};
+use crate::{Study, Trial};
+use paracosm_generators::{Bandit, Generator, GeneratorError};
+use paracosm_space::Point;
+
+/// The source of a campaign's tests.
+pub struct Steering<'a> {
+    study: &'a Study,
+    /// The tests that count as done.
+    existing: Vec<Point>,
+    search: Steered,
+    scales: Scales,
+    /// The tests that were told before any requirement was known: all came to nothing.
+    before: Vec<Point>,
+}
+
+enum Steered {
+    One(Box<dyn Generator>),
+    Several { ids: Vec<String>, bandit: Bandit },
+}
+
+impl<'a> Steering<'a> {
+    /// The source of the tests of a study, which complete the existing ones.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub fn new(study: &'a Study, existing: Vec<Point>) -> Result<Self, GeneratorError> {
+        let generator = study.generator(&existing)?;
+        Self::with(study, generator, existing)
+    }
+
+    /// The source of the tests of a study that another generator of its strategy proposes. Searches for single requirements are
+    /// the study's.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub fn with(study: &'a Study, generator: Box<dyn Generator>, existing: Vec<Point>) -> Result<Self, GeneratorError> {
+        let (search, scales) = (Steered::One(generator), Scales::of(study, Learned::new()));
+        let mut steering = Self { study, existing, search, scales, before: Vec::new() };
+        let judged = study.requirements().iter().filter(|requirement| requirement.formula.is_some());
+        steering.know(judged.map(|requirement| requirement.id.as_str()))?;
+        Ok(steering)
+    }
+
+    /// The next tests, at most `n`; none once there are no more.
+    pub fn ask(&mut self, n: usize) -> Vec<Point> {
+        match &mut self.search {
+            Steered::One(search) => search.ask(n),
+            Steered::Several { bandit, .. } => bandit.ask(n),
+        }
+    }
+
+    /// What became of tests that were asked for.
+    ///
+    /// # Errors
+    /// As [`Study::generator`].
+    pub fn tell(&mut self, tests: &[Point], trials: &[Trial]) -> Result<(), GeneratorError> {
+        self.scales.learn(trials);
+        if let (Steered::One(_), Some(first)) = (&self.search, trials.iter().find(|trial| trial.covers())) {
+            self.know(first.requirements())?;
+        }
+        let scales = &self.scales;
+        match &mut self.search {
+            Steered::One(search) => {
+                let worst: Vec<_> = trials.iter().map(|trial| scales.objective(trial)).collect();
+                search.tell(tests, &worst);
+                if worst.iter().all(Option::is_none) {
+                    self.before.extend_from_slice(tests);
+                }
+            }
+            Steered::Several { ids, bandit } => {
+                let of = |trial: &Trial| ids.iter().map(|id| scales.clipped(trial, id)).collect();
+                bandit.tell(tests, &trials.iter().map(of).collect::<Vec<_>>());
+            }
+        }
+        Ok(())
+    }
+
+    /// The scales by which the searches are told.
+    pub fn scales(&self) -> &Scales {
+        &self.scales
+    }
+
+    /// Begins a search for each of these requirements, if that makes sense.
+    fn know<'i>(&mut self, ids: impl Iterator<Item = &'i str>) -> Result<(), GeneratorError> {
+        let ids: Vec<String> = ids.map(str::to_owned).collect();
+        if ids.len() < 2 || !self.study.sampling().strategy.seeks_a_failure() {
+            return Ok(());
+        }
+        let searches = ids.iter().map(|_| self.study.generator(&self.existing)).collect::<Result<_, _>>()?;
+        let mut bandit = Bandit::new(searches);
+        bandit.tell(&self.before, &vec![Vec::new(); self.before.len()]);
+        self.search = Steered::Several { ids, bandit };
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BlackBox, Problem, ProblemKind};
+    use paracosm_engine::Judgement;
+    use paracosm_generators::Strategy;
+    use paracosm_oracles::Verdict;
+    use paracosm_space::Space;
+
+    fn study(seed: u64) -> Study {
+        let system = BlackBox::new("none", None).unwrap();
+        let study = Study::of_system(system, Space::unit_cube(5)).strategy(Strategy::CMAES);
+        study.budget(400).seed(seed).build().unwrap()
+    }
+
+    /// What becomes of a test: of two requirements the second is violated within a small ball, and the first never, though
+    /// it is the worse nearly everywhere.
+    fn judgements(test: &Point, is_one: bool) -> (Verdict, Vec<Judgement>) {
+        let away = test.continuous.iter().map(|u| (u - 0.7) * (u - 0.7)).sum::<f64>().sqrt();
+        let both = [0.05 + 0.02 * test.continuous[0], away - 0.18];
+        let judgements = match is_one {
+            true => vec![Judgement::new("worst", Some(both[0].min(both[1])))],
+            false => vec![Judgement::new("near", Some(both[0])), Judgement::new("ball", Some(both[1]))],
+        };
+        (if both[1] < 0.0 { Verdict::Fail } else { Verdict::Pass }, judgements)
+    }
+
+    /// All tests up to the first failure, cut into portions told by this many; the first comes to nothing.
+    fn tests(study: &Study, is_one: bool) -> Vec<Point> {
+        let mut steering = Steering::new(study, Vec::new()).unwrap();
+        let mut all: Vec<Point> = Vec::new();
+        while all.len() < 400 {
+            let tests = steering.ask(16);
+            let trial = |(i, test): (usize, &Point)| {
+                let (index, values) = (all.len() + i, study.space().decode(test));
+                if all.is_empty() {
+                    return Trial::broken(index, values, Problem::new(ProblemKind::System, ""));
+                }
+                let (verdict, judgements) = judgements(test, is_one);
+                Trial::judged(index, values, verdict, judgements)
+            };
+            let trials: Vec<Trial> = tests.iter().enumerate().map(trial).collect();
+            steering.tell(&tests, &trials).unwrap();
+            all.extend(tests);
+            if trials.iter().any(Trial::is_failure) {
+                break;
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn a_requirement_that_another_one_hides_is_violated() {
+        let sum = |is_one: bool| -> usize { (0..5).map(|seed| tests(&study(seed), is_one).len()).sum() };
+        let (bandit, worst) = (sum(false), sum(true));
+        assert!(2 * bandit < worst, "{bandit} tests with a bandit, {worst} by the worst");
+    }
+
+    #[test]
+    fn no_test_is_proposed_twice_and_the_same_trials_give_the_same_tests() {
+        let once = tests(&study(1), false);
+        assert_eq!(once, tests(&study(1), false));
+        assert!((1..once.len()).all(|i| !once[..i].contains(&once[i])));
+    }
+}

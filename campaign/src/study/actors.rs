@@ -1,0 +1,98 @@
+//! The actors of a study, which a model of a user's own may stand for.
+
+use super::appearance::first_of;
+use super::{ModelFlaw, Study};
+use crate::{Error, Reason};
+use paracosm_engine::object::Class;
+use paracosm_engine::{Run, Setup, Test};
+use paracosm_space::{Domain, Value, Values, did_you_mean, nearest};
+use thiserror::Error;
+
+/// Why an actor cannot be shown as a model.
+#[derive(Debug, Error)]
+pub enum AppearanceFlaw {
+    /// There is no such actor.
+    #[error(
+        "--model {actor}={file}: `{scenario}` has no actor `{actor}`{}; it has {}", did_you_mean(.nearest), all.join(", ")
+    )]
+    NoActor {
+        /// The actor.
+        actor: String,
+        /// The file of the model.
+        file: String,
+        /// The scenario.
+        scenario: String,
+        /// An actor that was perhaps meant.
+        nearest: Option<String>,
+        /// All actors; of those of one name, the first.
+        all: Vec<String>,
+    },
+    /// It has a model already.
+    #[error("--model {actor}={file}: it has another model already, {other}")]
+    Twice {
+        /// The actor.
+        actor: String,
+        /// The file of the model.
+        file: String,
+        /// The file of its model.
+        other: String,
+    },
+    /// The model cannot be used.
+    #[error("--model {actor}={file}: {flaw}")]
+    Model {
+        /// The actor.
+        actor: String,
+        /// The file of the model.
+        file: String,
+        /// What is wrong with it.
+        flaw: ModelFlaw,
+    },
+}
+
+impl Reason for AppearanceFlaw {}
+
+impl Study {
+    /// Shows an actor to cameras as the model in a glTF file.
+    pub(super) fn show(&mut self, actor: &str, file: &str) -> Result<(), Error> {
+        let actors = self.actors()?;
+        let (actor, file) = (actor.to_owned(), file.to_owned());
+        let Some((_, class)) = actors.iter().find(|(name, _)| *name == actor) else {
+            let scenario = self.subject.scenario()?.scenario().to_owned();
+            let names = actors.iter().map(|(name, _)| name.as_str());
+            let nearest = nearest(&actor, names.clone()).map(str::to_owned);
+            let all = names.filter(|name| first_of(name) == *name).map(str::to_owned).collect();
+            return Err(AppearanceFlaw::NoActor { actor, file, scenario, nearest, all }.into());
+        };
+        let simulation = self.subject.scenario_mut()?;
+        match simulation.appearances.show(&actor, *class, &file) {
+            Ok(None) => Ok(()),
+            Ok(Some(other)) => Err(AppearanceFlaw::Twice { actor, file, other }.into()),
+            Err(flaw) => Err(AppearanceFlaw::Model { actor, file, flaw }.into()),
+        }
+    }
+
+    /// The bodies that tests have, by name: those of the nominal one, and those that open parameters add at their greatest.
+    fn actors(&self) -> Result<Vec<(String, Class)>, Error> {
+        let (simulation, nominal) = (self.subject.scenario()?, self.nominal()?);
+        let mut greatest = nominal.clone();
+        for parameter in self.space.parameters().iter().filter(|parameter| parameter.signal.is_none()) {
+            let most = match &parameter.domain {
+                Domain::Interval { hi, .. } => Some(Value::Number(*hi)),
+                Domain::Choice(levels) => levels.last().cloned(),
+            };
+            most.into_iter().for_each(|value| greatest.set(&parameter.name, value));
+        }
+        let program = simulation.program()?;
+        let run = |test: &Values| Run::new(program, Test::new(test, &self.space), Setup::asking_every(simulation.dt()));
+        let mut actors: Vec<(String, Class)> = Vec::new();
+        for run in [run(&nominal)?].into_iter().chain(run(&greatest)) {
+            for (body, state) in run.bodies().iter().enumerate() {
+                let name = run.name_of(body);
+                if !actors.iter().any(|(known, _)| known == name) {
+                    actors.push((name.to_owned(), state.body.class));
+                }
+            }
+        }
+        Ok(actors)
+    }
+}

@@ -1,0 +1,104 @@
+//! Reads the models, when they are needed.
+
+use super::{Appearance, Appearances, first_of};
+use crate::Reason;
+use paracosm_engine::Run;
+use paracosm_engine::object::Class;
+use paracosm_render::gltf::{self, GltfError};
+use paracosm_render::{Cast, Mesh, Model, Semantic};
+use std::sync::{Arc, OnceLock};
+use thiserror::Error;
+
+/// A model that has been read, or has not been needed yet.
+pub(super) type Loaded = OnceLock<Arc<Model>>;
+
+/// What keeps a file from being a model.
+#[derive(Debug, Error)]
+pub enum ModelFlaw {
+    /// It cannot be read or used.
+    #[error(transparent)]
+    Gltf(#[from] GltfError),
+    /// It is another one than it was.
+    #[error(
+        "the model {file} has the hash {found}, expected {expected}: it is not the one that the campaign was run with"
+    )]
+    Changed {
+        /// The file.
+        file: String,
+        /// Its hash.
+        found: String,
+        /// The hash that it had.
+        expected: String,
+    },
+}
+
+impl Reason for ModelFlaw {}
+
+impl Appearances {
+    /// Which bodies of a run are shown as models.
+    ///
+    /// # Errors
+    /// A file cannot be read any more, or is another than when the study was made.
+    pub fn cast(&self, run: &Run) -> Result<Cast, ModelFlaw> {
+        let mut cast = Cast::new();
+        if self.is_empty() {
+            return Ok(cast);
+        }
+        for (body, state) in run.bodies().iter().enumerate() {
+            let name = run.name_of(body);
+            if let Some(appearance) = self.0.get(name).or_else(|| self.0.get(first_of(name))) {
+                cast.insert(body, appearance.model(state.body.class)?);
+            }
+        }
+        Ok(cast)
+    }
+}
+
+impl Appearance {
+    /// The model of a file, which stands for something of this class.
+    pub fn read(file: &str, class: Class) -> Result<Self, ModelFlaw> {
+        let (hash, model) = load(file, class)?;
+        Ok(Self { file: file.to_owned(), hash, loaded: OnceLock::from(model) })
+    }
+
+    fn model(&self, class: Class) -> Result<Arc<Model>, ModelFlaw> {
+        if let Some(model) = self.loaded.get() {
+            return Ok(model.clone());
+        }
+        let (found, model) = load(&self.file, class)?;
+        if found != self.hash {
+            return Err(ModelFlaw::Changed { file: self.file.clone(), found, expected: self.hash.clone() });
+        }
+        Ok(self.loaded.get_or_init(|| model).clone())
+    }
+}
+
+fn load(file: &str, class: Class) -> Result<(String, Arc<Model>), ModelFlaw> {
+    let mesh = gltf::load(file, semantic(class))?;
+    Ok((hash(&mesh), Arc::new(Model::new(mesh))))
+}
+
+fn semantic(class: Class) -> Semantic {
+    match class {
+        Class::Car => Semantic::Car,
+        Class::Truck => Semantic::Truck,
+        Class::Bicycle => Semantic::Bicycle,
+        Class::Pedestrian => Semantic::Pedestrian,
+        Class::Building => Semantic::Building,
+        Class::Tree => Semantic::Vegetation,
+        Class::Sign => Semantic::TrafficSign,
+        Class::Prop => Semantic::Dynamic,
+    }
+}
+
+/// That of all that is drawn of a mesh, wherever it was read from.
+fn hash(mesh: &Mesh) -> String {
+    let mut bytes = Vec::new();
+    for vertex in mesh.vertices() {
+        let numbers = vertex.position.iter().chain(&vertex.normal).chain(&vertex.uv).chain(&vertex.colour);
+        bytes.extend(numbers.flat_map(|number| number.to_le_bytes()));
+        bytes.extend([vertex.surface as u8, vertex.semantic as u8]);
+    }
+    bytes.extend(mesh.indices().iter().flat_map(|index| index.to_le_bytes()));
+    format!("{:032x}", xxhash_rust::xxh3::xxh3_128(&bytes))
+}

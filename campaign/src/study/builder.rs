@@ -1,0 +1,278 @@
+//! Collects what is wanted of a study, and checks all of it once.
+
+use super::driver::Wish;
+use super::parameters::ParameterMisuse;
+use super::{DriverChoice, Maker, Sampling, Simulation, Study, Subject, Variation};
+use crate::{BlackBox, Error};
+use paracosm_engine::Program;
+use paracosm_engine::driver::Driver;
+use paracosm_engine::vehicle::VehicleModel;
+use paracosm_generators::Strategy;
+use paracosm_oracles::Semantics;
+use paracosm_space::{Distribution, Domain, Parameter, Space, Value};
+use std::path::{Path, PathBuf};
+
+/// A study in the making. Methods only note what is wanted; [`build`](Self::build) checks it.
+///
+/// ```
+/// use paracosm_campaign::{Catalogue, Study};
+/// use paracosm_generators::Strategy;
+///
+/// let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+/// let study = Study::of(catalogue.find("pedestrian-crossing")?)
+///     .driver("aeb")
+///     .open("friction")
+///     .fix("distance", 30.0)
+///     .strategy(Strategy::SOBOL)
+///     .budget(64)
+///     .build()?;
+/// assert_eq!(study.space().parameters().len(), 2);
+/// # Ok::<(), paracosm_campaign::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+#[must_use = "a study is made by `build`"]
+pub struct StudyBuilder {
+    subject: Wanted,
+    vehicle: Option<VehicleModel>,
+    driver: Option<Wish>,
+    driver_settings: Vec<(String, f64)>,
+    driver_timeout: Option<f64>,
+    opened: Vec<Opened>,
+    fixed: Vec<(String, Value)>,
+    distributions: Vec<(String, Distribution)>,
+    cameras: Vec<Parameter>,
+    models: Vec<(String, String)>,
+    requirements: Vec<PathBuf>,
+    odd: Option<PathBuf>,
+    specs: Vec<(Semantics, String)>,
+    sampling: Sampling,
+}
+
+#[derive(Debug, Clone)]
+enum Wanted {
+    Scenario(Program),
+    System(BlackBox, Space),
+}
+
+#[derive(Debug, Clone)]
+struct Opened {
+    name: String,
+    over: Option<Domain>,
+    variation: Option<Variation>,
+}
+
+impl StudyBuilder {
+    pub(super) fn of(program: Program) -> Self {
+        Self::on(Wanted::Scenario(program))
+    }
+
+    pub(super) fn of_system(system: BlackBox, space: Space) -> Self {
+        Self::on(Wanted::System(system, space))
+    }
+
+    fn on(subject: Wanted) -> Self {
+        Self {
+            subject,
+            vehicle: None,
+            driver: None,
+            driver_settings: Vec::new(),
+            driver_timeout: None,
+            opened: Vec::new(),
+            fixed: Vec::new(),
+            distributions: Vec::new(),
+            cameras: Vec::new(),
+            models: Vec::new(),
+            requirements: Vec::new(),
+            odd: None,
+            specs: Vec::new(),
+            sampling: Sampling::default(),
+        }
+    }
+
+    /// Tests a driver of `paracosm-fuzz list`; a server that listens at `grpc://HOST:PORT`; or a network: `cnn`, or the name of
+    /// a file that ends in `.onnx`.
+    pub fn driver(mut self, name: &str) -> Self {
+        self.driver = Some(Wish::Name(name.to_owned()));
+        self
+    }
+
+    /// Tests the driver that this command starts, once for each worker. It is told in `PARACOSM_ADDRESS` where to listen, as
+    /// HOST:PORT, and ends when its standard input does.
+    pub fn driver_command(mut self, command: &str) -> Self {
+        self.driver = Some(Wish::Command(command.to_owned()));
+        self
+    }
+
+    /// Tests a driver of one's own, which each worker makes for itself. Only this program can replay its tests.
+    pub fn own_driver(mut self, name: &str, make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static) -> Self {
+        self.driver = Some(Wish::own(name, make));
+        self
+    }
+
+    /// Changes a setting of the driver. A driver in a process of its own is told all settings but for two: `latency`, the seconds
+    /// from when it is asked to when its answer takes effect, and `seed`, the source of its chance and of its sensors' noise.
+    pub fn set_driver(mut self, setting: &str, value: f64) -> Self {
+        self.driver_settings.push((setting.to_owned(), value));
+        self
+    }
+
+    /// Lets a driver in a process of its own take this many seconds for an answer, and ten times as long to start; without it,
+    /// 60.
+    pub fn driver_timeout(mut self, seconds: f64) -> Self {
+        self.driver_timeout = Some(seconds);
+        self
+    }
+
+    /// Lets this model move the car.
+    pub fn vehicle(mut self, model: VehicleModel) -> Self {
+        self.vehicle = Some(model);
+        self
+    }
+
+    /// Lets the tests vary a parameter over its declared domain.
+    pub fn open(self, name: &str) -> Self {
+        self.opened(name, None, None)
+    }
+
+    /// Lets the tests vary a parameter over a part of its domain.
+    pub fn open_over(self, name: &str, domain: Domain) -> Self {
+        self.opened(name, Some(domain), None)
+    }
+
+    /// Lets the tests vary a parameter over its domain or a part of it, and over time if a variation is given.
+    pub fn opened(mut self, name: &str, over: Option<Domain>, variation: Option<Variation>) -> Self {
+        self.opened.push(Opened { name: name.to_owned(), over, variation });
+        self
+    }
+
+    /// Fixes a parameter at a value; a signal at a value or at a list of them.
+    pub fn fix(mut self, name: &str, value: impl Into<Value>) -> Self {
+        self.fixed.push((name.to_owned(), value.into()));
+        self
+    }
+
+    /// Distributes an open parameter so, where the probability of a failure is asked for.
+    pub fn distribute(mut self, name: &str, distribution: Distribution) -> Self {
+        self.distributions.push((name.to_owned(), distribution));
+        self
+    }
+
+    /// Lets the tests vary settings of cameras that record them, after all other open parameters.
+    pub fn open_cameras(mut self, settings: impl IntoIterator<Item = Parameter>) -> Self {
+        self.cameras.extend(settings);
+        self
+    }
+
+    /// Shows an actor to cameras as the model in a glTF file, stretched to the actor's size: the car under test is `car`, all
+    /// others are called as in traces and messages. Actors of one name, `tree`, `tree-2` and so on, look like the first unless
+    /// they have a model of their own.
+    pub fn show(mut self, actor: &str, file: &str) -> Self {
+        self.models.push((actor.to_owned(), file.to_owned()));
+        self
+    }
+
+    /// Asks the requirements of a TOML file of every trace, and keeps what it says of the design domain.
+    pub fn require(mut self, path: &Path) -> Self {
+        self.requirements.push(path.to_owned());
+        self
+    }
+
+    /// Keeps the table `[odd]` of a SPACE.toml, if it has one.
+    pub fn odd_of(mut self, path: &Path) -> Self {
+        self.odd = Some(path.to_owned());
+        self
+    }
+
+    /// Asks this formula, too, of every trace: as `spec-1`, the next as `spec-2`, in no unit and without a scale.
+    pub fn spec(self, formula: &str) -> Self {
+        self.spec_in(Semantics::Sampled, formula)
+    }
+
+    /// The same by the samples or between them.
+    pub fn spec_in(mut self, time: Semantics, formula: &str) -> Self {
+        self.specs.push((time, formula.to_owned()));
+        self
+    }
+
+    /// Chooses the tests so.
+    pub fn sampling(mut self, sampling: Sampling) -> Self {
+        self.sampling = sampling;
+        self
+    }
+
+    /// Chooses the tests by this strategy.
+    pub fn strategy(mut self, strategy: Strategy) -> Self {
+        self.sampling.strategy = strategy;
+        self
+    }
+
+    /// Runs this many tests.
+    pub fn budget(mut self, tests: usize) -> Self {
+        self.sampling.budget = tests;
+        self
+    }
+
+    /// Takes all chance of the strategy from this seed; without one, Halton is the plain sequence.
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.sampling.seed = Some(seed);
+        self
+    }
+
+    /// The study.
+    ///
+    /// # Errors
+    /// The program cannot be run; there is no such driver, setting, parameter or actor; a value is out of range; a parameter is
+    /// fixed twice; a file cannot be read or says what makes no sense; a formula is none of the study's signals; the budget or
+    /// the batch is 0. The error names what was found and what was expected.
+    pub fn build(self) -> Result<Study, Error> {
+        let (subject, space, requirements) = match &self.subject {
+            Wanted::Scenario(program) => {
+                let (simulation, space, requirements) = Simulation::new(program.clone())?;
+                (Subject::Scenario(Box::new(simulation)), space, requirements)
+            }
+            Wanted::System(system, space) => (Subject::System(system.clone()), space.clone(), Vec::new()),
+        };
+        self.sampling.check()?;
+        let made_by = Maker::this();
+        let mut study = Study { made_by, subject, space, requirements, odd: None, sampling: self.sampling.clone() };
+        if self.driver.is_some() || !self.driver_settings.is_empty() || self.driver_timeout.is_some() {
+            let simulation = study.subject.scenario_mut()?;
+            let wish = self.driver.clone().unwrap_or_else(|| Wish::Name(simulation.driver.name().to_owned()));
+            let (settings, timeout) = (&self.driver_settings, self.driver_timeout);
+            simulation.driver = DriverChoice::new(&wish, settings, timeout, &simulation.scenario)?;
+        }
+        if let Some(model) = self.vehicle {
+            study.subject.scenario_mut()?.vehicle = model;
+        }
+        self.open_and_fix(&mut study)?;
+        for (i, (name, distribution)) in self.distributions.iter().enumerate() {
+            if self.distributions[..i].iter().any(|(other, _)| other == name) {
+                return Err(ParameterMisuse::DistributedTwice { name: name.clone() }.into());
+            }
+            study.distribute(name, distribution)?;
+        }
+        if !self.cameras.is_empty() {
+            study.open_cameras(self.cameras)?;
+        }
+        self.models.iter().try_for_each(|(actor, file)| study.show(actor, file))?;
+        self.odd.iter().try_for_each(|path| study.odd_of_space(path))?;
+        self.requirements.iter().try_for_each(|path| study.require(path))?;
+        self.specs.iter().try_for_each(|(time, formula)| study.ask(*time, formula))?;
+        Ok(study)
+    }
+
+    fn open_and_fix(&self, study: &mut Study) -> Result<(), Error> {
+        for Opened { name, over, variation } in &self.opened {
+            study.open(name, over.as_ref())?;
+            variation.map_or(Ok(()), |variation| study.vary(name, variation))?;
+        }
+        for (i, (name, value)) in self.fixed.iter().enumerate() {
+            let is_opened = self.opened.iter().any(|opened| opened.name == *name);
+            if is_opened || self.fixed[..i].iter().any(|(other, _)| other == name) {
+                return Err(ParameterMisuse::Twice { name: name.clone() }.into());
+            }
+            study.fix(name, value.clone())?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,350 @@
+//! Who drives: a driver that comes with the engine, a network, one in a process of its own, or one that the program brings.
+
+use super::listed::{LATENCY, SEED};
+use super::network::{CLONED, Network, is_network};
+use crate::black_box::{TimeoutFlaw, checked_timeout};
+use crate::process::{self, CommandFlaw};
+use crate::{Error, Reason};
+use paracosm_engine::driver::{self, Descriptor, Driver, DriverError, Setting};
+use paracosm_rpc::{Address, AddressError, Terms};
+use paracosm_space::{Record, did_you_mean, nearest};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
+use thiserror::Error;
+
+/// The driver where nothing is said.
+const USUAL: &str = "aeb";
+
+/// A driver with all its settings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
+pub struct DriverChoice {
+    name: String,
+    settings: Record<f64>,
+    source: Source,
+}
+
+/// How a driver is made.
+#[derive(Debug, Clone, PartialEq)]
+enum Source {
+    /// By the engine, if it knows the name.
+    Engine,
+    Network(Box<Network>),
+    External(External),
+    Own(Own),
+}
+
+/// A driver in a process of its own.
+#[derive(Debug, Clone, PartialEq)]
+struct External {
+    by: By,
+    /// How long it may take to answer, in seconds.
+    timeout: f64,
+    origin: Origin,
+}
+
+/// Where drivers come from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Origin {
+    /// They are made in this process.
+    Here,
+    /// A server that somebody has started.
+    Server(Address, Terms),
+    /// A process that is started with these words.
+    Process(Vec<String>, Terms),
+}
+
+/// A driver as campaign.json has it.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    name: String,
+    settings: Record<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    external: Option<WrittenExternal>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    network: Option<Box<Network>>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct WrittenExternal {
+    by: By,
+    timeout: f64,
+}
+
+/// What the name of a driver in a process of its own is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum By {
+    Address,
+    Command,
+}
+
+/// Makes a driver that no list has.
+#[derive(Clone)]
+pub(super) struct Own(Arc<dyn Fn() -> Box<dyn Driver> + Send + Sync>);
+
+impl fmt::Debug for Own {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Own")
+    }
+}
+
+impl PartialEq for Own {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+/// A driver that was asked for.
+#[derive(Debug, Clone)]
+pub(super) enum Wish {
+    /// One of a list, a network, or one at an address.
+    Name(String),
+    /// The one that a command starts.
+    Command(String),
+    /// One of the program's own.
+    Own(String, Own),
+}
+
+impl Wish {
+    pub fn own(name: &str, make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static) -> Self {
+        Self::Own(name.to_owned(), Own(Arc::new(make)))
+    }
+}
+
+/// Why there is no such driver.
+#[derive(Debug, Error)]
+pub enum DriverFlaw {
+    /// No driver has that name.
+    #[error("no driver is called `{name}`{}; `paracosm-fuzz list` shows them all", did_you_mean(.nearest))]
+    Unknown {
+        /// The name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// The driver has no such setting, or it is out of range.
+    #[error("{0}; `paracosm-fuzz list` shows them all")]
+    Setting(DriverError),
+    /// A network has one setting only.
+    #[error("driver `{driver}` is a network and has no setting `{setting}`, only `{}`", LATENCY.name)]
+    NetworkSetting {
+        /// The driver.
+        driver: String,
+        /// The setting.
+        setting: String,
+    },
+    /// A setting of a driver in a process of its own is out of range.
+    #[error(
+        "driver.{setting} is {value}, expected {} from {} to {}",
+        if *whole { "a whole number" } else { "a number" }, range.0, range.1
+    )]
+    OutOfRange {
+        /// The setting.
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+        /// Least and greatest value.
+        range: (f64, f64),
+        /// Whether it has to be a whole number.
+        whole: bool,
+    },
+    /// A setting that is passed on is no number.
+    #[error("driver.{setting} is {value}, expected a finite number")]
+    NotFinite {
+        /// The setting.
+        setting: String,
+        /// Its value.
+        value: f64,
+    },
+    /// The address is none.
+    #[error("--driver {0}")]
+    Address(AddressError),
+    /// The command is none.
+    #[error("--driver-command '{command}': {flaw}")]
+    Command {
+        /// The command.
+        command: String,
+        /// What is wrong with it.
+        flaw: CommandFlaw,
+    },
+    /// The time-out is none.
+    #[error(transparent)]
+    Timeout(#[from] TimeoutFlaw),
+    /// The driver has no time-out.
+    #[error(
+        "--timeout is for a --system, a --driver-command and a driver at an address, and `{driver}` is none of them"
+    )]
+    NoTimeout {
+        /// The driver.
+        driver: String,
+    },
+}
+
+impl Reason for DriverFlaw {}
+
+impl From<DriverError> for DriverFlaw {
+    fn from(error: DriverError) -> Self {
+        match error {
+            DriverError::Unknown { name, nearest: None } => {
+                let nearest = nearest(&name, [CLONED]);
+                Self::Unknown { name, nearest }
+            }
+            DriverError::Unknown { name, nearest } => Self::Unknown { name, nearest },
+            error => Self::Setting(error),
+        }
+    }
+}
+
+impl DriverChoice {
+    /// The driver where nothing is said.
+    pub(super) fn usual() -> Self {
+        Self::in_engine(USUAL, &[]).expect("it comes with the engine")
+    }
+
+    /// The driver that was asked for, in a scenario, with changed settings and a time-out.
+    pub(super) fn new(
+        wish: &Wish,
+        changes: &[(String, f64)],
+        timeout: Option<f64>,
+        scenario: &str,
+    ) -> Result<Self, Error> {
+        let choice = match wish {
+            Wish::Own(name, own) => {
+                Self { name: name.clone(), settings: Record::default(), source: Source::Own(own.clone()) }
+            }
+            Wish::Command(command) => Self::external(command, By::Command, changes.iter().cloned().collect(), timeout)?,
+            Wish::Name(name) if Address::is_meant(name) => {
+                Self::external(name, By::Address, changes.iter().cloned().collect(), timeout)?
+            }
+            Wish::Name(name) if is_network(name) => Self::network(name, changes, scenario)?,
+            Wish::Name(name) => Self::in_engine(name, changes)?,
+        };
+        match timeout {
+            Some(_) if !choice.is_external() => Err(DriverFlaw::NoTimeout { driver: choice.name }.into()),
+            _ => Ok(choice),
+        }
+    }
+
+    fn in_engine(name: &str, changes: &[(String, f64)]) -> Result<Self, DriverFlaw> {
+        let settings = driver::find(name)?.settings(changes)?;
+        let settings = settings.iter().map(|(name, value)| (name.to_owned(), value)).collect();
+        Ok(Self { name: name.to_owned(), settings, source: Source::Engine })
+    }
+
+    fn network(name: &str, changes: &[(String, f64)], scenario: &str) -> Result<Self, Error> {
+        if let Some((setting, _)) = changes.iter().find(|(setting, _)| setting != LATENCY.name) {
+            let (driver, setting) = (name.to_owned(), setting.clone());
+            return Err(DriverFlaw::NetworkSetting { driver, setting }.into());
+        }
+        let settings: Record<f64> = changes.iter().cloned().collect();
+        within(&settings, &LATENCY)?;
+        let source = Source::Network(Box::new(Network::of(name, scenario)?));
+        Ok(Self { name: name.to_owned(), settings, source })
+    }
+
+    fn external(name: &str, by: By, settings: Record<f64>, timeout: Option<f64>) -> Result<Self, DriverFlaw> {
+        within(&settings, &LATENCY)?;
+        within(&settings, &SEED)?;
+        if let Some((name, value)) = settings.iter().find(|(_, value)| !value.is_finite()) {
+            return Err(DriverFlaw::NotFinite { setting: name.to_owned(), value: *value });
+        }
+        let timeout = checked_timeout(timeout)?;
+        let passed_on = settings.iter().filter(|(name, _)| ![LATENCY.name, SEED.name].contains(name));
+        let terms = Terms {
+            seed: settings.get(SEED.name).copied().unwrap_or(0.0) as u64,
+            settings: passed_on.map(|(name, value)| (name.to_owned(), *value)).collect(),
+            timeout: Duration::from_secs_f64(timeout),
+        };
+        let origin = match by {
+            By::Address => Origin::Server(name.parse().map_err(DriverFlaw::Address)?, terms),
+            By::Command => {
+                let wrong = |flaw| DriverFlaw::Command { command: name.to_owned(), flaw };
+                Origin::Process(process::words(name).map_err(wrong)?, terms)
+            }
+        };
+        Ok(Self { name: name.to_owned(), settings, source: Source::External(External { by, timeout, origin }) })
+    }
+
+    /// Its name; of one in a process of its own, the address or the command.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// A new driver of this kind.
+    ///
+    /// # Errors
+    /// The choice was read from a file and there is no such driver, network or setting.
+    ///
+    /// # Panics
+    /// The driver is in a process of its own.
+    pub fn build(&self) -> Result<Box<dyn Driver>, Error> {
+        match &self.source {
+            Source::Own(Own(make)) => Ok(make()),
+            Source::Network(network) => network.driver(&self.name),
+            Source::Engine => {
+                let settings: Vec<_> = self.settings.iter().map(|(name, value)| (name.to_owned(), *value)).collect();
+                let built = driver::find(&self.name).and_then(|found: &Descriptor| found.build(&settings));
+                Ok(built.map_err(DriverFlaw::from)?)
+            }
+            Source::External(_) => panic!("a driver in a process of its own is not made here"),
+        }
+    }
+
+    /// Whether it is in a process of its own.
+    pub fn is_external(&self) -> bool {
+        matches!(self.source, Source::External(_))
+    }
+
+    /// Seconds from when it is asked to when its answer takes effect, beside what the driver itself makes of time.
+    pub fn latency(&self) -> f64 {
+        let modelled = matches!(self.source, Source::External(_) | Source::Network(_));
+        self.settings.get(LATENCY.name).copied().filter(|_| modelled).unwrap_or(0.0)
+    }
+
+    /// Where it comes from.
+    pub fn origin(&self) -> &Origin {
+        match &self.source {
+            Source::External(external) => &external.origin,
+            _ => &Origin::Here,
+        }
+    }
+}
+
+fn within(settings: &Record<f64>, setting: &Setting) -> Result<(), DriverFlaw> {
+    let Setting { name, range, whole, .. } = *setting;
+    let wrong = |value: &f64| !(range.0..=range.1).contains(value) || whole && value.fract() != 0.0;
+    match settings.get(name).filter(|value| wrong(value)) {
+        Some(&value) => Err(DriverFlaw::OutOfRange { setting: name, value, range, whole }),
+        None => Ok(()),
+    }
+}
+
+impl TryFrom<Written> for DriverChoice {
+    type Error = DriverFlaw;
+
+    fn try_from(written: Written) -> Result<Self, DriverFlaw> {
+        let Written { name, settings, external, network } = written;
+        match (external, network) {
+            (Some(WrittenExternal { by, timeout }), _) => Self::external(&name, by, settings, Some(timeout)),
+            (None, Some(network)) => {
+                within(&settings, &LATENCY)?;
+                Ok(Self { name, settings, source: Source::Network(network) })
+            }
+            (None, None) => Ok(Self { name, settings, source: Source::Engine }),
+        }
+    }
+}
+
+impl From<DriverChoice> for Written {
+    fn from(choice: DriverChoice) -> Self {
+        let (external, network) = match choice.source {
+            Source::Engine | Source::Own(_) => (None, None),
+            Source::Network(network) => (None, Some(network)),
+            Source::External(External { by, timeout, .. }) => (Some(WrittenExternal { by, timeout }), None),
+        };
+        Self { name: choice.name, settings: choice.settings, external, network }
+    }
+}

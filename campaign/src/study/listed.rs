@@ -1,0 +1,66 @@
+//! The drivers that lists show: those of the engine, networks, and drivers in a process of their own.
+
+use super::network::CLONED;
+use paracosm_engine::driver::{self, Descriptor, Setting};
+
+/// The settings that every driver in a process of its own has, which are not passed on to the driver as others are. Networks
+/// have the first of them.
+pub(super) const LATENCY: Setting = Setting {
+    name: "latency",
+    default: 0.0,
+    unit: "s",
+    range: (0.0, 100.0),
+    whole: false,
+    about: "from when it is asked to when its answer takes effect",
+};
+pub(super) const SEED: Setting = Setting {
+    name: "seed",
+    default: 0.0,
+    unit: "",
+    // Up to here every whole number is a float.
+    range: (0.0, 9_007_199_254_740_992.0),
+    whole: true,
+    about: "where its chance and the noise of its sensors come from",
+};
+
+/// A driver as lists show it.
+#[derive(Debug, Clone, Copy)]
+pub struct ListedDriver {
+    /// The name by which it is chosen.
+    pub name: &'static str,
+    /// What it does, in one line.
+    pub about: &'static str,
+    /// The numbers that can be set.
+    pub settings: &'static [Setting],
+}
+
+impl ListedDriver {
+    /// A driver that comes with the engine.
+    pub const fn of(driver: &Descriptor) -> Self {
+        Self { name: driver.name, about: driver.about, settings: driver.settings }
+    }
+
+    /// All drivers that can be chosen: those of the engine, networks, and drivers in a process of their own.
+    pub fn all() -> impl Iterator<Item = Self> {
+        driver::ALL.iter().map(|driver| Self::of(driver)).chain(ELSEWHERE)
+    }
+}
+
+/// The drivers that are not made by the engine.
+const ELSEWHERE: [ListedDriver; 3] = [
+    ListedDriver {
+        name: CLONED,
+        about: "a network that comes with the software and drives by a camera (feature `neural`)",
+        settings: &[LATENCY],
+    },
+    ListedDriver {
+        name: "MODEL.onnx",
+        about: "a network of one's own in a file (feature `neural`)",
+        settings: &[LATENCY],
+    },
+    ListedDriver {
+        name: "grpc://HOST:PORT",
+        about: "a driver of your own, which listens there; --driver-command COMMAND starts one",
+        settings: &[LATENCY, SEED],
+    },
+];

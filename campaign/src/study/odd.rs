@@ -1,0 +1,140 @@
+//! What of the operational design domain (ODD) a study's tests are about, as its owner states it: attribute by attribute
+//! what is varied, and by which parameters; what is fixed; what is excluded, and why.
+//!
+//! Attributes have whatever names their owner gives them; those of ISO 34503 and BSI PAS 1883 (scenery, environmental
+//! conditions, dynamic elements, and what is below them) are a good start. That a parameter is varied is checked; what
+//! words say is not.
+
+use super::Study;
+use super::toml_file::TomlFile;
+use crate::{Error, Reason};
+use paracosm_space::{Record, Value, did_you_mean, nearest};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+use thiserror::Error;
+use toml::Spanned;
+
+/// Attributes of the design domain by their names.
+pub type Odd = Record<Attribute>;
+
+/// What becomes of an attribute in the tests.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Attribute {
+    /// The open parameters by which it is varied.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub varied: Vec<String>,
+    /// What it is in all tests.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub fixed: Option<String>,
+    /// What of it no test is about, and why.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub excluded: Option<String>,
+}
+
+/// The table `[odd]` of a file.
+pub(super) type Written = BTreeMap<String, Spanned<WrittenAttribute>>;
+
+/// An attribute as it is written there.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WrittenAttribute {
+    #[serde(default)]
+    varied: Vec<Spanned<String>>,
+    fixed: Option<String>,
+    excluded: Option<String>,
+}
+
+/// What is wrong with an attribute of the design domain.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum OddFlaw {
+    /// Nothing is said of it.
+    #[error("attribute `{attribute}`: expected `varied`, `fixed` or `excluded`")]
+    Nothing {
+        /// The attribute.
+        attribute: String,
+    },
+    /// It is said to be varied by a parameter that is fixed.
+    #[error(
+        "attribute `{attribute}`: `{parameter}` is not varied but {value} in all tests; --open {parameter} lets tests vary it"
+    )]
+    Fixed {
+        /// The attribute.
+        attribute: String,
+        /// The parameter.
+        parameter: String,
+        /// Its value.
+        value: Value,
+    },
+    /// It is said to be varied by what is no parameter.
+    #[error(
+        "attribute `{attribute}`: the tests vary no `{parameter}`{}; they vary {}", did_you_mean(.nearest), open.join(", ")
+    )]
+    NotOpen {
+        /// The attribute.
+        attribute: String,
+        /// The parameter.
+        parameter: String,
+        /// A parameter that was perhaps meant.
+        nearest: Option<String>,
+        /// The open parameters.
+        open: Vec<String>,
+    },
+    /// Two files speak of the design domain.
+    #[error("[odd] stands in the space as well, expected it once")]
+    Twice,
+}
+
+impl Reason for OddFlaw {}
+
+impl Study {
+    /// Keeps the table `[odd]` of a SPACE.toml, if it has one.
+    pub(super) fn odd_of_space(&mut self, path: &Path) -> Result<(), Error> {
+        #[derive(Deserialize)]
+        struct Beside {
+            odd: Option<Written>,
+        }
+        let source = TomlFile::read(path)?;
+        let file: Beside = source.parse(&[("odd.*", &["varied", "fixed", "excluded"])])?;
+        match file.odd {
+            Some(odd) => self.keep_odd(odd, &source),
+            None => Ok(()),
+        }
+    }
+
+    pub(super) fn keep_odd(&mut self, written: Written, source: &TomlFile<'_>) -> Result<(), Error> {
+        let mut odd = Odd::default();
+        for (name, attribute) in written {
+            let start = attribute.span().start;
+            let WrittenAttribute { varied, fixed, excluded } = attribute.into_inner();
+            if varied.is_empty() && fixed.is_none() && excluded.is_none() {
+                return Err(source.at(start, OddFlaw::Nothing { attribute: name }));
+            }
+            for parameter in &varied {
+                let checked = self.check_varied(&name, parameter.get_ref());
+                checked.map_err(|flaw| source.at(parameter.span().start, flaw))?;
+            }
+            let varied = varied.into_iter().map(Spanned::into_inner).collect();
+            odd.set(name, Attribute { varied, fixed, excluded });
+        }
+        if self.odd.is_some() {
+            return Err(Error::in_file(source.path(), None, OddFlaw::Twice));
+        }
+        self.odd = Some(odd);
+        Ok(())
+    }
+
+    fn check_varied(&self, attribute: &str, parameter: &str) -> Result<(), OddFlaw> {
+        if self.space.parameter(parameter).is_ok() {
+            return Ok(());
+        }
+        let (attribute, name) = (attribute.to_owned(), parameter.to_owned());
+        if let Some(value) = self.fixed().get(parameter) {
+            return Err(OddFlaw::Fixed { attribute, parameter: name, value: value.clone() });
+        }
+        let open: Vec<String> = self.space.parameters().iter().map(|parameter| parameter.name.clone()).collect();
+        let nearest = nearest(parameter, open.iter().map(String::as_str)).map(str::to_owned);
+        Err(OddFlaw::NotOpen { attribute, parameter: name, nearest, open })
+    }
+}

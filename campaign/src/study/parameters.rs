@@ -1,0 +1,185 @@
+//! Which parameters the tests of a study vary, and how.
+
+use super::{Study, owned};
+use crate::{Error, Reason};
+use paracosm_engine::{Declared, Test};
+use paracosm_space::{Distribution, Domain, Parameter, Shape, Space, Value, Values, did_you_mean, nearest};
+use thiserror::Error;
+
+/// What the names of settings of cameras that record tests begin with. They vary with the tests and stand in the log, but the
+/// world knows nothing of them.
+const CAMERA: &str = "camera.";
+
+/// How an open parameter varies over time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Variation {
+    /// Not at all: a test has one value of it.
+    Constant,
+    /// With a value for every tick.
+    PerTick,
+    /// In a shape with a few coordinates.
+    Shape(Shape),
+}
+
+/// A parameter that cannot be opened or fixed so.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum ParameterMisuse {
+    /// The scenario has none of that name.
+    #[error("scenario `{scenario}` has no parameter `{name}`{}; it has {}", did_you_mean(.nearest), all.join(", "))]
+    Unknown {
+        /// The scenario.
+        scenario: String,
+        /// The name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<String>,
+        /// All names.
+        all: Vec<String>,
+    },
+    /// It takes single values, and was given an interval.
+    #[error("parameter `{name}` takes {domain}, which is no interval")]
+    NoInterval {
+        /// The name.
+        name: String,
+        /// What it takes.
+        domain: Domain,
+    },
+    /// It was fixed twice, or fixed and opened.
+    #[error("parameter `{name}` is set and opened, or set twice")]
+    Twice {
+        /// The name.
+        name: String,
+    },
+    /// It was given two distributions.
+    #[error("parameter `{name}` is distributed twice")]
+    DistributedTwice {
+        /// The name.
+        name: String,
+    },
+    /// It is fixed, and was given a distribution.
+    #[error("parameter `{name}` is fixed; --open {name} lets tests vary it")]
+    Fixed {
+        /// The name.
+        name: String,
+    },
+    /// It was the last open one.
+    #[error("with `{name}` fixed no parameter is left open, so there is nothing to test")]
+    LastOpen {
+        /// The name.
+        name: String,
+    },
+}
+
+impl Reason for ParameterMisuse {}
+
+/// The name of the parameter that is a setting of a camera.
+pub fn setting_name(camera: &str, setting: &str) -> String {
+    format!("{CAMERA}{camera}.{setting}")
+}
+
+/// Whether a parameter is one of the world.
+pub(super) fn is_of_world(name: &str) -> bool {
+    !name.starts_with(CAMERA)
+}
+
+impl Study {
+    /// Opens a parameter: lets the tests vary it, over its declared domain or over this part of it.
+    pub(super) fn open(&mut self, name: &str, over: Option<&Domain>) -> Result<(), Error> {
+        let mut parameter = self.declared(name)?;
+        if let Some(domain) = over {
+            let ends = match domain {
+                Domain::Interval { lo, hi } => vec![Value::Number(*lo), Value::Number(*hi)],
+                Domain::Choice(levels) => levels.clone(),
+            };
+            // If the ends of an interval are in the wrong order, that is reported before they are found to lie outside.
+            Space::new(vec![Parameter::new(name, domain.clone())])?;
+            for end in &ends {
+                parameter.check(end)?;
+            }
+            if matches!((&parameter.domain, domain), (Domain::Choice(_), Domain::Interval { .. })) {
+                return Err(ParameterMisuse::NoInterval { name: name.to_owned(), domain: parameter.domain }.into());
+            }
+            parameter.domain = domain.clone();
+            parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
+        }
+        let fixed = &mut self.subject.scenario_mut()?.fixed;
+        *fixed = fixed.iter().filter(|(key, _)| *key != name).map(owned).collect();
+        self.rebuild(name, Some(parameter))
+    }
+
+    /// Lets an open parameter vary over time.
+    pub(super) fn vary(&mut self, name: &str, variation: Variation) -> Result<(), Error> {
+        let signal = match variation {
+            Variation::Constant => None,
+            Variation::PerTick => Some(Shape::PiecewiseConstant { pieces: self.subject.scenario()?.ticks() }),
+            Variation::Shape(shape) => Some(shape),
+        };
+        let mut parameter = self.space.parameter(name)?.clone();
+        parameter.signal = signal;
+        parameter.default = parameter.default.take().filter(|value| parameter.check(value).is_ok());
+        self.rebuild(name, Some(parameter))?;
+        self.program()?.check(Test::new(&self.nominal()?, &self.space))?;
+        Ok(())
+    }
+
+    /// Fixes a parameter at a value; a signal at a value or at a list of them.
+    pub(super) fn fix(&mut self, name: &str, value: Value) -> Result<(), Error> {
+        self.declared(name)?.check(&value)?;
+        self.rebuild(name, None)?;
+        if self.space.parameters().is_empty() {
+            return Err(ParameterMisuse::LastOpen { name: name.to_owned() }.into());
+        }
+        self.subject.scenario_mut()?.fixed.set(name, value);
+        Ok(())
+    }
+
+    /// Distributes an open parameter so.
+    pub(super) fn distribute(&mut self, name: &str, distribution: &Distribution) -> Result<(), Error> {
+        if self.fixed().get(name).is_some() {
+            return Err(ParameterMisuse::Fixed { name: name.to_owned() }.into());
+        }
+        self.space = self.space.clone().with_distribution(name, distribution.clone())?;
+        Ok(())
+    }
+
+    /// Lets the tests vary settings of cameras that record them, after all other open parameters.
+    pub(super) fn open_cameras(&mut self, settings: Vec<Parameter>) -> Result<(), Error> {
+        self.space = Space::new(self.space.parameters().iter().cloned().chain(settings).collect())?;
+        Ok(())
+    }
+
+    /// A test with nominal values of the open parameters, and the values that are fixed.
+    pub(super) fn nominal(&self) -> Result<Values, Error> {
+        let mut test = self.program()?.declare()?.nominal();
+        for (name, value) in self.fixed().iter() {
+            test.set(name, value.clone());
+        }
+        for parameter in self.space.parameters().iter().filter(|parameter| is_of_world(&parameter.name)) {
+            test.set(&parameter.name, Declared { parameter: parameter.clone(), open: true }.nominal());
+        }
+        Ok(test)
+    }
+
+    /// Replaces the open parameter of a name, keeping the order in which the scenario declares parameters.
+    fn rebuild(&mut self, name: &str, with: Option<Parameter>) -> Result<(), Error> {
+        let declared = self.program()?.declare()?.parameters;
+        let kept = self.space.parameters().iter().filter(|parameter| parameter.name != name).cloned();
+        let mut open: Vec<Parameter> = kept.chain(with).collect();
+        open.sort_by_key(|parameter| declared.iter().position(|other| other.parameter.name == parameter.name));
+        self.space = Space::new(open)?;
+        Ok(())
+    }
+
+    fn declared(&self, name: &str) -> Result<Parameter, Error> {
+        let simulation = self.subject.scenario()?;
+        let declared = simulation.program()?.declare()?.parameters;
+        let found = declared.iter().find(|declared| declared.parameter.name == name);
+        let unknown = || {
+            let all: Vec<String> = declared.iter().map(|declared| declared.parameter.name.clone()).collect();
+            let nearest = nearest(name, all.iter().map(String::as_str)).map(str::to_owned);
+            let scenario = simulation.scenario.clone();
+            ParameterMisuse::Unknown { scenario, name: name.to_owned(), nearest, all }
+        };
+        Ok(found.ok_or_else(unknown)?.parameter.clone())
+    }
+}

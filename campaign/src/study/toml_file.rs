@@ -1,0 +1,111 @@
+//! A TOML file of a user: read with the lines and the nearest names that its errors are to say.
+
+use crate::{Error, Reason};
+use paracosm_space::{did_you_mean, nearest};
+use serde::de::DeserializeOwned;
+use std::fs;
+use std::path::Path;
+use thiserror::Error;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// The text of a file, and where it stands.
+pub(super) struct TomlFile<'p> {
+    path: &'p Path,
+    text: String,
+}
+
+/// The keys that a table may have. The table of a name is that below the root; `NAME.*` are all tables below it, and the empty
+/// name is the root.
+pub(super) type Keys<'k> = [(&'k str, &'k [&'static str])];
+
+/// What is wrong with a TOML file.
+#[derive(Debug, Error)]
+pub enum TomlFlaw {
+    /// A key that its table does not have.
+    #[error("unknown field `{key}`, expected one of {}{}", quoted(.expected), did_you_mean(.nearest))]
+    Key {
+        /// The key.
+        key: String,
+        /// The keys that its table may have.
+        expected: Vec<&'static str>,
+        /// A key that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// It is no TOML, or a value is of another type.
+    #[error("{}", .0.message())]
+    Syntax(toml::de::Error),
+}
+
+impl Reason for TomlFlaw {}
+
+fn quoted(keys: &[&str]) -> String {
+    keys.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ")
+}
+
+impl<'p> TomlFile<'p> {
+    pub fn read(path: &'p Path) -> Result<Self, Error> {
+        Ok(Self { path, text: fs::read_to_string(path).map_err(Error::io("read", path))? })
+    }
+
+    pub fn path(&self) -> &Path {
+        self.path
+    }
+
+    /// The contents.
+    ///
+    /// # Errors
+    /// They are no TOML or of another kind. A key that is unknown is named first.
+    pub fn parse<T: DeserializeOwned>(&self, keys: &Keys<'_>) -> Result<T, Error> {
+        toml::from_str(&self.text).map_err(|error| match self.unknown_key(keys) {
+            Some((offset, flaw)) => self.at(offset, flaw),
+            None => {
+                let line = error.span().map(|span| self.line(span.start));
+                Error::in_file(self.path, line, TomlFlaw::Syntax(error))
+            }
+        })
+    }
+
+    /// An error about what stands at a byte.
+    pub fn at(&self, offset: usize, flaw: impl Reason) -> Error {
+        Error::in_file(self.path, self.line(offset), flaw)
+    }
+
+    /// The line, from 1, of a byte.
+    fn line(&self, offset: usize) -> usize {
+        self.text[..offset.min(self.text.len())].matches('\n').count() + 1
+    }
+
+    fn unknown_key(&self, keys: &Keys<'_>) -> Option<(usize, TomlFlaw)> {
+        let document = DeTable::parse(&self.text).ok()?;
+        let root = document.get_ref();
+        keys.iter().find_map(|(place, expected)| {
+            let name = place.strip_suffix(".*");
+            let found = || root.get(name.unwrap_or(place));
+            match (place.is_empty(), name) {
+                (true, _) => unknown_in(root, expected),
+                (false, None) => tables(found()?).find_map(|table| unknown_in(table, expected)),
+                (false, Some(_)) => {
+                    let mut below = tables(found()?).flat_map(|table| table.values().flat_map(tables));
+                    below.find_map(|table| unknown_in(table, expected))
+                }
+            }
+        })
+    }
+}
+
+/// A table, or those of an array.
+fn tables<'d>(value: &'d Spanned<DeValue<'d>>) -> impl Iterator<Item = &'d DeTable<'d>> {
+    let array = match value.get_ref() {
+        DeValue::Array(array) => array.iter().filter_map(|entry| entry.get_ref().as_table()).collect(),
+        value => value.as_table().into_iter().collect::<Vec<_>>(),
+    };
+    array.into_iter()
+}
+
+fn unknown_in(table: &DeTable<'_>, expected: &[&'static str]) -> Option<(usize, TomlFlaw)> {
+    let key = table.keys().find(|key| !expected.contains(&key.get_ref().as_ref()))?;
+    let (start, key) = (key.span().start, key.get_ref().to_string());
+    let nearest = nearest(&key, expected.iter().copied());
+    Some((start, TomlFlaw::Key { key, expected: expected.to_vec(), nearest }))
+}

@@ -1,0 +1,178 @@
+//! A study as `campaign.json` has it, with what its campaign learned and which tests it extends.
+
+use crate::study::{Maker, Odd, Sampling, StatedRequirement, Study, Subject};
+use crate::{Catalogue, Extension, ExtensionRecord, Learned, Reason};
+use paracosm_generators::{Aim, DiscreteFamily, GeneratorError, Strategy};
+use paracosm_space::Space;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// The version of the files that this software writes.
+const FORMAT: u32 = 1;
+
+/// The contents of `campaign.json`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(try_from = "Entries", into = "Entries")]
+pub struct StudyFile {
+    /// The study. One that was read knows no program yet: [`Study::with_program_of`] looks for it.
+    pub study: Study,
+    /// The scales that its campaign has learned.
+    pub learned: Learned,
+    /// The tests that count as done.
+    pub extends: Option<ExtensionRecord>,
+}
+
+/// The entries of the file, in their order.
+#[derive(Serialize, Deserialize)]
+struct Entries {
+    format: u32,
+    version: String,
+    target: String,
+    #[serde(flatten)]
+    subject: Subject,
+    space: Space,
+    requirements: Vec<StatedRequirement>,
+    #[serde(skip_serializing_if = "Learned::is_empty", default)]
+    learned_scales: Learned,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    odd: Option<Odd>,
+    strategy: String,
+    discrete: String,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    delta: Option<f64>,
+    k: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    epsilon: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    measure: Option<String>,
+    skip: Option<u64>,
+    seed: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    batch: Option<usize>,
+    budget: usize,
+    #[serde(skip_serializing_if = "std::ops::Not::not", default)]
+    stop_at_first: bool,
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    extends: Option<ExtensionRecord>,
+}
+
+/// What keeps a file from holding a study that this software understands.
+#[derive(Debug, Error)]
+pub enum FormatFlaw {
+    /// It is of another version.
+    #[error("found format {found}, expected {FORMAT}: the campaign is of another version, {version}")]
+    Format {
+        /// The format.
+        found: u32,
+        /// The version of the software.
+        version: String,
+    },
+    /// It names a strategy, a family or an aim that there is not.
+    #[error(transparent)]
+    Sampling(#[from] GeneratorError),
+    /// It is no study, or not even JSON.
+    #[error("{0}")]
+    Json(serde_json::Error),
+}
+
+impl Reason for FormatFlaw {}
+
+impl FormatFlaw {
+    /// The line, from 1, at which JSON is broken.
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::Json(error) => Some(error.line()),
+            Self::Format { .. } | Self::Sampling(_) => None,
+        }
+    }
+}
+
+impl StudyFile {
+    /// A study, with what its campaign has learned and the tests that it extends.
+    pub fn new(study: &Study, learned: &Learned, extension: Option<&Extension>) -> Self {
+        let extends = extension.map(|extension| extension.record().clone());
+        Self { study: study.clone(), learned: learned.clone(), extends }
+    }
+
+    /// Reads a file's text, and looks for the program of its scenario.
+    ///
+    /// # Errors
+    /// It is no study, or of another version.
+    pub fn parse(text: &str, catalogue: &Catalogue) -> Result<Self, FormatFlaw> {
+        let entries: Entries = serde_json::from_str(text).map_err(FormatFlaw::Json)?;
+        let file = Self::try_from(entries)?;
+        Ok(Self { study: file.study.with_program_of(catalogue), ..file })
+    }
+
+    /// The file's text.
+    pub fn text(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("a study is always JSON");
+        text.push('\n');
+        text
+    }
+}
+
+impl TryFrom<Entries> for StudyFile {
+    type Error = FormatFlaw;
+
+    fn try_from(entries: Entries) -> Result<Self, FormatFlaw> {
+        let Entries { format, version, target, subject, space, requirements, odd, .. } = entries;
+        if format != FORMAT {
+            return Err(FormatFlaw::Format { found: format, version });
+        }
+        // The sequence had a name of its own, with a seed or without, until it was found to be the seeded `halton`.
+        let (strategy, seed) = match entries.strategy.as_str() {
+            "halton-shifted" => (Strategy::HALTON, Some(entries.seed.unwrap_or(0))),
+            name => (name.parse()?, entries.seed),
+        };
+        let discrete: DiscreteFamily = entries.discrete.parse()?;
+        let sampling = Sampling {
+            strategy,
+            discrete: discrete.with_delta(entries.delta)?,
+            k: entries.k,
+            epsilon: entries.epsilon,
+            aim: entries.measure.as_deref().map(str::parse::<Aim>).transpose()?,
+            skip: entries.skip,
+            seed,
+            batch: entries.batch,
+            budget: entries.budget,
+            stop_at_first: entries.stop_at_first,
+        };
+        let made_by = Maker { version, target };
+        let study = Study::of_file(made_by, subject, space, requirements, odd, sampling);
+        Ok(Self { study, learned: entries.learned_scales, extends: entries.extends })
+    }
+}
+
+impl From<StudyFile> for Entries {
+    fn from(file: StudyFile) -> Self {
+        let StudyFile { study, learned, extends } = file;
+        let (made_by, sampling) = (study.made_by().clone(), study.sampling());
+        let delta = match sampling.discrete {
+            DiscreteFamily::Random { delta } => Some(delta).filter(|delta| *delta != DiscreteFamily::DELTA),
+            DiscreteFamily::Ipog | DiscreteFamily::Cross => None,
+        };
+        Self {
+            format: FORMAT,
+            version: made_by.version,
+            target: made_by.target,
+            subject: study.subject().clone(),
+            space: study.space().clone(),
+            requirements: study.requirements().to_vec(),
+            learned_scales: learned,
+            odd: study.odd().cloned(),
+            strategy: sampling.strategy.name().to_owned(),
+            discrete: sampling.discrete.name().to_owned(),
+            delta,
+            k: sampling.k,
+            epsilon: sampling.epsilon,
+            measure: sampling.aim.as_ref().map(|aim| aim.name().to_owned()),
+            skip: sampling.skip,
+            seed: sampling.seed,
+            batch: sampling.batch_size(),
+            budget: sampling.budget,
+            stop_at_first: sampling.stop_at_first,
+            extends,
+        }
+    }
+}

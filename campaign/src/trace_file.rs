@@ -1,0 +1,173 @@
+//! A trace as a file: written to look at and to plot, read to be judged.
+
+use crate::Error;
+use crate::files::write_whole;
+use crate::folder::{Folder, NotYours};
+use crate::samples::TraceFlaw;
+use paracosm_oracles::Trace;
+use std::io::Read;
+use std::path::Path;
+
+/// By how much of the sample period a time may be off.
+const TOLERANCE: f64 = 0.01;
+
+/// Writes a trace as CSV: a column `time` in seconds, then one for each signal.
+///
+/// # Errors
+/// The file cannot be written, or has the name of a file that belongs to a campaign.
+pub fn write_trace(path: &Path, trace: &Trace) -> Result<(), Error> {
+    if path.file_name().is_some_and(Folder::owns) {
+        return Err(NotYours { path: path.to_owned(), what: "a trace" }.into());
+    }
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
+    write(["time".to_owned()].into_iter().chain(trace.signals().iter().cloned()).collect());
+    for (tick, row) in trace.rows().enumerate() {
+        let time = tick as f64 * trace.dt();
+        write([time].iter().chain(row).map(ToString::to_string).collect());
+    }
+    write_whole(path, &csv.into_inner().expect("memory does not fail to flush"))
+}
+
+/// Reads a trace from CSV as [`write_trace`] writes it: a column `time` in seconds, evenly spaced from 0 on, and one for
+/// each signal, with numbers, `true` and `false`. After each sample `goes_on` has a look at what has been read; where it
+/// wants no more the trace is left as one that was cut short, and otherwise it is complete.
+///
+/// # Errors
+/// That of `goes_on`; or the source, called `path`, is no such table: the error says in which line and why.
+pub fn read_trace(
+    path: &Path,
+    source: impl Read,
+    mut goes_on: impl FnMut(&Trace) -> Result<bool, Error>,
+) -> Result<Trace, Error> {
+    let mut csv = csv::Reader::from_reader(source);
+    let broken = |error: csv::Error| Error::in_csv(path, error);
+    let header: Vec<String> = csv.headers().map_err(broken)?.iter().map(str::to_owned).collect();
+    let mut table = Table::new(header).map_err(|flaw| Error::in_file(path, 1, flaw))?;
+    for record in csv.records() {
+        let record = record.map_err(broken)?;
+        let line = record.position().map(|position| position.line() as usize);
+        table.take(record.iter()).map_err(|flaw| Error::in_file(path, line, flaw))?;
+        if let Some(trace) = &table.trace
+            && !goes_on(trace)?
+        {
+            return Ok(table.trace.expect("it was just seen"));
+        }
+    }
+    let short = TraceFlaw::TooShort { samples: usize::from(table.first.is_some()) };
+    let mut trace = table.trace.ok_or_else(|| Error::in_file(path, None, short))?;
+    trace.finish();
+    Ok(trace)
+}
+
+/// A trace that is being read.
+struct Table {
+    /// Which column has the times, and which signals the others have.
+    time: usize,
+    signals: Vec<String>,
+    /// The last time, and the first sample as long as the sample period is not known.
+    last: f64,
+    first: Option<Vec<f64>>,
+    trace: Option<Trace>,
+}
+
+impl Table {
+    fn new(header: Vec<String>) -> Result<Self, TraceFlaw> {
+        let Some(time) = header.iter().position(|name| name == "time") else {
+            return Err(TraceFlaw::NoTime { signals: header });
+        };
+        let mut signals = header;
+        signals.remove(time);
+        if signals.is_empty() {
+            return Err(TraceFlaw::NoSignal);
+        }
+        let is_twice = |(i, name): &(usize, &String)| signals[..*i].contains(name) || *name == "time";
+        if let Some((_, signal)) = signals.iter().enumerate().find(is_twice) {
+            return Err(TraceFlaw::Twice { signal: signal.clone() });
+        }
+        Ok(Self { time, signals, last: 0.0, first: None, trace: None })
+    }
+
+    fn take<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), TraceFlaw> {
+        let sample = self.trace.as_ref().map_or(usize::from(self.first.is_some()), Trace::len);
+        let (mut time, mut row) = (f64::NAN, Vec::with_capacity(self.signals.len()));
+        for (column, cell) in cells.enumerate() {
+            let name = if column == self.time { "time" } else { &self.signals[row.len()] };
+            let no_number = || TraceFlaw::NoNumber { signal: name.to_owned(), found: cell.to_owned(), sample };
+            let number = number(cell.trim()).ok_or_else(no_number)?;
+            if column == self.time { time = number } else { row.push(number) }
+        }
+        let step = time - self.last;
+        match (&mut self.trace, self.first.take()) {
+            (None, None) if time == 0.0 => self.first = Some(row),
+            (None, None) => return Err(TraceFlaw::Begins { at: time }),
+            (None, Some(_)) if !(time > 0.0 && time.is_finite()) => {
+                return Err(TraceFlaw::Falls { from: 0.0, to: time, sample });
+            }
+            (None, Some(first)) => {
+                let trace = self.trace.insert(Trace::new(time, self.signals.clone()));
+                trace.record(&first);
+                trace.record(&row);
+            }
+            (Some(trace), _) if (step - trace.dt()).abs() <= TOLERANCE * trace.dt() => trace.record(&row),
+            (Some(trace), _) => {
+                return Err(TraceFlaw::Uneven { sample, found: time, expected: self.last + trace.dt() });
+            }
+        }
+        self.last = time;
+        Ok(())
+    }
+}
+
+/// What a cell says; nothing where it is no number.
+fn number(cell: &str) -> Option<f64> {
+    match cell {
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        _ => cell.parse().ok().filter(|number: &f64| !number.is_nan()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Trace, String> {
+        read_trace(Path::new("t.csv"), text.as_bytes(), |_| Ok(true)).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_table_is_read_as_the_trace_that_it_is() {
+        let trace = read("on,time,speed\ntrue,0,1\nfalse,0.1,-inf\n1,0.2,3e1\n").unwrap();
+        assert_eq!(
+            (trace.dt(), trace.signals(), trace.is_complete()),
+            (0.1, &["on".to_owned(), "speed".into()][..], true)
+        );
+        assert_eq!(trace.rows().flatten().copied().collect::<Vec<_>>(), [1.0, 1.0, 0.0, f64::NEG_INFINITY, 1.0, 30.0]);
+        let mut seen = 0;
+        let two = read_trace(Path::new("t.csv"), "time,x\n0,1\n1,2\n2,3\n".as_bytes(), |trace| {
+            seen = trace.len();
+            Ok(false)
+        });
+        assert!(seen == 2 && !two.unwrap().is_complete());
+    }
+
+    #[test]
+    fn what_is_no_trace_is_named_with_its_line() {
+        for (text, says) in [
+            ("", "expected `time`"),
+            ("time\n0\n", "no signal beside `time`"),
+            ("time,x,x\n", "two signals are called `x`"),
+            ("time,x\n0,1\n", "found 1 samples, expected two"),
+            ("time,x\n1,1\n", "line 2: the trace begins at 1 s, expected 0 s"),
+            ("time,x\n0,1\n0,1\n", "line 3: `time` goes from 0 to 0 at sample 1, expected it to rise"),
+            ("time,x\n0,1\n1,NaN\n", "line 3: `x` is `NaN` at sample 1, expected a number"),
+            ("time,x\n0,1\n1,\n", "line 3: `x` is `` at sample 1, expected a number"),
+            ("time,x\n0,1\n1,2\n3,2\n", "line 4: the samples are not evenly spaced: sample 2 is at 3 s, expected 2 s"),
+            ("time,x\n0,1\n1,2,3\n", "line 3"),
+        ] {
+            let message = read(text).unwrap_err();
+            assert!(message.starts_with("t.csv") && message.contains(says), "{says}: {message}");
+        }
+    }
+}

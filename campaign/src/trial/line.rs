@@ -1,0 +1,69 @@
+//! A trial as a line of the log has it.
+
+use super::metric::{UnknownWord, read};
+use super::{Metric, Problem, ProblemKind, Trial};
+use crate::json::Number;
+use paracosm_engine::Judgement;
+use paracosm_oracles::Verdict;
+use paracosm_space::{Record, Values};
+use serde::{Deserialize, Serialize};
+
+/// The entries of a line, in their order.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Line {
+    index: usize,
+    test: Values,
+    verdict: Verdict,
+    robustness: Record<Number>,
+    metrics: Record<Metric>,
+    ticks: usize,
+    trace_hash: Option<String>,
+    error: Option<String>,
+    /// The kind of the error; logs of older versions do not have it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    cause: Option<ProblemKind>,
+}
+
+impl From<Trial> for Line {
+    fn from(trial: Trial) -> Self {
+        let robustness = trial.judgements.iter();
+        let robustness = robustness.map(|judgement| (judgement.requirement.clone(), Number(judgement.robustness)));
+        let cause = trial.problem.as_ref().map(|problem| problem.kind.clone());
+        Self {
+            index: trial.index,
+            verdict: trial.verdict,
+            robustness: robustness.collect(),
+            metrics: trial.metrics().into_iter().collect(),
+            ticks: trial.ticks,
+            // That its world cannot be built is what the verdict says.
+            cause: cause.filter(|cause| !matches!(cause, ProblemKind::World | ProblemKind::Unstated)),
+            error: trial.problem.map(|problem| problem.message),
+            test: trial.test,
+            trace_hash: trial.trace_hash,
+        }
+    }
+}
+
+impl TryFrom<Line> for Trial {
+    type Error = UnknownWord;
+
+    fn try_from(line: Line) -> Result<Self, UnknownWord> {
+        let judgement = |(requirement, number): (&str, &Number)| Judgement::new(requirement, number.0);
+        let mut judgements: Vec<Judgement> = line.robustness.iter().map(judgement).collect();
+        let (measured, others) = read(line.metrics, &mut judgements)?;
+        let usual = if line.verdict == Verdict::Invalid { ProblemKind::World } else { ProblemKind::Unstated };
+        let cause = line.cause.unwrap_or(usual);
+        Ok(Self {
+            index: line.index,
+            test: line.test,
+            verdict: line.verdict,
+            problem: line.error.map(|message| Problem { kind: cause, message }),
+            judgements,
+            measured,
+            others,
+            ticks: line.ticks,
+            trace_hash: line.trace_hash,
+        })
+    }
+}

@@ -1,0 +1,190 @@
+//! Whoever runs tests: a scenario with a driver, or a process of a system that others wrote.
+//!
+//! The one place where a test becomes a trial, whatever it is run on.
+
+use crate::black_box::{Answer, Connection};
+use crate::darkroom::Darkroom;
+use crate::executor::Desk;
+use crate::expected::Expected;
+use crate::judge::judge;
+use crate::simulator::Simulator;
+use crate::study::Subject;
+use crate::{Error, Log, Problem, ProblemKind, Study, Trial};
+#[cfg(feature = "camera")]
+use paracosm_engine::sensor::Cameras;
+use paracosm_engine::sensor::Shutters;
+use paracosm_engine::{Judgement, Outcome, Run, Test};
+use paracosm_oracles::{Trace, Verdict};
+use paracosm_space::Values;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Runs the tests of a study, one at a time; or many in lockstep.
+pub struct Worker<'a> {
+    study: &'a Study,
+    bench: Bench<'a>,
+}
+
+/// What the tests are run on.
+enum Bench<'a> {
+    Simulator(Box<Simulator<'a>>),
+    System(Connection),
+}
+
+impl<'a> Worker<'a> {
+    /// A worker for the tests of a study.
+    ///
+    /// # Errors
+    /// The study was read from a file, and its scenario, driver, command or a formula does not exist or is none; or its
+    /// driver cannot be started, or sees through cameras and there is nothing to draw with.
+    pub fn new(study: &'a Study) -> Result<Self, Error> {
+        Self::until(study, Arc::default())
+    }
+
+    /// A worker that does not wait for a system or a driver any more once `stop` is set.
+    pub fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
+        let mut worker = Self::beside(study, stop, None)?;
+        if let Bench::Simulator(simulator) = &mut worker.bench {
+            simulator.start()?;
+        }
+        Ok(worker)
+    }
+
+    /// A worker like one that there is, with the darkroom of that one. If its driver cannot be had, its first test says so.
+    pub fn beside(study: &'a Study, stop: Arc<AtomicBool>, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
+        let bench = match study.subject() {
+            Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
+            Subject::System(system) => Bench::System(Connection::new(system, stop)?),
+        };
+        Ok(Self { study, bench })
+    }
+
+    /// What it runs tests of.
+    pub fn study(&self) -> &'a Study {
+        self.study
+    }
+
+    /// Starts the system, if it tests one; without it, that is done when it is needed.
+    ///
+    /// # Errors
+    /// The system cannot be started.
+    pub fn start(&mut self) -> Result<(), Error> {
+        match &mut self.bench {
+            Bench::Simulator(_) => Ok(()),
+            Bench::System(connection) => connection.start(),
+        }
+    }
+
+    /// Runs a test: what a campaign does with each, and a replay with one.
+    pub fn run(&mut self, index: usize, test: &Values) -> (Trial, Option<Trace>) {
+        let Self { study, bench } = self;
+        match bench {
+            Bench::Simulator(simulator) => {
+                let outcome = simulator.run(Test::new(&study.complete(test), study.space()));
+                judged(study, index, test, outcome)
+            }
+            Bench::System(connection) => asked(connection, study, index, test),
+        }
+    }
+
+    /// [`run`](Self::run), with a look at the run of a scenario whenever the driver is asked, and at the end.
+    pub fn watch(&mut self, index: usize, test: &Values, see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
+        self.film(index, test, None, see)
+    }
+
+    /// [`watch`](Self::watch), while these cameras film the run of a scenario.
+    pub fn film(
+        &mut self,
+        index: usize,
+        test: &Values,
+        cameras: Option<Shutters>,
+        see: impl FnMut(&Run),
+    ) -> (Trial, Option<Trace>) {
+        let Self { study, bench } = self;
+        match bench {
+            Bench::Simulator(simulator) => {
+                let outcome = simulator.watch(Test::new(&study.complete(test), study.space()), cameras, see);
+                judged(study, index, test, outcome)
+            }
+            Bench::System(connection) => asked(connection, study, index, test),
+        }
+    }
+
+    /// Runs a test of a log again, with a look at the run of a scenario whenever the driver is asked, and at the end. The trial is
+    /// the one that the campaign would have had.
+    pub fn replay(&mut self, log: &Log, logged: &Trial, see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
+        let (trial, trace) = self.watch(logged.index, &logged.test, see);
+        (Expected::of(self.study, &log.trials()[..logged.index]).check(trial), trace)
+    }
+
+    /// The cameras that its driver sees through: none where it sees nothing.
+    ///
+    /// # Errors
+    /// There is no driver to be had.
+    #[cfg(feature = "camera")]
+    pub fn eyes(&mut self) -> Result<Cameras, Error> {
+        match &mut self.bench {
+            Bench::Simulator(simulator) => Ok(simulator.eyes()?),
+            Bench::System(_) => Ok(Cameras::default()),
+        }
+    }
+
+    /// What draws for its drivers, if they see.
+    pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
+        match &self.bench {
+            Bench::Simulator(simulator) => simulator.darkroom(),
+            Bench::System(_) => None,
+        }
+    }
+
+    /// Runs those of these tests of a scenario that the desk gives out, so many at a time, until `stopped`. The first has
+    /// the index `first`.
+    pub fn run_in_lockstep(
+        &mut self,
+        (desk, at_once): (&Desk<Trial>, usize),
+        (first, tests): (usize, &[Values]),
+        stopped: impl Fn() -> bool,
+    ) {
+        let Self { study, bench: Bench::Simulator(simulator) } = self else { return };
+        let test = |place: usize| study.complete(&tests[place]);
+        let trial = |place: usize, outcome| judged(study, first + place, &tests[place], outcome).0;
+        simulator.run_in_lockstep(desk, at_once, (&test, study.space()), stopped, trial);
+    }
+}
+
+/// The trial of a test that was simulated, or broke; by the formulas of the study as well.
+fn judged(study: &Study, index: usize, test: &Values, outcome: Result<Outcome, Problem>) -> (Trial, Option<Trace>) {
+    match outcome {
+        Err(problem) => (Trial::broken(index, test.clone(), problem), None),
+        Ok(outcome) => {
+            let (mut trial, trace) = Trial::simulated(index, test.clone(), outcome);
+            trace.iter().for_each(|trace| judge(&mut trial, study.given(), trace));
+            (trial, trace)
+        }
+    }
+}
+
+/// The trial of a test that a system was asked.
+fn asked(connection: &mut Connection, study: &Study, index: usize, test: &Values) -> (Trial, Option<Trace>) {
+    let has_specs = study.given().next().is_some();
+    let wrong = |message: &str| Err(Problem::new(ProblemKind::Answer, message));
+    let answered = connection.ask(index, test).and_then(|answer| match answer {
+        Answer::Error(message) => Err(Problem::new(ProblemKind::System, message)),
+        Answer::Trace(trace) if has_specs => {
+            let mut trial = Trial::judged(index, test.clone(), Verdict::Pass, Vec::new()).traced(&trace);
+            judge(&mut trial, study.given(), &trace);
+            Ok((trial, Some(trace)))
+        }
+        Answer::Trace(_) => wrong("the system answers with a trace, which says nothing without a --spec to ask of it"),
+        Answer::Robustness(_) if has_specs => {
+            wrong("the system answers with robustness, expected a trace of which to ask the --spec")
+        }
+        Answer::Robustness(worths) => {
+            let is_violated = worths.iter().any(|(_, worth)| *worth < 0.0);
+            let verdict = if is_violated { Verdict::Fail } else { Verdict::Pass };
+            let judgements = worths.into_iter().map(|(id, worth)| Judgement::new(id, Some(worth)));
+            Ok((Trial::judged(index, test.clone(), verdict, judgements.collect()), None))
+        }
+    });
+    answered.unwrap_or_else(|problem| (Trial::broken(index, test.clone(), problem), None))
+}

@@ -1,0 +1,18 @@
+//! Blur: a lens makes a Gaussian of a point.
+
+use super::{Effect, FARTHEST, Kernel};
+use paracosm_engine::sensor::CameraSetting;
+
+pub(super) const EFFECT: Effect = Effect {
+    name: "blur",
+    about: "makes a Gaussian of a point",
+    settings: &[CameraSetting::of_lens(
+        "blur",
+        "pixels",
+        // A Gaussian is cut off at four standard deviations.
+        (0.0, FARTHEST / 4.0),
+        "the standard deviation in pixels of the Gaussian that the lens makes of a point",
+    )],
+    is_idle: |settings| settings[0] == 0.0,
+    apply: |settings, light, _| Kernel::gaussian(settings[0]).iter().for_each(|kernel| light.spread(kernel)),
+};

@@ -1,0 +1,17 @@
+//! Defocus: a point becomes a disc.
+
+use super::{Effect, FARTHEST, Kernel};
+use paracosm_engine::sensor::CameraSetting;
+
+pub(super) const EFFECT: Effect = Effect {
+    name: "defocus",
+    about: "makes an evenly bright disc of a point",
+    settings: &[CameraSetting::of_lens(
+        "defocus",
+        "pixels",
+        (0.0, FARTHEST),
+        "the radius in pixels of the disc that a point becomes out of focus",
+    )],
+    is_idle: |settings| settings[0] == 0.0,
+    apply: |settings, light, _| light.spread(&Kernel::disc(settings[0])),
+};

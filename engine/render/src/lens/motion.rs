@@ -1,0 +1,25 @@
+//! Motion blur: the image moves while it is exposed.
+
+use super::{Effect, FARTHEST, Kernel};
+use paracosm_engine::sensor::CameraSetting;
+
+pub(super) const EFFECT: Effect = Effect {
+    name: "motion",
+    about: "smears the image along a line",
+    settings: &[
+        CameraSetting::of_lens(
+            "motion",
+            "pixels",
+            (0.0, FARTHEST),
+            "the pixels over which motion smears the image, along `motion_angle`",
+        ),
+        CameraSetting::of_lens(
+            "motion_angle",
+            "degrees",
+            (-360.0, 360.0),
+            "the direction of that motion in degrees, counter-clockwise from the right",
+        ),
+    ],
+    is_idle: |settings| settings[0] == 0.0,
+    apply: |settings, light, _| light.spread(&Kernel::line(settings[0], settings[1].to_radians())),
+};

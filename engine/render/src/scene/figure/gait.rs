@@ -1,0 +1,87 @@
+//! How people walk: limbs that swing by the way that they have come, and further the faster they go.
+//!
+//! A leg swings about the hip as a sine of the way, and its knee bends while it comes forward; arms swing against legs. The hips
+//! are as high as the lower of the two soles needs. A walk is therefore a function of the state of the run.
+
+use super::{CHILD, Figure};
+use crate::mesh::models::Models;
+use crate::mesh::person::{HIP, SHIN, SHOULDER, SIZE, SOLE, THIGH};
+use crate::scene::Instance;
+use nalgebra::{Isometry3, Vector3};
+use std::f32::consts::{PI, TAU};
+
+/// How far a leg swings in a walk, in radians from the middle, and how much further in a run.
+const SWING: f32 = 0.45;
+const RUN: f32 = 0.25;
+/// Speeds in m/s at which a person of 1.8 m walks at a good pace, and from which on, and up to which, it runs.
+const PACE: f32 = 1.4;
+const RUNS: [f32; 2] = [2.0, 4.5];
+/// The length of two steps by the height: at a good pace the soles do not slide.
+const STRIDE: f32 = 0.89;
+/// How far the knee bends by how far the leg swings, and how far the arm swings by it.
+const KNEE: f32 = 2.0;
+const ARM: f32 = 0.8;
+/// A person that is slower than this faces as its pose says, a faster one where it goes, in m/s.
+const STANDS: f64 = 0.05;
+
+/// A leg: how far it is swung forward, and how far its knee is bent, in radians.
+#[derive(Debug, Clone, Copy)]
+struct Leg {
+    hip: f32,
+    knee: f32,
+}
+
+/// The parts of a person.
+pub(super) fn walker(figure: &Figure<'_>, models: &Models, scene: &mut Vec<Instance>) {
+    let velocity = figure.state.velocity;
+    let speed = velocity.norm();
+    let mut figure = Figure { ..*figure };
+    if speed > STANDS {
+        let heading = libm::atan2(velocity.y, velocity.x) as f32;
+        figure.pose.rotation = nalgebra::UnitQuaternion::from_axis_angle(&Vector3::z_axis(), heading);
+    }
+    let height = figure.size[2];
+    let [x, y, z] = [0, 1, 2].map(|axis| figure.size[axis] / SIZE[axis]);
+    let swing = swing(speed as f32 * SIZE[2] / height);
+    // In 64 bits: the way may be long.
+    let steps = figure.state.travelled / f64::from(STRIDE * height);
+    let phase = TAU * (steps - steps.floor()) as f32;
+    let legs = [phase, phase + PI].map(|phase| leg(phase, swing));
+    let hips = legs.iter().map(|leg| leg.reach(x, z)).fold(0.0, f32::max);
+    let lift = hips - HIP[1] * z;
+    let trunk = if height < CHILD { &models.child } else { &models.adult };
+    scene.push(figure.part(trunk, Isometry3::translation(0.0, 0.0, lift), [x, y, z]));
+    for ((side, leg), arm) in [1.0, -1.0].into_iter().zip(legs).zip(&models.arms) {
+        let shoulder = Vector3::new(0.0, side * SHOULDER[0] * y, SHOULDER[1] * z + lift);
+        scene.push(figure.part(arm, forward(shoulder, -ARM * leg.hip), [x, y, z]));
+        let hip = forward(Vector3::new(0.0, side * HIP[0] * y, hips), leg.hip);
+        scene.push(figure.part(&models.thigh, hip, [x, y, z]));
+        let knee = hip * forward(Vector3::z() * (-THIGH * z), -leg.knee);
+        scene.push(figure.part(&models.shin, knee, [x, y, z]));
+    }
+}
+
+/// How far legs swing at a speed in m/s of a person of 1.8 m.
+fn swing(speed: f32) -> f32 {
+    let run = (speed - RUNS[0]) / (RUNS[1] - RUNS[0]);
+    SWING * (speed / PACE).min(1.0) + RUN * run.clamp(0.0, 1.0)
+}
+
+fn leg(phase: f32, swing: f32) -> Leg {
+    let (sin, cos) = libm::sincosf(phase);
+    Leg { hip: swing * sin, knee: KNEE * swing * cos.max(0.0) }
+}
+
+/// A joint at a point, whose limb is swung forward by an angle.
+fn forward(joint: Vector3<f32>, angle: f32) -> Isometry3<f32> {
+    Isometry3::new(joint, Vector3::y() * -angle)
+}
+
+impl Leg {
+    /// How far its lowest point is below the hip, of a person scaled by `x` and `z`.
+    fn reach(&self, x: f32, z: f32) -> f32 {
+        let (thigh, (sin, cos)) = (libm::cosf(self.hip), libm::sincosf(self.hip - self.knee));
+        let sole = SOLE.map(|along| SHIN * z * cos - along * x * sin);
+        THIGH * z * thigh + sole[0].max(sole[1])
+    }
+}

@@ -1,0 +1,183 @@
+//! The one table of the settings of cameras: those that the engine uses, then those of the effects of the lens, in the
+//! order in which light passes. Readers of files, checks, variation from test to test and documents go by it.
+
+use crate::CameraError;
+use crate::lens::{EFFECTS, Effect};
+use paracosm_engine::sensor::{CORE_CAMERA_SETTINGS, CameraSetting, CameraSpec, Cameras};
+use paracosm_space::{Record, did_you_mean, nearest};
+use thiserror::Error;
+
+/// The key of the resolution, which is no single number and has no row in the table.
+pub const RESOLUTION: &str = "resolution";
+
+/// The most pixels each way, so that a slip of the finger does not ask for more memory than there is.
+const MOST_PIXELS: u32 = 8192;
+
+/// The table of all settings that cameras have.
+pub fn camera_settings() -> CameraSettings {
+    CameraSettings::with(EFFECTS)
+}
+
+/// A table of settings.
+#[derive(Debug, Clone, Copy)]
+pub struct CameraSettings {
+    effects: &'static [&'static Effect],
+}
+
+/// A camera that cannot be.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("camera `{camera}`: {flaw}")]
+pub struct NoCamera {
+    /// Its name.
+    pub camera: String,
+    /// What is wrong with it.
+    pub flaw: CameraFlaw,
+}
+
+/// What keeps a description from being that of a camera.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum CameraFlaw {
+    /// An image with too few or too many pixels.
+    #[error("`{RESOLUTION}` is {found:?}, expected 1 to {MOST_PIXELS} pixels each way")]
+    Resolution {
+        /// Its pixels.
+        found: [u32; 2],
+    },
+    /// A number, or a number of a list, out of range.
+    #[error("`{}` is {}, expected {}", settings[0].key, listed(found), ranges(settings))]
+    OutOfRange {
+        /// The settings of one key.
+        settings: Vec<CameraSetting>,
+        /// Their values.
+        found: Vec<f64>,
+    },
+    /// A key that no setting has.
+    #[error("there is no key `{key}`{}, expected some of {}", did_you_mean(nearest), known.join(", "))]
+    UnknownKey {
+        /// The key.
+        key: String,
+        /// A key that was perhaps meant.
+        nearest: Option<&'static str>,
+        /// All keys.
+        known: Vec<&'static str>,
+    },
+    /// A camera that the renderer refuses.
+    #[error(transparent)]
+    Refused(#[from] CameraError),
+}
+
+impl CameraFlaw {
+    /// The key of a file under which the wrong setting stands.
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Resolution { .. } => Some(RESOLUTION),
+            Self::OutOfRange { settings, .. } => settings.first().map(|setting| setting.key),
+            Self::UnknownKey { key, .. } => Some(key),
+            Self::Refused(_) => None,
+        }
+    }
+}
+
+impl CameraSettings {
+    /// The table of cameras whose lenses have these effects, in the order in which light passes them.
+    pub const fn with(effects: &'static [&'static Effect]) -> Self {
+        Self { effects }
+    }
+
+    /// The effects of the lens.
+    pub fn effects(self) -> &'static [&'static Effect] {
+        self.effects
+    }
+
+    /// All settings, in the order in which files have them. Those of one key stand beside each other.
+    pub fn iter(self) -> impl Iterator<Item = CameraSetting> {
+        let of_lens = self.effects.iter().flat_map(|effect| effect.settings);
+        CORE_CAMERA_SETTINGS.iter().chain(of_lens).copied()
+    }
+
+    /// The keys of a file, in their order: [`RESOLUTION`], then those of all settings.
+    pub fn keys(self) -> Vec<&'static str> {
+        let mut keys: Vec<_> = std::iter::once(RESOLUTION).chain(self.iter().map(|setting| setting.key)).collect();
+        keys.dedup();
+        keys
+    }
+
+    /// The settings of a key, more than one for a list.
+    ///
+    /// # Errors
+    /// There is no such key.
+    pub fn of_key(self, key: &str) -> Result<Vec<CameraSetting>, CameraFlaw> {
+        let settings: Vec<_> = self.iter().filter(|setting| setting.key == key).collect();
+        if settings.is_empty() { Err(self.unknown(key)) } else { Ok(settings) }
+    }
+
+    fn unknown(self, key: &str) -> CameraFlaw {
+        let known = self.keys();
+        CameraFlaw::UnknownKey { key: key.to_owned(), nearest: nearest(key, known.iter().copied()), known }
+    }
+
+    /// Checks that there is such a camera.
+    ///
+    /// # Errors
+    /// A number is out of its range, or the lens has a setting that does not exist.
+    pub fn check(self, camera: &CameraSpec) -> Result<(), CameraFlaw> {
+        if !camera.resolution.iter().all(|pixels| (1..=MOST_PIXELS).contains(pixels)) {
+            return Err(CameraFlaw::Resolution { found: camera.resolution });
+        }
+        if let Some(wrong) = self.iter().find(|setting| !setting.admits(setting.value(camera))) {
+            let settings = self.of_key(wrong.key)?;
+            let found = settings.iter().map(|setting| setting.value(camera)).collect();
+            return Err(CameraFlaw::OutOfRange { settings, found });
+        }
+        let of_lens = |name: &str| self.iter().any(|setting| setting.is_of_lens() && setting.name == name);
+        match camera.lens.iter().find(|(name, _)| !of_lens(name)) {
+            Some((unknown, _)) => Err(self.unknown(unknown)),
+            None => Ok(()),
+        }
+    }
+
+    /// Gives each camera all settings of its lens, in the order of the table: those that it does not say get their
+    /// defaults. Two sets of cameras that see the same are then equal, and are written alike.
+    pub fn complete(self, cameras: &mut Cameras) {
+        for camera in cameras.all.values_mut() {
+            let said = std::mem::replace(&mut camera.lens, Record::EMPTY);
+            let all = self.iter().filter(CameraSetting::is_of_lens);
+            let defaults = all.filter_map(|setting| Some((setting.name, setting.default?)));
+            defaults.for_each(|(name, default)| camera.lens.set(name, default));
+            said.iter().for_each(|(name, value)| camera.lens.set(name, *value));
+        }
+    }
+}
+
+/// Numbers as a file has them: one by itself, or a list.
+fn listed(found: &[f64]) -> String {
+    match found {
+        [alone] => alone.to_string(),
+        several => format!("{several:?}"),
+    }
+}
+
+/// The ranges of the settings of one key, with their units.
+fn ranges(settings: &[CameraSetting]) -> String {
+    let alike = |a: &CameraSetting, b: &CameraSetting| (a.range, a.unit) == (b.range, b.unit);
+    match settings {
+        [alone] if alone.unit.is_empty() => format!("{} ({})", range(alone), alone.about),
+        [alone] => range(alone),
+        [first, others @ ..] if others.iter().all(|other| alike(first, other)) => format!("{} each", range(first)),
+        several => {
+            let names = |alike: &[CameraSetting]| alike.iter().map(|setting| setting.name).collect::<Vec<_>>();
+            let group = |alike: &[CameraSetting]| format!("{} {}", range(&alike[0]), names(alike).join(" and "));
+            several.chunk_by(alike).map(group).collect::<Vec<_>>().join(", and ")
+        }
+    }
+}
+
+/// The range of a setting, with its unit.
+fn range(setting: &CameraSetting) -> String {
+    let number = |number: f64| if number.abs() < 1e6 { number.to_string() } else { format!("{number:e}") };
+    let (low, high) = setting.range;
+    format!("{} to {} {}", number(low), number(high), setting.unit).trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests;

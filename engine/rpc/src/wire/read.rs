@@ -1,0 +1,53 @@
+//! Reads what a client observes: what a server of drivers is told.
+
+use super::{Other as WireOther, Rectangle, Step, other};
+use nalgebra::Vector2;
+use paracosm_engine::object::{Class, Outline};
+use paracosm_engine::{Ahead, Observation, Other, Pose, Way};
+
+/// All classes of bodies, which are known by their names.
+const CLASSES: [Class; 8] = [
+    Class::Car,
+    Class::Truck,
+    Class::Bicycle,
+    Class::Pedestrian,
+    Class::Building,
+    Class::Tree,
+    Class::Sign,
+    Class::Prop,
+];
+
+/// Reads an observation from a step; what is missing there is 0.
+pub fn read(step: &Step, observation: &mut Observation) {
+    (observation.time, observation.speed, observation.travelled) = (step.time, step.speed, step.travelled);
+    let odometry = step.odometry.unwrap_or_default();
+    observation.odometry = Pose { position: Vector2::new(odometry.x, odometry.y), heading: odometry.heading };
+    observation.way = Way::default();
+    if let Some(way) = &step.way {
+        (observation.way.offset, observation.way.heading) = (way.offset, way.heading);
+        for (ahead, point) in observation.way.ahead.iter_mut().zip(way.ahead.chunks_exact(3)) {
+            *ahead = Ahead { position: Vector2::new(point[0], point[1]), curvature: point[2] };
+        }
+    }
+    observation.others.clear();
+    observation.others.extend(step.others.iter().map(Other::from));
+}
+
+impl From<&WireOther> for Other {
+    fn from(other: &WireOther) -> Self {
+        let outline = match other.outline {
+            Some(other::Outline::Rectangle(Rectangle { length, width })) => Outline::Rectangle { length, width },
+            Some(other::Outline::Radius(radius)) => Outline::Disc { radius },
+            None => Outline::Disc { radius: 0.0 },
+        };
+        let class = CLASSES.into_iter().find(|class| class.to_string() == other.class);
+        Self {
+            id: other.id as usize,
+            class: class.unwrap_or(Class::Prop),
+            position: Vector2::new(other.x, other.y),
+            velocity: Vector2::new(other.velocity_x, other.velocity_y),
+            heading: other.heading,
+            outline,
+        }
+    }
+}

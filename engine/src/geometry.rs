@@ -1,0 +1,92 @@
+//! Where things are: poses in the ground plane, and lines across it.
+
+use nalgebra::Vector2;
+use std::f64::consts::{PI, TAU};
+
+/// A position with a heading.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Pose {
+    /// Metres; x along the road, y to its left.
+    pub position: Vector2<f64>,
+    /// Radians, counter-clockwise from x.
+    pub heading: f64,
+}
+
+impl Pose {
+    /// The unit vector that the heading points along.
+    pub fn forward(&self) -> Vector2<f64> {
+        let (sin, cos) = libm::sincos(self.heading);
+        Vector2::new(cos, sin)
+    }
+
+    /// The unit vector to the left of the heading.
+    pub fn left(&self) -> Vector2<f64> {
+        let forward = self.forward();
+        Vector2::new(-forward.y, forward.x)
+    }
+
+    /// A point of the plane as seen from here: x ahead, y to the left.
+    pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
+        let ahead = self.forward();
+        let offset = point - self.position;
+        Vector2::new(ahead.dot(&offset), ahead.perp(&offset))
+    }
+
+    /// A pose of the plane as seen from here.
+    pub fn relative(&self, pose: &Pose) -> Pose {
+        Pose { position: self.to_local(pose.position), heading: wrapped(pose.heading - self.heading) }
+    }
+
+    /// A direction of the plane as seen from here.
+    pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
+        let ahead = self.forward();
+        Vector2::new(ahead.dot(&direction), ahead.perp(&direction))
+    }
+
+    /// A direction as seen from here, in the plane.
+    pub(crate) fn turn_to_plane(&self, local: Vector2<f64>) -> Vector2<f64> {
+        self.forward() * local.x + self.left() * local.y
+    }
+
+    /// Whether it is one: neither infinite nor NaN.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.position.iter().all(|metres| metres.is_finite()) && self.heading.is_finite()
+    }
+
+    /// The pose in the plane of what has the pose `local` as seen from here.
+    pub(crate) fn then(&self, local: &Pose) -> Pose {
+        let (sin, cos) = libm::sincos(self.heading);
+        let (x, y) = (local.position.x, local.position.y);
+        let position = self.position + Vector2::new(cos * x - sin * y, sin * x + cos * y);
+        Pose { position, heading: wrapped(self.heading + local.heading) }
+    }
+}
+
+/// A line across a road, with the direction in which traffic meets it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line {
+    pub(crate) name: String,
+    pub(crate) point: Vector2<f64>,
+    pub(crate) direction: Vector2<f64>,
+}
+
+impl Line {
+    /// How far the line lies ahead of a position, in metres; negative behind it.
+    pub fn ahead_of(&self, position: Vector2<f64>) -> f64 {
+        (self.point - position).dot(&self.direction)
+    }
+}
+
+/// A side of a road, seen along it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Where y is positive: beside the lanes of the opposite direction.
+    Left,
+    /// Where y is negative: beside lane 1.
+    Right,
+}
+
+/// The angle in (-π, π] that points the same way.
+pub(crate) fn wrapped(angle: f64) -> f64 {
+    angle - (((angle + PI) / TAU).ceil() - 1.0) * TAU
+}

@@ -1,0 +1,81 @@
+//! An object under construction: what it is made of before it is left to its behaviour.
+
+use super::Scenario;
+use crate::geometry::Pose;
+use crate::object::{Behaviour, Body, Geometric, Input, ObjectSetup, Output, Physical};
+use crate::stream::{Datum, Stream};
+
+/// An object under construction: [`Scenario::object`] begins it, and [`ObjectDraft::geometric`] or [`ObjectDraft::physical`] make
+/// it part of the world.
+#[must_use = "without a behaviour it is no object"]
+pub struct ObjectDraft<'a> {
+    scenario: &'a mut Scenario,
+    name: String,
+    bodies: Vec<(Body, Pose)>,
+}
+
+impl<'a> ObjectDraft<'a> {
+    pub(crate) fn new(scenario: &'a mut Scenario, name: String) -> Self {
+        Self { scenario, name, bodies: Vec::new() }
+    }
+
+    /// What the object is called: as it was asked for, with a number from the second of that name on.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Gives it a body, which stands at `start`. An object may have none, or several.
+    pub fn body(&mut self, body: Body, start: Pose) {
+        if let Some(measures) = body.problem() {
+            self.problem(&format!("is {measures}, expected finite lengths above 0"));
+        }
+        if !start.is_finite() {
+            let (x, y, heading) = (start.position.x, start.position.y, start.heading);
+            self.problem(&format!("stands at ({x}, {y}) and faces {heading}, expected numbers"));
+        }
+        self.bodies.push((body, start));
+    }
+
+    /// An input, and the stream that it is bound to at first.
+    pub fn input<T: Datum>(&mut self, name: &str, stream: impl Into<Stream<T>>) -> Input<T> {
+        self.scenario.wiring.input(&format!("{}.{name}", self.name), &stream.into())
+    }
+
+    /// An output.
+    pub fn output<T: Datum>(&mut self, name: &str) -> Output<T> {
+        self.scenario.wiring.output(&format!("{}.{name}", self.name))
+    }
+
+    /// An output that every trace records.
+    pub fn signal(&mut self, name: &str) -> Output<f64> {
+        let name = format!("{}.{name}", self.name);
+        let output = self.scenario.wiring.output(&name);
+        self.scenario.signals.push((name, output.source()));
+        output
+    }
+
+    /// Reports a mistake in what the object was made with: the world cannot be built. The message goes on from the
+    /// object's name.
+    pub fn problem(&mut self, message: &str) {
+        self.scenario.problem(format!("{} {message}", self.name));
+    }
+
+    /// Leaves the object to this behaviour, which moves its bodies.
+    pub fn geometric(self, behaviour: impl Geometric) {
+        let behaviour = Behaviour::Geometric(Box::new(behaviour));
+        self.scenario.objects.push(ObjectSetup { name: self.name, bodies: self.bodies, behaviour });
+    }
+
+    /// Leaves the object to the physics and to this behaviour, which pushes its one body of this mass in kg.
+    pub fn physical(mut self, mass: f64, behaviour: impl Physical) {
+        if self.bodies.len() != 1 {
+            let message = format!("is physical and has {} bodies, expected 1", self.bodies.len());
+            return self.problem(&message);
+        }
+        if !(mass > 0.0 && mass.is_finite()) {
+            self.problem(&format!("weighs {mass} kg, expected a finite number above 0"));
+        }
+        let behaviour = Behaviour::Physical(mass, Box::new(behaviour));
+        self.scenario.objects.push(ObjectSetup { name: self.name, bodies: self.bodies, behaviour });
+    }
+}

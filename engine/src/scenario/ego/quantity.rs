@@ -1,0 +1,197 @@
+//! What can be asked of the car under test besides what every trace records: measured only where a program asks for it.
+
+use super::Ego;
+use super::right_of_way;
+use crate::object::{BodyState, Output, Outputs, Wiring};
+use crate::road::RoadNetwork;
+use crate::stream::Stream;
+use nalgebra::Vector2;
+use std::cell::RefCell;
+
+/// A quantity of the car, or of the car and what is around it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    LateralAcceleration,
+    YawRate,
+    Jerk,
+    WheelSlip,
+    SlipAngle,
+    WheelsOnRoad,
+    StandingTime,
+    TimeToCollision,
+    Headway,
+    LaneMargin,
+    RightOfWay,
+    WayOffset,
+    Remaining,
+}
+
+/// The quantities that a program has asked for, with the outputs that show them.
+#[derive(Debug)]
+pub(super) struct Asked {
+    wiring: Wiring,
+    outputs: RefCell<Vec<(Quantity, Output<f64>)>>,
+}
+
+impl Quantity {
+    fn name(self) -> &'static str {
+        match self {
+            Quantity::LateralAcceleration => "car.lateral_acceleration",
+            Quantity::YawRate => "car.yaw_rate",
+            Quantity::Jerk => "car.jerk",
+            Quantity::WheelSlip => "car.wheel_slip",
+            Quantity::SlipAngle => "car.slip_angle",
+            Quantity::WheelsOnRoad => "car.wheels_on_road",
+            Quantity::StandingTime => "car.standing_time",
+            Quantity::TimeToCollision => "car.time_to_collision",
+            Quantity::Headway => "car.headway",
+            Quantity::LaneMargin => "car.lane_margin",
+            Quantity::RightOfWay => "car.right_of_way",
+            Quantity::WayOffset => "car.way_offset",
+            Quantity::Remaining => "car.remaining",
+        }
+    }
+
+    /// Its value now, with the car as the first of the bodies.
+    fn measure(self, ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 {
+        let state = ego.dynamics.state();
+        let wheels = || ego.dynamics.wheels().into_iter();
+        match self {
+            Quantity::LateralAcceleration => state.acceleration.y,
+            Quantity::YawRate => state.yaw_rate,
+            Quantity::Jerk => ego.jerk,
+            Quantity::WheelSlip => wheels().map(|wheel| wheel.slip_ratio.abs()).fold(0.0, f64::max),
+            Quantity::SlipAngle => wheels().map(|wheel| wheel.slip_angle.abs()).fold(0.0, f64::max),
+            Quantity::WheelsOnRoad => wheels().filter(|wheel| wheel.contact).count() as f64,
+            Quantity::StandingTime => ego.standing,
+            Quantity::TimeToCollision => least(bodies, time_to_collision),
+            Quantity::Headway => least(bodies, headway),
+            Quantity::LaneMargin => lane_margin(&bodies[0], network),
+            Quantity::RightOfWay => right_of_way::of(ego, bodies, network),
+            Quantity::WayOffset => ego.way_offset(),
+            Quantity::Remaining => ego.remaining(),
+        }
+    }
+}
+
+impl Asked {
+    pub fn new(wiring: Wiring) -> Self {
+        Self { wiring, outputs: RefCell::default() }
+    }
+
+    /// The stream of a quantity, which is shown from now on.
+    pub fn stream(&self, quantity: Quantity) -> Stream<f64> {
+        let mut outputs = self.outputs.borrow_mut();
+        if let Some((_, output)) = outputs.iter().find(|(asked, _)| *asked == quantity) {
+            return output.stream();
+        }
+        let output = self.wiring.output(quantity.name());
+        let stream = output.stream();
+        outputs.push((quantity, output));
+        stream
+    }
+
+    /// Shows all that has been asked for.
+    pub fn show(&self, ego: &Ego, bodies: &[BodyState], network: &RoadNetwork, outputs: &mut Outputs<'_>) {
+        for (quantity, output) in &*self.outputs.borrow() {
+            outputs.set(output, quantity.measure(ego, bodies, network));
+        }
+    }
+}
+
+/// The least of what the car and each of the others make together; infinite without any.
+fn least(bodies: &[BodyState], of: fn(&BodyState, &BodyState) -> f64) -> f64 {
+    let others = bodies[1..].iter().filter(|other| other.present);
+    others.map(|other| of(&bodies[0], other)).fold(f64::INFINITY, f64::min)
+}
+
+/// Another body as seen from the car: its middle, and the halves of the box along the car's axes that encloses it, with
+/// those of the car added.
+fn seen(car: &BodyState, other: &BodyState) -> (Vector2<f64>, Vector2<f64>) {
+    let enclosing = other.body.outline.enclosing(other.pose.heading - car.pose.heading);
+    (car.pose.to_local(other.pose.position), car.body.outline.half_extent() + enclosing)
+}
+
+/// Seconds until the boxes of the car and of another body meet if both go on with the velocities that they have;
+/// infinite if they will not, 0 where they do.
+fn time_to_collision(car: &BodyState, other: &BodyState) -> f64 {
+    let (middle, reach) = seen(car, other);
+    let closing = car.pose.turn_to_local(other.velocity - car.velocity);
+    let (mut from, mut to) = (0.0_f64, f64::INFINITY);
+    for axis in 0..2 {
+        let (x, v, reach) = (middle[axis], closing[axis], reach[axis]);
+        if v == 0.0 {
+            if x.abs() > reach {
+                return f64::INFINITY;
+            }
+        } else {
+            let (a, b) = ((-reach - x) / v, (reach - x) / v);
+            (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
+        }
+    }
+    if from <= to { from } else { f64::INFINITY }
+}
+
+/// Seconds that the car takes at its speed to where the body ahead of it is now: ahead is what its own box would run
+/// into if it went straight on.
+fn headway(car: &BodyState, other: &BodyState) -> f64 {
+    let (middle, reach) = seen(car, other);
+    let gap = middle.x - reach.x;
+    let in_the_way = middle.y.abs() < reach.y && gap >= 0.0;
+    if in_the_way { gap / car.velocity.norm() } else { f64::INFINITY }
+}
+
+/// How many metres of its lane are left beside the car, on the side where fewer are: of the nearest lane that leads its
+/// way. Negative where it is over the edge; minus its distance from the middle where no lane leads its way.
+fn lane_margin(car: &BodyState, network: &RoadNetwork) -> f64 {
+    let Some(seen) = network.project_along(&car.pose) else {
+        return -network.project(car.pose.position).distance;
+    };
+    let aside = car.body.outline.enclosing(car.pose.heading - seen.heading).y;
+    0.5 * network.lane(seen.lane).width - seen.offset.abs() - aside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose;
+    use crate::object::{Body, gap};
+    use proptest::prelude::*;
+
+    fn car(x: f64, y: f64, heading: f64, velocity: [f64; 2]) -> BodyState {
+        let pose = Pose { position: Vector2::new(x, y), heading };
+        BodyState { velocity: velocity.into(), ..BodyState::at_rest(Body::car(), pose) }
+    }
+
+    #[test]
+    fn time_to_collision_is_the_gap_by_the_closing_speed() {
+        let ego = car(0.0, 0.0, 0.0, [20.0, 0.0]);
+        assert_eq!(time_to_collision(&ego, &car(54.5, 0.0, 0.0, [10.0, 0.0])), 5.0);
+        assert_eq!(time_to_collision(&ego, &car(54.5, 3.5, 0.0, [10.0, 0.0])), f64::INFINITY);
+        assert_eq!(time_to_collision(&ego, &car(54.5, 0.0, 0.0, [30.0, 0.0])), f64::INFINITY);
+        assert_eq!(headway(&ego, &car(54.5, 0.0, 0.0, [30.0, 0.0])), 2.5);
+        assert_eq!(headway(&ego, &car(-54.5, 0.0, 0.0, [30.0, 0.0])), f64::INFINITY);
+    }
+
+    proptest! {
+        #[test]
+        fn bodies_along_the_axes_meet_at_the_time_to_collision_and_not_before(
+            x in -40.0..40.0, y in -10.0..10.0, v in prop::array::uniform2(-15.0..15.0), turned in 0..4
+        ) {
+            let heading = f64::from(turned) * std::f64::consts::FRAC_PI_2;
+            let ego = car(0.0, 0.0, 0.0, [10.0, 0.0]);
+            let other = car(x, y, heading, v);
+            let apart = |time: f64| {
+                let moved = |body: &BodyState| Pose { position: body.pose.position + body.velocity * time, ..body.pose };
+                gap((&ego.body.outline, &moved(&ego)), (&other.body.outline, &moved(&other)))
+            };
+            let time = time_to_collision(&ego, &other);
+            let end = time.min(20.0);
+            for i in 0..200 {
+                let at = end * f64::from(i) / 200.0;
+                prop_assert!(apart(at) > 0.0 || time == 0.0, "they meet at {} already", at);
+            }
+            prop_assert!(time == f64::INFINITY || apart(time) < 1e-6);
+        }
+    }
+}

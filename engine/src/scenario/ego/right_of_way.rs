@@ -1,0 +1,55 @@
+//! Who has the right of way where lanes of an intersection cross or join, and how soon they are there.
+
+use super::Ego;
+use crate::geometry::wrapped;
+use crate::object::BodyState;
+use crate::road::{LaneId, RoadNetwork};
+
+/// A body is on a lane whose middle is this near, in metres, and whose direction differs by no more than this, in radians.
+const ON_LANE: (f64, f64) = (1.2, 0.6);
+
+/// Seconds until the first of the others that have the right of way comes to a place of an intersection where the car is;
+/// infinite where none does, 0 where one is there already.
+///
+/// The places are the [conflicts](crate::road::Conflict) of the lanes that the car is on, those in which it gives way.
+/// Others count that are on the lane of the conflict or lead to it, and have not passed yet.
+pub(super) fn of(ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 {
+    let (car, others) = (&bodies[0], &bodies[1..]);
+    let half = car.body.outline.half_extent().x;
+    let mut least = f64::INFINITY;
+    for (lane, s) in ego.lanes(network) {
+        let here = network.lane(lane);
+        let within = here.conflicts.iter().filter(|c| c.gives_way && s + half > c.from && s - half < c.to);
+        for conflict in within {
+            let there = network.lane(conflict.with);
+            // The stretch of the other lane is the conflict as it is seen from there.
+            let Some(theirs) = there.conflicts.iter().find(|theirs| theirs.with == lane) else { continue };
+            let joins = here.successors.iter().any(|next| there.successors.contains(next));
+            for other in others.iter().filter(|other| other.present) {
+                let reach = other.body.outline.half_extent().x;
+                let Some(s_other) = along(other, conflict.with, network) else { continue };
+                let ahead = joins && there.length() - (s_other - reach) <= here.length() - (s + half);
+                if ahead || s_other - reach >= theirs.to {
+                    continue;
+                }
+                let way = (theirs.from - s_other - reach).max(0.0);
+                least = least.min(if way == 0.0 { 0.0 } else { way / other.velocity.norm() });
+            }
+        }
+    }
+    least
+}
+
+/// How many metres along a lane a body is that is on it; less than 0 on one that leads to it.
+fn along(other: &BodyState, lane: LaneId, network: &RoadNetwork) -> Option<f64> {
+    let on = |lane: LaneId| {
+        let seen = network.project_onto(lane, other.pose.position);
+        let turned = wrapped(other.pose.heading - seen.heading).abs();
+        (seen.distance <= ON_LANE.0 && turned <= ON_LANE.1).then_some(seen.s)
+    };
+    let before = || {
+        let predecessors = network.lane(lane).predecessors.iter();
+        predecessors.filter_map(|&before| Some(on(before)? - network.lane(before).length())).next()
+    };
+    on(lane).or_else(before)
+}

@@ -1,0 +1,157 @@
+//! The table of the numbers that describe a camera: one row says all that readers of files, checks, messages and documents
+//! have to know about a setting.
+//!
+//! The engine has the rows of the settings that it uses itself. The renderer adds those of its lens, which the engine
+//! hands on without knowing them.
+
+use super::CameraSpec;
+
+/// A number that describes a camera.
+#[derive(Debug, Clone, Copy)]
+pub struct CameraSetting {
+    /// The key in a file. Settings that share a key stand there as one list.
+    pub key: &'static str,
+    /// Its own name: the key, unless it is part of a list.
+    pub name: &'static str,
+    /// Its unit; empty if it has none.
+    pub unit: &'static str,
+    /// Its least and its greatest value.
+    pub range: (f64, f64),
+    /// Its value where a camera does not say it; `None` if every camera has to say it.
+    pub default: Option<f64>,
+    /// A common value, for messages and documents.
+    pub example: f64,
+    /// Its meaning, in a few words with the unit.
+    pub about: &'static str,
+    place: Place,
+}
+
+/// Where a camera has a setting.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    /// A field of its own.
+    Field { of: fn(&CameraSpec) -> f64, at: fn(&mut CameraSpec) -> &mut f64 },
+    /// The named settings of its lens.
+    Lens,
+}
+
+macro_rules! field {
+    ($($path:tt)+) => {
+        Place::Field { of: |camera| camera.$($path)+, at: |camera| &mut camera.$($path)+ }
+    };
+}
+
+/// The settings that the engine itself uses, in the order in which files have them. The resolution is no single number and
+/// is not among them.
+pub const CORE_CAMERA_SETTINGS: [CameraSetting; 11] = [
+    core("focal_mm", "mm", (0.1, 10_000.0), "the focal length in millimetres", field!(focal_mm)).required(24.0),
+    core("sensor_mm", "mm", (0.1, 1000.0), "the width of the sensor in millimetres", field!(sensor_mm)).required(36.0),
+    core("position", "m", SIDEWAYS, "metres ahead of the middle of the car", field!(position[0]))
+        .part("ahead")
+        .required(0.3),
+    core("position", "m", SIDEWAYS, "metres to the left of it", field!(position[1])).part("left").required(0.0),
+    core("position", "m", UPWARDS, "metres above the ground", field!(position[2])).part("up").required(1.35),
+    core("yaw_pitch_roll", "degrees", TURN, "degrees to the left", field!(yaw_pitch_roll[0])).part("yaw"),
+    core("yaw_pitch_roll", "degrees", TURN, "then degrees downwards", field!(yaw_pitch_roll[1])).part("pitch"),
+    core("yaw_pitch_roll", "degrees", TURN, "then degrees to the right", field!(yaw_pitch_roll[2])).part("roll"),
+    core("rate", "Hz", (0.001, 1000.0), "images a second", field!(rate)).required(10.0),
+    core("latency", "s", (0.0, 100.0), "the seconds from when an image is taken to when it is there", field!(latency)),
+    core("dropped", "", (0.0, 1.0), "the probability that an image is lost", field!(dropped)),
+];
+
+/// How far a camera may be from the car, in metres. Below the ground there is nothing to see but the sky.
+const SIDEWAYS: (f64, f64) = (-100.0, 100.0);
+const UPWARDS: (f64, f64) = (0.05, 100.0);
+/// A full turn each way, in degrees.
+const TURN: (f64, f64) = (-360.0, 360.0);
+
+const fn core(
+    key: &'static str,
+    unit: &'static str,
+    range: (f64, f64),
+    about: &'static str,
+    place: Place,
+) -> CameraSetting {
+    CameraSetting { place, ..CameraSetting::of_lens(key, unit, range, about) }
+}
+
+impl CameraSetting {
+    /// A setting of a lens or a sensor; it is 0 where a camera does not say it.
+    pub const fn of_lens(key: &'static str, unit: &'static str, range: (f64, f64), about: &'static str) -> Self {
+        Self { key, name: key, unit, range, default: Some(0.0), example: 0.0, about, place: Place::Lens }
+    }
+
+    /// The same with another default.
+    pub const fn with_default(self, default: f64) -> Self {
+        Self { default: Some(default), example: default, ..self }
+    }
+
+    const fn part(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+
+    const fn required(self, example: f64) -> Self {
+        Self { default: None, example, ..self }
+    }
+
+    /// Whether it belongs to the lens or the sensor: a camera has it in [`CameraSpec::lens`].
+    pub const fn is_of_lens(&self) -> bool {
+        matches!(self.place, Place::Lens)
+    }
+
+    /// Its value in a camera; the default where the camera does not say it.
+    pub fn value(&self, camera: &CameraSpec) -> f64 {
+        match self.place {
+            Place::Field { of, .. } => of(camera),
+            Place::Lens => camera.lens.get(self.name).copied().or(self.default).unwrap_or_default(),
+        }
+    }
+
+    /// Gives it a value in a camera.
+    pub fn set(&self, camera: &mut CameraSpec, value: f64) {
+        match self.place {
+            Place::Field { at, .. } => *at(camera) = value,
+            Place::Lens => camera.lens.set(self.name, value),
+        }
+    }
+
+    /// Whether a number is in its range.
+    pub fn admits(&self, number: f64) -> bool {
+        let (low, high) = self.range;
+        (low..=high).contains(&number)
+    }
+}
+
+/// A setting is known by its key and its name.
+impl PartialEq for CameraSetting {
+    fn eq(&self, other: &Self) -> bool {
+        (self.key, self.name) == (other.key, other.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A camera whose numbers differ from each other and from all defaults.
+    fn camera() -> CameraSpec {
+        let mut camera = CameraSpec { resolution: [4, 3], ..CameraSpec::default() };
+        let lens = CameraSetting::of_lens("blur", "pixels", (0.0, 16.0), "how blurred it is");
+        for (number, setting) in CORE_CAMERA_SETTINGS.iter().chain([&lens]).enumerate() {
+            setting.set(&mut camera, number as f64 + 0.5);
+        }
+        camera
+    }
+
+    #[test]
+    fn every_setting_has_a_place_of_its_own() {
+        let camera = camera();
+        for (number, setting) in CORE_CAMERA_SETTINGS.iter().enumerate() {
+            assert_eq!(setting.value(&camera), number as f64 + 0.5, "{}", setting.name);
+            assert!(setting.admits(setting.example) && !setting.is_of_lens(), "{}", setting.name);
+        }
+        assert_eq!((camera.position, camera.rate, camera.lens.get("blur")), ([2.5, 3.5, 4.5], 8.5, Some(&11.5)));
+        let lens = CameraSetting::of_lens("gain", "", (0.0, 9.0), "").with_default(2.0);
+        assert_eq!((lens.value(&camera), lens.admits(f64::NAN), lens.admits(9.0)), (2.0, false, true));
+    }
+}

@@ -1,0 +1,23 @@
+//! The README's first campaign in Rust: `cargo run --release --example campaign`. The folder is the one that the program
+//! `paracosm-fuzz --out runs/example` writes, byte for byte.
+
+use paracosm::{Error, Report, Study, Trial, catalogue, run_into};
+use std::path::Path;
+
+/// Runs the campaign into a folder, and prints each failure as it is found.
+pub fn campaign(folder: &Path) -> Result<Report, Error> {
+    let study = Study::of(catalogue().find("pedestrian-crossing")?).driver("aeb").budget(500).build()?;
+    let mut show = |trial: &Trial| {
+        if trial.is_failure() {
+            println!("test {} fails", trial.index);
+        }
+    };
+    run_into(&study, folder, &mut [&mut show])
+}
+
+/// Runs it, and says how many tests fail.
+pub fn main() -> Result<(), Error> {
+    let report = campaign(Path::new("runs/example"))?;
+    println!("{} of {} tests fail", report.modes.failures, report.log.trials().len());
+    Ok(())
+}

@@ -1,0 +1,113 @@
+//! How a generator of a strategy is built: what is asked for is checked here, once for all strategies.
+
+use crate::deal::Deal;
+use crate::family::Family;
+use crate::greedy::{GreedyRows, KwiseGreedy};
+use crate::mixed::Mixed;
+use crate::seeded::{Purpose, seeded};
+use crate::sequence::{MOST_SOBOL_DIMS, PerRow};
+use crate::spread::Spread;
+use crate::strategy::MethodKind;
+use crate::{Generator, GeneratorError, Request, Strategy};
+use paracosm_space::{Point, Space};
+
+impl Strategy {
+    /// A generator of this strategy.
+    ///
+    /// In a space with discrete parameters it is exhausted after the budget, or without continuous ones after
+    /// all rows of the family. In a continuous space a sequence goes on. An adaptive strategy goes on in every space, in
+    /// one without continuous parameters until every row that the constraints allow has been tested; the family's rows
+    /// are those that it begins with.
+    ///
+    /// # Errors
+    /// The space is empty, the budget 0, `k` or `delta` out of range, the family too large, an existing test none of
+    /// the space, or the strategy cannot give that many points, in that many dimensions, skip, extend, or aim.
+    pub fn build(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
+        let &Request { space, budget, seed, skip, k, aim, existing, .. } = request;
+        if space.parameters().is_empty() {
+            return Err(GeneratorError::EmptySpace);
+        }
+        if budget == 0 {
+            return Err(GeneratorError::NoBudget);
+        }
+        let first = match (self.first_index(), skip) {
+            (None, Some(_)) => return Err(self.cannot_skip()),
+            (default, skip) => skip.or(default).unwrap_or(0),
+        };
+        if aim.is_some() && !self.fills_holes() {
+            return Err(GeneratorError::NoAim { strategy: self.name() });
+        }
+        let seed_or_0 = seed.unwrap_or(0);
+        let dims = space.dims();
+        let rules = space.rules()?;
+        check_existing(space, existing)?;
+        match self.kind() {
+            MethodKind::Search { build, .. } => return build(self.descriptor(), request, rules),
+            MethodKind::Own(build) => return build(request),
+            MethodKind::Sequence(_) | MethodKind::Sets { .. } | MethodKind::Holes => {}
+        }
+        if !self.has_rows(request) {
+            let k = k.unwrap_or(2.min(dims + rules.levels().len()));
+            let rng = seeded(seed_or_0, Purpose::Greedy, 0);
+            return Ok(Box::new(KwiseGreedy::new(dims, &rules, k, rng, existing)?));
+        }
+        let family = Family::new(&rules, request)?;
+        if dims == 0 {
+            // Once each: repeating a row would be the same test again.
+            return Ok(Box::new(Mixed::discrete(family.without(existing))));
+        }
+        if !self.dims().contains(&dims) {
+            return Err(self.cannot_cover(dims));
+        }
+        if let Some(epsilon) = request.epsilon {
+            return Ok(Box::new(Spread::new(self, request, &family.without(&[]), first, epsilon)?));
+        }
+        if !self.fills_holes() && !existing.is_empty() {
+            return Err(GeneratorError::NoExtension { strategy: self.name() });
+        }
+        let deal = Deal::new(family.len(), budget as u64);
+        let sequence = match self.kind() {
+            MethodKind::Sequence(endless) => (endless.build)(dims, seed),
+            MethodKind::Sets { build, .. } => build(dims, seed, deal)?,
+            MethodKind::Holes => {
+                Box::new(PerRow::new(deal, GreedyRows::new(dims, seed_or_0, family.points_of_rows(existing))))
+            }
+            MethodKind::Search { .. } | MethodKind::Own(_) => unreachable!("such generators were built above"),
+        };
+        let (end, len) = (first.saturating_add(deal.indices()), sequence.len());
+        if end > len {
+            return Err(GeneratorError::IndexLimit { strategy: self.name(), len, last: end - 1 });
+        }
+        Ok(Box::new(Mixed::new(family, sequence, deal, first)))
+    }
+
+    fn cannot_cover(self, dims: usize) -> GeneratorError {
+        let (least, most) = self.dims().into_inner();
+        let made_for = if least == most { format!("exactly {most}") } else { format!("at most {most}") };
+        // Whatever has such a limit, an alternative is needed in few dimensions, in many, or in very many.
+        let instead = match dims {
+            ..10 => Self::KRONECKER,
+            10..=MOST_SOBOL_DIMS => Self::SOBOL_OWEN,
+            _ => Self::HALTON,
+        };
+        GeneratorError::Dimensions { strategy: self.name(), made_for, dims, instead: instead.name() }
+    }
+
+    fn cannot_skip(self) -> GeneratorError {
+        let sequences = Self::all().filter(|s| s.first_index().is_some()).map(Self::name);
+        GeneratorError::NoSequence { strategy: self.name(), sequences: sequences.collect::<Vec<_>>().join(", ") }
+    }
+}
+
+/// Checks that tests are of the space.
+fn check_existing(space: &Space, existing: &[Point]) -> Result<(), GeneratorError> {
+    let (dims, levels) = (space.dims(), space.levels());
+    let belongs = |test: &Point| {
+        test.continuous.len() == dims
+            && test.continuous.iter().all(|x| (0.0..=1.0).contains(x))
+            && test.discrete.len() == levels.len()
+            && test.discrete.iter().zip(&levels).all(|(level, levels)| level < levels)
+    };
+    let foreign = existing.iter().position(|test| !belongs(test));
+    foreign.map_or(Ok(()), |index| Err(GeneratorError::Foreign { index }))
+}

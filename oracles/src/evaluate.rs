@@ -1,0 +1,108 @@
+//! Formulas asked of a trace: what they are worth on it, and which part of them that comes down to.
+
+use crate::core::{Core, CoreKind, Id, Sight};
+use crate::offline::{Column, columns};
+use crate::worth::Worth;
+use crate::{Cause, Evaluation, EvaluationError, Formula, Semantics, Trace, dense};
+
+impl Formula {
+    /// What the formula is worth at the beginning of the trace, by its samples or between them.
+    ///
+    /// # Errors
+    /// As for [`evaluate`](Self::evaluate); in dense time also if a comparison is not piecewise linear or a sample is
+    /// infinite, while time bounds may be any.
+    pub fn evaluate_in(&self, semantics: Semantics, trace: &Trace) -> Result<Evaluation, EvaluationError> {
+        match semantics {
+            Semantics::Sampled => self.evaluate(trace),
+            Semantics::Dense if trace.is_empty() => Ok(Evaluation::UNKNOWN),
+            Semantics::Dense => dense::evaluate(self, trace),
+        }
+    }
+
+    /// What the formula is worth at the beginning of the trace, in time linear in the trace whatever the time bounds.
+    ///
+    /// On a trace without a sample nothing is decided, and the robustness is NaN.
+    ///
+    /// # Errors
+    /// The formula names a signal that the trace does not have, or has a time bound between two samples; or a number
+    /// that it depends on is NaN.
+    pub fn evaluate(&self, trace: &Trace) -> Result<Evaluation, EvaluationError> {
+        let (core, _) = Core::new(self, trace.signals(), trace.dt())?;
+        if trace.is_empty() {
+            return Ok(Evaluation::UNKNOWN);
+        }
+        let columns = columns(&core, trace, false)?;
+        let [recorded, lower, upper] = columns[columns.len() - 1].first();
+        Ok(Evaluation::new(recorded, lower, upper))
+    }
+
+    /// Which part of the formula, at which time, its robustness on this trace comes down to; if there are several, the
+    /// leftmost and the one nearest to where its operator stands. Nothing on a trace without a sample.
+    ///
+    /// # Errors
+    /// As for [`evaluate`](Self::evaluate).
+    pub fn explain(&self, trace: &Trace) -> Result<Option<Cause<'_>>, EvaluationError> {
+        let (core, parts) = Core::new(self, trace.signals(), trace.dt())?;
+        if trace.is_empty() {
+            return Ok(None);
+        }
+        let columns = columns(&core, trace, true)?;
+        let mut at = (columns.len() - 1, 0);
+        while let Some(next) = responsible(&core, &columns, at) {
+            at = next;
+        }
+        let robustness = columns[columns.len() - 1].recorded[0].robustness();
+        Ok(Some(Cause { time: at.1 as f64 * trace.dt(), part: parts[at.0], robustness }))
+    }
+
+    /// The same by the samples or between them. In dense time the part is worth at that time what the whole is but for
+    /// rounding, and where two are, as lines meet, it is one of them. It takes up to twice as long as the evaluation.
+    ///
+    /// # Errors
+    /// As for [`evaluate_in`](Self::evaluate_in).
+    pub fn explain_in(&self, semantics: Semantics, trace: &Trace) -> Result<Option<Cause<'_>>, EvaluationError> {
+        match semantics {
+            Semantics::Sampled => self.explain(trace),
+            Semantics::Dense if trace.is_empty() => Ok(None),
+            Semantics::Dense => dense::explain(self, trace).map(Some),
+        }
+    }
+}
+
+/// The operand, and the tick of it, that the worth of a node at a tick is taken from.
+fn responsible(core: &Core, columns: &[Column], (id, tick): (Id, usize)) -> Option<(Id, usize)> {
+    let dual = core.nodes[id].dual;
+    let worth = columns[id].recorded[tick].flipped(dual);
+    let of = |operand: Id, tick: usize| columns[operand].recorded[tick].flipped(dual);
+    match core.nodes[id].kind {
+        CoreKind::Atom(_) => None,
+        CoreKind::Or(left, right) => {
+            [left, right].into_iter().find(|operand| of(*operand, tick) == worth).map(|operand| (operand, tick))
+        }
+        CoreKind::Any { operand, start, sight } => {
+            let mut seen = seen(tick, start, sight, columns[operand].recorded.len());
+            seen.find(|at| of(operand, *at) == worth).map(|at| (operand, at))
+        }
+        CoreKind::Until { hold, goal, sight } => {
+            let length = columns[hold].recorded.len().min(columns[goal].recorded.len());
+            let mut weakest = (Worth::BEST, tick);
+            for at in seen(tick, 0, sight, length) {
+                let reached = of(goal, at);
+                if reached.min(weakest.0) == worth {
+                    return Some(if reached == worth { (goal, at) } else { (hold, weakest.1) });
+                }
+                weakest = weakest.min((of(hold, at), at));
+            }
+            None
+        }
+    }
+}
+
+/// The ticks that an operator sees from where it stands, going away from there, in a column of so many ticks.
+fn seen(tick: usize, start: usize, sight: Sight, length: usize) -> Box<dyn Iterator<Item = usize>> {
+    if sight.past {
+        Box::new((start..=sight.end.min(tick)).map(move |back| tick - back))
+    } else {
+        Box::new(tick + start..(tick + sight.end + 1).min(length))
+    }
+}

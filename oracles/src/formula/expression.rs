@@ -1,0 +1,157 @@
+//! Arithmetic on signals: what formulas compare.
+
+use super::Formula;
+use crate::Comparison;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// An operation on two numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`, as IEEE 754 has it: a number other than 0 by 0 is infinite, 0 by 0 has no value
+    Divide,
+    /// `min(a, b)`
+    Least,
+    /// `max(a, b)`
+    Greatest,
+}
+
+impl Arithmetic {
+    /// The result, which is NaN where an operand is.
+    pub(crate) fn apply(self, left: f64, right: f64) -> f64 {
+        match self {
+            Arithmetic::Add => left + right,
+            Arithmetic::Subtract => left - right,
+            Arithmetic::Multiply => left * right,
+            Arithmetic::Divide => left / right,
+            _ if left.is_nan() || right.is_nan() => f64::NAN,
+            Arithmetic::Least => left.min(right),
+            Arithmetic::Greatest => left.max(right),
+        }
+    }
+}
+
+/// A number made of signals, at each tick. [`Display`](std::fmt::Display) writes it so that it can be parsed again.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Expression {
+    /// The same number at every tick.
+    Number(f64),
+    /// The sample of the signal of that name.
+    Signal(String),
+    /// `-x`
+    Negate(Box<Expression>),
+    /// `abs(x)`
+    Absolute(Box<Expression>),
+    /// An operation on two expressions.
+    Binary(Arithmetic, Box<Expression>, Box<Expression>),
+}
+
+/// The signal of this name.
+pub fn signal(name: impl Into<String>) -> Expression {
+    Expression::Signal(name.into())
+}
+
+impl Expression {
+    /// Its distance from 0.
+    pub fn abs(self) -> Self {
+        Expression::Absolute(Box::new(self))
+    }
+
+    /// The lesser of the two.
+    pub fn min(self, other: impl Into<Expression>) -> Self {
+        self.binary(Arithmetic::Least, other)
+    }
+
+    /// The greater of the two.
+    pub fn max(self, other: impl Into<Expression>) -> Self {
+        self.binary(Arithmetic::Greatest, other)
+    }
+
+    fn binary(self, operation: Arithmetic, other: impl Into<Expression>) -> Self {
+        Expression::Binary(operation, Box::new(self), Box::new(other.into()))
+    }
+
+    /// `self < other`
+    pub fn below(self, other: impl Into<Expression>) -> Formula {
+        self.compare(Comparison::Below, other)
+    }
+
+    /// `self <= other`
+    pub fn at_most(self, other: impl Into<Expression>) -> Formula {
+        self.compare(Comparison::AtMost, other)
+    }
+
+    /// `self > other`
+    pub fn above(self, other: impl Into<Expression>) -> Formula {
+        self.compare(Comparison::Above, other)
+    }
+
+    /// `self >= other`
+    pub fn at_least(self, other: impl Into<Expression>) -> Formula {
+        self.compare(Comparison::AtLeast, other)
+    }
+
+    /// `self == other`
+    pub fn equal_to(self, other: impl Into<Expression>) -> Formula {
+        self.compare(Comparison::Equal, other)
+    }
+
+    /// `self != other`
+    pub fn different_from(self, other: impl Into<Expression>) -> Formula {
+        self.compare(Comparison::Different, other)
+    }
+
+    /// The two compared so.
+    pub fn compare(self, comparison: Comparison, other: impl Into<Expression>) -> Formula {
+        Formula::Compare(self, comparison, other.into())
+    }
+
+    /// Calls back for each signal, from left to right.
+    pub(crate) fn for_each_signal<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
+        match self {
+            Expression::Number(_) => {}
+            Expression::Signal(name) => visit(name),
+            Expression::Negate(inner) | Expression::Absolute(inner) => inner.for_each_signal(visit),
+            Expression::Binary(_, left, right) => {
+                left.for_each_signal(visit);
+                right.for_each_signal(visit);
+            }
+        }
+    }
+}
+
+impl From<f64> for Expression {
+    fn from(number: f64) -> Self {
+        Expression::Number(number)
+    }
+}
+
+impl Neg for Expression {
+    type Output = Expression;
+
+    fn neg(self) -> Expression {
+        Expression::Negate(Box::new(self))
+    }
+}
+
+macro_rules! operator {
+    ($operator:ident, $method:ident, $operation:ident) => {
+        impl<E: Into<Expression>> $operator<E> for Expression {
+            type Output = Expression;
+
+            fn $method(self, other: E) -> Expression {
+                self.binary(Arithmetic::$operation, other)
+            }
+        }
+    };
+}
+
+operator!(Add, add, Add);
+operator!(Sub, sub, Subtract);
+operator!(Mul, mul, Multiply);
+operator!(Div, div, Divide);

@@ -1,0 +1,98 @@
+//! The figures of a bench: for every scenario how many runs are still without a failure, and recall over dispersion.
+
+use crate::plot::{Entry, Frame, Picture, Series, Shares, Survivals, Waiting};
+use paracosm_analysis::bench::{Benched, Cell, Row};
+
+/// All figures with their names.
+pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
+    let mut figures = Vec::new();
+    for target in &benched.bench.targets {
+        let name = target.name();
+        let file = target.file_name();
+        figures.push((format!("{file}-survival"), Picture::of_survivals(survival(benched, name))));
+        if let Some(chart) = recall(benched, name) {
+            figures.push((format!("{file}-recall"), Picture::of_shares(chart)));
+        }
+    }
+    figures
+}
+
+/// The curves of Kaplan and Meier.
+fn survival(benched: &Benched, scenario: &str) -> Survivals {
+    let (budget, seeds) = (benched.bench.budget, benched.bench.seeds);
+    let curve = |cell: &Cell| {
+        let rows = || benched.rows_of(scenario, cell.strategy);
+        let end = |row: &Row| row.first_failure.map_or(f64::INFINITY, |tests| tests as f64);
+        Waiting {
+            look: cell.strategy.look(),
+            steps: benched.survival(scenario, cell.strategy).steps,
+            ends: rows().map(end).collect(),
+            censored: rows().any(|row| row.first_failure.is_none() && !row.is_exhausted(budget)),
+        }
+    };
+    let number = |cell: &Cell| format!("{:.1}", cell.restricted_mean);
+    let rank = |cell: &Cell| cell.restricted_mean;
+    Survivals {
+        frame: Frame {
+            title: format!("Tests to the first failure: {scenario}"),
+            note: format!(
+                "Kaplan-Meier curves of {seeds} runs each; a tick at the end: runs censored after {budget} tests; legend: restricted mean"
+            ),
+            legend: ["strategy".into(), "tests".into()],
+            entries: entries(benched, scenario, number, rank),
+            cross: None,
+        },
+        axes: ["tests".into(), "share of runs without a failure".into()],
+        numbers: "runs without a failure after so many tests".into(),
+        horizon: budget as f64,
+        curves: ranked(benched, scenario, rank).into_iter().map(curve).collect(),
+    }
+}
+
+/// A mark for every run; none where recall or dispersion is not known, or has no logarithm.
+fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
+    let mut range = (f64::INFINITY, 0.0_f64);
+    let mut all = Vec::new();
+    for &strategy in &benched.bench.strategies {
+        let mark = |row: &Row| Some((row.dispersion.filter(|volume| *volume > 0.0)?, row.recall?));
+        let marks: Vec<(f64, f64)> = benched.rows_of(scenario, strategy).map(mark).collect::<Option<_>>()?;
+        range = marks.iter().fold(range, |(least, most), mark| (least.min(mark.0), most.max(mark.0)));
+        all.push(Series { look: strategy.look(), marks });
+    }
+    let (budget, number) = (benched.bench.budget, |cell: &Cell| cell.recall.map_or("-".into(), |r| format!("{r:.2}")));
+    let correlations = benched.correlations.iter().filter(|correlation| correlation.scenario == scenario);
+    let words: Vec<String> = correlations.map(|c| format!("{} {:.2}", c.among, c.spearman)).collect();
+    let words = words.join(", ").replace('-', "\u{2212}");
+    Some(Shares {
+        frame: Frame {
+            title: format!("Does a low dispersion find failures? {scenario}"),
+            note: format!("a mark for each run of {budget} tests; rank correlation: {words}; legend: mean recall"),
+            legend: ["strategy".into(), "recall".into()],
+            entries: entries(benched, scenario, number, |cell| cell.recall.unwrap_or(0.0)),
+            cross: None,
+        },
+        x: "dispersion: volume of the largest box without a test".into(),
+        y: "recall: share of where tests fail that the run's tests tell".into(),
+        range,
+        series: all,
+    })
+}
+
+/// The lines of the legend, from the greatest to the least of a number.
+fn entries(
+    benched: &Benched,
+    scenario: &str,
+    number: impl Fn(&Cell) -> String,
+    rank: impl Fn(&Cell) -> f64,
+) -> Vec<Entry> {
+    let entry =
+        |cell: &Cell| Entry { look: cell.strategy.look(), name: cell.strategy.to_string(), number: number(cell) };
+    ranked(benched, scenario, rank).into_iter().map(entry).collect()
+}
+
+/// The cells of a scenario, from the greatest to the least of a number.
+fn ranked<'a>(benched: &'a Benched, scenario: &'a str, rank: impl Fn(&Cell) -> f64) -> Vec<&'a Cell> {
+    let mut cells: Vec<&Cell> = benched.of_target(scenario).collect();
+    cells.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    cells
+}

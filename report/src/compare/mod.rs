@@ -1,0 +1,9 @@
+//! A comparison written up: tables, figures, LaTeX and CSV.
+
+mod figures;
+mod files;
+mod latex;
+mod table;
+
+pub use files::write;
+pub use table::table;

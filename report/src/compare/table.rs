@@ -1,0 +1,54 @@
+//! The comparison as tables for people.
+
+use crate::write_up::{p_value, three_digits};
+use paracosm_analysis::compare::{Cell, Compared};
+use paracosm_coverage::Measure;
+use std::fmt::Write;
+
+/// For every measure and dimension a table: the medians over the budgets, their slope, and at the largest budget how
+/// each strategy stands against the baseline.
+pub fn table(compared: &Compared) -> String {
+    let mut text = String::new();
+    for measure in compared.measures() {
+        for &dims in &compared.comparison.dims {
+            block(compared, &mut text, measure, dims);
+        }
+    }
+    text
+}
+
+fn block(compared: &Compared, text: &mut String, measure: Measure, dims: usize) {
+    let budgets = compared.budgets(measure, dims);
+    let Some(&most) = budgets.last() else { return };
+    let (label, seeds) = (compared.label(measure), compared.comparison.seeds);
+    let _ = writeln!(text, "{label}, d = {dims}: median over {seeds} seeds");
+    let _ = write!(text, "  {:<17}", "strategy");
+    for n in &budgets {
+        let _ = write!(text, "{:>10}", format!("n = {n}"));
+    }
+    let over = format!("n = {most}: over {}", compared.comparison.baseline);
+    let _ = writeln!(text, "{:>8}   {over:<27}{:>6}  {:>9}", "slope", "A12", "Holm's p");
+    let mut cut_short = false;
+    for strategy in compared.shown(measure, dims) {
+        let _ = write!(text, "  {strategy:<17}");
+        for &budget in &budgets {
+            let cell = compared.cell(measure, dims, budget, strategy);
+            cut_short |= cell.is_some_and(|cell| !cell.exact);
+            let mark = |cell: &Cell| format!("{}{}", three_digits(cell.median), if cell.exact { "" } else { "*" });
+            let _ = write!(text, "{:>10}", cell.map_or("-".into(), mark));
+        }
+        let slope = compared.slope(measure, dims, strategy).map_or("-".into(), |slope| format!("{:.2}", slope.slope));
+        let versus = compared.cell(measure, dims, most, strategy).and_then(|cell| cell.versus.as_ref());
+        let none = if strategy == compared.comparison.baseline { "the baseline" } else { "no order known" };
+        let versus = versus.map_or(none.into(), |versus| {
+            let [low, high] = versus.interval.map(|end| format!("{end:.3}"));
+            let ratio = format!("{:.3} ({low} to {high})", versus.ratio);
+            format!("{ratio:<27}{:>6.2}  {:>9}", versus.better, p_value(versus.p_holm))
+        });
+        let _ = writeln!(text, "{}", format!("{slope:>8}   {versus}").trim_end());
+    }
+    if cut_short {
+        let _ = writeln!(text, "  * cut short by the time limit: the lower ends of brackets");
+    }
+    text.push('\n');
+}

@@ -1,0 +1,208 @@
+//! Trials as JUnit test cases, which CI systems read.
+//!
+//! Each study is a test suite, and each trial a test case in it with a failure, an error or a mark that it was skipped if it did
+//! not pass. Properties say what JUnit has no words for: requirements, parameters, the simulated seconds, the command that
+//! runs a test again. There is no `time`: readers take it for the time that a test took, which differs from run to run.
+
+use paracosm_campaign::{Artefact, Error, Log, Study, Subject, Trial};
+use paracosm_oracles::Verdict;
+use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use std::path::Path;
+
+/// Suites of trials as one file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Junit(Report);
+
+/// A trial as a test case.
+pub struct Case<'a> {
+    /// Its name, which no other test case of its suite has.
+    pub name: String,
+    /// The trial.
+    pub trial: &'a Trial,
+    /// The command that runs it again.
+    pub replay: String,
+    /// How it ends as a test case.
+    pub end: End,
+    /// What was expected of it, if that is not that it passes.
+    pub expected: Option<&'static str>,
+}
+
+/// How a test case ends, with what there is to be said of that.
+pub enum End {
+    /// As it should.
+    Passed,
+    /// CI has to stop for it.
+    Failed(String),
+    /// It came to nothing.
+    Error(String),
+    /// It says nothing either way.
+    Skipped(String),
+}
+
+impl Junit {
+    /// The tests of a campaign in a folder; `program` is the command that replays them.
+    pub fn of_campaign(log: &Log, folder: &Path, program: &str) -> Self {
+        let study = log.study();
+        let (program, folder) = (shell_word(program), shell_word(&folder.to_string_lossy()));
+        let case =
+            |trial: &Trial| Case::of(study, trial, format!("{program} replay {folder} {}", trial.index)).junit(study);
+        let mut suite = suite(study, study.title());
+        suite.add_test_cases(log.trials().iter().map(case));
+        Self::of([suite])
+    }
+
+    /// Test cases of studies, each a suite of its own with this name.
+    pub fn of_cases<'a>(cases: impl IntoIterator<Item = (String, &'a Study, Case<'a>)>) -> Self {
+        Self::of(cases.into_iter().map(|(name, study, case)| {
+            let mut suite = suite(study, name);
+            suite.add_test_case(case.junit(study));
+            suite
+        }))
+    }
+
+    fn of(suites: impl IntoIterator<Item = TestSuite>) -> Self {
+        let mut report = Report::new("paracosm");
+        report.add_test_suites(suites);
+        Self(report)
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> String {
+        self.0.to_string().expect("the report is written to memory")
+    }
+}
+
+impl Artefact for Junit {
+    fn files(&self) -> Vec<&'static str> {
+        vec!["junit.xml"]
+    }
+
+    fn contents(&self, _: &str) -> Result<Vec<u8>, Error> {
+        Ok(self.text().into_bytes())
+    }
+}
+
+/// A suite with what is said of all its tests.
+fn suite(study: &Study, name: String) -> TestSuite {
+    let mut suite = TestSuite::new(name);
+    suite.add_property(("strategy", study.sampling().to_string().as_str()));
+    for (name, value) in study.fixed().iter() {
+        suite.add_property((format!("parameter.{name}").as_str(), value.to_string().as_str()));
+    }
+    for requirement in study.requirements() {
+        let said = [
+            ("", Some(requirement.text.clone())),
+            (".formula", requirement.formula.as_ref().map(ToString::to_string)),
+            (".source", requirement.source.clone()),
+            (".severity", requirement.severity.clone()),
+        ];
+        for (key, text) in said.into_iter().filter_map(|(key, text)| Some((key, text.filter(|text| !text.is_empty())?)))
+        {
+            suite.add_property((format!("requirement.{}{key}", requirement.id).as_str(), text.as_str()));
+        }
+    }
+    suite
+}
+
+impl<'a> Case<'a> {
+    /// A trial of a campaign, which ends as its verdict says.
+    fn of(study: &Study, trial: &'a Trial, replay: String) -> Self {
+        let error = trial.error().unwrap_or_default();
+        let end = match trial.verdict {
+            Verdict::Pass => End::Passed,
+            Verdict::Fail => End::Failed(violations(study, trial)),
+            Verdict::Error => End::Error(error.to_owned()),
+            Verdict::Inconclusive => End::Skipped(
+                "inconclusive: the situation that the test is about never came about, or it ended too early".to_owned(),
+            ),
+            Verdict::Invalid => End::Skipped(format!("invalid: {error}")),
+        };
+        Self { name: format!("test {}", trial.index), trial, replay, end, expected: None }
+    }
+
+    fn junit(&self, study: &Study) -> TestCase {
+        let Self { name, trial, replay, expected, .. } = self;
+        let mut case = TestCase::new(name.as_str(), self.status());
+        case.set_classname(match study.subject() {
+            Subject::Scenario(simulation) => simulation.scenario(),
+            Subject::System(_) => "system",
+        });
+        for (name, value) in trial.test.iter() {
+            case.add_property((format!("parameter.{name}").as_str(), value.to_string().as_str()));
+        }
+        for id in trial.requirements() {
+            let became = match trial.robustness(id) {
+                None => "undecided",
+                Some(_) if trial.violates(id) => "violated",
+                Some(_) => "holds",
+            };
+            case.add_property((format!("requirement.{id}").as_str(), became));
+        }
+        if let Subject::Scenario(simulation) = study.subject() {
+            // Milliseconds are enough, and hide how ticks add up.
+            let seconds = format!("{:.3}", trial.ticks as f64 * simulation.dt());
+            case.add_property(("simulated_seconds", seconds.as_str()));
+        }
+        if let Some(expected) = expected {
+            case.add_property(("expected", *expected));
+        }
+        case.add_property(("replay", replay.as_str()));
+        case
+    }
+
+    /// How it ends. An attribute has no lines, so the first line of a message is the attribute, and the description has all
+    /// of the message.
+    fn status(&self) -> TestCaseStatus {
+        let (kind, word, message) = match &self.end {
+            End::Passed => return TestCaseStatus::success(),
+            End::Skipped(message) => {
+                let mut status = TestCaseStatus::skipped();
+                status.set_message(message.as_str());
+                return status;
+            }
+            End::Failed(message) => {
+                let violated = self.trial.violated().collect::<Vec<_>>().join(" ");
+                (NonSuccessKind::Failure, violated, message)
+            }
+            End::Error(message) => (NonSuccessKind::Error, "error".to_owned(), message),
+        };
+        let mut status = TestCaseStatus::non_success(kind);
+        status.set_type(word).set_message(first_line(message)).set_description(format!("{message}\n{}", self.replay));
+        status
+    }
+}
+
+fn first_line(text: &str) -> &str {
+    text.lines().next().unwrap_or_default()
+}
+
+/// What a trial violates, and by how much.
+fn violations(study: &Study, trial: &Trial) -> String {
+    let violation = |id: &str| {
+        let unit = study.requirement(id).map_or("", |requirement| requirement.unit.as_str());
+        format!("{id} {} {unit}", trial.robustness(id).unwrap_or(f64::NAN)).trim_end().to_owned()
+    };
+    trial.violated().map(violation).collect::<Vec<_>>().join(", ")
+}
+
+/// A word as a shell takes it.
+pub fn shell_word(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,@+".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_quoted_where_a_shell_would_split_them() {
+        assert_eq!(shell_word("out/run-1"), "out/run-1");
+        assert_eq!(shell_word("my out"), "'my out'");
+        assert_eq!(shell_word("it's"), "'it'\\''s'");
+    }
+}

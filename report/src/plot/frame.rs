@@ -1,0 +1,85 @@
+//! What stands around the planes of a chart: two lines above them and a legend beside them.
+
+use super::symbol::{LINE, Symbol, rgb};
+use super::{HPos, INK, ink, level};
+use paracosm_generators::Look;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// The width of the legend, in pixels of the SVG.
+pub(super) const LEGEND: u32 = 230;
+/// The height of the lines above, in pixels of the SVG.
+pub(super) const HEADER: u32 = 67;
+/// The size of text, in pixels of the SVG.
+pub(super) const TEXT: f64 = 16.0;
+
+/// Title, note and legend.
+#[derive(Debug, Clone)]
+pub struct Frame {
+    /// The first line above the planes.
+    pub title: String,
+    /// The second line, smaller.
+    pub note: String,
+    /// What stands above the two columns of the legend.
+    pub legend: [String; 2],
+    /// The lines of the legend.
+    pub entries: Vec<Entry>,
+    /// What a cross is, if there are any.
+    pub cross: Option<String>,
+}
+
+/// A line of the legend.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The mark of the curve.
+    pub look: Look,
+    /// The name of the curve.
+    pub name: String,
+    /// The number beside the name.
+    pub number: String,
+}
+
+type Areas<B> = (DrawingArea<B, Shift>, DrawingArea<B, Shift>);
+type Result<T, B> = std::result::Result<T, DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+impl Frame {
+    /// Draws the lines above; what is left for the planes, so wide, and for the legend.
+    pub(super) fn split<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        width: u32,
+        scale: f64,
+    ) -> Result<Areas<B>, B> {
+        let px = |length: f64| (length * scale).round() as i32;
+        let (header, body) = area.split_vertically(px(f64::from(HEADER)));
+        header.draw(&Text::new(self.title.clone(), (px(14.0), px(0.5 * TEXT)), ink(1.15 * TEXT * scale)))?;
+        header.draw(&Text::new(self.note.clone(), (px(14.0), px(2.0 * TEXT)), ink(0.85 * TEXT * scale)))?;
+        Ok(body.split_horizontally(px(f64::from(width))))
+    }
+
+    /// Draws the legend.
+    pub(super) fn draw_legend<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> Result<(), B> {
+        let px = |length: f64| (length * scale).round() as i32;
+        let size = 0.85 * TEXT * scale;
+        let (name_at, number_at) = (px(36.0), px(f64::from(LEGEND) - 18.0));
+        let write = |name: &str, number: &str, y: i32| {
+            area.draw(&Text::new(name.to_owned(), (name_at, y), level(size, HPos::Left)))?;
+            area.draw(&Text::new(number.to_owned(), (number_at, y), level(size, HPos::Right)))
+        };
+        let line = |i: usize| px(TEXT * (1.2 + 1.55 * i as f64));
+        write(&self.legend[0], &self.legend[1], line(0))?;
+        for (i, entry) in self.entries.iter().enumerate() {
+            let y = line(i + 1);
+            let stroke = rgb(entry.look).stroke_width(px(LINE) as u32);
+            area.draw(&PathElement::new([(px(4.0), y), (px(28.0), y)], stroke))?;
+            area.draw(&(EmptyElement::at((px(16.0), y)) + Symbol::of(entry.look, scale)))?;
+            write(&entry.name, &entry.number, y)?;
+        }
+        if let Some(cross) = &self.cross {
+            let y = line(self.entries.len() + 2);
+            area.draw(&(EmptyElement::at((px(16.0), y)) + Symbol::cross(INK, scale)))?;
+            write(cross, "", y)?;
+        }
+        Ok(())
+    }
+}

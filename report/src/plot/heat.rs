@@ -1,0 +1,106 @@
+//! Numbers over the pixels of an image, as how much each of them matters to a driver that sees it.
+//!
+//! The image is grey where the number is zero, and takes the colours of Okabe and Ito on either side of it: orange for more,
+//! blue for less.
+
+use super::DrawResult;
+use super::{INK, ink};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// An image, and a number for each of its pixels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeatMap {
+    /// The first line above it.
+    pub title: String,
+    /// The second line, smaller.
+    pub note: String,
+    /// Pixels across.
+    pub width: u32,
+    /// Red, green and blue of each pixel, from the top left.
+    pub rgb: Vec<u8>,
+    /// A number for each pixel; none at all shows the image as it is.
+    pub values: Vec<f64>,
+    /// The number, and its negative, whose colours are full.
+    pub most: f64,
+}
+
+const MORE: [f64; 3] = [213.0, 94.0, 0.0];
+const LESS: [f64; 3] = [0.0, 114.0, 178.0];
+
+/// The size of text, and of a pixel of the image, in pixels of the SVG.
+const TEXT: f64 = 15.0;
+const CELL: u32 = 4;
+/// The room above the image and on its other sides.
+const HEADER: u32 = 50;
+const MARGIN: u32 = 12;
+
+impl HeatMap {
+    /// Width and height of its panel in pixels of the SVG.
+    pub(super) fn size(&self) -> (u32, u32) {
+        (self.width * CELL + 2 * MARGIN, self.rows() * CELL + HEADER + MARGIN)
+    }
+
+    fn rows(&self) -> u32 {
+        (self.rgb.len() / 3) as u32 / self.width
+    }
+
+    /// The colour of a pixel.
+    fn colour(&self, pixel: usize) -> RGBColor {
+        let [red, green, blue] = [0, 1, 2].map(|channel| self.rgb[3 * pixel + channel]);
+        let Some(value) = self.values.get(pixel) else { return RGBColor(red, green, blue) };
+        // Paler than it was, so that the colours stand out.
+        let luma = 0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue);
+        let grey = 110.0 + 0.57 * luma;
+        let strength = (value.abs() / self.most).min(1.0);
+        let full = if *value > 0.0 { MORE } else { LESS };
+        let [red, green, blue] = full.map(|channel| (grey + strength * (channel - grey)).round() as u8);
+        RGBColor(red, green, blue)
+    }
+
+    /// Draws it over the whole area, every length in pixels times `scale`.
+    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> DrawResult<B> {
+        let px = |length: f64| (length * f64::from(scale)).round() as i32;
+        let style = |size: f64| ink(size * f64::from(scale));
+        let left = (MARGIN * scale) as i32;
+        area.draw(&Text::new(self.title.clone(), (left, px(0.5 * TEXT)), style(TEXT)))?;
+        area.draw(&Text::new(self.note.clone(), (left, px(1.8 * TEXT)), style(0.8 * TEXT)))?;
+        let place =
+            |column: u32, row: u32| (((MARGIN + column * CELL) * scale) as i32, ((HEADER + row * CELL) * scale) as i32);
+        for row in 0..self.rows() {
+            // Pixels of one colour side by side are one rectangle, so that the SVG stays small.
+            let mut first = 0;
+            while first < self.width {
+                let colour = |column: u32| self.colour((row * self.width + column) as usize);
+                let end = (first..self.width).find(|column| colour(*column) != colour(first)).unwrap_or(self.width);
+                area.draw(&Rectangle::new([place(first, row), place(end, row + 1)], colour(first).filled()))?;
+                first = end;
+            }
+        }
+        let around = [place(0, 0), place(self.width, self.rows())];
+        area.draw(&Rectangle::new(around, INK.stroke_width(1)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pixel_takes_the_colour_of_its_numbers_sign_and_is_grey_without_any() {
+        let heat = HeatMap {
+            title: String::new(),
+            note: String::new(),
+            width: 4,
+            rgb: [200, 10, 10].repeat(4),
+            values: vec![0.0, 2.0, -2.0, 0.5],
+            most: 1.0,
+        };
+        let [zero, more, less, half] = [0, 1, 2, 3].map(|pixel| heat.colour(pixel));
+        assert!(zero.0 == zero.1 && zero.1 == zero.2, "{zero:?}");
+        assert_eq!((more, less), (RGBColor(213, 94, 0), RGBColor(0, 114, 178)));
+        assert!(zero.0 < half.0 && half.0 < more.0, "{half:?}");
+        let image = HeatMap { values: vec![], ..heat };
+        assert_eq!(image.colour(0), RGBColor(200, 10, 10));
+    }
+}

@@ -1,0 +1,312 @@
+//! The failure map: every test a mark at the values of two of its parameters, as in the paper's Figure 9.
+
+use super::DrawResult;
+use super::mark::{Drawn, Mark, ORDER};
+use super::wrapped::wrapped;
+use super::{GRID, HPos, INK, Tints, ink, level, shade};
+use paracosm_analysis::blame::Blame;
+use paracosm_analysis::failure_estimate;
+use paracosm_analysis::failure_estimate::{Axes, AxesFlaw, FailureEstimate};
+use paracosm_campaign::{Error, Log, Trial};
+use paracosm_oracles::Verdict;
+use paracosm_space::{Coordinate, Domain};
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::prelude::*;
+use std::ops::Range;
+
+/// An axis: what it shows and from where to where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The name with its unit.
+    pub label: String,
+    /// The least and the greatest value.
+    pub range: (f64, f64),
+}
+
+impl Axis {
+    /// The axis of a continuous coordinate.
+    fn of(coordinate: &Coordinate) -> Option<Self> {
+        match coordinate.parameter.domain {
+            Domain::Interval { lo, hi } => Some(Self { label: coordinate.label(), range: (lo, hi) }),
+            Domain::Choice(_) => None,
+        }
+    }
+}
+
+/// Tests as marks in a plane: red crosses where they fail, blue dots where they pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FailureMap {
+    /// The first line above the map.
+    pub title: String,
+    /// What stands below it, smaller, in up to three lines.
+    pub note: String,
+    /// What varies too, though the map does not show it.
+    pub others: Vec<String>,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// The tests.
+    pub marks: Vec<(f64, f64, Mark)>,
+    /// How probable a failure is, if that is to be seen behind the tests.
+    pub estimate: Option<FailureEstimate>,
+    /// A number of each test, if the dots are to be tinted by it.
+    pub tints: Option<Tints>,
+}
+
+/// How wide the bar of shades is with its numbers, in heights of the text.
+const BAR: f64 = 5.4;
+
+/// The size of the note, how far its lines are apart, both in heights of the text, and how many there are at most: what does
+/// not fit is in the campaign's files.
+const NOTE: f64 = 0.85;
+const LINE: f64 = 1.2;
+const NOTE_LINES: usize = 3;
+
+impl FailureMap {
+    /// The map of a campaign over its first two continuous coordinates; `None` where it has less than two.
+    pub fn of(log: &Log) -> Option<Self> {
+        Self::at(log, [0, 1], |trial| Mark::Verdict(trial.verdict))
+    }
+
+    /// The map of a campaign over the continuous coordinates with these names, with the probability of failure.
+    ///
+    /// # Errors
+    /// A name is none of a continuous coordinate, or both are one; a trial is none of the study's space.
+    pub fn over(log: &Log, names: [&str; 2]) -> Result<Self, Error> {
+        let axes = failure_estimate::axes(log.study(), names)?;
+        let mark = |trial: &Trial| Mark::Verdict(trial.verdict);
+        let map = Self::at(log, axes, mark).expect("there are coordinates of these names");
+        Ok(Self { estimate: FailureEstimate::of(log, axes)?, ..map })
+    }
+
+    /// The map of a campaign that shows whose fault its failures are, over the continuous coordinates with these names.
+    ///
+    /// # Errors
+    /// A name is none of a continuous coordinate, or both are one.
+    pub fn of_blame(log: &Log, blame: &Blame, names: [&str; 2]) -> Result<Self, AxesFlaw> {
+        let axes = failure_estimate::axes(log.study(), names)?;
+        let mark = |trial: &Trial| match blame.of(trial.index) {
+            Some(blamed) => Mark::Fault(blamed.fault),
+            None => Mark::Verdict(trial.verdict),
+        };
+        let mut map = Self::at(log, axes, mark).expect("there are coordinates of these names");
+        map.note = format!("{}, failures judged by {}", map.note, blame.references.join(", "));
+        Ok(map)
+    }
+
+    fn at(log: &Log, axes: Axes, mark: impl Fn(&Trial) -> Mark) -> Option<Self> {
+        let (study, trials) = (log.study(), log.trials());
+        let continuous: Vec<Coordinate> = study.space().continuous().collect();
+        let [x, y] = axes.map(|axis| continuous.get(axis).copied());
+        let (x, y) = (x?, y?);
+        let at = |trial: &Trial, c: &Coordinate| c.value(trial.test.get(&c.parameter.name)?)?.number();
+        let mark = |trial: &Trial| Some((at(trial, &x)?, at(trial, &y)?, mark(trial)));
+        Some(Self {
+            title: study.title(),
+            note: format!("{} tests, strategy {}", trials.len(), study.sampling()),
+            others: study.space().coordinates().filter(|c| ![x, y].contains(c)).map(|c| c.name()).collect(),
+            x: Axis::of(&x)?,
+            y: Axis::of(&y)?,
+            marks: trials.iter().filter_map(mark).collect(),
+            estimate: None,
+            tints: None,
+        })
+    }
+
+    /// The second line: what the map shows, and what varies too though it does not show it.
+    fn note(&self) -> String {
+        let others = self.others.join(", ");
+        match (self.others.is_empty(), &self.estimate) {
+            (true, _) => self.note.clone(),
+            (false, None) => format!("{}; not shown, but varied too: {others}", self.note),
+            (false, Some(_)) => format!("{}; varied too, and averaged over: {others}", self.note),
+        }
+    }
+
+    /// Draws the map over the whole area, every length in pixels times `scale`.
+    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> DrawResult<B> {
+        let px = |length: f64| (length * scale).round() as u32;
+        let small = area.dim_in_pixel().0 < px(600.0);
+        let (text, side) = if small { (14.0, 2.2) } else { (18.0, 3.2) };
+        let width = area.dim_in_pixel().0 as f64 - 1.6 * text * scale;
+        let title = wrapped(area, &self.title, &ink(1.15 * text * scale), width, 1)?;
+        let note = wrapped(area, &self.note(), &ink(NOTE * text * scale), width, NOTE_LINES)?;
+        let more = LINE * (note.len() - 1) as f64;
+        let (header, body) = area.split_vertically(px((5.0 + more) * text));
+        self.draw_header(&header, [title, note], text * scale, side * scale, scale)?;
+        let has_bar = self.estimate.is_some() || self.tints.is_some();
+        let (body, bar) = if has_bar {
+            let (body, bar) = body.split_horizontally(body.dim_in_pixel().0 - px(BAR * text));
+            (body, Some(bar))
+        } else {
+            (body, None)
+        };
+
+        let mut chart = ChartBuilder::on(&body)
+            .margin_right(px(1.6 * text))
+            .margin_left(px(0.5 * text))
+            .margin_bottom(px(0.5 * text))
+            .x_label_area_size(px(2.8 * text))
+            .y_label_area_size(px(3.6 * text))
+            .build_cartesian_2d(Ends(self.x.range), Ends(self.y.range))?;
+        if let Some(estimate) = &self.estimate {
+            shade::draw_shades(&chart.plotting_area().strip_coord_spec(), estimate)?;
+        }
+        chart
+            .configure_mesh()
+            .x_desc(&self.x.label)
+            .y_desc(&self.y.label)
+            .axis_desc_style(ink(px(text).into()))
+            .label_style(ink(px(text - 2.0).into()))
+            .axis_style(INK.stroke_width(px(1.0)))
+            .bold_line_style(GRID.stroke_width(px(1.0)))
+            .light_line_style(TRANSPARENT)
+            .x_labels(if small { 6 } else { 11 })
+            .y_labels(if small { 7 } else { 12 })
+            .draw()?;
+        let along = (0, (body.dim_in_pixel().1 - px(3.3 * text)) as i32);
+        // A thousand marks have room; more of them become smaller, so that they do not run together.
+        let crowd = (self.marks.len() as f64 / 1000.0).max(1.0);
+        let side = (side / crowd.sqrt()).max(1.2) * scale;
+        if let (Some(estimate), Some(bar)) = (&self.estimate, &bar) {
+            shade::draw_lines(&chart.plotting_area().strip_coord_spec(), estimate, scale)?;
+            shade::draw_bar(bar, along, text * scale)?;
+        } else if let (Some(tints), Some(bar)) = (&self.tints, &bar) {
+            let dot = |((x, y, _), value): (&(f64, f64, Mark), &f64)| {
+                Circle::new((*x, *y), 2.2 * side, tints.colour(*value).filled())
+            };
+            chart.draw_series(self.marks.iter().zip(&tints.values).map(dot))?;
+            tints.draw_bar(bar, along, text * scale)?;
+        }
+        for mark in ORDER {
+            // A tinted dot says that it passed.
+            let hidden = self.tints.is_some() && mark == Mark::Verdict(Verdict::Pass);
+            let marks = self.marks.iter().filter(|other| other.2 == mark && !hidden);
+            chart.draw_series(marks.map(|(x, y, _)| EmptyElement::at((*x, *y)) + Drawn { mark, side }))?;
+        }
+        Ok(())
+    }
+
+    /// Title, note, and the legend with counts.
+    fn draw_header<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        [title, note]: [Vec<String>; 2],
+        text: f64,
+        side: f64,
+        scale: f64,
+    ) -> DrawResult<B> {
+        let left = (0.8 * text) as i32;
+        for line in title {
+            area.draw(&Text::new(line, (left, (0.5 * text) as i32), ink(1.15 * text)))?;
+        }
+        let at = |line: usize, first: f64| ((first + LINE * line as f64) * text) as i32;
+        let line = at(note.len() - 1, 3.8);
+        for (i, line) in note.into_iter().enumerate() {
+            area.draw(&Text::new(line, (left, at(i, 1.95)), ink(NOTE * text)))?;
+        }
+        let mut at = left + side as i32;
+        let of_faults = self.marks.iter().any(|mark| matches!(mark.2, Mark::Fault(_)));
+        for mark in ORDER.into_iter().rev() {
+            let count = self.marks.iter().filter(|other| other.2 == mark).count();
+            if count == 0 && !mark.is_listed(of_faults) {
+                continue;
+            }
+            area.draw(&(EmptyElement::at((at, line)) + Drawn { mark, side: 1.3 * side }))?;
+            let label = format!("{mark} {count}");
+            let style = level(0.9 * text, HPos::Left);
+            let (width, _) = area.estimate_text_size(&label, &style)?;
+            at += (0.8 * text) as i32;
+            area.draw(&Text::new(label, (at, line), style))?;
+            at += width as i32 + (1.8 * text) as i32;
+        }
+        match &self.estimate {
+            Some(estimate) => shade::draw_key(area, estimate, (at, line), text, scale),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A range with both ends among its numbers, since they are what a reader of a map asks for first.
+pub(super) struct Ends(pub (f64, f64));
+
+impl Ranged for Ends {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let share = (value - self.0.0) / (self.0.1 - self.0.0);
+        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
+        self.numbers(hint.max_num_points())
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.0.0..self.0.1
+    }
+}
+
+impl Ends {
+    /// The numbers at the axis: both ends, and round ones between them, no more than so many steps.
+    pub(super) fn numbers(&self, most: usize) -> Vec<f64> {
+        let (lo, hi) = self.0;
+        let step = round_step((hi - lo) / most.max(2) as f64);
+        let first = (lo / step).ceil() as i64;
+        let last = (hi / step).floor() as i64;
+        let inner = (first..=last).map(|i| i as f64 * step);
+        // An inner number too close to an end would be printed over it.
+        let clear = inner.filter(|x| x - lo > 0.4 * step && hi - x > 0.4 * step);
+        [lo].into_iter().chain(clear).chain([hi]).collect()
+    }
+}
+
+impl ValueFormatter<f64> for Ends {
+    fn format(value: &f64) -> String {
+        // Steps are round, so that six digits hide nothing but rounding errors.
+        let text = format!("{value:.6}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    }
+}
+
+/// The least of 1, 2, 5, 10, 20, 50, ... and their tenths and hundredths that is at least `width`.
+pub(super) fn round_step(width: f64) -> f64 {
+    let mut power = 1e-6;
+    loop {
+        for factor in [1.0, 2.0, 5.0] {
+            if factor * power >= width * (1.0 - 1e-9) || power > 1e12 {
+                return factor * power;
+            }
+        }
+        power *= 10.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_on_an_axis_are_round_and_include_both_ends() {
+        struct Hint;
+        impl KeyPointHint for Hint {
+            fn max_num_points(&self) -> usize {
+                11
+            }
+            fn weight(&self) -> plotters::coord::ranged1d::KeyPointWeight {
+                unreachable!("the axis has one kind of key points")
+            }
+            fn bold_points(&self) -> usize {
+                11
+            }
+        }
+        assert_eq!(Ends((0.5, 10.0)).key_points(Hint), [0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0]);
+        assert_eq!(Ends((5.0, 60.0)).key_points(Hint).first(), Some(&5.0));
+        let text: Vec<String> = Ends((0.2, 0.8)).key_points(Hint).iter().map(Ends::format).collect();
+        assert_eq!(text.first().map(String::as_str), Some("0.2"));
+        assert!(text.iter().all(|number| number.len() <= 4), "{text:?}");
+    }
+}

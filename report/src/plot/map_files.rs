@@ -1,0 +1,37 @@
+//! The files of a map in the folder of its campaign.
+
+use super::{FailureMap, Picture};
+use paracosm_campaign::{Artefact, Error, Failure};
+use std::path::PathBuf;
+
+/// A map as pictures, and as the numbers behind it if a probability was estimated.
+#[derive(Debug, Clone, Copy)]
+pub enum MapFiles<'m> {
+    /// Where tests fail.
+    Failures(&'m FailureMap),
+    /// Whose fault the failures are.
+    Blame(&'m FailureMap),
+}
+
+impl Artefact for MapFiles<'_> {
+    fn files(&self) -> Vec<&'static str> {
+        match self {
+            Self::Failures(map) if map.estimate.is_some() => {
+                vec!["failure-map.svg", "failure-map.png", "failure-map.csv"]
+            }
+            Self::Failures(_) => vec!["failure-map.svg", "failure-map.png"],
+            Self::Blame(_) => vec!["blame-map.svg", "blame-map.png"],
+        }
+    }
+
+    fn contents(&self, file: &str) -> Result<Vec<u8>, Error> {
+        let (Self::Failures(map) | Self::Blame(map)) = *self;
+        let picture = || Picture::of(map.clone());
+        let drawn = match file.rsplit_once('.') {
+            Some((_, "svg")) => picture().svg().map(String::into_bytes),
+            Some((_, "png")) => picture().png(),
+            _ => Ok(map.estimate.as_ref().map(paracosm_analysis::FailureEstimate::csv).unwrap_or_default()),
+        };
+        drawn.map_err(|source| Failure::Drawing { path: PathBuf::from(file), source }.into())
+    }
+}

@@ -1,0 +1,116 @@
+//! The marks of a failure map: what became of a test, or whose fault its failure is. They are told apart by their colours
+//! with any colour vision (Paul Tol's vibrant scheme), and in grey by their shapes.
+
+use super::INK;
+use paracosm_analysis::blame::Preventability;
+use paracosm_oracles::Verdict;
+use plotters::element::{Drawable, PointCollection};
+use plotters::prelude::*;
+use plotters_backend::DrawingErrorKind;
+use std::fmt;
+
+const BLUE: RGBColor = RGBColor(0x00, 0x77, 0xbb);
+const RED: RGBColor = RGBColor(0xcc, 0x33, 0x11);
+const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
+const MAGENTA: RGBColor = RGBColor(0xee, 0x33, 0x77);
+const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
+
+/// What a map shows of a test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// What became of it.
+    Verdict(Verdict),
+    /// Whose fault its failure is.
+    Fault(Preventability),
+}
+
+/// In the order in which they are drawn and listed: what matters most is drawn last, over all else.
+pub(super) const ORDER: [Mark; 9] = [
+    Mark::Verdict(Verdict::Pass),
+    Mark::Verdict(Verdict::Inconclusive),
+    Mark::Verdict(Verdict::Invalid),
+    Mark::Verdict(Verdict::Error),
+    Mark::Verdict(Verdict::Fail),
+    Mark::Fault(Preventability::Unknown),
+    Mark::Fault(Preventability::Unpreventable),
+    Mark::Fault(Preventability::Preventable),
+    Mark::Fault(Preventability::Induced),
+];
+
+impl Mark {
+    /// Whether the legend lists it even if there is none, on a map of faults or on one of verdicts.
+    pub(super) fn is_listed(self, of_faults: bool) -> bool {
+        match self {
+            Self::Verdict(Verdict::Pass) => true,
+            Self::Verdict(Verdict::Fail) => !of_faults,
+            Self::Verdict(_) | Self::Fault(Preventability::Unknown) => false,
+            Self::Fault(_) => of_faults,
+        }
+    }
+}
+
+impl fmt::Display for Mark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Verdict(verdict) => verdict.fmt(f),
+            Self::Fault(fault) => fault.fmt(f),
+        }
+    }
+}
+
+/// A mark, `side` pixels from its middle to its end.
+pub(super) struct Drawn {
+    pub mark: Mark,
+    pub side: f64,
+}
+
+impl<'a> PointCollection<'a, (i32, i32)> for &'a Drawn {
+    type Point = (i32, i32);
+    type IntoIter = std::iter::Once<(i32, i32)>;
+
+    fn point_iter(self) -> Self::IntoIter {
+        std::iter::once((0, 0))
+    }
+}
+
+impl<B: DrawingBackend> Drawable<B> for Drawn {
+    fn draw<I: Iterator<Item = (i32, i32)>>(
+        &self,
+        mut points: I,
+        backend: &mut B,
+        _: (u32, u32),
+    ) -> Result<(), DrawingErrorKind<B::ErrorType>> {
+        let Some((x, y)) = points.next() else { return Ok(()) };
+        let (side, stroke) = (self.side.round() as i32, (0.55 * self.side).round().max(1.0) as u32);
+        match self.mark {
+            Mark::Verdict(Verdict::Fail) | Mark::Fault(Preventability::Preventable) => {
+                let red = RED.stroke_width(stroke);
+                backend.draw_line((x - side, y - side), (x + side, y + side), &red)?;
+                backend.draw_line((x - side, y + side), (x + side, y - side), &red)
+            }
+            Mark::Verdict(Verdict::Pass) => backend.draw_circle((x, y), (0.75 * self.side).round() as u32, &BLUE, true),
+            Mark::Verdict(Verdict::Inconclusive) => {
+                backend.draw_circle((x, y), side as u32, &GREY.stroke_width(stroke), false)
+            }
+            Mark::Verdict(Verdict::Invalid) => {
+                backend.draw_rect((x - side, y - side), (x + side, y + side), &GREY, false)
+            }
+            Mark::Verdict(Verdict::Error) => {
+                let corners = [(x - side, y + side), (x + side, y + side), (x, y - side)];
+                backend.fill_polygon(corners, &ORANGE)
+            }
+            Mark::Fault(Preventability::Unknown) => {
+                let grey = GREY.stroke_width(stroke);
+                backend.draw_line((x - side, y - side), (x + side, y + side), &grey)?;
+                backend.draw_line((x - side, y + side), (x + side, y - side), &grey)
+            }
+            Mark::Fault(Preventability::Unpreventable) => {
+                backend.draw_rect((x - side, y - side), (x + side, y + side), &INK, true)
+            }
+            Mark::Fault(Preventability::Induced) => {
+                let side = (1.5 * self.side).round() as i32;
+                backend.fill_polygon([(x, y - side), (x + side, y), (x, y + side), (x - side, y)], &MAGENTA)
+            }
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Pictures, as SVG for papers and PNG for everything else.
+//!
+//! Both come from the same drawing code; the PNG is drawn at twice the size, so that it is sharp on any screen. Failure
+//! maps and charts are plotters', which draws pixels on a canvas of ours; pictures of worlds and runs are the engine's.
+//! The font is in the program: pictures look the same on a machine without any.
+
+mod animation;
+mod bar;
+mod contour;
+mod frame;
+mod heat;
+mod lines;
+mod log_axis;
+mod log_log;
+mod map;
+mod map_files;
+mod mark;
+mod raster;
+mod shade;
+mod shares;
+mod survival;
+mod symbol;
+mod tint;
+mod wrapped;
+
+pub use animation::film_gif;
+#[cfg(feature = "camera")]
+pub use animation::{Colours, Reel};
+pub use frame::{Entry, Frame};
+pub use heat::HeatMap;
+pub use lines::Lines;
+pub use log_log::{Curve, LogLog, Plane};
+pub use map::{Axis, FailureMap};
+pub use map_files::MapFiles;
+pub use mark::Mark;
+pub use raster::drawing_png;
+pub use shares::{Series, Shares};
+pub use survival::{Survivals, Waiting};
+pub use tint::Tints;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontStyle, register_font};
+use std::error::Error as StdError;
+use std::sync::Once;
+
+/// What drawing to a backend comes to.
+type DrawResult<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+/// Open Sans, Apache License 2.0 (see the folder).
+const FONT: &[u8] = include_bytes!("font/OpenSans-Regular.ttf");
+/// The name by which it is drawn; viewers of an SVG that do not have it take their own sans-serif.
+const FAMILY: &str = "Open Sans, sans-serif";
+/// How much larger than the SVG the PNG is.
+const PNG_SCALE: u32 = 2;
+
+const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
+const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
+
+/// The style of a text.
+fn ink(size: f64) -> TextStyle<'static> {
+    TextStyle::from((FAMILY, size).into_font()).color(&INK)
+}
+
+/// That of a text in a line with what is drawn beside it: its middle is where it is put.
+fn level(size: f64, along: HPos) -> TextStyle<'static> {
+    ink(size).pos(Pos::new(along, VPos::Center))
+}
+
+/// Failure maps or images side by side in rows, or a chart.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    panels: Vec<Panel>,
+    columns: usize,
+    /// Width and height of each panel, in pixels of the SVG.
+    size: (u32, u32),
+}
+
+/// What a picture is made of.
+#[derive(Debug, Clone)]
+enum Panel {
+    Map(FailureMap),
+    LogLog(LogLog),
+    Shares(Shares),
+    Survivals(Survivals),
+    Lines(Lines),
+    Heat(HeatMap),
+}
+
+type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
+
+impl Picture {
+    /// A picture of one map.
+    pub fn of(map: FailureMap) -> Self {
+        Self { panels: vec![Panel::Map(map)], columns: 1, size: (900, 680) }
+    }
+
+    /// A picture of values over sizes.
+    pub fn of_log_log(chart: LogLog) -> Self {
+        let size = (frame::LEGEND + log_log::PLANE * chart.planes.len() as u32, 520);
+        Self { panels: vec![Panel::LogLog(chart)], columns: 1, size }
+    }
+
+    /// A picture of shares over sizes.
+    pub fn of_shares(chart: Shares) -> Self {
+        Self { panels: vec![Panel::Shares(chart)], columns: 1, size: (frame::LEGEND + shares::PLANE, 520) }
+    }
+
+    /// A picture of how many still wait.
+    pub fn of_survivals(chart: Survivals) -> Self {
+        let size = (frame::LEGEND + survival::PLANE, frame::HEADER + chart.height());
+        Self { panels: vec![Panel::Survivals(chart)], columns: 1, size }
+    }
+
+    /// A picture of charts of curves, one below the other.
+    ///
+    /// # Panics
+    /// There is no chart.
+    pub fn of_lines(charts: Vec<Lines>) -> Self {
+        assert!(!charts.is_empty(), "a picture shows something");
+        Self { panels: charts.into_iter().map(Panel::Lines).collect(), columns: 1, size: (900, 420) }
+    }
+
+    /// A picture of several maps, `columns` in a row.
+    ///
+    /// # Panics
+    /// There is no map or no column.
+    pub fn grid(columns: usize, maps: Vec<FailureMap>) -> Self {
+        assert!(columns > 0 && !maps.is_empty(), "a picture shows something");
+        Self { panels: maps.into_iter().map(Panel::Map).collect(), columns, size: (480, 440) }
+    }
+
+    /// A picture of several images of one size, `columns` in a row.
+    ///
+    /// # Panics
+    /// There is no image or no column.
+    pub fn of_images(columns: usize, images: Vec<HeatMap>) -> Self {
+        assert!(columns > 0 && !images.is_empty(), "a picture shows something");
+        let size = images[0].size();
+        Self { panels: images.into_iter().map(Panel::Heat).collect(), columns, size }
+    }
+
+    fn extent(&self) -> (u32, u32) {
+        let rows = self.panels.len().div_ceil(self.columns);
+        (self.size.0 * self.columns as u32, self.size.1 * rows as u32)
+    }
+
+    /// The picture as the text of an SVG file.
+    ///
+    /// # Errors
+    /// The plotter fails.
+    pub fn svg(&self) -> Result<String, Box<dyn StdError + Send + Sync>> {
+        let mut text = String::new();
+        let area = SVGBackend::with_string(&mut text, self.extent()).into_drawing_area();
+        self.draw(&area, 1)?;
+        drop(area);
+        Ok(text)
+    }
+
+    /// The picture as the contents of a PNG file.
+    ///
+    /// # Errors
+    /// The plotter fails.
+    pub fn png(&self) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
+        let (width, height) = self.extent();
+        let (width, height) = (width * PNG_SCALE, height * PNG_SCALE);
+        let mut pixels = raster::sheet(width, height);
+        self.draw(&raster::Canvas::on(&mut pixels).into_drawing_area(), PNG_SCALE)?;
+        encode_png(width, height, &raster::opaque(&pixels))
+    }
+
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> Drawn
+    where
+        B::ErrorType: 'static,
+    {
+        with_font();
+        let drawn: Result<(), DrawingAreaErrorKind<B::ErrorType>> = (|| {
+            area.fill(&WHITE)?;
+            let rows = self.panels.len().div_ceil(self.columns);
+            for (panel, part) in self.panels.iter().zip(area.split_evenly((rows, self.columns))) {
+                match panel {
+                    Panel::Map(map) => map.draw(&part, f64::from(scale))?,
+                    Panel::LogLog(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Shares(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Survivals(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Lines(chart) => chart.draw(&part, f64::from(scale))?,
+                    Panel::Heat(image) => image.draw(&part, scale)?,
+                }
+            }
+            area.present()
+        })();
+        drawn.map_err(Into::into)
+    }
+}
+
+/// Makes the font of the program known.
+fn with_font() {
+    static REGISTERED: Once = Once::new();
+    REGISTERED.call_once(|| {
+        let registered = register_font(FAMILY, FontStyle::Normal, FONT);
+        assert!(registered.is_ok(), "the font in the program is a font");
+    });
+}
+
+/// The contents of a PNG file with these pixels, red, green and blue of each.
+fn encode_png(width: u32, height: u32, pixels: &[u8]) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
+    let mut file = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut file, width, height);
+    encoder.set_color(::png::ColorType::Rgb);
+    encoder.set_compression(::png::Compression::Balanced);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(pixels)?;
+    writer.finish()?;
+    Ok(file)
+}

@@ -1,0 +1,72 @@
+//! Shares over sizes: a logarithmic axis from left to right, and from bottom to top 0 to 1. Clouds of marks.
+
+use super::frame::{Frame, TEXT};
+use super::log_axis::Log;
+use super::symbol::Symbol;
+use super::{GRID, INK, ink};
+use paracosm_generators::Look;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+/// The width of the plane, in pixels of the SVG.
+pub(super) const PLANE: u32 = 640;
+
+/// A chart of shares.
+#[derive(Debug, Clone)]
+pub struct Shares {
+    /// What stands around the plane.
+    pub frame: Frame,
+    /// What the horizontal axis shows.
+    pub x: String,
+    /// What the vertical axis shows, written above it.
+    pub y: String,
+    /// The least and the greatest size, above 0.
+    pub range: (f64, f64),
+    /// What is drawn, the last on top.
+    pub series: Vec<Series>,
+}
+
+/// What belongs to one line of the legend.
+#[derive(Debug, Clone)]
+pub struct Series {
+    /// The mark and colour of the series.
+    pub look: Look,
+    /// Places of marks.
+    pub marks: Vec<(f64, f64)>,
+}
+
+type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+impl Shares {
+    /// Draws the chart over the whole area, every length in pixels times `scale`.
+    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: f64) -> Result<B> {
+        let (plane, legend) = self.frame.split(area, PLANE, scale)?;
+        let px = |length: f64| (length * scale).round() as u32;
+        plane.draw(&Text::new(self.y.clone(), (px(14.0) as i32, 0), ink(0.9 * TEXT * scale)))?;
+        let mut chart = ChartBuilder::on(&plane)
+            .margin_top(px(1.9 * TEXT))
+            .margin_right(px(1.4 * TEXT))
+            .margin_bottom(px(0.6 * TEXT))
+            .x_label_area_size(px(2.8 * TEXT))
+            .y_label_area_size(px(3.8 * TEXT))
+            .build_cartesian_2d(Log::from_to(self.range.0, self.range.1, 0.03), -0.02..1.02)?;
+        chart
+            .configure_mesh()
+            .x_desc(&self.x)
+            .y_labels(6)
+            .y_label_formatter(&|share| format!("{share:.1}"))
+            .axis_desc_style(ink(0.9 * TEXT * scale))
+            .label_style(ink(0.8 * TEXT * scale))
+            .axis_style(INK.stroke_width(px(1.0)))
+            .bold_line_style(GRID.stroke_width(px(1.0)))
+            .light_line_style(TRANSPARENT)
+            .draw()?;
+        let plane = chart.plotting_area();
+        for series in &self.series {
+            for &mark in &series.marks {
+                plane.draw(&(EmptyElement::at(mark) + Symbol::of(series.look, scale)))?;
+            }
+        }
+        self.frame.draw_legend(&legend, scale)
+    }
+}

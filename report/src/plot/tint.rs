@@ -1,0 +1,69 @@
+//! A number of each test as the tint of its dot on a map, and a bar that says which tint means what.
+
+use super::DrawResult;
+use super::bar::Bar;
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::Ranged;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+
+/// A number of every test of a map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tints {
+    /// Its name with its unit.
+    pub label: String,
+    /// From the palest to the darkest; what lies beyond is as an end.
+    pub range: (f64, f64),
+    /// In the order of the map's marks.
+    pub values: Vec<f64>,
+}
+
+// From pale to dark in one hue after another, and so in grey, too: some of the colours of ColorBrewer's YlGnBu (Brewer).
+const COLOURS: [[f64; 3]; 5] =
+    [[255.0, 255.0, 204.0], [161.0, 218.0, 180.0], [65.0, 182.0, 196.0], [44.0, 127.0, 184.0], [37.0, 52.0, 148.0]];
+
+/// So many tints does the bar show.
+const STEPS: usize = 40;
+
+impl Tints {
+    /// The colour of a number.
+    pub(super) fn colour(&self, value: f64) -> RGBColor {
+        let share = ((value - self.range.0) / (self.range.1 - self.range.0)).clamp(0.0, 1.0);
+        let place = share * (COLOURS.len() - 1) as f64;
+        let below = (place as usize).min(COLOURS.len() - 2);
+        let between = place - below as f64;
+        let channel = |i: usize| COLOURS[below][i] + between * (COLOURS[below + 1][i] - COLOURS[below][i]);
+        RGBColor(channel(0).round() as u8, channel(1).round() as u8, channel(2).round() as u8)
+    }
+
+    /// Draws the bar along the left side of an area, from `top` to `bottom`, with round numbers beside it.
+    pub(super) fn draw_bar<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        along: (i32, i32),
+        text: f64,
+    ) -> DrawResult<B> {
+        let (low, high) = self.range;
+        let numbers = RangedCoordf64::from(low..high).key_points(6);
+        let ticks = numbers.into_iter().map(|number| ((number - low) / (high - low), number.to_string())).collect();
+        let colour = |share: f64| self.colour(low + share * (high - low));
+        Bar { label: &self.label, steps: STEPS, ticks }.draw(area, along, colour, text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_larger_number_has_a_darker_tint() {
+        let tints = Tints { label: String::new(), range: (0.0, 200.0), values: vec![] };
+        let brightness = |value: f64| {
+            let RGBColor(red, green, blue) = tints.colour(value);
+            u32::from(red) + u32::from(green) + u32::from(blue)
+        };
+        let steps: Vec<u32> = (0..=20).map(|i| brightness(10.0 * f64::from(i))).collect();
+        assert!(steps.windows(2).all(|pair| pair[0] > pair[1]), "{steps:?}");
+        assert_eq!((brightness(-5.0), brightness(500.0)), (steps[0], steps[20]));
+    }
+}

@@ -1,0 +1,296 @@
+//! Reads files of cameras. What is wrong is said with its key and line, what was found and what was expected.
+
+use super::VariedCameras;
+use super::varied::middle;
+use paracosm_campaign::Reason;
+use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
+use paracosm_render::{CameraFlaw, NoCamera, RESOLUTION, camera_settings};
+use paracosm_space::{Domain, Value, did_you_mean, nearest};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use thiserror::Error;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// What a file may say beside the settings of cameras.
+const TOP: [&str; 2] = ["seed", "camera"];
+/// What may be the same in all tests only: images of a set have one size, and times are those of ticks.
+const ALWAYS_THE_SAME: [&str; 2] = [RESOLUTION, "rate"];
+
+/// What is wrong with a file of cameras.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum CameraFileFlaw {
+    /// It is no TOML.
+    #[error("{}", .0.message())]
+    Syntax(toml::de::Error),
+    /// It has no camera.
+    #[error("found no camera, expected a table [camera.NAME]")]
+    NoCamera,
+    /// A key is none of its own.
+    #[error("there is no key `{key}`, expected `seed` or tables [camera.NAME]{}", did_you_mean(.nearest))]
+    TopKey {
+        /// The key.
+        key: String,
+        /// A key that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+    /// A name is none that a folder can have everywhere.
+    #[error("camera `{camera}`: expected a name of letters, digits, - and _, which becomes that of a folder")]
+    Name {
+        /// The name.
+        camera: String,
+    },
+    /// A camera does not say what every camera has to say.
+    #[error("camera `{camera}` has no `{key}`, expected {expected}")]
+    Missing {
+        /// The camera.
+        camera: String,
+        /// The key.
+        key: &'static str,
+        /// What is to be said, with an example.
+        expected: String,
+    },
+    /// A value is of another kind.
+    #[error("{what} is {found}, expected {expected}")]
+    Value {
+        /// The key, with its camera.
+        what: String,
+        /// What stands there.
+        found: String,
+        /// What is expected.
+        expected: String,
+    },
+    /// A key that no camera has, or a camera that cannot be.
+    #[error(transparent)]
+    Camera(#[from] NoCamera),
+}
+
+impl Reason for CameraFileFlaw {}
+
+/// What is wrong, and in which line, from 1.
+#[derive(Debug, PartialEq)]
+pub(super) struct Flaw {
+    pub line: Option<usize>,
+    pub flaw: CameraFileFlaw,
+}
+
+type Entry<'a> = Spanned<DeValue<'a>>;
+
+/// Reads the text of a file.
+pub(super) fn parse(text: &str) -> Result<VariedCameras, Flaw> {
+    let reader = Reader { text };
+    let root = DeTable::parse(text).map_err(|error| Flaw {
+        line: error.span().map(|span| reader.line(&span)),
+        flaw: CameraFileFlaw::Syntax(error),
+    })?;
+    let mut read = VariedCameras::from(Cameras::default());
+    let mut found = Vec::new();
+    for (key, value) in root.get_ref() {
+        match (key.get_ref().as_ref(), value.get_ref()) {
+            ("seed", _) => read.seed(reader.seed(value)?),
+            ("camera", DeValue::Table(cameras)) => found.extend(cameras),
+            ("camera", _) => return Err(reader.flaw(value, "`camera`", "tables [camera.NAME]")),
+            (unknown, _) => {
+                let flaw = CameraFileFlaw::TopKey { key: unknown.to_owned(), nearest: nearest(unknown, TOP) };
+                return Err(reader.at(&key.span(), flaw));
+            }
+        }
+    }
+    for (name, table) in found {
+        reader.camera(&mut read, name, table)?;
+    }
+    if read.nominal().all.is_empty() {
+        return Err(Flaw { line: None, flaw: CameraFileFlaw::NoCamera });
+    }
+    Ok(read)
+}
+
+/// What a file says of a setting.
+enum Given {
+    /// A number for all tests.
+    Once(f64),
+    /// What the tests vary it over.
+    Varied(Domain),
+}
+
+/// A file that is being read.
+struct Reader<'t> {
+    text: &'t str,
+}
+
+impl Reader<'_> {
+    fn line(&self, span: &Range<usize>) -> usize {
+        self.text[..span.start].matches('\n').count() + 1
+    }
+
+    fn at(&self, span: &Range<usize>, flaw: CameraFileFlaw) -> Flaw {
+        Flaw { line: Some(self.line(span)), flaw }
+    }
+
+    /// That something has the wrong value.
+    fn flaw(&self, value: &Entry<'_>, what: &str, expected: &str) -> Flaw {
+        let found = self.text[value.span()].trim().to_owned();
+        let (what, expected) = (what.to_owned(), expected.to_owned());
+        self.at(&value.span(), CameraFileFlaw::Value { what, found, expected })
+    }
+
+    fn seed(&self, value: &Entry<'_>) -> Result<u64, Flaw> {
+        let number =
+            value.get_ref().as_integer().and_then(|number| u64::from_str_radix(number.as_str(), number.radix()).ok());
+        number.ok_or_else(|| self.flaw(value, "`seed`", "a whole number from 0 on"))
+    }
+
+    fn camera(&self, read: &mut VariedCameras, name: &Spanned<Cow<'_, str>>, table: &Entry<'_>) -> Result<(), Flaw> {
+        let (span, name) = (name.span(), name.get_ref().as_ref());
+        let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+        if name.is_empty() || !name.chars().all(plain) {
+            return Err(self.at(&span, CameraFileFlaw::Name { camera: name.to_owned() }));
+        }
+        let DeValue::Table(entries) = table.get_ref() else {
+            let what = format!("camera `{name}`");
+            return Err(self.flaw(table, &what, &format!("a table [camera.{name}]")));
+        };
+        let (mut spec, mut lines) = (CameraSpec::default(), BTreeMap::new());
+        let mut varied = Vec::new();
+        for (key, value) in entries {
+            let (key_span, key) = (key.span(), key.get_ref().as_ref());
+            lines.insert(key, key_span.clone());
+            if key == RESOLUTION {
+                spec.resolution = self.resolution(name, value)?;
+                continue;
+            }
+            let settings = camera_settings().of_key(key);
+            let settings = settings.map_err(|flaw| self.at(&key_span, no_camera(name, flaw)))?;
+            for (setting, value) in self.parts(name, value, settings)? {
+                let nominal = match self.given(name, &setting, value)? {
+                    Given::Once(number) => number,
+                    Given::Varied(domain) => {
+                        let nominal = middle(&domain);
+                        varied.push((setting, domain));
+                        nominal
+                    }
+                };
+                setting.set(&mut spec, nominal);
+            }
+        }
+        if let Some(key) = camera_settings().keys().into_iter().find(|key| is_required(key) && !lines.contains_key(key))
+        {
+            let flaw = CameraFileFlaw::Missing { camera: name.to_owned(), key, expected: expected(key) };
+            return Err(self.at(&span, flaw));
+        }
+        read.put(name, spec);
+        varied.into_iter().for_each(|(setting, domain)| read.add(name, &setting, domain));
+        for spec in read.extremes(name) {
+            camera_settings().check(&spec).map_err(|flaw| {
+                let span = flaw.key().and_then(|key| lines.get(key)).unwrap_or(&span);
+                self.at(span, no_camera(name, flaw))
+            })?;
+        }
+        Ok(())
+    }
+
+    /// The values of the settings that share a key.
+    fn parts<'a>(
+        &self,
+        camera: &str,
+        value: &'a Entry<'a>,
+        settings: Vec<CameraSetting>,
+    ) -> Result<Vec<(CameraSetting, &'a Entry<'a>)>, Flaw> {
+        match (settings.as_slice(), value.get_ref()) {
+            ([alone], _) => Ok(vec![(*alone, value)]),
+            (several, DeValue::Array(values)) if values.len() == several.len() => {
+                Ok(several.iter().copied().zip(values.iter()).collect())
+            }
+            (several, _) => {
+                let names: Vec<_> = several.iter().map(|setting| setting.name).collect();
+                let expected = format!("a list of {} numbers: {}", names.len(), names.join(", "));
+                let key = several.first().map_or_else(String::new, |setting| format!(": `{}`", setting.key));
+                Err(self.flaw(value, &format!("camera `{camera}`{key}"), &expected))
+            }
+        }
+    }
+
+    fn given(&self, camera: &str, setting: &CameraSetting, value: &Entry<'_>) -> Result<Given, Flaw> {
+        let what = match setting {
+            CameraSetting { key, name, .. } if key == name => format!("camera `{camera}`: `{key}`"),
+            CameraSetting { key, name, .. } => format!("camera `{camera}`: {name} in `{key}`"),
+        };
+        let unit = if setting.unit.is_empty() { String::new() } else { format!(" of {}", setting.unit) };
+        if let Some(number) = number(value.get_ref()) {
+            return Ok(Given::Once(number));
+        }
+        let Some(range) = value.get_ref().as_str() else {
+            return Err(self.flaw(value, &what, &format!("a number{unit}, or a range such as \"1..2\"")));
+        };
+        if ALWAYS_THE_SAME.contains(&setting.key) {
+            return Err(self.flaw(value, &what, &format!("a number{unit}: it cannot vary from test to test")));
+        }
+        domain(range).map(Given::Varied).ok_or_else(|| {
+            let expected = format!("\"LO..HI\" or \"A,B,C\", numbers{unit}, the lower end first and no number twice");
+            self.flaw(value, &what, &expected)
+        })
+    }
+
+    fn resolution(&self, camera: &str, value: &Entry<'_>) -> Result<[u32; 2], Flaw> {
+        let pixels = value.get_ref().as_array().and_then(|pixels| match pixels.iter().collect::<Vec<_>>().as_slice() {
+            [width, height] => Some([whole(width.get_ref())?, whole(height.get_ref())?]),
+            _ => None,
+        });
+        pixels.ok_or_else(|| {
+            self.flaw(
+                value,
+                &format!("camera `{camera}`: `{RESOLUTION}`"),
+                "whole numbers of pixels across and down, such as [640, 480]",
+            )
+        })
+    }
+}
+
+fn no_camera(name: &str, flaw: CameraFlaw) -> CameraFileFlaw {
+    NoCamera { camera: name.to_owned(), flaw }.into()
+}
+
+/// Whether every camera has to say this key.
+fn is_required(key: &str) -> bool {
+    key == RESOLUTION || camera_settings().iter().any(|setting| setting.key == key && setting.default.is_none())
+}
+
+/// The meaning of a key, with an example.
+fn expected(key: &str) -> String {
+    if key == RESOLUTION {
+        return format!("pixels across and down, such as `{RESOLUTION} = [640, 480]`");
+    }
+    let settings: Vec<_> = camera_settings().iter().filter(|setting| setting.key == key).collect();
+    let about: Vec<_> = settings.iter().map(|setting| setting.about).collect();
+    let examples: Vec<_> = settings.iter().map(|setting| format!("{:?}", setting.example)).collect();
+    let example = if settings.len() == 1 { examples.concat() } else { format!("[{}]", examples.join(", ")) };
+    format!("{}, such as `{key} = {example}`", about.join(", "))
+}
+
+/// What the tests vary a setting over: `LO..HI` or `A,B,C`.
+fn domain(text: &str) -> Option<Domain> {
+    let number = |text: &str| text.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    if let Some((lo, hi)) = text.split_once("..") {
+        let (lo, hi) = (number(lo)?, number(hi)?);
+        return (lo < hi).then_some(Domain::Interval { lo, hi });
+    }
+    let numbers = text.split(',').map(number).collect::<Option<Vec<f64>>>()?;
+    let alike = numbers.iter().enumerate().any(|(i, number)| numbers[..i].contains(number));
+    (!alike).then(|| Domain::Choice(numbers.into_iter().map(Value::Number).collect()))
+}
+
+fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Float(number) => number.as_str().parse().ok(),
+        DeValue::Integer(number) => {
+            i64::from_str_radix(number.as_str(), number.radix()).ok().map(|number| number as f64)
+        }
+        _ => None,
+    }
+}
+
+fn whole(value: &DeValue<'_>) -> Option<u32> {
+    let number = value.as_integer()?;
+    u32::from_str_radix(number.as_str(), number.radix()).ok()
+}

@@ -1,0 +1,238 @@
+//! What one camera sees of a test, for people: as a film in an MP4 or a GIF file, or as a folder of PNG files.
+//!
+//! Images are written as they are drawn, so that no more than a few of them are in memory.
+
+use super::image::{Pixels, write};
+use super::missing::Missing;
+use super::part::Part;
+use super::video::Video;
+use super::{Film, Picture, Projector, Shot};
+use crate::plot;
+use paracosm_campaign::files::is_new;
+use paracosm_campaign::{Error, Failure, Reason, Trial, Worker};
+use paracosm_engine::sensor::{CameraSpec, Cameras};
+use paracosm_render::{Outputs, Stages};
+use paracosm_space::{did_you_mean, nearest};
+use rayon::prelude::*;
+use std::error::Error as StdError;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use thiserror::Error;
+
+/// Where a clip goes: a file, or a folder that does not exist yet.
+#[derive(Debug)]
+pub struct Clip {
+    path: PathBuf,
+    form: Form,
+    stop: Arc<AtomicBool>,
+}
+
+/// What a clip is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Mp4,
+    Gif,
+    /// A folder of PNG files.
+    Images,
+}
+
+/// A film that is being written.
+enum Reel {
+    Mp4(Box<Video<BufWriter<File>>>),
+    Gif(Box<plot::Reel<BufWriter<File>>>),
+}
+
+impl Reel {
+    fn show(&mut self, rgb: &[u8], seconds: f64) -> Result<(), Box<dyn StdError + Send + Sync>> {
+        match self {
+            Self::Mp4(video) => video.show(rgb, seconds),
+            Self::Gif(reel) => reel.show(rgb, seconds),
+        }
+    }
+
+    fn end(self) -> Result<(), Box<dyn StdError + Send + Sync>> {
+        match self {
+            Self::Mp4(video) => video.end(),
+            Self::Gif(reel) => reel.end(),
+        }
+    }
+}
+
+/// A name that no film can have.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error(
+    "--camera {}: found the ending `.{ending}`, expected FILE.mp4, FILE.gif, or a FOLDER without an ending for PNG files{}",
+    path.display(), did_you_mean(.nearest)
+)]
+pub struct UnknownEnding {
+    /// The file.
+    pub path: PathBuf,
+    /// Its ending.
+    pub ending: String,
+    /// An ending that was perhaps meant.
+    pub nearest: Option<&'static str>,
+}
+
+/// A film of nothing.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("the camera saw nothing: {why}")]
+pub struct NothingSeen {
+    /// Why, in words.
+    pub why: String,
+}
+
+impl Reason for UnknownEnding {}
+
+impl Clip {
+    /// A clip in a file that ends in `.mp4` or `.gif`, or in a folder of images, whose name has no ending.
+    ///
+    /// # Errors
+    /// It exists, or its name has another ending.
+    pub fn new(path: &Path) -> Result<Self, Error> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let form = match ending.as_deref() {
+            Some("mp4") => Form::Mp4,
+            Some("gif") => Form::Gif,
+            None => Form::Images,
+            Some(other) => {
+                let (path, ending) = (path.to_owned(), other.to_owned());
+                return Err(UnknownEnding { path, ending, nearest: nearest(other, ["mp4", "gif"]) }.into());
+            }
+        };
+        if form == Form::Images {
+            is_new(path, "a film")?;
+        }
+        Ok(Self { path: path.to_owned(), form, stop: Arc::default() })
+    }
+
+    /// The same, which is given up and leaves nothing behind once `stop` is set.
+    pub fn until(self, stop: Arc<AtomicBool>) -> Self {
+        Self { stop, ..self }
+    }
+
+    /// Films a test of a worker's study with the first of these cameras; in words, a line each, what was written and what
+    /// there was not to see.
+    ///
+    /// # Errors
+    /// There is no adapter, the test is not the one that was logged, nothing was seen, or nothing can be written.
+    pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<Vec<String>, Error> {
+        let film = Film::of(worker, trial, cameras, &Stages::default())?;
+        let mut projector = Projector::new(cameras, Outputs { rgb: true, ..Outputs::default() })?;
+        let (name, camera) = cameras.all.iter().next().expect("there is a camera in every set");
+        let mut missing = Missing::of(name, camera);
+        let images = match self.form {
+            Form::Images => self.write_images(&film, &mut projector, &mut missing, camera.resolution)?,
+            Form::Mp4 | Form::Gif => self.write_film(&film, &mut projector, &mut missing, camera)?,
+        };
+        let written = format!("{images} images of camera `{name}` written to {}", self.path.display());
+        Ok(std::iter::once(written).chain(missing.notes()).collect())
+    }
+
+    fn write_film(
+        &self,
+        film: &Film,
+        projector: &mut Projector,
+        missing: &mut Missing<'_>,
+        camera: &CameraSpec,
+    ) -> Result<usize, Error> {
+        let failed = |source| self.failed(source);
+        let colours = match self.form {
+            Form::Gif => Some(self.colours(film, projector, missing)?),
+            Form::Mp4 | Form::Images => None,
+        };
+        let (part, file) = Part::file(&self.path)?;
+        let (file, size) = (BufWriter::new(file), camera.resolution);
+        let mut reel = match colours {
+            Some(colours) => Reel::Gif(Box::new(plot::Reel::begin(file, size, colours.palette()).map_err(failed)?)),
+            None => Reel::Mp4(Box::new(Video::begin(file, size, camera.rate).map_err(failed)?)),
+        };
+        let mut images = 0;
+        projector.show(film, 0, |shots| {
+            self.go_on()?;
+            shots.iter().try_for_each(|(shot, seen)| {
+                missing.see(shot, seen);
+                let Some(rgb) = colours_of(seen) else { return Ok(()) };
+                images += 1;
+                reel.show(rgb, shot.time).map_err(failed)
+            })
+        })?;
+        if images == 0 {
+            self.nothing(film, missing)?;
+        }
+        reel.end().map_err(failed)?;
+        part.finish()?;
+        Ok(images)
+    }
+
+    /// The colours of a film.
+    fn colours(
+        &self,
+        film: &Film,
+        projector: &mut Projector,
+        missing: &mut Missing<'_>,
+    ) -> Result<plot::Colours, Error> {
+        let mut colours = plot::Colours::default();
+        // Where the camera is inside something in all of the few, it may still see something in others.
+        for some in [&film.sample(), film] {
+            if colours.are_none() {
+                projector.show(some, 0, |shots| {
+                    self.go_on()?;
+                    shots.iter().filter_map(|(_, seen)| colours_of(seen)).for_each(|rgb| colours.count(rgb));
+                    Ok(())
+                })?;
+            }
+        }
+        if colours.are_none() {
+            self.nothing(film, missing)?;
+        }
+        Ok(colours)
+    }
+
+    fn write_images(
+        &self,
+        film: &Film,
+        projector: &mut Projector,
+        missing: &mut Missing<'_>,
+        size: [u32; 2],
+    ) -> Result<usize, Error> {
+        let part = Part::folder(&self.path)?;
+        let mut images = 0;
+        projector.show(film, 0, |shots| {
+            self.go_on()?;
+            shots.iter().for_each(|(shot, seen)| missing.see(shot, seen));
+            images += shots.iter().filter(|(_, seen)| seen.is_ok()).count();
+            shots.par_iter().filter_map(|(shot, seen)| Some((shot, colours_of(seen)?))).try_for_each(|(shot, rgb)| {
+                let Shot { number, .. } = shot;
+                write(&part.path().join(format!("{number:06}.png")), Pixels::Colours(rgb), size)
+            })
+        })?;
+        if images == 0 {
+            self.nothing(film, missing)?;
+        }
+        part.finish()?;
+        Ok(images)
+    }
+
+    /// Whether nobody has had enough of it.
+    fn go_on(&self) -> Result<(), Error> {
+        if self.stop.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
+    }
+
+    /// Fails and says why there is nothing to see.
+    fn nothing(&self, film: &Film, missing: &mut Missing<'_>) -> Result<(), Error> {
+        let thing = film.shots[0].first().map(|_| "it is inside something at all times".to_owned());
+        let why = thing.or_else(|| missing.notes().into_iter().next()).unwrap_or_default();
+        Err(self.failed(NothingSeen { why }.into()))
+    }
+
+    fn failed(&self, source: Box<dyn StdError + Send + Sync>) -> Error {
+        Failure::Drawing { path: self.path.clone(), source }.into()
+    }
+}
+
+fn colours_of(seen: &Result<Picture, super::Inside>) -> Option<&[u8]> {
+    seen.as_ref().ok()?.frame.rgb.as_deref()
+}

@@ -1,0 +1,172 @@
+//! Boxes as the COCO format has them (Lin et al. 2014): images, annotations, categories, and beside them what COCO does
+//! not know: how much is hidden, and the box in space.
+
+use super::{Picture, Shot};
+use paracosm_campaign::Error;
+use paracosm_render::{Box2, Box3, Semantic, boxes};
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// The file of the boxes, of a test and of all.
+pub(super) const ANNOTATIONS: &str = "annotations.json";
+
+/// What it holds.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Annotations {
+    images: Vec<Image>,
+    annotations: Vec<Annotation>,
+    categories: Vec<Category>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Image {
+    id: usize,
+    /// Its colours, or else another image of it that is kept, if any is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    file_name: Option<String>,
+    width: u32,
+    height: u32,
+    camera: String,
+    frame: u64,
+    time: f64,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Annotation {
+    id: usize,
+    image_id: usize,
+    category_id: u8,
+    /// Left, top, width and height in pixels.
+    bbox: [u32; 4],
+    /// Pixels that are seen.
+    area: u32,
+    iscrowd: u8,
+    /// The id in the instance image: the same thing has it in all images of a test.
+    instance: u16,
+    attributes: Attributes,
+    #[serde(rename = "box3d")]
+    in_space: Option<InSpace>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Attributes {
+    /// From 0, all of it is seen, to 1.
+    occlusion: Option<f64>,
+}
+
+/// In the camera's coordinates: x forward, y to the left, z up, metres.
+#[derive(Debug, Serialize, Deserialize)]
+struct InSpace {
+    center: [f64; 3],
+    size: [f64; 3],
+    /// A unit quaternion: w, x, y, z.
+    rotation: [f64; 4],
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Category {
+    id: u8,
+    name: String,
+}
+
+impl Annotations {
+    /// Nothing yet, in the classes that there are.
+    pub fn new() -> Self {
+        let categories = (0..).zip(Semantic::names()).map(|(id, name)| Category { id, name: (*name).to_owned() });
+        Self { categories: categories.collect(), ..Self::default() }
+    }
+
+    /// Adds a picture of a camera that is in this file, if it is kept.
+    pub fn add(&mut self, camera: &str, file_name: Option<String>, shot: &Shot, picture: &Picture) {
+        let image_id = self.images.len() + 1;
+        let (width, height) = (picture.frame.width(), picture.frame.height());
+        let (frame, time) = (shot.number, shot.time);
+        self.images.push(Image { id: image_id, file_name, width, height, camera: camera.to_owned(), frame, time });
+        for seen in boxes(&picture.frame).unwrap_or_default() {
+            let in_space = picture.boxes.iter().find(|in_space| in_space.id == seen.visible.id);
+            self.annotations.push(annotation(self.annotations.len() + 1, image_id, &seen, in_space));
+        }
+    }
+}
+
+/// Writes the annotations of many tests as those of one set: ids go on from test to test, and names of files begin with the
+/// folder of the test. Each test is known by the name of its folder below `top`, and no more than one of them is in memory.
+pub(super) fn merge(top: &Path, tests: &[String], file: &mut impl Write) -> Result<(), Error> {
+    let failed = |error: io::Error| Error::io("write", &top.join(ANNOTATIONS))(error);
+    let read = |test: &String| -> Result<Annotations, Error> {
+        let path = top.join(test).join(ANNOTATIONS);
+        let text = fs::read_to_string(&path).map_err(Error::io("read", &path))?;
+        serde_json::from_str(&text).map_err(|error| Error::in_file(&path, error.line(), error))
+    };
+    let mut lists = Lists { first: true, file };
+    lists.write("{\n\"images\": [").map_err(failed)?;
+    let mut before = 0;
+    for test in tests {
+        let mut images = read(test)?.images;
+        for image in &mut images {
+            image.id += before;
+            image.file_name = image.file_name.take().map(|name| format!("{test}/{name}"));
+            lists.add(image).map_err(failed)?;
+        }
+        before += images.len();
+    }
+    lists.write("\n],\n\"annotations\": [").map_err(failed)?;
+    let (mut before, mut images_before) = (0, 0);
+    for test in tests {
+        let Annotations { images, mut annotations, .. } = read(test)?;
+        for annotation in &mut annotations {
+            annotation.id += before;
+            annotation.image_id += images_before;
+            lists.add(annotation).map_err(failed)?;
+        }
+        before += annotations.len();
+        images_before += images.len();
+    }
+    lists.write("\n],\n\"categories\": [").map_err(failed)?;
+    Annotations::new().categories.iter().try_for_each(|category| lists.add(category)).map_err(failed)?;
+    lists.write("\n]\n}\n").and_then(|()| lists.file.flush()).map_err(failed)
+}
+
+/// Lists in JSON, written element by element.
+struct Lists<'a, W> {
+    first: bool,
+    file: &'a mut W,
+}
+
+impl<W: Write> Lists<'_, W> {
+    /// Writes what is between lists; the next element is the first of its list.
+    fn write(&mut self, text: &str) -> io::Result<()> {
+        self.first = true;
+        self.file.write_all(text.as_bytes())
+    }
+
+    fn add(&mut self, element: &impl Serialize) -> io::Result<()> {
+        self.file.write_all(if std::mem::take(&mut self.first) { b"\n" } else { b",\n" })?;
+        serde_json::to_writer(&mut self.file, element).map_err(io::Error::from)
+    }
+}
+
+fn annotation(id: usize, image_id: usize, seen: &Box2, in_space: Option<&Box3>) -> Annotation {
+    let Box2 { visible, semantic, occlusion } = seen;
+    let [left, top] = visible.min;
+    Annotation {
+        id,
+        image_id,
+        category_id: semantic.unwrap_or_default(),
+        bbox: [left, top, visible.max[0] - left + 1, visible.max[1] - top + 1],
+        area: visible.pixels,
+        iscrowd: 0,
+        instance: visible.id,
+        attributes: Attributes { occlusion: *occlusion },
+        in_space: in_space.map(|in_space| {
+            let turn = in_space.pose.rotation.quaternion();
+            InSpace {
+                center: in_space.pose.translation.vector.into(),
+                size: in_space.size.into(),
+                rotation: [turn.w, turn.i, turn.j, turn.k],
+            }
+        }),
+    }
+}

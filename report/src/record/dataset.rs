@@ -1,0 +1,364 @@
+//! A labelled data set: a folder for each test, with the images of its cameras and all that is known of them.
+//!
+//! A test's folder gets its name when it is whole, so that one that is there is done, whatever happened since.
+
+use super::coco::{ANNOTATIONS, Annotations, merge};
+use super::image::{Pixels, depth_words, write};
+use super::missing::Missing;
+use super::part::Part;
+use super::{Film, Inside, Picture, Projector, Shot, VariedCameras};
+use paracosm_campaign::files::write_whole;
+use paracosm_campaign::{Error, Reason, Trial, Worker};
+use paracosm_engine::sensor::Cameras;
+use paracosm_render::{Camera, NoCamera, Outputs, Stages, camera_settings};
+use paracosm_space::{did_you_mean, nearest};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+use thiserror::Error;
+
+/// What the recording is of, beside the campaign's own files.
+const RECORDING: &str = "recording.json";
+
+/// What is kept of what cameras see.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Kept {
+    /// Colours.
+    pub rgb: bool,
+    /// The class of every pixel.
+    pub semantic: bool,
+    /// How far away it is.
+    pub depth: bool,
+    /// Which thing it is.
+    pub instance: bool,
+    /// The boxes around things.
+    pub boxes: bool,
+}
+
+impl Kept {
+    /// Everything.
+    pub const ALL: Self = Self { rgb: true, semantic: true, depth: true, instance: true, boxes: true };
+
+    /// What has to be drawn.
+    pub fn outputs(self) -> Outputs {
+        Outputs {
+            rgb: self.rgb,
+            depth: self.depth,
+            semantic: self.semantic || self.boxes,
+            instance: self.instance || self.boxes,
+            alone: self.boxes,
+            ..Outputs::default()
+        }
+    }
+}
+
+/// The outputs by name.
+const NAMES: [&str; 5] = ["rgb", "semantic", "depth", "instance", "boxes"];
+
+/// What is wrong with a list of outputs.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum OutputsFlaw {
+    /// It is empty.
+    #[error("found no output, expected some of {}", NAMES.join(", "))]
+    Nothing,
+    /// An output has no such name.
+    #[error("there is no output `{name}`, expected some of {}{}", NAMES.join(", "), did_you_mean(.nearest))]
+    Unknown {
+        /// The name.
+        name: String,
+        /// A name that was perhaps meant.
+        nearest: Option<&'static str>,
+    },
+}
+
+/// A recording that cannot be continued.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error(
+    "{} holds a recording with other cameras, outputs or colours; repeat the command that began it, or write elsewhere \
+     with --out", path.display()
+)]
+pub struct OtherRecording {
+    /// The file that says what it is of.
+    pub path: PathBuf,
+}
+
+impl Reason for OutputsFlaw {}
+impl Reason for OtherRecording {}
+
+impl FromStr for Kept {
+    type Err = OutputsFlaw;
+
+    /// Some of `rgb,semantic,depth,instance,boxes`.
+    fn from_str(list: &str) -> Result<Self, OutputsFlaw> {
+        if list.trim().is_empty() {
+            return Err(OutputsFlaw::Nothing);
+        }
+        let mut found = [false; 5];
+        for name in list.split(',').map(str::trim) {
+            let Some(place) = NAMES.iter().position(|known| *known == name) else {
+                return Err(OutputsFlaw::Unknown { name: name.to_owned(), nearest: nearest(name, NAMES) });
+            };
+            found[place] = true;
+        }
+        let [rgb, semantic, depth, instance, boxes] = found;
+        Ok(Self { rgb, semantic, depth, instance, boxes })
+    }
+}
+
+/// What a data set is, so that one is never continued as another.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Recording {
+    kept: Kept,
+    /// The seed of colours, where they are drawn.
+    colours: Option<u64>,
+    /// The cameras; settings that tests vary are in the middle of their ranges, which the study has.
+    cameras: Cameras,
+}
+
+/// What came of recording a test.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Recorded {
+    /// How many images it has, of all cameras.
+    pub images: usize,
+    /// Which images it has not, and why, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// A data set in the folder of its campaign.
+#[derive(Debug)]
+pub struct Dataset {
+    folder: PathBuf,
+    recording: Recording,
+    cameras: VariedCameras,
+    stages: Stages,
+}
+
+impl Dataset {
+    /// The data set in the folder of a campaign, begun if there is none. Tests vary what [`VariedCameras::open`] opened.
+    ///
+    /// # Errors
+    /// The folder cannot be written, or there is a data set of other cameras, outputs or colours.
+    pub fn open(
+        folder: &Path,
+        cameras: impl Into<VariedCameras>,
+        kept: Kept,
+        colours: Option<u64>,
+    ) -> Result<Self, Error> {
+        let (file, cameras) = (folder.join(RECORDING), cameras.into());
+        let mut recording = Recording { kept, colours, cameras: cameras.nominal().clone() };
+        camera_settings().complete(&mut recording.cameras);
+        if file.exists() {
+            let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
+            let mut there: Recording =
+                serde_json::from_str(&text).map_err(|error| Error::in_file(&file, error.line(), error))?;
+            // A setting that came with a later version was not said then.
+            camera_settings().complete(&mut there.cameras);
+            if there != recording {
+                return Err(OtherRecording { path: file }.into());
+            }
+        } else {
+            write_whole(&file, pretty(&recording).as_bytes())?;
+        }
+        Ok(Self { folder: folder.to_owned(), recording, cameras, stages: Stages::default() })
+    }
+
+    /// Whether a test is recorded.
+    pub fn has(&self, trial: &Trial) -> bool {
+        self.path(trial).exists()
+    }
+
+    /// Records a test with a projector of its cameras and outputs.
+    ///
+    /// # Errors
+    /// The test is not the one that was logged, its images cannot be drawn, or its folder cannot be written.
+    pub fn record(&self, worker: &mut Worker, trial: &Trial, projector: &mut Projector) -> Result<Recorded, Error> {
+        let cameras = self.cameras.of_test(&trial.test);
+        let mut film = Film::of(worker, trial, &cameras, &self.stages)?;
+        if let Some(seed) = self.recording.colours {
+            film.repaint(seed, trial.index);
+        }
+        if self.cameras.vary() {
+            projector.fit(&cameras)?;
+        }
+        let whole = self.path(trial);
+        let part = whole.with_extension("part");
+        if part.exists() {
+            fs::remove_dir_all(&part).map_err(Error::io("remove", &part))?;
+        }
+        let recorded = self.write((&film, &cameras, trial), projector, &part);
+        if recorded.is_err() {
+            // It is of no use to anybody; that it cannot be removed changes nothing.
+            let _ = fs::remove_dir_all(&part);
+        }
+        let recorded = recorded?;
+        fs::rename(&part, &whole).map_err(Error::io("write", &whole))?;
+        Ok(recorded)
+    }
+
+    /// Writes one file of boxes for those of these tests that are recorded, beside their folders: what loaders of COCO take.
+    ///
+    /// # Errors
+    /// A file of a test cannot be read, or this one not be written.
+    pub fn finish<'t>(&self, trials: impl IntoIterator<Item = &'t Trial>) -> Result<(), Error> {
+        if !self.recording.kept.boxes {
+            return Ok(());
+        }
+        let recorded = trials.into_iter().filter(|trial| self.has(trial));
+        let tests: Vec<String> = recorded.map(|trial| format!("{:06}", trial.index)).collect();
+        let (part, file) = Part::file(&self.folder.join(ANNOTATIONS))?;
+        merge(&self.folder, &tests, &mut BufWriter::new(file))?;
+        part.finish()
+    }
+
+    fn path(&self, trial: &Trial) -> PathBuf {
+        self.folder.join(format!("{:06}", trial.index))
+    }
+
+    fn write(
+        &self,
+        (film, cameras, trial): (&Film, &Cameras, &Trial),
+        projector: &mut Projector,
+        folder: &Path,
+    ) -> Result<Recorded, Error> {
+        let kept = &self.recording.kept;
+        let mut annotations = Annotations::new();
+        let mut controls = CONTROLS.to_owned();
+        let (mut images, mut notes) = (0, Vec::new());
+        fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
+        for (index, (name, camera)) in cameras.all.iter().enumerate() {
+            for kind in kept.kinds() {
+                let path = folder.join(name).join(kind);
+                fs::create_dir_all(&path).map_err(Error::io("create", &path))?;
+            }
+            let mut missing = Missing::of(name, camera);
+            projector.show(film, index, |shots| {
+                for (shot, seen) in &shots {
+                    missing.see(shot, seen);
+                    controls.push_str(&control_line(name, shot, camera.latency, seen.as_ref().err()));
+                    if let Ok(picture) = seen {
+                        images += 1;
+                        let file = kept.kinds().next().map(|kind| format!("{name}/{kind}/{}", file_name(shot)));
+                        annotations.add(name, file, shot, picture);
+                    }
+                }
+                let camera = folder.join(name);
+                let pictures = shots.par_iter().filter_map(|(shot, seen)| Some((shot, seen.as_ref().ok()?)));
+                pictures.try_for_each(|(shot, picture)| write_images(&camera, shot, picture, *kept))
+            })?;
+            notes.extend(missing.notes());
+        }
+        let mut files = vec![
+            ("controls.csv", controls),
+            (
+                "calibration.json",
+                pretty(&calibration(cameras, |name| self.cameras.settings_of(name, &trial.test).collect())?),
+            ),
+        ];
+        if kept.boxes {
+            files.push((ANNOTATIONS, pretty(&annotations)));
+        }
+        for (name, contents) in files {
+            let path = folder.join(name);
+            fs::write(&path, contents).map_err(Error::io("write", &path))?;
+        }
+        Ok(Recorded { images, notes })
+    }
+}
+
+impl Kept {
+    /// The folders of a camera's images.
+    fn kinds(self) -> impl Iterator<Item = &'static str> {
+        let kinds =
+            [(self.rgb, "rgb"), (self.semantic, "semantic"), (self.depth, "depth"), (self.instance, "instance")];
+        kinds.into_iter().filter_map(|(kept, kind)| kept.then_some(kind))
+    }
+}
+
+fn file_name(shot: &Shot) -> String {
+    format!("{:06}.png", shot.number)
+}
+
+fn write_images(camera: &Path, shot: &Shot, picture: &Picture, kept: Kept) -> Result<(), Error> {
+    let frame = &picture.frame;
+    let size = [frame.width(), frame.height()];
+    let depth = frame.planar_depth().map(|depth| depth_words(&depth));
+    let images = [
+        (kept.rgb, "rgb", frame.rgb.as_deref().map(Pixels::Colours)),
+        (kept.semantic, "semantic", frame.semantic.as_deref().map(Pixels::Bytes)),
+        (kept.depth, "depth", depth.as_deref().map(Pixels::Words)),
+        (kept.instance, "instance", frame.instance.as_deref().map(Pixels::Words)),
+    ];
+    let wanted = images.into_iter().filter(|(kept, ..)| *kept);
+    for (folder, pixels) in wanted.filter_map(|(_, folder, pixels)| Some((folder, pixels?))) {
+        write(&camera.join(folder).join(file_name(shot)), pixels, size)?;
+    }
+    Ok(())
+}
+
+const CONTROLS: &str =
+    "camera,frame,time,arrival,x,y,heading,speed,travelled,steering,throttle,light,fog,rain,inside\n";
+
+/// A line of `controls.csv`. Names of cameras need no quotes; those of things get them where they do.
+fn control_line(camera: &str, shot: &Shot, latency: f64, inside: Option<&Inside>) -> String {
+    let Shot { number, time, moment, control } = shot;
+    let arrival = time + latency;
+    let car = &moment.bodies[0].pose;
+    let (x, y, heading) = (car.position.x, car.position.y, car.heading);
+    let (speed, travelled, weather) = (moment.speed, moment.travelled, moment.weather);
+    let (steering, throttle) = (control.steering, control.throttle);
+    let inside = inside.map_or(String::new(), |Inside(thing)| quoted(thing));
+    format!(
+        "{camera},{number},{time},{arrival},{x},{y},{heading},{speed},{travelled},{steering},{throttle},{},{},{},{inside}\n",
+        weather.light, weather.fog, weather.rain
+    )
+}
+
+/// A field of a CSV file.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+/// What `calibration.json` holds: each camera's matrix, which takes x to the right, y down and z forward to pixels, and
+/// where it is mounted; and those of its settings that vary from test to test.
+fn calibration<'n>(
+    cameras: &'n Cameras,
+    varied: impl Fn(&'n str) -> BTreeMap<&'static str, f64>,
+) -> Result<serde_json::Value, Error> {
+    let described = cameras.all.iter().map(|(name, spec)| {
+        let camera = Camera::of(spec).map_err(|flaw| NoCamera { camera: name.clone(), flaw: flaw.into() })?;
+        let [width, height] = spec.resolution;
+        let (focal, x, y) = (camera.focal_pixels(), f64::from(width) / 2.0, f64::from(height) / 2.0);
+        let pose = camera.mount().to_homogeneous();
+        let rows: Vec<Vec<f64>> = pose.row_iter().map(|row| row.iter().copied().collect()).collect();
+        let mut described = json!({
+            "width": width,
+            "height": height,
+            "K": [[focal, 0.0, x], [0.0, focal, y], [0.0, 0.0, 1.0]],
+            "camera_to_car": rows,
+            "rate": spec.rate,
+            "latency": spec.latency,
+            "position": spec.position,
+            "yaw_pitch_roll": spec.yaw_pitch_roll,
+        });
+        let varied = varied(name);
+        if !varied.is_empty() {
+            described["varied"] = json!(varied);
+        }
+        Ok((name.clone(), described))
+    });
+    let cameras = described.collect::<Result<serde_json::Map<_, _>, Error>>()?;
+    let axes = "of the car and of a camera: x forward, y to the left, z up, in metres; K takes x to the right, y down, \
+                z forward, and the middle of the upper left pixel is at (0.5, 0.5); depth images are metres along a camera's axis times 256, 0 for none";
+    Ok(json!({"axes": axes, "cameras": cameras}))
+}
+
+fn pretty(value: &impl Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(value).expect("what is recorded is always JSON");
+    text.push('\n');
+    text
+}

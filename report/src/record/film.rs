@@ -1,0 +1,194 @@
+//! A test as its cameras have it: the moments at which they open their shutters, not drawn yet.
+
+use paracosm_campaign::reasons::ModelFlaw;
+use paracosm_campaign::study::Appearances;
+use paracosm_campaign::{Error, Reason, Study, Trial, Worker};
+use paracosm_engine::object::Class;
+use paracosm_engine::sensor::{Cameras, Chance, Moment, Sample, SensorError, Shutters};
+use paracosm_engine::{Control, Run};
+use paracosm_oracles::Verdict;
+use paracosm_render::{Cast, Stage, Stages};
+use std::sync::Arc;
+use thiserror::Error;
+
+/// An image that is to be drawn.
+#[derive(Debug, Clone)]
+pub struct Shot {
+    /// Which of the camera's images it is.
+    pub number: u64,
+    /// When it was taken, in seconds since the run began.
+    pub time: f64,
+    /// What there was to see.
+    pub moment: Moment,
+    /// What the driver had answered last when the image was there.
+    pub control: Control,
+}
+
+/// What the cameras of a test have taken.
+#[derive(Debug, Clone)]
+pub struct Film {
+    /// The roads.
+    pub stage: Arc<Stage>,
+    /// Which bodies are shown as models of a user's own.
+    pub cast: Cast,
+    /// The shots of each camera, in the order of the cameras' names.
+    pub shots: Vec<Vec<Shot>>,
+    /// Where the noise of its images comes from: the cameras' seed and the values of the test.
+    pub seed: u64,
+    /// What each body is called.
+    pub names: Arc<[String]>,
+}
+
+/// The greatest number of images that a film's colours are taken from.
+const SAMPLES: usize = 12;
+
+/// What is noted of a run while it is filmed.
+#[derive(Default)]
+struct Notes {
+    stage: Option<Arc<Stage>>,
+    /// Unless a model cannot be had.
+    cast: Option<Result<Cast, ModelFlaw>>,
+    names: Arc<[String]>,
+    seed: u64,
+    /// What each camera has taken.
+    taken: Vec<Vec<Sample<Moment>>>,
+    /// What the driver answered, each with the time at which it was asked.
+    answers: Vec<(f64, Control)>,
+    /// When it was asked last.
+    asked: Option<f64>,
+}
+
+/// A whisker of time in seconds, because times are sums of ticks.
+const WHISKER: f64 = 1e-9;
+
+impl Notes {
+    /// Takes notes whenever the driver is asked, and at the end.
+    fn take(&mut self, run: &Run, stages: &Stages, appearances: &Appearances) {
+        if self.stage.is_none() {
+            self.stage = Some(stages.of(run.network()));
+            self.cast = Some(appearances.cast(run));
+            self.names = (0..run.bodies().len()).map(|body| run.name_of(body).to_owned()).collect();
+            self.seed = run.filmed().cameras().seed;
+        }
+        self.answers.extend(self.asked.replace(run.time()).map(|asked| (asked, run.control())));
+        self.taken.resize_with(run.filmed().cameras().all.len(), Vec::new);
+        for (camera, sample) in run.filmed().arrived() {
+            self.taken[camera].push(sample.clone());
+        }
+    }
+
+    /// The last answer at a time.
+    fn answer_at(&self, time: f64) -> Control {
+        let before = self.answers.partition_point(|(asked, _)| *asked <= time + WHISKER);
+        before.checked_sub(1).map_or(Control::default(), |last| self.answers[last].1)
+    }
+}
+
+/// Why a test cannot be filmed.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum FilmFlaw {
+    /// It broke, or its world cannot be.
+    #[error("test {index} ended as {verdict}, so that there is nothing to see")]
+    Nothing {
+        /// Its index.
+        index: usize,
+        /// How it ended.
+        verdict: Verdict,
+    },
+    /// It does not end as it did.
+    #[error("test {index} is not the one that was logged: its trace has another hash")]
+    Another {
+        /// Its index.
+        index: usize,
+    },
+    /// A camera cannot be.
+    #[error("camera {0}")]
+    Camera(SensorError),
+    /// A camera takes images faster than the world goes on.
+    #[error("camera `{camera}`: `rate` is {rate} Hz, expected at most {} Hz: a tick of `{scenario}` takes {dt} s", 1.0 / dt)]
+    Rate {
+        /// The camera.
+        camera: String,
+        /// Its images a second.
+        rate: f64,
+        /// The scenario.
+        scenario: String,
+        /// Its tick in seconds.
+        dt: f64,
+    },
+}
+
+impl Reason for FilmFlaw {}
+
+impl Film {
+    /// Runs a test of a worker's study again and films it with these cameras, beside those that its driver may have.
+    ///
+    /// # Errors
+    /// The study is of no scenario, the test ended as invalid or in an error, or the run is not the one that was logged.
+    pub fn of(worker: &mut Worker, trial: &Trial, cameras: &Cameras, stages: &Stages) -> Result<Self, Error> {
+        check_rates(worker.study(), cameras)?;
+        if !trial.covers() {
+            return Err(FilmFlaw::Nothing { index: trial.index, verdict: trial.verdict }.into());
+        }
+        let shutters = Shutters::of(cameras.clone()).map_err(FilmFlaw::Camera)?;
+        let appearances = worker.study().subject().scenario()?.appearances();
+        let mut notes = Notes::default();
+        let see = |run: &Run| notes.take(run, stages, appearances);
+        let (again, _) = worker.film(trial.index, &trial.test, Some(shutters), see);
+        let cast = notes.cast.take().transpose()?.unwrap_or_default();
+        let taken = std::mem::take(&mut notes.taken);
+        let stage = notes.stage.take().filter(|_| again.trace_hash == trial.trace_hash);
+        let stage = stage.ok_or(FilmFlaw::Another { index: trial.index })?;
+        let shots = taken.into_iter().zip(cameras.all.values()).map(|(taken, camera)| {
+            let developed = |Sample { number, time, reading: moment }| Shot {
+                number,
+                time,
+                moment,
+                control: notes.answer_at(time + camera.latency),
+            };
+            taken.into_iter().map(developed).collect()
+        });
+        Ok(Self { stage, cast, shots: shots.collect(), seed: notes.seed, names: notes.names.clone() })
+    }
+
+    /// The same with only a few shots of each camera, from the first to the last.
+    pub(super) fn sample(&self) -> Self {
+        let sample = |shots: &Vec<Shot>| {
+            let last = shots.len().saturating_sub(1);
+            let mut places: Vec<usize> = (0..SAMPLES).map(|i| i * last / (SAMPLES - 1)).collect();
+            places.dedup();
+            places.into_iter().filter_map(|place| shots.get(place).cloned()).collect()
+        };
+        Self { shots: self.shots.iter().map(sample).collect(), ..self.clone() }
+    }
+
+    /// Paints all that has an owner, but for the car under test, in colours drawn from this seed for this test: what should
+    /// not matter to whoever drives.
+    pub fn repaint(&mut self, seed: u64, trial: usize) {
+        let painted = |class| matches!(class, Class::Car | Class::Truck | Class::Bicycle | Class::Pedestrian);
+        for shot in self.shots.iter_mut().flatten() {
+            for (index, state) in shot.moment.bodies.iter_mut().enumerate().skip(1) {
+                if painted(state.body.class) {
+                    let mut chance = Chance::of(seed, &format!("colour of body {index}"), trial as u64);
+                    state.body.colour = [0; 3].map(|_: u8| chance.between(0.0, 256.0) as u8);
+                }
+            }
+        }
+    }
+}
+
+/// Checks that none of these cameras takes images faster than a study's scenario goes on.
+///
+/// # Errors
+/// One does; the study is of no scenario.
+pub fn check_rates(study: &Study, cameras: &Cameras) -> Result<(), Error> {
+    let simulation = study.subject().scenario()?;
+    let dt = simulation.dt();
+    match cameras.all.iter().find(|(_, camera)| camera.rate * dt > 1.0 + WHISKER) {
+        None => Ok(()),
+        Some((name, camera)) => {
+            let (camera, rate, scenario) = (name.clone(), camera.rate, simulation.scenario().to_owned());
+            Err(FilmFlaw::Rate { camera, rate, scenario, dt }.into())
+        }
+    }
+}

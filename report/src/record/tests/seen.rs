@@ -1,0 +1,149 @@
+//! What drivers see while they drive, against what a recording of the same test shows.
+
+use super::super::{Developed, Film, Projector};
+use super::can_draw;
+use paracosm_campaign::{Campaign, Study, Trial, Worker};
+use paracosm_engine::driver::{Driver, Equipment, Fault, find};
+use paracosm_engine::sensor::{Image, Rig};
+use paracosm_engine::{
+    AutonomousVehicle, Briefing, Control, Environment, Monitor, Observation, Program, RoadSegment, Scenario,
+};
+use paracosm_render::{Outputs, Stages};
+use std::sync::{Arc, Mutex};
+
+const QUIET: Program = Program::new("quiet-road", "a car alone on a road", quiet_road);
+
+fn quiet_road(s: &mut Scenario) {
+    let speed = s.interval("speed", 5.0..=15.0).unit("m/s");
+    let turned = s.interval("turned", -0.1..=0.1).unit("rad");
+    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
+    let light = s.nominal("light", 0.0..=1.0, 1.0);
+    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
+    let road = s.place(RoadSegment::new(200.0));
+    s.place(Environment::new().light(light).fog(fog).rain(rain));
+    let start = road.on_lane(1, 10.0);
+    let start = paracosm_engine::Pose { heading: start.heading + turned.value(), ..start };
+    let car = s.place(AutonomousVehicle::at(start).speed(speed.value()));
+    s.duration(3.0);
+    s.monitor(Monitor::lane_keeping(&car));
+    s.monitor(Monitor::progress(&car, 12.0));
+}
+
+fn study(changes: &[(&str, f64)]) -> Study {
+    let study = Study::of(QUIET).driver("lane-camera").budget(7);
+    let study = changes.iter().fold(study, |study, (name, value)| study.set_driver(name, *value));
+    study.build().expect("a sound study")
+}
+
+fn trials(campaign: Campaign<'_>) -> Vec<Trial> {
+    campaign.into_log().expect("it runs").trials().to_vec()
+}
+
+#[test]
+fn more_rain_changes_more_of_an_image_and_no_rain_changes_nothing() {
+    if !can_draw() {
+        return;
+    }
+    let trial = trials(Campaign::new(&study(&[])).unwrap()).swap_remove(0);
+    let cameras = find("lane-camera").unwrap().build(&[]).unwrap().equipment().cameras;
+    let dry = study(&[]);
+    let filmed = |rain: Option<f64>| {
+        let mut worker = Worker::new(&dry).unwrap();
+        let mut trial = trial.clone();
+        if let Some(rain) = rain {
+            trial.test.set("rain", rain);
+            trial = worker.run(0, &trial.test).0;
+        }
+        let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
+        let mut first = None;
+        let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();
+        let show = |pictures: Vec<Developed<'_>>| {
+            first = first.take().or_else(|| pictures.into_iter().next()?.1.ok()?.frame.rgb);
+            Ok(())
+        };
+        projector.show(&film, 0, show).unwrap();
+        first.expect("it has an image")
+    };
+    let none = filmed(None);
+    assert!(filmed(Some(0.0)) == none);
+    let apart = |rain: f64| -> u64 {
+        filmed(Some(rain)).iter().zip(&none).map(|(wet, dry)| u64::from(wet.abs_diff(*dry))).sum()
+    };
+    let (little, much) = (apart(0.1), apart(1.0));
+    assert!(0 < little && little < much, "{little} and {much}");
+}
+
+/// A driver that keeps what another one is shown, and when.
+struct Witness {
+    driver: Box<dyn Driver>,
+    /// Images that have come, and not been asked about.
+    new: Vec<Image>,
+    shown: Arc<Mutex<Vec<(f64, Image)>>>,
+}
+
+impl Driver for Witness {
+    fn period(&self) -> f64 {
+        self.driver.period()
+    }
+
+    fn equipment(&mut self) -> Equipment {
+        self.driver.equipment()
+    }
+
+    fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault> {
+        self.driver.reset(briefing)
+    }
+
+    fn perceive(&mut self, rig: &Rig, images: &[Image]) -> Result<(), Fault> {
+        self.new = images.to_vec();
+        self.driver.perceive(rig, images)
+    }
+
+    fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
+        let shown = self.new.drain(..).map(|image| (observation.time, image));
+        self.shown.lock().unwrap().extend(shown);
+        self.driver.step(observation)
+    }
+}
+
+#[test]
+fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lost() {
+    if !can_draw() {
+        return;
+    }
+    let study = study(&[("blur", 0.8), ("latency", 0.12), ("dropped", 0.3)]);
+    let trial = trials(Campaign::new(&study).unwrap()).swap_remove(2);
+    let changes = [("blur", 0.8), ("latency", 0.12), ("dropped", 0.3)].map(|(name, value)| (name.to_owned(), value));
+    let shown = Arc::<Mutex<Vec<(f64, Image)>>>::default();
+    let seen = shown.clone();
+    let lane_camera = move || find("lane-camera").unwrap().build(&changes).unwrap();
+    let cameras = lane_camera().equipment().cameras;
+    let make = move || -> Box<dyn Driver> {
+        Box::new(Witness { driver: lane_camera(), new: Vec::new(), shown: seen.clone() })
+    };
+    let witnessed = study.driven_by_own("witness", make).unwrap();
+    let (again, _) = Worker::new(&witnessed).unwrap().run(2, &trial.test);
+    assert_eq!(again.trace_hash, trial.trace_hash);
+
+    let mut worker = Worker::new(&study).unwrap();
+    assert_eq!(worker.eyes().unwrap(), cameras);
+    let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
+    let mut recorded = Vec::new();
+    let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();
+    let show = |pictures: Vec<Developed<'_>>| {
+        recorded.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.unwrap().frame.rgb.unwrap())));
+        Ok(())
+    };
+    projector.show(&film, 0, show).unwrap();
+    let shown = std::mem::take(&mut *shown.lock().unwrap());
+    assert!(shown.len() > 10 && shown.len() < 28, "{} of 30 images", shown.len());
+    for ((asked, image), (number, rgb)) in shown.iter().zip(&recorded) {
+        let late = asked - image.time;
+        assert!((0.12..0.17 + 1e-9).contains(&(late + 1e-9)), "{late} s");
+        assert_eq!(image.number, *number);
+        assert!((image.time - 0.1 * *number as f64).abs() < 1e-9, "{} s", image.time);
+        assert!(image.rgb == *rgb, "image {number}");
+    }
+    // The last may come when the test is over.
+    assert!(recorded.len() - shown.len() <= 1);
+}

@@ -1,0 +1,117 @@
+//! Cameras some of whose settings vary from test to test: what should not matter to a driver that learns from recordings.
+
+use paracosm_campaign::StudyBuilder;
+use paracosm_campaign::study::setting_name;
+use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
+use paracosm_space::{Domain, Parameter, Value, Values};
+use xxhash_rust::xxh3::xxh3_64;
+
+/// Cameras, and which of their settings the tests vary.
+#[derive(Debug, Clone)]
+pub struct VariedCameras {
+    cameras: Cameras,
+    varied: Vec<Varied>,
+}
+
+/// A setting of a camera that the tests vary.
+#[derive(Debug, Clone)]
+struct Varied {
+    camera: String,
+    setting: CameraSetting,
+    parameter: Parameter,
+}
+
+impl From<Cameras> for VariedCameras {
+    /// Cameras that are the same in all tests.
+    fn from(cameras: Cameras) -> Self {
+        Self { cameras, varied: Vec::new() }
+    }
+}
+
+impl VariedCameras {
+    /// The cameras with the settings in the middle of what the tests vary.
+    pub fn nominal(&self) -> &Cameras {
+        &self.cameras
+    }
+
+    /// Whether the tests vary something.
+    pub fn vary(&self) -> bool {
+        !self.varied.is_empty()
+    }
+
+    /// Takes all noise from this seed.
+    pub(super) fn seed(&mut self, seed: u64) {
+        self.cameras.seed = seed;
+    }
+
+    /// Adds a camera.
+    pub(super) fn put(&mut self, name: &str, camera: CameraSpec) {
+        self.cameras.all.insert(name.to_owned(), camera);
+    }
+
+    /// Adds a setting of a camera to what the tests vary.
+    pub(super) fn add(&mut self, camera: &str, setting: &CameraSetting, domain: Domain) {
+        let parameter = Parameter {
+            unit: Some(setting.unit.to_owned()).filter(|unit| !unit.is_empty()),
+            default: Some(Value::Number(middle(&domain))),
+            ..Parameter::new(setting_name(camera, setting.name), domain)
+        };
+        self.varied.push(Varied { camera: camera.to_owned(), setting: *setting, parameter });
+    }
+
+    /// A camera with its varied settings at the ends of their ranges, and at each of their values: where all these are
+    /// cameras, so are all that tests make.
+    pub(super) fn extremes(&self, camera: &str) -> Vec<CameraSpec> {
+        let mine = self.varied.iter().filter(|varied| varied.camera == camera);
+        let ends = mine.map(|Varied { setting, parameter, .. }| match &parameter.domain {
+            Domain::Interval { lo, hi } => (setting, vec![*lo, *hi]),
+            Domain::Choice(levels) => (setting, levels.iter().filter_map(Value::number).collect()),
+        });
+        let ends: Vec<_> = ends.collect();
+        let most = ends.iter().map(|(_, numbers)| numbers.len()).max().unwrap_or(1);
+        let at = |step: usize| {
+            let mut spec = self.cameras.all.get(camera)?.clone();
+            for (setting, numbers) in &ends {
+                setting.set(&mut spec, *numbers.get(step).or(numbers.last())?);
+            }
+            Some(spec)
+        };
+        (0..most).filter_map(at).collect()
+    }
+
+    /// A study whose tests vary the settings, too.
+    pub fn open(&self, study: StudyBuilder) -> StudyBuilder {
+        study.open_cameras(self.varied.iter().map(|varied| varied.parameter.clone()))
+    }
+
+    /// The cameras of a test, with noise of its own; what it says nothing of is as in [`nominal`](Self::nominal).
+    pub fn of_test(&self, test: &Values) -> Cameras {
+        let mut cameras = self.cameras.clone();
+        for Varied { camera, setting, parameter } in &self.varied {
+            let number = test.get(&parameter.name).and_then(Value::number);
+            let (Some(number), Some(spec)) = (number, cameras.all.get_mut(camera)) else { continue };
+            setting.set(spec, number);
+            let key = [&cameras.seed.to_le_bytes()[..], parameter.name.as_bytes(), &number.to_bits().to_le_bytes()];
+            cameras.seed = xxh3_64(&key.concat());
+        }
+        cameras
+    }
+
+    /// What a test says of a camera: the names of varied settings, with their values.
+    pub(super) fn settings_of<'a>(
+        &'a self,
+        camera: &'a str,
+        test: &'a Values,
+    ) -> impl Iterator<Item = (&'static str, f64)> + use<'a> {
+        let mine = self.varied.iter().filter(move |varied| varied.camera == camera);
+        mine.filter_map(|varied| Some((varied.setting.name, test.get(&varied.parameter.name)?.number()?)))
+    }
+}
+
+/// The middle of an interval, or the first of several values.
+pub(super) fn middle(domain: &Domain) -> f64 {
+    match domain {
+        Domain::Interval { lo, hi } => 0.5 * (lo + hi),
+        Domain::Choice(levels) => levels.first().and_then(Value::number).unwrap_or(f64::NAN),
+    }
+}

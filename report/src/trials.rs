@@ -1,0 +1,58 @@
+//! The trials of a campaign as one flat table.
+
+use paracosm_campaign::{Artefact, Error, Log, Metric, Trial};
+use std::collections::BTreeMap;
+
+/// The table `trials.csv` of a campaign: index, parameters, verdict, robustness, metrics and the rest.
+#[derive(Debug, Clone, Copy)]
+pub struct TrialTable<'l>(pub &'l Log);
+
+impl Artefact for TrialTable<'_> {
+    fn files(&self) -> Vec<&'static str> {
+        vec!["trials.csv"]
+    }
+
+    fn contents(&self, _: &str) -> Result<Vec<u8>, Error> {
+        Ok(csv(self.0))
+    }
+}
+
+fn csv(log: &Log) -> Vec<u8> {
+    let (study, trials) = (log.study(), log.trials());
+    let measured: Vec<Vec<(String, Metric)>> = trials.iter().map(Trial::metrics).collect();
+    let metrics = each_once(measured.iter().flatten().map(|(name, _)| name.as_str()));
+    let stated = study.requirements().iter().map(|requirement| requirement.id.as_str());
+    let ids = each_once(stated.chain(trials.iter().flat_map(Trial::requirements)));
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    let parameters = study.space().coordinates().map(|coordinate| coordinate.name());
+    let requirements = ids.iter().map(|id| format!("robustness.{id}"));
+    let header = ["index".to_owned()].into_iter().chain(parameters).chain(["verdict".to_owned()]);
+    let header = header.chain(requirements).chain(metrics.iter().map(|name| format!("metric.{name}")));
+    let header = header.chain(["ticks", "trace_hash", "error"].map(str::to_owned));
+    let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
+    write(header.collect());
+    for (trial, measured) in trials.iter().zip(&measured) {
+        let measured: BTreeMap<&str, &Metric> = measured.iter().map(|(name, metric)| (name.as_str(), metric)).collect();
+        let mut row = vec![trial.index.to_string()];
+        row.extend(trial.test.iter().flat_map(|(_, value)| value.scalars()).map(ToString::to_string));
+        row.push(trial.verdict.to_string());
+        row.extend(ids.iter().map(|id| trial.robustness(id).map_or(String::new(), |value| value.to_string())));
+        row.extend(metrics.iter().map(|name| measured.get(name).map_or(String::new(), ToString::to_string)));
+        row.push(trial.ticks.to_string());
+        row.push(trial.trace_hash.clone().unwrap_or_default());
+        row.push(trial.error().unwrap_or_default().to_owned());
+        write(row);
+    }
+    csv.into_inner().expect("memory does not fail to flush")
+}
+
+/// Each name once, in the order in which they come first.
+fn each_once<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut once = Vec::new();
+    for name in names {
+        if !once.contains(&name) {
+            once.push(name);
+        }
+    }
+    once
+}

@@ -1,0 +1,282 @@
+//! What a constraint means in a space: sets of levels and relations between levels, joined without negations.
+
+use super::expression::{Expression, Operand, Relation};
+use super::parse::Places;
+use super::{ConstraintError, ConstraintFlaw};
+use crate::names::nearest;
+use crate::{Parameter, Value};
+use std::cmp::Ordering;
+use std::sync::Arc;
+
+/// A statement about the levels of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Condition {
+    /// The level of a parameter is one of those marked.
+    Among { parameter: usize, levels: Arc<[bool]> },
+    /// The levels of two parameters are related as their ranks are.
+    Pair { left: usize, right: usize, ranks: [Arc<[usize]>; 2], relation: Relation },
+    /// All or any of the parts hold.
+    Many { all: bool, parts: Vec<Condition> },
+}
+
+impl Condition {
+    pub(super) const ALWAYS: Self = Condition::Many { all: true, parts: Vec::new() };
+    pub(super) const NEVER: Self = Condition::Many { all: false, parts: Vec::new() };
+
+    /// The level of the parameter is one of those marked.
+    pub(super) fn among(parameter: usize, levels: impl IntoIterator<Item = bool>) -> Self {
+        let levels: Arc<[bool]> = levels.into_iter().collect();
+        if levels.iter().all(|marked| *marked) {
+            Condition::ALWAYS
+        } else if levels.iter().any(|marked| *marked) {
+            Condition::Among { parameter, levels }
+        } else {
+            Condition::NEVER
+        }
+    }
+
+    /// All or any of the parts, simplified: flat, each parameter with one set of levels, no part twice.
+    pub(super) fn many(all: bool, parts: impl IntoIterator<Item = Condition>) -> Self {
+        let mut kept: Vec<Condition> = Vec::new();
+        let mut queue: Vec<Condition> = parts.into_iter().collect();
+        queue.reverse();
+        while let Some(part) = queue.pop() {
+            match part {
+                Condition::Many { all: inner, parts } if inner == all => queue.extend(parts.into_iter().rev()),
+                // What always holds decides a disjunction, what never holds a conjunction.
+                Condition::Many { parts, .. } if parts.is_empty() => return Condition::Many { all: !all, parts },
+                Condition::Among { parameter, levels } => {
+                    let same = kept
+                        .iter_mut()
+                        .find(|other| matches!(other, Condition::Among { parameter: p, .. } if *p == parameter));
+                    let Some(other) = same else {
+                        kept.push(Condition::Among { parameter, levels });
+                        continue;
+                    };
+                    let Condition::Among { levels: known, .. } = &*other else {
+                        unreachable!("found as a set of levels")
+                    };
+                    let joint = known.iter().zip(levels.iter()).map(|(a, b)| if all { *a && *b } else { *a || *b });
+                    match Condition::among(parameter, joint) {
+                        joint @ Condition::Among { .. } => *other = joint,
+                        // All levels of a disjunction, or none of a conjunction.
+                        decided => return decided,
+                    }
+                }
+                part if kept.contains(&part) => {}
+                part => kept.push(part),
+            }
+        }
+        if kept.len() == 1 { kept.remove(0) } else { Condition::Many { all, parts: kept } }
+    }
+
+    pub(super) fn holds(&self, row: &[usize]) -> bool {
+        match self {
+            Condition::Among { parameter, levels } => levels[row[*parameter]],
+            Condition::Pair { left, right, ranks: [a, b], relation } => relation.holds(&a[row[*left]], &b[row[*right]]),
+            Condition::Many { all, parts } => parts.iter().any(|part| part.holds(row) != *all) != *all,
+        }
+    }
+
+    /// What is left to hold where the parameter is at this level.
+    pub(super) fn at(&self, parameter: usize, level: usize) -> Self {
+        match self {
+            Condition::Among { parameter: p, levels } if *p == parameter => {
+                if levels[level] {
+                    Condition::ALWAYS
+                } else {
+                    Condition::NEVER
+                }
+            }
+            Condition::Pair { left, right, ranks: [a, b], relation } if *left == parameter => {
+                Condition::among(*right, b.iter().map(|rank| relation.holds(&a[level], rank)))
+            }
+            Condition::Pair { left, right, ranks: [a, b], relation } if *right == parameter => {
+                Condition::among(*left, a.iter().map(|rank| relation.holds(rank, &b[level])))
+            }
+            Condition::Many { all, parts } => Condition::many(*all, parts.iter().map(|part| part.at(parameter, level))),
+            other => other.clone(),
+        }
+    }
+}
+
+/// Turns expressions into conditions, and finds what in them means nothing.
+pub(super) struct Resolver<'a> {
+    parameters: &'a [Parameter],
+    /// Where the comparisons stand that are still to come.
+    places: std::slice::Iter<'a, Places>,
+}
+
+/// A discrete parameter as a constraint sees it.
+#[derive(Clone, Copy)]
+struct Side<'a> {
+    name: &'a str,
+    position: usize,
+    levels: &'a [Value],
+}
+
+impl<'a> Resolver<'a> {
+    pub(super) fn new(parameters: &'a [Parameter], places: &'a [Places]) -> Self {
+        Self { parameters, places: places.iter() }
+    }
+
+    pub(super) fn resolve(&mut self, expression: &Expression) -> Result<Condition, ConstraintError> {
+        self.condition(expression, true)
+    }
+
+    /// Where the expression holds, or where it does not.
+    fn condition(&mut self, expression: &Expression, holds: bool) -> Result<Condition, ConstraintError> {
+        match expression {
+            Expression::Compare { parameter, relation, with } => self.comparison(parameter, *relation, with, holds),
+            Expression::In { parameter, values } => {
+                let places = self.next_places();
+                let side = self.side(parameter).map_err(at(places.left))?;
+                for (value, place) in values.iter().zip(&places.right) {
+                    side.level(value).map_err(at(*place))?;
+                }
+                Ok(Condition::among(
+                    side.position,
+                    side.levels.iter().map(|level| values.iter().any(|value| value.means(level)) == holds),
+                ))
+            }
+            Expression::Not(part) => self.condition(part, !holds),
+            Expression::And(parts) => self.parts(holds, parts, holds),
+            Expression::Or(parts) => self.parts(!holds, parts, holds),
+            Expression::Implies(condition, consequence) => {
+                let parts = [self.condition(condition, !holds)?, self.condition(consequence, holds)?];
+                Ok(Condition::many(!holds, parts))
+            }
+        }
+    }
+
+    fn parts(&mut self, all: bool, parts: &[Expression], holds: bool) -> Result<Condition, ConstraintError> {
+        let parts: Result<Vec<_>, _> = parts.iter().map(|part| self.condition(part, holds)).collect();
+        Ok(Condition::many(all, parts?))
+    }
+
+    fn next_places(&mut self) -> &'a Places {
+        self.places.next().expect("the parser noted a place for every comparison")
+    }
+
+    fn comparison(
+        &mut self,
+        name: &str,
+        relation: Relation,
+        with: &Operand,
+        holds: bool,
+    ) -> Result<Condition, ConstraintError> {
+        let places = self.next_places();
+        let left = self.side(name).map_err(at(places.left))?;
+        match with {
+            Operand::Value(value) if relation.orders() => {
+                left.numbers(relation).map_err(at(places.left))?;
+                let Some(number) = value.number() else {
+                    let flaw = ConstraintFlaw::Size { relation, value: value.clone() };
+                    return Err(ConstraintError::at(places.right[0], flaw));
+                };
+                let related = |level: &Value| level.number().is_some_and(|level| relation.holds(&level, &number));
+                Ok(Condition::among(left.position, left.levels.iter().map(|level| related(level) == holds)))
+            }
+            Operand::Value(value) => {
+                left.level(value).map_err(at(places.right[0]))?;
+                let equal = (relation == Relation::Equal) == holds;
+                Ok(Condition::among(left.position, left.levels.iter().map(|level| level.means(value) == equal)))
+            }
+            Operand::Parameter(other) => {
+                let right = self.side(other).map_err(|flaw| {
+                    let level = left.levels.iter().find(|level| level.word() == Some(other));
+                    let (parameter, level) = (left.name.to_owned(), level.cloned());
+                    let flaw = match level {
+                        Some(level) => ConstraintFlaw::Level { flaw: Box::new(flaw), parameter, level },
+                        None => flaw,
+                    };
+                    ConstraintError::at(places.right[0], flaw)
+                })?;
+                left.pair(relation, right, holds).map_err(at(places.relation))
+            }
+        }
+    }
+
+    /// The discrete parameter of that name.
+    fn side(&self, name: &str) -> Result<Side<'a>, ConstraintFlaw> {
+        let owned = || name.to_owned();
+        let Some(parameter) = self.parameters.iter().find(|parameter| parameter.name == name) else {
+            let nearest = nearest(name, self.parameters.iter().map(|parameter| parameter.name.as_str()));
+            return Err(ConstraintFlaw::Unknown { name: owned(), nearest: nearest.map(str::to_owned) });
+        };
+        let Some(levels) = parameter.levels() else {
+            return Err(ConstraintFlaw::Continuous { name: owned() });
+        };
+        if parameter.signal.is_some() {
+            return Err(ConstraintFlaw::Varies { name: owned() });
+        }
+        let before = self.parameters.iter().take_while(|other| other.name != name);
+        let position = before.filter(|other| other.levels().is_some()).map(Parameter::coordinates).sum();
+        Ok(Side { name: &parameter.name, position, levels })
+    }
+}
+
+/// Puts a flaw to its place.
+fn at(offset: usize) -> impl Fn(ConstraintFlaw) -> ConstraintError {
+    move |flaw| ConstraintError::at(offset, flaw)
+}
+
+impl Side<'_> {
+    /// Checks that the parameter takes this value at times.
+    fn level(&self, value: &Value) -> Result<(), ConstraintFlaw> {
+        if self.levels.iter().any(|level| level.means(value)) {
+            return Ok(());
+        }
+        // A number in quotes, or a word that is nearly one.
+        let found = value.to_string();
+        let word = nearest(&found, self.levels.iter().filter_map(Value::word));
+        let same = self.levels.iter().find(|level| level.to_string() == found);
+        let meant = same.or_else(|| self.levels.iter().find(|level| word.is_some() && level.word() == word));
+        Err(ConstraintFlaw::Never {
+            parameter: self.name.to_owned(),
+            value: value.clone(),
+            levels: self.levels.to_vec(),
+            meant: meant.cloned(),
+        })
+    }
+
+    /// Checks that the parameter takes numbers only.
+    fn numbers(&self, relation: Relation) -> Result<(), ConstraintFlaw> {
+        let parameter = || self.name.to_owned();
+        let word = self.levels.iter().find(|level| level.number().is_none()).cloned();
+        word.map_or(Ok(()), |word| Err(ConstraintFlaw::SizeOfWord { relation, parameter: parameter(), word }))
+    }
+
+    /// The relation to another parameter, or what holds where it does not.
+    fn pair(self, relation: Relation, other: Side, holds: bool) -> Result<Condition, ConstraintFlaw> {
+        if relation.orders() {
+            self.numbers(relation)?;
+            other.numbers(relation)?;
+        }
+        let mut values: Vec<&Value> = self.levels.iter().chain(other.levels).collect();
+        values.sort_by(|a, b| order(a, b));
+        values.dedup_by(|a, b| order(a, b).is_eq());
+        let rank = |value: &Value| values.partition_point(|known| order(known, value).is_lt());
+        let ranks = [self, other].map(|side| side.levels.iter().map(rank).collect::<Arc<[usize]>>());
+        if !relation.orders() && !ranks[0].iter().any(|rank| ranks[1].contains(rank)) {
+            return Err(ConstraintFlaw::NothingInCommon { parameters: [self, other].map(|side| side.name.to_owned()) });
+        }
+        let relation = if holds { relation } else { relation.negated() };
+        let (left, right) = (self.position, other.position);
+        if left == right {
+            return Ok(Condition::among(left, ranks[0].iter().map(|rank| relation.holds(rank, rank))));
+        }
+        Ok(Condition::Pair { left, right, ranks, relation })
+    }
+}
+
+/// Numbers by size before words by their letters.
+fn order(a: &Value, b: &Value) -> Ordering {
+    match (a.number(), b.number()) {
+        // The two zeros are one value.
+        (Some(a), Some(b)) => (a + 0.0).total_cmp(&(b + 0.0)),
+        (Some(_), None) => Ordering::Less,
+        (None, Some(_)) => Ordering::Greater,
+        (None, None) => a.word().cmp(&b.word()),
+    }
+}

@@ -1,0 +1,412 @@
+//! One parameter: its name, what values it takes, and its unit.
+
+use crate::distribution::DistributionError;
+use crate::domain::at;
+use crate::names::{did_you_mean, nearest};
+use crate::shape::{self, ShapeError};
+use crate::{Distribution, Domain, Shape, Value};
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+use thiserror::Error;
+
+/// A signal with more coordinates than this is a mistake.
+const MOST_COORDINATES: usize = 1_000_000;
+
+/// What is wrong with a parameter, or with a value for it.
+#[derive(Debug, Clone, Error, PartialEq)]
+#[error("parameter `{name}`: {flaw}")]
+pub struct ParameterError {
+    /// The parameter.
+    pub name: String,
+    /// What is wrong.
+    pub flaw: ParameterFlaw,
+}
+
+/// What can be wrong with a parameter, or with a value for it.
+#[derive(Debug, Clone, Error, PartialEq)]
+pub enum ParameterFlaw {
+    /// An interval without inner points, or with ends that are no numbers.
+    #[error("interval [{lo}, {hi}], expected two finite numbers, the first below the second")]
+    Interval {
+        /// Its lower end.
+        lo: f64,
+        /// Its upper end.
+        hi: f64,
+    },
+    /// A choice of nothing.
+    #[error("a choice needs at least one value")]
+    EmptyChoice,
+    /// A choice that names a value twice.
+    #[error("the choice names {value} twice")]
+    SameLevel {
+        /// The repeated value.
+        value: Value,
+    },
+    /// A choice between lists.
+    #[error("a choice is between numbers and words, found {value}")]
+    ListLevel {
+        /// The list.
+        value: Value,
+    },
+    /// A signal with no coordinate, or with too many.
+    #[error("the signal {shape} has {found} coordinates, expected 1 to {MOST_COORDINATES}")]
+    Coordinates {
+        /// The shape of the signal.
+        shape: Shape,
+        /// How many coordinates it has.
+        found: usize,
+    },
+    /// A signal without a piece.
+    #[error("a signal needs at least one piece")]
+    NoPiece,
+    /// A choice that is to vary smoothly.
+    #[error("a choice is piecewise constant where it varies, found the shape {shape}")]
+    SmoothChoice {
+        /// The shape of the signal.
+        shape: Shape,
+    },
+    /// A list that is not as long as the signal has coordinates.
+    #[error("found {found} values, expected the {expected} of a signal {shape}")]
+    SignalLength {
+        /// How many values there are.
+        found: usize,
+        /// How many values the shape takes.
+        expected: usize,
+        /// The shape of the signal.
+        shape: Shape,
+    },
+    /// Values that cannot be distributed so.
+    #[error(transparent)]
+    Distribution(#[from] DistributionError),
+    /// A value that the parameter does not take.
+    #[error("found {value}, expected {expected}{}", did_you_mean(.nearest))]
+    OutsideDomain {
+        /// The value found.
+        value: Value,
+        /// The parameter's domain.
+        expected: Domain,
+        /// A level that was perhaps meant.
+        nearest: Option<String>,
+    },
+}
+
+/// A named parameter of a [`Space`](crate::Space).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Entry", into = "Entry")]
+pub struct Parameter {
+    /// The name by which a scenario asks for it.
+    pub name: String,
+    /// What values it takes.
+    pub domain: Domain,
+    /// The unit in which its values are read, for labels.
+    pub unit: Option<String>,
+    /// The nominal value: what it is where nobody varies it, and where shrinking goes.
+    pub default: Option<Value>,
+    /// How it varies over time; `None` of what is constant in each test.
+    pub signal: Option<Shape>,
+    /// How likely its values are, where a probability is asked for.
+    pub distribution: Distribution,
+}
+
+impl Parameter {
+    /// A parameter without unit and nominal value, constant over time.
+    pub fn new(name: impl Into<String>, domain: Domain) -> Self {
+        Self { name: name.into(), domain, unit: None, default: None, signal: None, distribution: Distribution::Uniform }
+    }
+
+    /// The values of a discrete parameter; `None` of a continuous one.
+    pub fn levels(&self) -> Option<&[Value]> {
+        match &self.domain {
+            Domain::Interval { .. } => None,
+            Domain::Choice(levels) => Some(levels),
+        }
+    }
+
+    /// The position of a value among the levels: of the level that is written so, or the only one that is the same number.
+    pub fn level(&self, value: &Value) -> Option<usize> {
+        let levels = self.levels()?;
+        levels.iter().position(|level| level == value).or_else(|| {
+            let mut same = (0..levels.len()).filter(|&level| levels[level].means(value));
+            same.next().filter(|_| same.next().is_none())
+        })
+    }
+
+    /// The value at a coordinate in `[0,1]` of a continuous parameter.
+    ///
+    /// # Panics
+    /// The parameter is discrete.
+    pub fn value_at(&self, coordinate: f64) -> f64 {
+        match self.domain {
+            Domain::Interval { lo, hi } => at(lo, hi, coordinate),
+            Domain::Choice(_) => panic!("parameter `{}` is discrete and has levels", self.name),
+        }
+    }
+
+    /// The name with its unit, for an axis or a column: `speed (m/s)`.
+    pub fn label(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} ({unit})", self.name),
+            None => self.name.clone(),
+        }
+    }
+
+    /// Checks that the parameter takes this value. A signal takes a list with a value for each coordinate, or a single
+    /// value for one that never changes.
+    ///
+    /// # Errors
+    /// It does not; the error says what it takes.
+    pub fn check(&self, value: &Value) -> Result<(), ParameterError> {
+        if let (Value::List(values), Some(shape)) = (value, self.signal) {
+            let (found, expected) = (values.len(), shape.coordinates());
+            if found != expected {
+                return Err(self.wrong(ParameterFlaw::SignalLength { found, expected, shape }));
+            }
+            return values.iter().try_for_each(|value| self.check_scalar(value));
+        }
+        self.check_scalar(value)
+    }
+
+    fn check_scalar(&self, value: &Value) -> Result<(), ParameterError> {
+        let taken = match (&self.domain, value) {
+            (Domain::Interval { lo, hi }, value) => value.number().is_some_and(|v| (*lo..=*hi).contains(&v)),
+            (Domain::Choice(_), value) => self.level(value).is_some(),
+        };
+        if taken {
+            return Ok(());
+        }
+        let words = self.levels().unwrap_or_default().iter().filter_map(Value::word);
+        let nearest = value.word().and_then(|word| nearest(word, words)).map(str::to_owned);
+        let (value, expected) = (value.clone(), self.domain.clone());
+        Err(self.wrong(ParameterFlaw::OutsideDomain { value, expected, nearest }))
+    }
+
+    pub(crate) fn validate(&self) -> Result<(), ParameterError> {
+        match &self.domain {
+            &Domain::Interval { lo, hi } => {
+                // Written so that NaN fails.
+                if !(lo.is_finite() && hi.is_finite() && lo < hi) {
+                    return Err(self.wrong(ParameterFlaw::Interval { lo, hi }));
+                }
+            }
+            Domain::Choice(levels) => {
+                if levels.is_empty() {
+                    return Err(self.wrong(ParameterFlaw::EmptyChoice));
+                }
+                // Two levels that are written alike could not be told apart in a file of tests.
+                let mut written = BTreeSet::new();
+                for level in levels {
+                    if matches!(level, Value::List(_)) {
+                        return Err(self.wrong(ParameterFlaw::ListLevel { value: level.clone() }));
+                    }
+                    if !written.insert(level.to_string()) {
+                        return Err(self.wrong(ParameterFlaw::SameLevel { value: level.clone() }));
+                    }
+                }
+            }
+        }
+        self.signal.map_or(Ok(()), |shape| self.check_signal(shape))?;
+        self.distribution.check(&self.domain).map_err(|error| self.wrong(error))?;
+        self.default.as_ref().map_or(Ok(()), |value| self.check(value))
+    }
+
+    /// How many coordinates of a test it has: one, or those of its signal.
+    pub fn coordinates(&self) -> usize {
+        self.signal.map_or(1, Shape::coordinates)
+    }
+
+    /// The values of its coordinates; of a signal, a single value stands for the one that never changes.
+    ///
+    /// # Errors
+    /// The value is not in the domain, or a list that is not as long as there are coordinates.
+    pub fn scalars(&self, value: &Value) -> Result<Vec<Value>, ParameterError> {
+        self.check(value)?;
+        Ok(match value {
+            Value::List(values) => values.to_vec(),
+            value => vec![value.clone(); self.coordinates()],
+        })
+    }
+
+    /// Checks that it can vary in this shape.
+    ///
+    /// # Errors
+    /// The shape has no piece or too many coordinates, or the parameter is a choice and the shape not piecewise
+    /// constant.
+    pub fn check_signal(&self, shape: Shape) -> Result<(), ParameterError> {
+        let found = shape.coordinates();
+        match shape {
+            _ if !(1..=MOST_COORDINATES).contains(&found) => {
+                Err(self.wrong(ParameterFlaw::Coordinates { shape, found }))
+            }
+            Shape::PiecewiseLinear { pieces: 0 } => Err(self.wrong(ParameterFlaw::NoPiece)),
+            Shape::Polynomial { .. } | Shape::PiecewiseLinear { .. } if self.levels().is_some() => {
+                Err(self.wrong(ParameterFlaw::SmoothChoice { shape }))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn wrong(&self, flaw: impl Into<ParameterFlaw>) -> ParameterError {
+        ParameterError { name: self.name.clone(), flaw: flaw.into() }
+    }
+}
+
+/// One coordinate of the tests of a space: a parameter, or one of the values that make a signal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coordinate<'a> {
+    /// The parameter that it belongs to.
+    pub parameter: &'a Parameter,
+    /// Which of its values it is, from 0.
+    pub index: usize,
+}
+
+impl Coordinate<'_> {
+    /// The name of the parameter; of a signal with the index: `leader_speed[0]`.
+    pub fn name(&self) -> String {
+        let Parameter { name, signal, .. } = self.parameter;
+        if signal.is_some() { format!("{name}[{}]", self.index) } else { name.clone() }
+    }
+
+    /// The name with its unit, for an axis or a column: `leader_speed[0] (m/s)`.
+    pub fn label(&self) -> String {
+        match &self.parameter.unit {
+            Some(unit) => format!("{} ({unit})", self.name()),
+            None => self.name(),
+        }
+    }
+
+    /// Its value among those of a test; `None` where the test says nothing of it.
+    pub fn value<'v>(&self, value: &'v Value) -> Option<&'v Value> {
+        match value {
+            Value::List(values) => values.get(self.index),
+            value => Some(value),
+        }
+    }
+}
+
+/// A parameter as files write it: `interval = [lo, hi]` or `choice = [..]`, beside its name.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Entry {
+    name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interval: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    choice: Option<Vec<Value>>,
+    /// How the values of the choice are written, where the format would write some numbers otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    written: Option<Vec<String>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    default: Option<Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    signal: Option<shape::Entry>,
+    #[serde(default, skip_serializing_if = "is_uniform")]
+    distribution: Distribution,
+    #[serde(rename = "scale", default, skip_serializing)]
+    reserved: Option<IgnoredAny>,
+}
+
+/// A key that a later version will read.
+const RESERVED: &str = "scale";
+
+fn is_uniform(distribution: &Distribution) -> bool {
+    *distribution == Distribution::Uniform
+}
+
+impl Entry {
+    /// An entry that says how its numbers are written, whatever the format makes of fractions.
+    pub(crate) fn spelled_out(parameter: Parameter) -> Self {
+        let levels = parameter.levels().unwrap_or_default();
+        let fraction = |level: &Value| level.number().is_some() && level.to_string().parse::<i64>().is_err();
+        let written = levels.iter().any(fraction).then(|| levels.iter().map(ToString::to_string).collect());
+        let entry = Self::from(parameter);
+        Self { written: written.or(entry.written), ..entry }
+    }
+}
+
+/// Why an entry of a file is no parameter.
+#[derive(Debug, Clone, Error, PartialEq)]
+#[error("parameter `{name}`: {flaw}")]
+pub(crate) struct EntryError {
+    name: String,
+    flaw: EntryFlaw,
+}
+
+#[derive(Debug, Clone, Error, PartialEq)]
+enum EntryFlaw {
+    #[error("expected either `interval = [lo, hi]` or `choice = [..]`")]
+    Domain,
+    #[error("found {found} texts in `written`, expected the {expected} of `choice`")]
+    WrittenCount { found: usize, expected: usize },
+    #[error("found `{found}` in `written`, expected the text of {level}")]
+    Written { found: String, level: Value },
+    #[error("`{RESERVED}` is not supported by this version")]
+    Reserved,
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+}
+
+/// The levels of a choice as they are written.
+fn as_written(choice: Vec<Value>, written: &[String]) -> Result<Vec<Value>, EntryFlaw> {
+    if choice.len() != written.len() {
+        return Err(EntryFlaw::WrittenCount { found: written.len(), expected: choice.len() });
+    }
+    let level = |(level, text): (Value, &String)| match Value::written(text) {
+        number if level.number().is_some() && number.means(&level) => Ok(number),
+        _ if level.to_string() == *text => Ok(level),
+        _ => Err(EntryFlaw::Written { found: text.clone(), level }),
+    };
+    choice.into_iter().zip(written).map(level).collect()
+}
+
+impl TryFrom<Entry> for Parameter {
+    type Error = EntryError;
+
+    fn try_from(entry: Entry) -> Result<Self, EntryError> {
+        let name = entry.name.clone();
+        Self::read(entry).map_err(|flaw| EntryError { name, flaw })
+    }
+}
+
+impl Parameter {
+    fn read(entry: Entry) -> Result<Self, EntryFlaw> {
+        let Entry { name, interval, choice, written, unit, default, signal, distribution, reserved } = entry;
+        if reserved.is_some() {
+            return Err(EntryFlaw::Reserved);
+        }
+        let domain = match (interval, choice, written) {
+            (Some([lo, hi]), None, None) => Domain::Interval { lo, hi },
+            (None, Some(levels), None) => Domain::Choice(levels),
+            (None, Some(levels), Some(written)) => Domain::Choice(as_written(levels, &written)?),
+            _ => return Err(EntryFlaw::Domain),
+        };
+        let signal = signal.map(|signal| signal.shape()).transpose()?.flatten();
+        Ok(Self { name, domain, unit, default, signal, distribution })
+    }
+}
+
+impl From<Parameter> for Entry {
+    fn from(parameter: Parameter) -> Self {
+        let (interval, choice) = match parameter.domain {
+            Domain::Interval { lo, hi } => (Some([lo, hi]), None),
+            Domain::Choice(levels) => (None, Some(levels)),
+        };
+        let levels = choice.as_deref().unwrap_or_default();
+        let otherwise = levels.iter().any(|level| matches!(level, Value::Written(..)));
+        let written = otherwise.then(|| levels.iter().map(ToString::to_string).collect());
+        let Parameter { name, unit, default, distribution, .. } = parameter;
+        Self {
+            name,
+            interval,
+            choice,
+            written,
+            unit,
+            default,
+            signal: parameter.signal.map(Into::into),
+            distribution,
+            reserved: None,
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! The lines that declare parameters, and those that group them.
+
+use super::{Fault, fail, indent};
+use crate::constraint::Relation;
+use crate::names::{did_you_mean, nearest};
+use crate::{Position, Value};
+
+/// A parameter of a model.
+pub(super) struct Declared {
+    pub name: String,
+    pub values: Vec<Listed>,
+}
+
+/// A value of a parameter.
+#[derive(Clone)]
+pub(super) struct Listed {
+    /// As it is written, without sign, aliases and weight.
+    pub text: String,
+    pub value: Value,
+    pub negative: bool,
+}
+
+impl Listed {
+    /// Whether a constraint means it by this value: words are compared without regard to case.
+    pub fn is(&self, value: &Value) -> bool {
+        self.related(Relation::Equal, value)
+    }
+
+    /// Whether it is so related to a value in a constraint, a word to a word as it is written in lower case.
+    pub fn related(&self, relation: Relation, value: &Value) -> bool {
+        match value.word() {
+            Some(word) => relation.holds(&self.text.to_lowercase(), &word.to_lowercase()),
+            None => self.value.number().zip(value.number()).is_some_and(|(own, number)| relation.holds(&own, &number)),
+        }
+    }
+}
+
+impl Declared {
+    /// Whether it takes numbers only, and is compared with numbers.
+    pub fn numeric(&self) -> bool {
+        self.values.iter().all(|listed| listed.value.number().is_some())
+    }
+
+    /// What the texts mean, now that all are known: of a parameter of numbers only each is a number as it is written, so
+    /// that constraints see numbers; elsewhere constraints see texts, and what is written otherwise than the number is a
+    /// word.
+    fn settle(&mut self) {
+        let numeric = self.numeric();
+        for listed in &mut self.values {
+            listed.value = match Value::written(&listed.text) {
+                Value::Written(..) if !numeric => Value::Word(listed.text.clone()),
+                value => value,
+            };
+        }
+    }
+
+    pub fn has_negatives(&self) -> bool {
+        self.values.iter().any(|listed| listed.negative)
+    }
+}
+
+/// The parameter of that name, whatever its case.
+///
+/// # Errors
+/// There is none: a message with the nearest one.
+pub(super) fn find<'a>(declared: &'a [Declared], name: &str) -> Result<usize, Unknown<'a>> {
+    let lower = name.to_lowercase();
+    declared.iter().position(|parameter| parameter.name.to_lowercase() == lower).ok_or_else(|| {
+        let meant = nearest(name, declared.iter().map(|parameter| parameter.name.as_str()));
+        Unknown { message: format!("no parameter is called `{name}`{}", did_you_mean(&meant)), meant }
+    })
+}
+
+/// What is to be said of a name that no parameter has, and one that was perhaps meant.
+pub(super) struct Unknown<'a> {
+    pub message: String,
+    meant: Option<&'a str>,
+}
+
+/// The parameters read so far.
+#[derive(Default)]
+pub(super) struct Parameters {
+    pub declared: Vec<Declared>,
+    pub notes: Vec<String>,
+    without_colon: Vec<String>,
+    weighted: Vec<String>,
+    aliased: Vec<String>,
+    /// Names in `<` and `>` that no parameter above has, and where they stand.
+    unknown: Vec<(String, usize)>,
+}
+
+impl Parameters {
+    /// Reads the line of a parameter that begins at this offset, without its end.
+    pub fn read(&mut self, line: &str, offset: usize) -> Result<(), Fault> {
+        let comma = line.split_once(',').filter(|(name, _)| !name.contains(['[', '{']));
+        let Some((head, list)) = line.split_once(':').or(comma) else {
+            let constraint = if line.contains('[') { ", or a constraint that begins with IF, NOT, [ or (" } else { "" };
+            let message =
+                format!("found no `:`, expected one between the name of a parameter and its values{constraint}");
+            return fail(offset + line.len(), message);
+        };
+        let name = head.trim();
+        let at = offset + indent(head);
+        if name.is_empty() {
+            return fail(at, "found no name before `:`");
+        }
+        if name.starts_with('$') {
+            return fail(at, format!("`{name}` is a result parameter, which is not supported"));
+        }
+        let order = name.split_once('@').filter(|(_, order)| order.trim().parse::<f64>().is_ok());
+        if let Some((name, _)) = order {
+            let message = "an order of a parameter is not supported; give the order of a sub-model: `{A, B} @ 3`";
+            return fail(at + name.len(), message);
+        }
+        if !line.contains(':') {
+            self.without_colon.push(format!("`{name}`"));
+        }
+        if let Ok(known) = find(&self.declared, name) {
+            let known = &self.declared[known].name;
+            return fail(at, format!("parameter `{known}` is declared twice; case makes no difference"));
+        }
+        if list.trim().is_empty() {
+            return fail(
+                offset + line.len(),
+                format!("found no values, expected those of `{name}`, with commas between them"),
+            );
+        }
+        let mut declared = Declared { name: name.to_owned(), values: Vec::new() };
+        let mut at = offset + head.len() + 1;
+        for piece in list.split(',') {
+            let place = at + indent(piece);
+            for listed in self.piece(piece, place) {
+                self.add(&mut declared, listed, place)?;
+            }
+            at += piece.len() + 1;
+        }
+        if declared.values.iter().all(|listed| listed.negative) {
+            let message = format!("every value of `{name}` is negative (`~`), expected one that is not");
+            return fail(offset + head.len() + 1 + indent(list), message);
+        }
+        declared.settle();
+        self.declared.push(declared);
+        Ok(())
+    }
+
+    /// The value between two commas, or the values of the parameter to which it refers.
+    fn piece(&mut self, piece: &str, at: usize) -> Vec<Listed> {
+        let mut text = piece.trim();
+        if let Some(other) = text.strip_prefix('<').and_then(|text| text.strip_suffix('>')) {
+            match find(&self.declared, other.trim()) {
+                Ok(known) => return self.declared[known].values.clone(),
+                Err(_) => self.unknown.push((other.trim().to_owned(), at)),
+            }
+        }
+        if let Some(value) = without_weight(text) {
+            self.weighted.push(format!("`{text}`"));
+            text = value;
+        }
+        if let Some((first, _)) = text.split_once('|') {
+            self.aliased.push(format!("`{text}`"));
+            text = first.trim();
+        }
+        let negative = text.starts_with('~');
+        if negative {
+            text = text[1..].trim();
+        }
+        vec![Listed { text: text.to_owned(), value: Value::parse(text), negative }]
+    }
+
+    fn add(&mut self, declared: &mut Declared, listed: Listed, at: usize) -> Result<(), Fault> {
+        let (name, text) = (&declared.name, &listed.text);
+        let same = |known: &&Listed| known.value.means(&listed.value);
+        if declared.values.iter().filter(same).any(|known| known.negative != listed.negative) {
+            return fail(at, format!("`{text}` is listed with and without `~`"));
+        }
+        if !declared.values.iter().any(|known| known.text == *text) {
+            if listed.text.is_empty() {
+                self.notes.push(format!("parameter `{}` lists the empty word as a value", declared.name));
+            }
+            declared.values.push(listed);
+            return Ok(());
+        }
+        self.notes.push(format!("parameter `{name}` lists `{text}` twice, which is read as one value"));
+        Ok(())
+    }
+
+    /// The parameters, and what is to be said of them all.
+    ///
+    /// # Errors
+    /// What refers to a parameter stands before it, or names it nearly.
+    pub fn finish(mut self, text: &str) -> Result<(Vec<Declared>, Vec<String>), Fault> {
+        for (name, at) in std::mem::take(&mut self.unknown) {
+            match find(&self.declared, &name) {
+                Ok(_) => return fail(at, format!("`<{name}>` stands before parameter `{name}`, expected it below")),
+                Err(Unknown { message, meant: Some(_) }) => return fail(at, message),
+                // PICT reads it so, and `<none>` may well be a value.
+                Err(Unknown { message, meant: None }) => {
+                    let Position { line, column } = Position::of(text, at);
+                    let note = format!("line {line}, column {column}: {message}, so `<{name}>` is read as a value");
+                    self.notes.push(note);
+                }
+            }
+        }
+        for (what, found) in [
+            ("without `:` the name of a parameter ends at the first comma", &self.without_colon),
+            ("of aliases only the first is used", &self.aliased),
+            ("weights are passed over", &self.weighted),
+        ] {
+            if !found.is_empty() {
+                self.notes.push(format!("{what}: {}", found.join(", ")));
+            }
+        }
+        Ok((self.declared, self.notes))
+    }
+}
+
+/// The value before a weight, a positive number in parentheses at the end; `None` where there is no weight.
+fn without_weight(text: &str) -> Option<&str> {
+    let (value, weight) = text.strip_suffix(')')?.rsplit_once('(')?;
+    let weight: f64 = weight.trim().parse().ok()?;
+    (weight >= 1.0).then_some(value.trim_end())
+}
+
+/// Reads a line like `{A, B, C} @ 3`: positions of parameters in ascending order, and the order where there is one.
+pub(super) fn sub_model(
+    line: &str,
+    offset: usize,
+    declared: &[Declared],
+) -> Result<(Vec<usize>, Option<usize>), Fault> {
+    let open = indent(line);
+    let Some(close) = line.find('}') else {
+        return fail(offset + line.len(), "found no `}`, expected one after the names of a sub-model");
+    };
+    let mut set = Vec::new();
+    let mut at = open + 1;
+    for piece in line[at..close].split(',') {
+        let place = offset + at + indent(piece);
+        let name = piece.trim();
+        if name.is_empty() {
+            return fail(place, "found no name, expected a parameter of the sub-model");
+        }
+        let position = find(declared, name).or_else(|unknown| fail(place, unknown.message))?;
+        if set.contains(&position) {
+            return fail(place, format!("the sub-model names `{name}` twice"));
+        }
+        set.push(position);
+        at += piece.len() + 1;
+    }
+    set.sort_unstable();
+    let tail = &line[close + 1..];
+    let place = offset + close + 1 + indent(tail);
+    let tail = tail.trim();
+    let Some(order) = tail.strip_prefix('@') else {
+        return if tail.is_empty() {
+            Ok((set, None))
+        } else {
+            fail(place, format!("found `{tail}`, expected `@` and the order of the sub-model"))
+        };
+    };
+    let place = place + 1 + indent(order);
+    let order = order.trim();
+    match order.parse() {
+        Ok(order) if (1..=set.len()).contains(&order) => Ok((set, Some(order))),
+        _ => {
+            let found = if order.is_empty() { "nothing".to_owned() } else { format!("`{order}`") };
+            let most = set.len();
+            fail(place, format!("found {found}, expected an order from 1 to {most}, the number of parameters"))
+        }
+    }
+}

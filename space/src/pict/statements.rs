@@ -1,0 +1,357 @@
+//! The constraints of a model: `IF .. THEN .. ELSE ..;` and what holds without a condition.
+
+use super::parameters::{Declared, find};
+use super::terms;
+use super::tokens::{Token, tokens};
+use super::{Fault, fail};
+use crate::constraint::{Expression, Relation};
+use crate::names::{did_you_mean, nearest};
+use crate::{Position, Value};
+use std::fmt;
+use std::ops::Range;
+
+/// How deep parentheses and `NOT` may be nested.
+const DEEPEST: usize = 48;
+
+/// The words with which a constraint begins.
+pub(super) const OPENING: [&str; 4] = ["IF", "NOT", "IsNegative", "IsPositive"];
+
+const RELATIONS: [(&str, Relation); 6] = [
+    ("=", Relation::Equal),
+    ("<>", Relation::NotEqual),
+    ("<", Relation::Less),
+    ("<=", Relation::LessOrEqual),
+    (">", Relation::Greater),
+    (">=", Relation::GreaterOrEqual),
+];
+
+/// A constraint and where it stands in the file.
+pub(super) struct Statement {
+    pub(super) span: Range<usize>,
+    pub(super) expression: Expression,
+}
+
+/// What may stand at a place: a word or a sign of the language, or something else.
+enum Wanted {
+    Exactly(&'static str),
+    A(&'static str),
+}
+use Wanted::{A, Exactly};
+
+impl fmt::Display for Wanted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Exactly(word) => write!(f, "`{word}`"),
+            A(thing) => f.write_str(thing),
+        }
+    }
+}
+
+/// Reads the constraints that stand from `start` on.
+pub(super) fn read(
+    text: &str,
+    start: usize,
+    declared: &[Declared],
+    notes: &mut Vec<String>,
+) -> Result<Vec<Statement>, Fault> {
+    let mut reader = Reader { text, tokens: tokens(text, start), next: 0, depth: 0, declared, notes };
+    let mut statements = Vec::new();
+    while *reader.peek() != Token::End {
+        let begin = reader.offset();
+        let expression = reader.statement()?;
+        // The last sign was a semicolon.
+        statements.push(Statement { span: begin..reader.tokens[reader.next - 1].1 + 1, expression });
+    }
+    Ok(statements)
+}
+
+struct Reader<'a> {
+    text: &'a str,
+    tokens: Vec<(Token, usize)>,
+    next: usize,
+    depth: usize,
+    declared: &'a [Declared],
+    notes: &'a mut Vec<String>,
+}
+
+impl<'a> Reader<'a> {
+    fn peek(&self) -> &Token {
+        &self.tokens[self.next].0
+    }
+
+    fn offset(&self) -> usize {
+        self.tokens[self.next].1
+    }
+
+    /// The next token and its offset; the end stays where it is.
+    fn take(&mut self) -> (Token, usize) {
+        let taken = self.tokens[self.next].clone();
+        self.next = (self.next + 1).min(self.tokens.len() - 1);
+        taken
+    }
+
+    fn takes_word(&mut self, word: &str) -> bool {
+        let there = self.peek().is(word);
+        if there {
+            self.take();
+        }
+        there
+    }
+
+    fn takes_sign(&mut self, sign: &'static str) -> bool {
+        let there = *self.peek() == Token::Sign(sign);
+        if there {
+            self.take();
+        }
+        there
+    }
+
+    /// The error that something else was expected.
+    fn expected<T>(&self, wanted: &[Wanted]) -> Result<T, Fault> {
+        let words = wanted.iter().filter_map(|wanted| match wanted {
+            Exactly(word) => Some(*word),
+            A(_) => None,
+        });
+        let meant = match self.peek() {
+            Token::Broken(message) => return fail(self.offset(), message.as_str()),
+            Token::Word(word) => nearest(word, words),
+            _ => None,
+        };
+        let (last, others) = wanted.split_last().expect("something is wanted");
+        let others = others.iter().map(Wanted::to_string).collect::<Vec<_>>().join(", ");
+        let what = if others.is_empty() { last.to_string() } else { format!("{others} or {last}") };
+        fail(self.offset(), format!("found {}, expected {what}{}", self.peek(), did_you_mean(&meant)))
+    }
+
+    fn statement(&mut self) -> Result<Expression, Fault> {
+        self.check_section()?;
+        let statement = if self.takes_word("IF") {
+            let condition = Box::new(self.predicate()?);
+            if !self.takes_word("THEN") {
+                return self.expected(&[Exactly("AND"), Exactly("OR"), Exactly("THEN")]);
+            }
+            let consequence = Expression::Implies(condition.clone(), Box::new(self.predicate()?));
+            if self.takes_word("ELSE") {
+                let otherwise = Expression::Implies(Box::new(Expression::Not(condition)), Box::new(self.predicate()?));
+                Expression::And(vec![consequence, otherwise])
+            } else if matches!(self.peek(), Token::Sign(";")) {
+                consequence
+            } else {
+                return self.expected(&[Exactly("AND"), Exactly("OR"), Exactly("ELSE"), Exactly(";")]);
+            }
+        } else if matches!(self.peek(), Token::Word(_)) && !OPENING.iter().any(|word| self.peek().is(word)) {
+            return self.expected(&[Exactly("IF"), Exactly("NOT"), Exactly("("), A("a parameter in brackets")]);
+        } else {
+            self.predicate()?
+        };
+        if self.takes_sign(";") { Ok(statement) } else { self.expected(&[Exactly("AND"), Exactly("OR"), Exactly(";")]) }
+    }
+
+    /// Sees to it that no parameter and no sub-model stands where a constraint should begin.
+    fn check_section(&self) -> Result<(), Fault> {
+        let line = self.text[self.offset()..].lines().next().unwrap_or_default();
+        let found = match self.peek() {
+            Token::Sign("{") => "a sub-model",
+            Token::Word(word) if line[word.len()..].trim_start().starts_with(':') => "a parameter",
+            _ => return Ok(()),
+        };
+        let message =
+            format!("found {found} after a constraint; parameters come first, then sub-models, then constraints");
+        fail(self.offset(), message)
+    }
+
+    fn predicate(&mut self) -> Result<Expression, Fault> {
+        let mut cases = vec![self.conjunction()?];
+        while self.takes_word("OR") {
+            cases.push(self.conjunction()?);
+        }
+        Ok(if cases.len() == 1 { cases.remove(0) } else { Expression::Or(cases) })
+    }
+
+    fn conjunction(&mut self) -> Result<Expression, Fault> {
+        let mut parts = vec![self.factor()?];
+        while self.takes_word("AND") {
+            parts.push(self.factor()?);
+        }
+        Ok(if parts.len() == 1 { parts.remove(0) } else { Expression::And(parts) })
+    }
+
+    fn factor(&mut self) -> Result<Expression, Fault> {
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            return fail(self.offset(), format!("the constraint is nested more than {DEEPEST} deep"));
+        }
+        let open = self.offset();
+        let factor = if self.takes_word("NOT") {
+            Expression::Not(Box::new(self.factor()?))
+        } else if self.takes_sign("(") {
+            let inner = self.predicate()?;
+            if *self.peek() == Token::End {
+                return fail(open, "the `(` here is never closed");
+            }
+            if !self.takes_sign(")") {
+                return self.expected(&[Exactly("AND"), Exactly("OR"), Exactly(")")]);
+            }
+            inner
+        } else {
+            self.term()?
+        };
+        self.depth -= 1;
+        Ok(factor)
+    }
+
+    fn term(&mut self) -> Result<Expression, Fault> {
+        for (word, negative) in [("IsNegative", true), ("IsPositive", false)] {
+            if self.takes_word(word) {
+                return self.sign(negative);
+            }
+        }
+        let name = match self.peek().clone() {
+            Token::Name(name) => name,
+            Token::Word(word) => {
+                return fail(self.offset(), format!("found `{word}`, expected a parameter in brackets, as [{word}]"));
+            }
+            _ => return self.expected(&[A("a parameter in brackets"), Exactly("NOT"), Exactly("(")]),
+        };
+        let parameter = self.parameter(&name)?;
+        self.take();
+        let operator = self.offset();
+        let denied = self.takes_word("NOT");
+        let term = if self.takes_word("IN") {
+            self.list(parameter)?
+        } else if self.peek().is("LIKE") {
+            if parameter.numeric() {
+                let message = format!("`LIKE` compares words, but `{}` takes numbers only", parameter.name);
+                return fail(operator, message);
+            }
+            self.take();
+            let Token::Text(pattern) = self.peek().clone() else { return self.expected(&[A("a pattern in quotes")]) };
+            self.take();
+            terms::like(parameter, &pattern)
+        } else if denied {
+            return self.expected(&[Exactly("IN"), Exactly("LIKE")]);
+        } else {
+            self.relation(parameter)?
+        };
+        Ok(if denied { Expression::Not(Box::new(term)) } else { term })
+    }
+
+    /// The parameter of that name, which stands at the next token.
+    fn parameter(&self, name: &str) -> Result<&'a Declared, Fault> {
+        let declared = self.declared;
+        find(declared, name).map(|i| &declared[i]).or_else(|unknown| fail(self.offset(), unknown.message))
+    }
+
+    /// What follows `IsNegative` or `IsPositive`.
+    fn sign(&mut self, negative: bool) -> Result<Expression, Fault> {
+        if !self.takes_sign("(") {
+            return self.expected(&[Exactly("(")]);
+        }
+        let start = self.next;
+        while !matches!(self.peek(), Token::Sign(")" | ";") | Token::Broken(_) | Token::End) {
+            self.take();
+        }
+        if *self.peek() != Token::Sign(")") {
+            return self.expected(&[Exactly(")")]);
+        }
+        let (from, to) = (self.tokens[start].1, self.offset());
+        self.take();
+        // The name stands there with or without brackets.
+        let name = self.text[from..to].trim();
+        let name = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')).unwrap_or(name);
+        if !name.is_empty() {
+            let i = find(self.declared, name).or_else(|unknown| fail(from, unknown.message))?;
+            return Ok(terms::of_sign(&self.declared[i], negative));
+        }
+        let with_negatives = self.declared.iter().filter(|parameter| parameter.has_negatives());
+        let mut each: Vec<_> = with_negatives.map(|parameter| terms::of_sign(parameter, negative)).collect();
+        Ok(match each.len() {
+            // All tests are positive, which any parameter tells.
+            0 => terms::of_sign(&self.declared[0], negative),
+            1 => each.remove(0),
+            _ if negative => Expression::Or(each),
+            _ => Expression::And(each),
+        })
+    }
+
+    fn relation(&mut self, parameter: &Declared) -> Result<Expression, Fault> {
+        let relation = RELATIONS.iter().find(|(sign, _)| *self.peek() == Token::Sign(sign));
+        let Some((_, relation)) = relation.copied() else {
+            let relations = RELATIONS.iter().map(|(sign, _)| Exactly(sign)).chain([Exactly("IN"), Exactly("LIKE")]);
+            return self.expected(&relations.collect::<Vec<_>>());
+        };
+        let place = self.offset();
+        self.take();
+        if let Token::Name(name) = self.peek().clone() {
+            let other = self.parameter(&name)?;
+            if parameter.numeric() != other.numeric() {
+                let (numbers, words) = if parameter.numeric() { (parameter, other) } else { (other, parameter) };
+                let message =
+                    format!("`{}` takes numbers and `{}` words, which are not compared", numbers.name, words.name);
+                return fail(place, message);
+            }
+            self.take();
+            return Ok(terms::with_parameter(parameter, relation, other));
+        }
+        let (value, at) = self.value(parameter)?;
+        if !relation.orders() {
+            self.note_unknown(parameter, &value, at);
+        }
+        Ok(terms::with_value(parameter, relation, value))
+    }
+
+    /// A number or a word, whichever the parameter takes, and its offset.
+    fn value(&mut self, parameter: &Declared) -> Result<(Value, usize), Fault> {
+        let (name, at) = (&parameter.name, self.offset());
+        let message = match self.peek().clone() {
+            Token::Number(number) if parameter.numeric() => {
+                self.take();
+                return Ok((Value::Number(number), at));
+            }
+            Token::Text(word) if !parameter.numeric() => {
+                self.take();
+                return Ok((Value::Word(word), at));
+            }
+            Token::Number(number) => format!("`{name}` takes words, which stand in quotes: found `{number}`"),
+            Token::Text(word) => format!("`{name}` takes numbers only, which stand without quotes: found `\"{word}\"`"),
+            Token::Word(word) => format!("found `{word}`, expected a value; words stand in quotes: \"{word}\""),
+            _ if parameter.numeric() => return self.expected(&[A("a number"), A("a parameter in brackets")]),
+            _ => return self.expected(&[A("a word in quotes"), A("a parameter in brackets")]),
+        };
+        fail(at, message)
+    }
+
+    fn list(&mut self, parameter: &Declared) -> Result<Expression, Fault> {
+        if !self.takes_sign("{") {
+            return self.expected(&[A("`{` and the values")]);
+        }
+        let mut listed = Vec::new();
+        loop {
+            let (value, at) = self.value(parameter)?;
+            self.note_unknown(parameter, &value, at);
+            listed.push(value);
+            if self.takes_sign("}") {
+                break;
+            }
+            if !self.takes_sign(",") {
+                return self.expected(&[Exactly(","), Exactly("}")]);
+            }
+        }
+        Ok(terms::among(parameter, &listed))
+    }
+
+    /// Notes a value that the parameter never takes.
+    fn note_unknown(&mut self, parameter: &Declared, value: &Value, at: usize) {
+        if parameter.values.iter().any(|listed| listed.is(value)) {
+            return;
+        }
+        let words = parameter.values.iter().map(|listed| listed.text.as_str());
+        let meant = value.word().and_then(|word| nearest(word, words));
+        let Position { line, column } = Position::of(self.text, at);
+        self.notes.push(format!(
+            "line {line}, column {column}: `{}` is never `{value}`{}",
+            parameter.name,
+            did_you_mean(&meant)
+        ));
+    }
+}

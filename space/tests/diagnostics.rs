@@ -1,0 +1,257 @@
+//! What the errors of constraints and of model files say, word by word.
+
+use paracosm_space::pict::Model;
+use paracosm_space::{Domain, Parameter, Position, Space, SpaceError, Value};
+
+/// A drive: one continuous parameter, words, numbers, a mixture of both, and a name that needs brackets.
+fn drive() -> Space {
+    let choice = |name: &str, levels: Vec<Value>| Parameter::new(name, Domain::Choice(levels));
+    Space::new(vec![
+        choice("weather", vec!["clear".into(), "rain".into(), "fog".into()]),
+        Parameter::new("speed", Domain::Interval { lo: 0.0, hi: 10.0 }),
+        choice("lanes", vec![2.into(), 4.into(), 6.into()]),
+        choice("open", vec![1.into(), 2.into(), 3.into()]),
+        choice("gear", vec![1.into(), 2.into(), "auto".into()]),
+        choice("many", (0..9).map(Value::from).collect()),
+        choice("road surface", vec!["dry".into(), "it's wet".into()]),
+    ])
+    .unwrap()
+}
+
+#[test]
+fn what_is_wrong_with_a_constraint_is_said_with_the_column() {
+    let check = |text: &str, column: usize, expected: &str| match drive().with_constraints([text]) {
+        Err(SpaceError::Constraint { error, .. }) => {
+            assert_eq!((error.offset + 1, error.to_string().as_str()), (column, expected), "{text}");
+        }
+        other => panic!("{text}: {other:?}"),
+    };
+    check("", 1, "found the end of the constraint, expected a parameter, `not` or `(`");
+    check("weathr == 'fog'", 1, "no parameter is called `weathr` (did you mean `weather`?)");
+    check("lanes == 2 implies wether != 'fog'", 20, "no parameter is called `wether` (did you mean `weather`?)");
+    check("speed == 3", 1, "`speed` is continuous, expected a discrete parameter");
+    check("lanes < speed", 9, "`speed` is continuous, expected a discrete parameter");
+    check(
+        "weather == 'fogg'",
+        12,
+        "`weather` is never 'fogg', expected one of 'clear', 'rain', 'fog' (did you mean `'fog'`?)",
+    );
+    check("weather in ['rain', 'snow']", 21, "`weather` is never 'snow', expected one of 'clear', 'rain', 'fog'");
+    check("lanes != 3", 10, "`lanes` is never 3, expected one of 2, 4, 6");
+    check("many == 10", 9, "`many` is never 10, expected one of 0, 1, 2, 3, 4, 5, 6, 7, .. (9 in all)");
+    check("lanes == '2'", 10, "`lanes` is never '2', expected one of 2, 4, 6 (did you mean `2`?)");
+    check("weather == fog", 12, "no parameter is called `fog`; the level of `weather` is written 'fog'");
+    check("weather < 'fog'", 1, "`<` compares numbers, but `weather` takes the word 'clear'");
+    check("gear >= 1", 1, "`>=` compares numbers, but `gear` takes the word 'auto'");
+    check("not gear >= 1", 5, "`>=` compares numbers, but `gear` takes the word 'auto'");
+    check("lanes > 2 implies open == 1 or lanes < gear", 38, "`<` compares numbers, but `gear` takes the word 'auto'");
+    check("lanes < gear implies open == 1", 7, "`<` compares numbers, but `gear` takes the word 'auto'");
+    check("lanes < 'fog'", 9, "`<` compares numbers, found 'fog'");
+    check("lanes <= gear", 7, "`<=` compares numbers, but `gear` takes the word 'auto'");
+    check("weather != lanes", 9, "`weather` and `lanes` have no value in common, so they are never equal");
+    check("lanes = 2", 7, "found `=`, expected `==`");
+    check("lanes => 2", 7, "found `=>`, expected `>=` or `implies`");
+    check("lanes <> 2", 7, "found `<>`, expected `!=`");
+    check("lanes == 2 && open == 1", 12, "found `&&`, expected `and`");
+    check("!(lanes == 2)", 1, "found `!`, expected `not` or `!=`");
+    check("lanes in {2, 4}", 10, "found `{`, expected `(`, or `[` around a list");
+    check("lanes in (2, 4)", 10, "found `(`, expected a list like [1, 2] or ['rain', 'fog']");
+    check("lanes in [2 4]", 13, "found `4`, expected `,` or `]`");
+    check("lanes in [2, open]", 14, "found `open`, expected a number or a quoted word");
+    check("lanes in [2,", 13, "found the end of the constraint, expected a number or a quoted word");
+    check("2 in [2]", 1, "found `2`, expected the name of a parameter before `in`");
+    check("2 == 2", 1, "found values on both sides, expected a parameter on one of them");
+    check("lanes 2", 7, "found `2`, expected a comparison (`==`, `!=`, `<`, `<=`, `>`, `>=` or `in`)");
+    check("lanes ==", 9, "found the end of the constraint, expected a number, a quoted word or a parameter");
+    check("lanes not 2", 11, "found `2`, expected `in`");
+    check("1 < open < 3", 10, "comparisons do not chain: join two of them with `and`");
+    check("(lanes == 2", 1, "the `(` here is never closed");
+    check("(lanes == 2 open == 1)", 13, "found `open`, expected `and`, `or`, `implies` or `)`");
+    check("lanes == 2)", 11, "found `)`, which closes nothing");
+    check(
+        "lanes == 2 AND open == 1",
+        12,
+        "found `AND`, expected `and`, `or`, `implies` or the end of the constraint (did you mean `and`?)",
+    );
+    check(
+        "lanes == 2 implis open == 1",
+        12,
+        "found `implis`, expected `and`, `or`, `implies` or the end of the constraint (did you mean `implies`?)",
+    );
+    check("weather == 'fog", 12, "the word that begins here has no closing '");
+    check("[road surface == 'dry'", 1, "the name that begins here has no closing `]`");
+    check(
+        "road surface == 'dry'",
+        6,
+        "found `surface`, expected a comparison (`==`, `!=`, `<`, `<=`, `>`, `>=` or `in`)",
+    );
+    check("lanes == 2m", 10, "found `2m`, expected a number; a name like it stands in brackets");
+    check("lanes == 1e999", 10, "found `1e999`, expected a number; a name like it stands in brackets");
+    check(
+        "lanes; open",
+        6,
+        "found `;`, which is no sign of the language; names with other signs than letters, digits, `_` and `.` stand in brackets: [road surface]",
+    );
+    let deep = format!("{}lanes == 2{}", "(".repeat(1000), ")".repeat(1000));
+    check(&deep, 129, "the constraint is nested more than 128 deep");
+    let deep = format!("{}lanes == 2", "not ".repeat(1000));
+    check(&deep, 4001, "the constraint is nested more than 128 deep");
+    let long = vec!["lanes == 2"; 1000].join(" implies ");
+    check(&long, 128 * 19 + 1, "the constraint is nested more than 128 deep");
+}
+
+#[test]
+fn the_place_of_an_error_is_given_in_the_lines_of_the_file() {
+    let check = |constraints: &str, at: Option<(usize, usize)>, expected: &str| {
+        let toml = format!("constraints = {constraints}\n[[parameter]]\nname = \"lanes\"\nchoice = [2, 4]\n");
+        match Space::from_toml(&toml) {
+            Err(SpaceError::Syntax { message, at: found }) => {
+                let found = found.map(|Position { line, column }| (line, column));
+                assert_eq!((message.as_str(), found), (expected, at), "{toml}");
+            }
+            other => panic!("{toml}: {other:?}"),
+        }
+    };
+    let three = "`lanes` is never 3, expected one of 2, 4";
+    check("['lanes == 3']", Some((1, 26)), three);
+    check("[\n  \"lanes == 2\",\n  \"lanes == 3\"]", Some((3, 13)), three);
+    check(r#"["\u006canes  \t== 3"]"#, Some((1, 34)), three);
+    check(r#"['''lanes == 3''']"#, Some((1, 28)), three);
+    check("[\"\"\"\nlanes ==\n3\"\"\"]", Some((1, 16)), three);
+    check("[\"lanes == \\\"é\\\" or lanes ~ 3\"]", Some((1, 41)), "found `~`, expected `not` or `!=`");
+}
+
+#[test]
+fn the_lines_of_constraints_are_known() {
+    let toml = "# A comment.\nconstraints = ['lanes == 2',\n\n  \"\"\"\nlanes\n== 2\"\"\", 'lanes != 4']\n";
+    assert_eq!(Space::constraint_lines(toml), [2, 4, 6]);
+    assert!(Space::constraint_lines("[[parameter]]\nname = \"lanes\"\n").is_empty());
+}
+
+#[test]
+fn an_error_of_a_space_made_by_a_program_names_the_constraint() {
+    let error = drive().with_constraints(["lanes == 2", "lanes == 3"]).unwrap_err();
+    assert!(matches!(&error, SpaceError::Constraint { index: 1, .. }), "{error:?}");
+    assert_eq!(error.to_string(), "constraint `lanes == 3`, column 10: `lanes` is never 3, expected one of 2, 4, 6");
+}
+
+#[test]
+fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
+    let check = |text: &str, at: (usize, usize), expected: &str| match Model::from_pict(text) {
+        Err(error) => assert_eq!(((error.line, error.column), error.message.as_str()), (at, expected), "{text}"),
+        Ok(model) => panic!("{text}: {model:?}"),
+    };
+    check("", (1, 1), "found no parameters, expected a line like `Weather: clear, rain, fog`");
+    check("# A: 1\n[A] = 1;", (2, 1), "found no parameters, expected a line like `Weather: clear, rain, fog`");
+    check("A: 1\n Size 1 2", (2, 10), "found no `:`, expected one between the name of a parameter and its values");
+    check(
+        "A: 1\nIFF [A] = 1 THEN [A] = 2;",
+        (2, 26),
+        "found no `:`, expected one between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
+    );
+    check(
+        "A: 1\nIFF [A] in {1, 2};",
+        (2, 19),
+        "found no `:`, expected one between the name of a parameter and its values, or a constraint that begins with IF, NOT, [ or (",
+    );
+    check(" : 1, 2", (1, 2), "found no name before `:`");
+    check("A:  \nB: 1", (1, 3), "found no values, expected those of `A`, with commas between them");
+    check("A: 1\nB: ~x, ~2", (2, 4), "every value of `B` is negative (`~`), expected one that is not");
+    check("A: 1\n$R: x", (2, 1), "`$R` is a result parameter, which is not supported");
+    check("A @ 2: 1", (1, 3), "an order of a parameter is not supported; give the order of a sub-model: `{A, B} @ 3`");
+    check("OS: 1\n os: 2", (2, 2), "parameter `OS` is declared twice; case makes no difference");
+    check("V: 1.1, ~1.10", (1, 9), "`1.10` is listed with and without `~`");
+    check("Speed: 1, 2\nW: 3, <Spede>", (2, 7), "no parameter is called `Spede` (did you mean `Speed`?)");
+    check("W: 3, <V>\nV: 1, 2", (1, 7), "`<V>` stands before parameter `V`, expected it below");
+    check("V: 1, ~1", (1, 7), "`1` is listed with and without `~`");
+
+    let check = |rest: &str, at: (usize, usize), expected: &str| {
+        check(&format!("Weather: clear, fog\nLanes: 2, 4\nFront lanes: 2, 6\n{rest}"), (at.0 + 3, at.1), expected);
+    };
+    check("{Weather, Lane} @ 2", (1, 11), "no parameter is called `Lane` (did you mean `Lanes`?)");
+    check("{Weather, Lanes} @ 3", (1, 20), "found `3`, expected an order from 1 to 2, the number of parameters");
+    check("{Weather, Lanes} @", (1, 19), "found nothing, expected an order from 1 to 2, the number of parameters");
+    check("{Weather, Lanes} 2", (1, 18), "found `2`, expected `@` and the order of the sub-model");
+    check("{Weather, weather}", (1, 11), "the sub-model names `weather` twice");
+    check("{Weather,}", (1, 10), "found no name, expected a parameter of the sub-model");
+    check("{Weather, Lanes", (1, 16), "found no `}`, expected one after the names of a sub-model");
+    check(
+        "{Weather, Lanes}\nB: 1",
+        (2, 1),
+        "found a parameter after a sub-model; parameters come first, then sub-models, then constraints",
+    );
+    check(
+        "[Lanes] = 2;\nB: 1",
+        (2, 1),
+        "found a parameter after a constraint; parameters come first, then sub-models, then constraints",
+    );
+    check(
+        "[Lanes] = 2;\n{Lanes}",
+        (2, 1),
+        "found a sub-model after a constraint; parameters come first, then sub-models, then constraints",
+    );
+
+    check(
+        "IF [Wether] = \"fog\" THEN [Lanes] = 2;",
+        (1, 4),
+        "no parameter is called `Wether` (did you mean `Weather`?)",
+    );
+    check("IF [Weather] = \"fog\"\n  [Lanes] = 2;", (2, 3), "found `[Lanes]`, expected `AND`, `OR` or `THEN`");
+    check(
+        "IF [Weather] = \"fog\" THAN [Lanes] = 2;",
+        (1, 22),
+        "found `THAN`, expected `AND`, `OR` or `THEN` (did you mean `THEN`?)",
+    );
+    check(
+        "IF [Weather] = \"fog\" THEN [Lanes] = 2",
+        (1, 38),
+        "found the end of the model, expected `AND`, `OR`, `ELSE` or `;`",
+    );
+    check("[Lanes] = 2\n[Lanes] = 4;", (2, 1), "found `[Lanes]`, expected `AND`, `OR` or `;`");
+    check(
+        "[Lanes] = 2;\nFI [Lanes] = 2;",
+        (2, 1),
+        "found `FI`, expected `IF`, `NOT`, `(` or a parameter in brackets (did you mean `IF`?)",
+    );
+    check("IF Lanes = 2 THEN [Lanes] = 2;", (1, 4), "found `Lanes`, expected a parameter in brackets, as [Lanes]");
+    check("IF (2 = 2) THEN [Lanes] = 2;", (1, 5), "found `2`, expected a parameter in brackets, `NOT` or `(`");
+    check("[Weather] = fog;", (1, 13), "found `fog`, expected a value; words stand in quotes: \"fog\"");
+    check("[Weather] = 'fog';", (1, 13), "found `'`, expected `\"`");
+    check("[Weather] = 3;", (1, 13), "`Weather` takes words, which stand in quotes: found `3`");
+    check("[Lanes] = \"2\";", (1, 11), "`Lanes` takes numbers only, which stand without quotes: found `\"2\"`");
+    check("[Lanes] = ;", (1, 11), "found `;`, expected a number or a parameter in brackets");
+    check("[Weather] = );", (1, 13), "found `)`, expected a word in quotes or a parameter in brackets");
+    check("[Lanes] == 2;", (1, 9), "found `==`, expected `=`");
+    check("[Lanes] != 2;", (1, 9), "found `!=`, expected `<>`");
+    check("[Lanes] = 2 && [Lanes] = 4;", (1, 13), "found `&&`, expected `AND`");
+    check("[Lanes] 2;", (1, 9), "found `2`, expected `=`, `<>`, `<`, `<=`, `>`, `>=`, `IN` or `LIKE`");
+    check("[Lanes] = 2x;", (1, 11), "found `2x`, expected a number");
+    check("[Lanes] LIKE \"2*\";", (1, 9), "`LIKE` compares words, but `Lanes` takes numbers only");
+    check("[Weather] LIKE fog;", (1, 16), "found `fog`, expected a pattern in quotes");
+    check("[Weather] NOT \"fog\";", (1, 15), "found `\"fog\"`, expected `IN` or `LIKE`");
+    check("[Lanes] IN 2;", (1, 12), "found `2`, expected `{` and the values");
+    check("[Lanes] IN {2; 4};", (1, 14), "found `;`, expected `,` or `}`");
+    check("[Lanes] = [Weather];", (1, 9), "`Lanes` takes numbers and `Weather` words, which are not compared");
+    check("[Lanes] = [Front lane];", (1, 11), "no parameter is called `Front lane` (did you mean `Front lanes`?)");
+    check("([Lanes] = 2;", (1, 13), "found `;`, expected `AND`, `OR` or `)`");
+    check("([Lanes] = 2", (1, 1), "the `(` here is never closed");
+    check("IsNegative(Lane);", (1, 12), "no parameter is called `Lane` (did you mean `Lanes`?)");
+    check("IsNegative Lanes;", (1, 12), "found `Lanes`, expected `(`");
+    check(
+        "[Lanes] = 2;\nB: a/b",
+        (2, 1),
+        "found a parameter after a constraint; parameters come first, then sub-models, then constraints",
+    );
+    check("[Lanes] 2;\n^", (1, 9), "found `2`, expected `=`, `<>`, `<`, `<=`, `>`, `>=`, `IN` or `LIKE`");
+    check("[Lanes] IN {2, ^};", (1, 16), "found `^`, which is no sign of a constraint");
+    check("IsNegative(^);", (1, 12), "found `^`, which is no sign of a constraint");
+    check("IsNegative(Lanes;", (1, 17), "found `;`, expected `)`");
+    check("[Weather] = \"fog;", (1, 13), "the word that begins here has no closing `\"`");
+    check("[Weather = \"fog\";", (1, 1), "the name that begins here has no closing `]`");
+    check("[Lanes] = 2; # two", (1, 14), "found `#`, which begins a comment only at the start of a line");
+    check("[Lanes] = 2 ^ 3;", (1, 13), "found `^`, which is no sign of a constraint");
+    let deep = format!("{}[Lanes] = 2{};", "(".repeat(1000), ")".repeat(1000));
+    check(&deep, (1, 49), "the constraint is nested more than 48 deep");
+    let deep = format!("{}[Lanes] = 2;", "NOT ".repeat(1000));
+    check(&deep, (1, 193), "the constraint is nested more than 48 deep");
+}

@@ -1,0 +1,80 @@
+//! The lists as tables of a document: `docs/reference.md` is the text that this module makes.
+
+use super::{ListKind, key, scenario_words};
+use crate::Lists;
+use crate::cli::Failure;
+use crate::cli::output::digits;
+use std::fmt::Write;
+
+/// The lists of these kinds, each under a heading.
+pub(super) fn markdown(lists: &Lists, kinds: &[ListKind]) -> Result<String, Failure> {
+    let mut text = String::from("# Everything that can be chosen by name\n\n");
+    text.push_str(
+        "`paracosm-fuzz list --format markdown` prints this page. A test compares the page with the command.\n",
+    );
+    for kind in kinds {
+        let key = key(*kind);
+        let (first, rest) = key.split_at(1);
+        write!(text, "\n## {}{rest}\n\n| name | about |\n| --- | --- |\n", first.to_uppercase())?;
+        for (name, about) in named(lists, *kind) {
+            writeln!(text, "| `{name}` | {about} |")?;
+        }
+        match kind {
+            ListKind::Scenarios => parameters(lists, &mut text)?,
+            ListKind::Drivers => settings(lists, &mut text)?,
+            ListKind::Cameras => cameras(lists, &mut text)?,
+            ListKind::Strategies | ListKind::Measures | ListKind::Sensors => {}
+        }
+    }
+    Ok(text)
+}
+
+/// Name and meaning of all of a kind.
+pub(super) fn named(lists: &Lists, kind: ListKind) -> Vec<(&str, &str)> {
+    match kind {
+        ListKind::Scenarios => lists.scenarios.iter().map(|it| (it.name(), it.about())).collect(),
+        ListKind::Strategies => lists.strategies.iter().map(|it| (it.name(), it.about())).collect(),
+        ListKind::Drivers => lists.drivers.iter().map(|it| (it.name, it.about)).collect(),
+        ListKind::Measures => lists.measures.iter().map(|it| (it.name(), it.descriptor().about)).collect(),
+        ListKind::Sensors => lists.sensors.iter().map(|it| (it.name, it.about)).collect(),
+        ListKind::Cameras => lists.cameras.iter().map(|it| (it.name, it.about)).collect(),
+    }
+}
+
+fn parameters(lists: &Lists, text: &mut String) -> Result<(), Failure> {
+    text.push_str(
+        "\n| scenario | parameter | domain | unit | value unless opened |\n| --- | --- | --- | --- | --- |\n",
+    );
+    for program in &lists.scenarios {
+        for declared in &program.declare()?.parameters {
+            let [name, domain, unit, nominal] = scenario_words(declared);
+            writeln!(text, "| `{}` | `{name}` | {domain} | {unit} | {nominal} |", program.name())?;
+        }
+    }
+    Ok(())
+}
+
+fn cameras(lists: &Lists, text: &mut String) -> Result<(), Failure> {
+    text.push_str("\n| setting | key in a file | default | range |\n| --- | --- | --- | --- |\n");
+    for setting in &lists.cameras {
+        let (name, key, (low, high)) = (setting.name, setting.key, setting.range);
+        let default =
+            setting.default.map_or("has to be said".to_owned(), |default| format!("{default} {}", setting.unit));
+        let range = format!("{low} to {high} {}", setting.unit);
+        writeln!(text, "| `{name}` | `{key}` | {} | {} |", default.trim_end(), range.trim_end())?;
+    }
+    Ok(())
+}
+
+fn settings(lists: &Lists, text: &mut String) -> Result<(), Failure> {
+    text.push_str("\n| driver | setting | default | range | meaning |\n| --- | --- | --- | --- | --- |\n");
+    for driver in &lists.drivers {
+        for setting in driver.settings {
+            let (default, low, high) = (digits(setting.default), digits(setting.range.0), digits(setting.range.1));
+            let (driver, name, unit, about) = (driver.name, setting.name, setting.unit, setting.about);
+            let default = format!("{default} {unit}");
+            writeln!(text, "| `{driver}` | `{name}` | {} | {low} to {high} | {about} |", default.trim_end())?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,49 @@
+//! The library does all that the program does: a campaign that is run by a few lines of Rust leaves the same folder.
+
+use crate::common::{fuzz, succeeds};
+use paracosm::Folder;
+use paracosm::campaign::DERIVED;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ffi::OsStr;
+use std::fs;
+use std::path::Path;
+
+#[allow(dead_code)]
+#[path = "../../examples/campaign.rs"]
+mod example;
+
+/// The files of a folder with their contents.
+fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    files.map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), fs::read(&path).unwrap())).collect()
+}
+
+#[test]
+fn the_example_leaves_the_folder_that_the_program_leaves() {
+    let text = include_str!("../../examples/campaign.rs");
+    assert!(text.lines().count() <= 25, "the example has {} lines", text.lines().count());
+    let dir = tempfile::tempdir().unwrap();
+    example::campaign(&dir.path().join("library")).unwrap();
+    succeeds(fuzz(dir.path(), &["--out", "program", "-q"]));
+    let [library, program] = ["library", "program"].map(|name| contents(&dir.path().join(name)));
+    assert_eq!(library.keys().collect::<Vec<_>>(), program.keys().collect::<Vec<_>>());
+    for (name, bytes) in &library {
+        assert!(*bytes == program[name], "{name} differs");
+    }
+    assert!(library.len() >= 9, "{:?}", library.keys());
+}
+
+#[test]
+fn every_file_of_a_campaign_is_its_own_and_every_name_of_its_own_is_written_by_some_command() {
+    let dir = tempfile::tempdir().unwrap();
+    let open = ["--budget", "120", "--open", "lanes=2,4,6", "--open", "zebra", "--locate", "--junit"];
+    succeeds(fuzz(dir.path(), &[&open[..], &["--out", "out", "-q"]].concat()));
+    succeeds(fuzz(dir.path(), &["blame", "out", "-q"]));
+    let written = contents(&dir.path().join("out"));
+    for name in written.keys() {
+        assert!(Folder::owns(OsStr::new(name)), "{name} is not known as a campaign's own");
+    }
+    let written: BTreeSet<&str> = written.keys().map(String::as_str).collect();
+    let missing: Vec<&str> = DERIVED.into_iter().filter(|name| !written.contains(name)).collect();
+    assert!(missing.is_empty(), "no command wrote {missing:?}; there are {written:?}");
+}
