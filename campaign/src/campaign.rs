@@ -34,7 +34,7 @@ pub struct Campaign<'a> {
     /// What draws for the drivers, if they see.
     darkroom: Option<Arc<Darkroom>>,
     /// The tests that count as done.
-    existing: Vec<Point>,
+    extension: Option<(Extension, Vec<Point>)>,
     known: Vec<Trial>,
     stop: Arc<AtomicBool>,
     /// Workers keep what they have started from one batch of tests to the next.
@@ -81,8 +81,7 @@ impl<'a> Campaign<'a> {
         let mut worker = Worker::until(study, Arc::clone(&stop))?;
         worker.start()?;
         let (darkroom, idle) = (worker.darkroom().cloned(), Mutex::new(vec![worker]));
-        let (existing, known) = (Vec::new(), Vec::new());
-        Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, existing, known, stop, idle })
+        Ok(Self { study, jobs, at_once: AT_ONCE, darkroom, extension: None, known: Vec::new(), stop, idle })
     }
 
     /// Counts these tests as done, so that the tests of the study complete them.
@@ -90,7 +89,7 @@ impl<'a> Campaign<'a> {
     /// # Errors
     /// They cannot be read.
     pub fn extending(mut self, extension: &Extension) -> Result<Self, Error> {
-        self.existing = extension.points(self.study.space())?;
+        self.extension = Some((extension.clone(), extension.points(self.study.space())?));
         Ok(self)
     }
 
@@ -123,7 +122,8 @@ impl<'a> Campaign<'a> {
     /// # Errors
     /// It cannot.
     pub fn check(&self) -> Result<(), Error> {
-        Ok(self.study.generator(&self.existing).map(drop)?)
+        let existing = self.extension.as_ref().map_or(&[][..], |(_, points)| points);
+        Ok(self.study.generator(existing).map(drop)?)
     }
 
     /// Runs the tests that are not known yet. Every observer sees every trial in order.
@@ -140,7 +140,7 @@ impl<'a> Campaign<'a> {
         if study.sampling().stop_at_first {
             observers.push(&mut first_failure);
         }
-        let mut steering = Steering::new(study, std::mem::take(&mut self.existing))?;
+        let mut steering = Steering::new(study, self.extension.take().map(|(_, points)| points).unwrap_or_default())?;
         observers.iter_mut().try_for_each(|observer| observer.begun())?;
         let mut expected = Expected::of(study, &self.known);
         let mut done = 0;
@@ -198,8 +198,9 @@ impl<'a> Campaign<'a> {
     /// As [`Campaign::run`].
     pub fn into_log(self) -> Result<Log, Error> {
         let (study, mut trials) = (self.study.clone(), self.known.clone());
+        let extension = self.extension.as_ref().map(|(extension, _)| extension.clone());
         self.run(&mut [&mut |trial: &Trial| trials.push(trial.clone())])?;
-        Ok(Log::new(study, Learned::new(), None, trials))
+        Ok(Log::new(study, Learned::new(), extension, trials))
     }
 
     /// Runs these tests instead of those that the strategy proposes; the first one gets the index `first`.

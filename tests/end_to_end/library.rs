@@ -1,8 +1,9 @@
 //! The library does all that the program does: a campaign that is run by a few lines of Rust leaves the same folder.
 
 use crate::common::{fuzz, succeeds};
-use paracosm::Folder;
-use paracosm::campaign::DERIVED;
+use paracosm::campaign::{DERIVED, Extension};
+use paracosm::generators::Strategy;
+use paracosm::{Campaign, Folder, Study, catalogue};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::fs;
@@ -46,4 +47,16 @@ fn every_file_of_a_campaign_is_its_own_and_every_name_of_its_own_is_written_by_s
     let written: BTreeSet<&str> = written.keys().map(String::as_str).collect();
     let missing: Vec<&str> = DERIVED.into_iter().filter(|name| !written.contains(name)).collect();
     assert!(missing.is_empty(), "no command wrote {missing:?}; there are {written:?}");
+}
+
+#[test]
+fn the_log_of_a_campaign_that_extends_others_counts_their_tests() {
+    let dir = tempfile::tempdir().unwrap();
+    let old = dir.path().join("old.csv");
+    fs::write(&old, "speed,distance\n1,10\n2,20\n3,30\n").unwrap();
+    let study = Study::of(catalogue().find("pedestrian-crossing").unwrap()).strategy(Strategy::GREEDY).budget(4);
+    let study = study.build().unwrap();
+    let extension = Extension::read(&old, &study).unwrap();
+    let log = Campaign::new(&study).unwrap().extending(&extension).unwrap().into_log().unwrap();
+    assert_eq!((log.trials().len(), log.test_set().unwrap().points.len()), (4, 7));
 }
