@@ -45,6 +45,13 @@ pub struct Problem {
     pub message: String,
 }
 
+/// Metrics of older versions that no test has any more.
+const RETIRED: [&str; 1] = ["ended_early"];
+
+fn owned((name, metric): (&str, &Metric)) -> (String, Metric) {
+    (name.to_owned(), metric.clone())
+}
+
 impl Problem {
     /// A problem of some kind, in words.
     pub fn new(kind: ProblemKind, message: impl Into<String>) -> Self {
@@ -204,9 +211,10 @@ impl Trial {
     }
 
     /// Whether a test that was logged so has come to the same again. Logs of older versions do not say of what kind a problem
-    /// is.
+    /// is, and have metrics that no test has any more.
     pub fn repeats(&self, logged: &Self) -> bool {
         let mut logged = logged.clone();
+        logged.others = logged.others.iter().filter(|(name, _)| !RETIRED.contains(name)).map(owned).collect();
         if let (Some(problem), Some(found)) = (&mut logged.problem, &self.problem)
             && problem.kind == ProblemKind::Unstated
         {
