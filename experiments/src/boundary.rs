@@ -133,8 +133,7 @@ fn table(samples: &[Sample]) -> String {
             };
             let range = |[median, worst, best]: [f64; 3]| format!("{median:.3} ({worst:.3}..{best:.3})");
             text += &format!(
-                "{:<10}{size:>6}{:>10}{:>24}{:>24}{:>8.4}{:>8.3}{:>8.3}\n",
-                strategy.to_string(),
+                "{strategy:<10}{size:>6}{:>10}{:>24}{:>24}{:>8.4}{:>8.3}{:>8.3}\n",
                 of(|sample| sample.failures as f64)[0],
                 range(of(|sample| sample.nearest)),
                 range(of(|sample| sample.model)),

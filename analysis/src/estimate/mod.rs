@@ -176,23 +176,27 @@ fn continuous(
     for measure in order {
         watch(measure, None);
         let found = measure.take(&points, clock.next(), &mut |bracket| watch(measure, Some(bracket)));
-        taken.push((measure, in_values(found.expect("the measure is one of points"), &parameters, holes)));
+        let found = found.expect("the measure is one of points");
+        if let Finding::Hole(hole) = &found
+            && measure == Measure::DISPERSION
+        {
+            holes.dispersion = Some(hole.clone());
+        }
+        taken.push((measure, in_values(found, &parameters)));
     }
     let place = |measure: Measure| Measure::all().position(|other| other == measure);
     taken.sort_by_key(|(measure, _)| (place(*measure).is_none(), place(*measure)));
     Ok(Continuous { parameters: parameters.iter().map(Coordinate::name).collect(), measured: taken })
 }
 
-/// What a measure found, in the values of the parameters instead of coordinates. A box is noted among the holes.
-fn in_values(found: Finding, parameters: &[Coordinate], holes: &mut Holes) -> Measured {
+/// The finding of a measure in the values of the parameters instead of coordinates.
+fn in_values(found: Finding, parameters: &[Coordinate]) -> Measured {
     match found {
         Finding::Number(number) => Measured::Number(number),
         Finding::Bracket(bracket) => Measured::Bracket(bracket),
         Finding::Hole(found) => {
             let largest_empty_box = sides(parameters.iter().copied(), &found.witness);
-            let volume = found.volume;
-            holes.dispersion = Some(found);
-            Measured::Hole(Hole { volume, largest_empty_box })
+            Measured::Hole(Hole { volume: found.volume, largest_empty_box })
         }
         Finding::Ball(found) => Measured::Ball(found.map(|found| {
             let places = parameters.iter().zip(&found.centre);
@@ -274,6 +278,7 @@ impl Clock {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use paracosm_coverage::measure::{Compare, Descriptor, Method};
     use paracosm_generators::{Request, Strategy};
     use paracosm_space::Space;
 
@@ -293,5 +298,28 @@ mod tests {
             (numbers, coverage.k_wise_dispersion.unwrap().volume)
         };
         assert_eq!(measure(unit, points), measure(scaled, values));
+    }
+
+    #[test]
+    fn a_box_of_another_measure_is_not_taken_for_that_of_the_dispersion() {
+        static CORNER: Descriptor = Descriptor {
+            name: "corner",
+            key: "corner",
+            label: "corner",
+            title: "corner",
+            about: "a box in the corner, whatever the points are",
+            pace: u8::MAX,
+            compare: Compare::Never,
+            method: Method::Hole(|points, _, _| {
+                let witness = LargestEmptyBox { lower: vec![0.0; points.dims()], upper: vec![0.1; points.dims()] };
+                Dispersion { volume: Bracket::exact(witness.volume()), witness }
+            }),
+        };
+        let space = Space::unit_cube(2);
+        let points = Strategy::HALTON.build(&Request::new(&space, 20)).unwrap().ask(20);
+        let tests = TestSet::new(space, points);
+        let measured = |measures: &[Measure]| measure_holes(&tests, measures, None, None, &mut |_, _| ()).unwrap().1;
+        let alone = measured(&[Measure::DISPERSION]).dispersion;
+        assert_eq!(measured(&[Measure::DISPERSION, Measure::of(&CORNER)]).dispersion, alone);
     }
 }

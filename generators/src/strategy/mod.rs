@@ -97,7 +97,8 @@ pub(crate) trait Sequence: Send + Sync {
 }
 
 impl Method {
-    /// A generator of one's own. It closes the parameters of a request itself, the discrete ones included.
+    /// A generator of one's own, which counts as open loop. It closes the parameters of a request itself, the discrete ones
+    /// included.
     pub const fn own(build: BuildOwn) -> Self {
         Self(MethodKind::Own(build))
     }
