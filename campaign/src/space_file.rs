@@ -30,27 +30,14 @@ pub enum SpaceFileFlaw {
     #[error("found bytes that are no UTF-8, expected a text in UTF-8")]
     NoText,
     /// It is no model of PICT.
-    #[error("column {}: {}", .0.column, .0.message)]
+    #[error("column {}: {}", .0.column, .0.flaw)]
     Pict(PictError),
     /// It is no space.
-    #[error("{}{}", column.map(|column| format!("column {column}: ")).unwrap_or_default(), words(.error))]
-    Space {
-        /// What is wrong.
-        error: SpaceError,
-        /// In which column of the line, from 1, if that is known.
-        column: Option<usize>,
-    },
+    #[error("{}{}", .0.at().map(|at| format!("column {}: ", at.column)).unwrap_or_default(), .0)]
+    Space(SpaceError),
 }
 
 impl Reason for SpaceFileFlaw {}
-
-/// What is wrong; the place is said beside it.
-fn words(error: &SpaceError) -> String {
-    match error {
-        SpaceError::Syntax { message, at: Some(_) } => message.clone(),
-        error => error.to_string(),
-    }
-}
 
 /// Whether a file is a model of PICT by its name.
 pub fn is_model(path: &Path) -> bool {
@@ -78,11 +65,8 @@ impl SpaceFile {
             return Ok(Self { space: model.space, demand: model.demand, notes });
         }
         let space = Space::from_toml(&text).map_err(|error| {
-            let (line, column) = match &error {
-                SpaceError::Syntax { at: Some(Position { line, column }), .. } => (Some(*line), Some(*column)),
-                _ => (None, None),
-            };
-            Error::in_file(path, line, SpaceFileFlaw::Space { error, column })
+            let line = error.at().map(|Position { line, .. }| line);
+            Error::in_file(path, line, SpaceFileFlaw::Space(error))
         })?;
         let texts = space.constraints().iter().map(|constraint| constraint.text().to_owned());
         let written: Vec<(usize, String)> = Space::constraint_lines(&text).into_iter().zip(texts).collect();
@@ -101,6 +85,6 @@ fn check(path: &Path, space: &Space, written: &[(usize, String)]) -> Result<(), 
         if let SpaceError::Conflict { constraints, .. } = &mut error {
             *constraints = std::mem::take(constraints).into_iter().map(located).collect();
         }
-        Error::in_file(path, None, SpaceFileFlaw::Space { error, column: None })
+        Error::in_file(path, None, SpaceFileFlaw::Space(error))
     })
 }

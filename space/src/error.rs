@@ -36,14 +36,16 @@ pub enum SpaceError {
         name: String,
     },
     /// A constraint that means nothing here.
-    #[error("constraint `{text}`, column {}: {error}", Position::of(text, error.offset).column)]
+    #[error("{}", in_constraint(.text, .error, .at.as_ref()))]
     Constraint {
         /// Its position in the list of constraints, from 0.
         index: usize,
         /// The constraint as it was written.
         text: String,
-        /// What is wrong with it, and where.
+        /// What is wrong with it, and where in the constraint.
         error: ConstraintError,
+        /// The place in the file that the constraint was read from.
+        at: Option<Position>,
     },
     /// Constraints that no test keeps together.
     #[error("{}", kept_by_none(.constraints, *.smallest))]
@@ -59,14 +61,32 @@ pub enum SpaceError {
          constraints on these parameters, or give them fewer values", quoted(.0)
     )]
     Undecided(Vec<String>),
-    /// A text that is no space.
-    #[error("{message}")]
-    Syntax {
-        /// What was found and what was expected.
-        message: String,
-        /// Where the text parser knows it.
+    /// A text that is no TOML, or has other fields than a space.
+    #[error("{}", .error.message())]
+    Toml {
+        /// The error of the reader of TOML.
+        error: Box<toml::de::Error>,
+        /// The place in the text, if the reader knows it.
         at: Option<Position>,
     },
+}
+
+impl SpaceError {
+    /// The place in the text that the space was read from, if it is known.
+    pub fn at(&self) -> Option<Position> {
+        match self {
+            Self::Toml { at, .. } | Self::Constraint { at, .. } => *at,
+            _ => None,
+        }
+    }
+}
+
+/// Names the constraint, unless the place in a file is known.
+fn in_constraint(text: &str, error: &ConstraintError, at: Option<&Position>) -> String {
+    match at {
+        Some(_) => error.to_string(),
+        None => format!("constraint `{text}`, column {}: {error}", Position::of(text, error.offset).column),
+    }
 }
 
 fn quoted(texts: &[String]) -> String {

@@ -93,7 +93,7 @@ impl Space {
             let text = text.as_ref();
             let constraint = Constraint::new(text, &self.parameters).map_err(|error| {
                 let (index, text) = (self.constraints.len(), text.to_owned());
-                SpaceError::Constraint { index, text, error }
+                SpaceError::Constraint { index, text, error, at: None }
             })?;
             self.constraints.push(constraint);
         }

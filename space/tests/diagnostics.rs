@@ -105,9 +105,9 @@ fn the_place_of_an_error_is_given_in_the_lines_of_the_file() {
     let check = |constraints: &str, at: Option<(usize, usize)>, expected: &str| {
         let toml = format!("constraints = {constraints}\n[[parameter]]\nname = \"lanes\"\nchoice = [2, 4]\n");
         match Space::from_toml(&toml) {
-            Err(SpaceError::Syntax { message, at: found }) => {
-                let found = found.map(|Position { line, column }| (line, column));
-                assert_eq!((message.as_str(), found), (expected, at), "{toml}");
+            Err(error @ SpaceError::Constraint { .. }) => {
+                let found = error.at().map(|Position { line, column }| (line, column));
+                assert_eq!((error.to_string().as_str(), found), (expected, at), "{toml}");
             }
             other => panic!("{toml}: {other:?}"),
         }
@@ -138,7 +138,9 @@ fn an_error_of_a_space_made_by_a_program_names_the_constraint() {
 #[test]
 fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     let check = |text: &str, at: (usize, usize), expected: &str| match Model::from_pict(text) {
-        Err(error) => assert_eq!(((error.line, error.column), error.message.as_str()), (at, expected), "{text}"),
+        Err(error) => {
+            assert_eq!(((error.line, error.column), error.flaw.to_string().as_str()), (at, expected), "{text}")
+        }
         Ok(model) => panic!("{text}: {model:?}"),
     };
     check("", (1, 1), "found no parameters, expected a line like `Weather: clear, rain, fog`");

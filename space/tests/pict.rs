@@ -317,7 +317,7 @@ proptest! {
             *changed = sign.to_owned();
         }
         if let Err(error) = Model::from_pict(&signs.concat()) {
-            prop_assert!(!error.message.is_empty());
+            prop_assert!(!error.flaw.to_string().is_empty());
         }
     }
 }
@@ -336,7 +336,7 @@ fn a_constraint_that_is_too_complex_is_found_where_it_begins() {
     text += &format!("[p0] = 0 OR [p0] = 1;\n{};", pairs.join("\n OR "));
     let error = Model::from_pict(&text).unwrap_err();
     assert_eq!((error.line, error.column), (62, 1));
-    assert!(error.message.contains("too many clauses"), "{error}");
+    assert!(error.to_string().contains("too many clauses"), "{error}");
 }
 
 #[test]

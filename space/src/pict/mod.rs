@@ -46,6 +46,7 @@
 //! parameter of negative values only, and what is unknown. The separators of values and of aliases and the negative sign are those that PICT
 //! takes unless told otherwise.
 
+mod flaw;
 mod parameters;
 mod statements;
 mod terms;
@@ -57,7 +58,8 @@ use crate::{Domain, Parameter, Position, Space, SpaceError};
 use parameters::{Declared, Parameters, sub_model};
 use statements::Statement;
 use std::ops::Range;
-use thiserror::Error;
+
+pub use flaw::{PictError, PictFlaw, Section};
 
 /// What a model file holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,26 +75,14 @@ pub struct Model {
     pub notes: Vec<String>,
 }
 
-/// Where a text stops being a model, and why.
-#[derive(Debug, Clone, Error, PartialEq, Eq)]
-#[error("line {line}, column {column}: {message}")]
-pub struct PictError {
-    /// The line, from 1.
-    pub line: usize,
-    /// The column, from 1.
-    pub column: usize,
-    /// What was found, and what was expected.
-    pub message: String,
-}
-
-/// What is wrong with a text, and at which of its bytes.
+/// A flaw, and the byte of the text where it stands.
 struct Fault {
     offset: usize,
-    message: String,
+    flaw: PictFlaw,
 }
 
-fn fail<T>(offset: usize, message: impl Into<String>) -> Result<T, Fault> {
-    Err(Fault { offset, message: message.into() })
+fn fail<T>(offset: usize, flaw: PictFlaw) -> Result<T, Fault> {
+    Err(Fault { offset, flaw })
 }
 
 impl Model {
@@ -114,9 +104,9 @@ impl Model {
     /// The text is no model, or one that holds what is refused: the error says where.
     pub fn from_pict(text: &str) -> Result<Self, PictError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        read(text).map_err(|Fault { offset, message }| {
+        read(text).map_err(|Fault { offset, flaw }| {
             let Position { line, column } = Position::of(text, offset);
-            PictError { line, column, message }
+            PictError { line, column, flaw: Box::new(flaw) }
         })
     }
 }
@@ -140,9 +130,8 @@ fn read(text: &str) -> Result<Model, Fault> {
         match kind(line) {
             Line::Nothing => {}
             Line::Parameter if sub_models => {
-                let message =
-                    "found a parameter after a sub-model; parameters come first, then sub-models, then constraints";
-                return fail(offset + indent(line), message);
+                let flaw = PictFlaw::Misplaced { found: Section::Parameter, after: Section::SubModel };
+                return fail(offset + indent(line), flaw);
             }
             Line::Parameter => parameters.read(line.trim_end(), offset)?,
             Line::SubModel => {
@@ -164,7 +153,7 @@ fn read(text: &str) -> Result<Model, Fault> {
         offset += line.len();
     }
     if parameters.declared.is_empty() {
-        return fail(statements, "found no parameters, expected a line like `Weather: clear, rain, fog`");
+        return fail(statements, PictFlaw::NoParameters);
     }
     let (declared, mut notes) = parameters.finish(text)?;
     let read = statements::read(text, statements, &declared, &mut notes)?;
@@ -175,9 +164,9 @@ fn read(text: &str) -> Result<Model, Fault> {
     let space = Space::new(space).and_then(|space| space.with_constraints(texts));
     let space = space.or_else(|error| match error {
         SpaceError::Constraint { index, error, .. } => {
-            fail(read.get(index).map_or(0, |statement| statement.span.start), error.to_string())
+            fail(read.get(index).map_or(0, |statement| statement.span.start), PictFlaw::Constraint(error))
         }
-        error => fail(0, error.to_string()),
+        error => fail(0, PictFlaw::Space(error)),
     })?;
     let in_a_line = |span: Range<usize>| text[span].split_whitespace().collect::<Vec<_>>().join(" ");
     let statements =

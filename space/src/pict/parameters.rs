@@ -1,8 +1,8 @@
 //! The lines that declare parameters, and those that group them.
 
-use super::{Fault, fail, indent};
+use super::{Fault, PictFlaw, fail, indent};
 use crate::constraint::Relation;
-use crate::names::{did_you_mean, nearest};
+use crate::names::nearest;
 use crate::{Position, Value};
 
 /// A parameter of a model.
@@ -62,19 +62,13 @@ impl Declared {
 /// The parameter of that name, whatever its case.
 ///
 /// # Errors
-/// There is none: a message with the nearest one.
-pub(super) fn find<'a>(declared: &'a [Declared], name: &str) -> Result<usize, Unknown<'a>> {
+/// There is none: [`PictFlaw::Unknown`] has the nearest one.
+pub(super) fn find(declared: &[Declared], name: &str) -> Result<usize, PictFlaw> {
     let lower = name.to_lowercase();
     declared.iter().position(|parameter| parameter.name.to_lowercase() == lower).ok_or_else(|| {
-        let meant = nearest(name, declared.iter().map(|parameter| parameter.name.as_str()));
-        Unknown { message: format!("no parameter is called `{name}`{}", did_you_mean(&meant)), meant }
+        let nearest = nearest(name, declared.iter().map(|parameter| parameter.name.as_str()));
+        PictFlaw::Unknown { name: name.to_owned(), nearest: nearest.map(str::to_owned) }
     })
-}
-
-/// What is to be said of a name that no parameter has, and one that was perhaps meant.
-pub(super) struct Unknown<'a> {
-    pub message: String,
-    meant: Option<&'a str>,
 }
 
 /// The parameters read so far.
@@ -94,36 +88,28 @@ impl Parameters {
     pub fn read(&mut self, line: &str, offset: usize) -> Result<(), Fault> {
         let comma = line.split_once(',').filter(|(name, _)| !name.contains(['[', '{']));
         let Some((head, list)) = line.split_once(':').or(comma) else {
-            let constraint = if line.contains('[') { ", or a constraint that begins with IF, NOT, [ or (" } else { "" };
-            let message =
-                format!("found no `:`, expected one between the name of a parameter and its values{constraint}");
-            return fail(offset + line.len(), message);
+            return fail(offset + line.len(), PictFlaw::NoColon { bracket: line.contains('[') });
         };
         let name = head.trim();
         let at = offset + indent(head);
         if name.is_empty() {
-            return fail(at, "found no name before `:`");
+            return fail(at, PictFlaw::Nameless);
         }
         if name.starts_with('$') {
-            return fail(at, format!("`{name}` is a result parameter, which is not supported"));
+            return fail(at, PictFlaw::ResultParameter { name: name.to_owned() });
         }
         let order = name.split_once('@').filter(|(_, order)| order.trim().parse::<f64>().is_ok());
         if let Some((name, _)) = order {
-            let message = "an order of a parameter is not supported; give the order of a sub-model: `{A, B} @ 3`";
-            return fail(at + name.len(), message);
+            return fail(at + name.len(), PictFlaw::OrderOfParameter);
         }
         if !line.contains(':') {
             self.without_colon.push(format!("`{name}`"));
         }
         if let Ok(known) = find(&self.declared, name) {
-            let known = &self.declared[known].name;
-            return fail(at, format!("parameter `{known}` is declared twice; case makes no difference"));
+            return fail(at, PictFlaw::Twice { name: self.declared[known].name.clone() });
         }
         if list.trim().is_empty() {
-            return fail(
-                offset + line.len(),
-                format!("found no values, expected those of `{name}`, with commas between them"),
-            );
+            return fail(offset + line.len(), PictFlaw::NoValues { name: name.to_owned() });
         }
         let mut declared = Declared { name: name.to_owned(), values: Vec::new() };
         let mut at = offset + head.len() + 1;
@@ -135,8 +121,8 @@ impl Parameters {
             at += piece.len() + 1;
         }
         if declared.values.iter().all(|listed| listed.negative) {
-            let message = format!("every value of `{name}` is negative (`~`), expected one that is not");
-            return fail(offset + head.len() + 1 + indent(list), message);
+            let flaw = PictFlaw::OnlyNegative { name: name.to_owned() };
+            return fail(offset + head.len() + 1 + indent(list), flaw);
         }
         declared.settle();
         self.declared.push(declared);
@@ -171,7 +157,7 @@ impl Parameters {
         let (name, text) = (&declared.name, &listed.text);
         let same = |known: &&Listed| known.value.means(&listed.value);
         if declared.values.iter().filter(same).any(|known| known.negative != listed.negative) {
-            return fail(at, format!("`{text}` is listed with and without `~`"));
+            return fail(at, PictFlaw::BothSigns { value: text.clone() });
         }
         if !declared.values.iter().any(|known| known.text == *text) {
             if listed.text.is_empty() {
@@ -191,14 +177,14 @@ impl Parameters {
     pub fn finish(mut self, text: &str) -> Result<(Vec<Declared>, Vec<String>), Fault> {
         for (name, at) in std::mem::take(&mut self.unknown) {
             match find(&self.declared, &name) {
-                Ok(_) => return fail(at, format!("`<{name}>` stands before parameter `{name}`, expected it below")),
-                Err(Unknown { message, meant: Some(_) }) => return fail(at, message),
+                Ok(_) => return fail(at, PictFlaw::BeforeItsParameter { name }),
                 // PICT reads it so, and `<none>` may well be a value.
-                Err(Unknown { message, meant: None }) => {
+                Err(unknown @ PictFlaw::Unknown { nearest: None, .. }) => {
                     let Position { line, column } = Position::of(text, at);
-                    let note = format!("line {line}, column {column}: {message}, so `<{name}>` is read as a value");
+                    let note = format!("line {line}, column {column}: {unknown}, so `<{name}>` is read as a value");
                     self.notes.push(note);
                 }
+                Err(flaw) => return fail(at, flaw),
             }
         }
         for (what, found) in [
@@ -229,7 +215,7 @@ pub(super) fn sub_model(
 ) -> Result<(Vec<usize>, Option<usize>), Fault> {
     let open = indent(line);
     let Some(close) = line.find('}') else {
-        return fail(offset + line.len(), "found no `}`, expected one after the names of a sub-model");
+        return fail(offset + line.len(), PictFlaw::OpenSubModel);
     };
     let mut set = Vec::new();
     let mut at = open + 1;
@@ -237,11 +223,11 @@ pub(super) fn sub_model(
         let place = offset + at + indent(piece);
         let name = piece.trim();
         if name.is_empty() {
-            return fail(place, "found no name, expected a parameter of the sub-model");
+            return fail(place, PictFlaw::NamelessInSubModel);
         }
-        let position = find(declared, name).or_else(|unknown| fail(place, unknown.message))?;
+        let position = find(declared, name).or_else(|flaw| fail(place, flaw))?;
         if set.contains(&position) {
-            return fail(place, format!("the sub-model names `{name}` twice"));
+            return fail(place, PictFlaw::TwiceInSubModel { name: name.to_owned() });
         }
         set.push(position);
         at += piece.len() + 1;
@@ -254,17 +240,13 @@ pub(super) fn sub_model(
         return if tail.is_empty() {
             Ok((set, None))
         } else {
-            fail(place, format!("found `{tail}`, expected `@` and the order of the sub-model"))
+            fail(place, PictFlaw::AfterSubModel { found: tail.to_owned() })
         };
     };
     let place = place + 1 + indent(order);
     let order = order.trim();
     match order.parse() {
         Ok(order) if (1..=set.len()).contains(&order) => Ok((set, Some(order))),
-        _ => {
-            let found = if order.is_empty() { "nothing".to_owned() } else { format!("`{order}`") };
-            let most = set.len();
-            fail(place, format!("found {found}, expected an order from 1 to {most}, the number of parameters"))
-        }
+        _ => fail(place, PictFlaw::Order { found: order.to_owned(), most: set.len() }),
     }
 }

@@ -3,7 +3,7 @@
 use super::parameters::{Declared, find};
 use super::terms;
 use super::tokens::{Token, tokens};
-use super::{Fault, fail};
+use super::{Fault, PictFlaw, Section, fail};
 use crate::constraint::{Expression, Relation};
 use crate::names::{did_you_mean, nearest};
 use crate::{Position, Value};
@@ -113,14 +113,12 @@ impl<'a> Reader<'a> {
             A(_) => None,
         });
         let meant = match self.peek() {
-            Token::Broken(message) => return fail(self.offset(), message.as_str()),
+            Token::Broken(flaw) => return fail(self.offset(), flaw.clone()),
             Token::Word(word) => nearest(word, words),
             _ => None,
         };
-        let (last, others) = wanted.split_last().expect("something is wanted");
-        let others = others.iter().map(Wanted::to_string).collect::<Vec<_>>().join(", ");
-        let what = if others.is_empty() { last.to_string() } else { format!("{others} or {last}") };
-        fail(self.offset(), format!("found {}, expected {what}{}", self.peek(), did_you_mean(&meant)))
+        let expected = wanted.iter().map(Wanted::to_string).collect();
+        fail(self.offset(), PictFlaw::Unexpected { found: self.peek().to_string(), expected, meant })
     }
 
     fn statement(&mut self) -> Result<Expression, Fault> {
@@ -151,13 +149,11 @@ impl<'a> Reader<'a> {
     fn check_section(&self) -> Result<(), Fault> {
         let line = self.text[self.offset()..].lines().next().unwrap_or_default();
         let found = match self.peek() {
-            Token::Sign("{") => "a sub-model",
-            Token::Word(word) if line[word.len()..].trim_start().starts_with(':') => "a parameter",
+            Token::Sign("{") => Section::SubModel,
+            Token::Word(word) if line[word.len()..].trim_start().starts_with(':') => Section::Parameter,
             _ => return Ok(()),
         };
-        let message =
-            format!("found {found} after a constraint; parameters come first, then sub-models, then constraints");
-        fail(self.offset(), message)
+        fail(self.offset(), PictFlaw::Misplaced { found, after: Section::Constraint })
     }
 
     fn predicate(&mut self) -> Result<Expression, Fault> {
@@ -179,7 +175,7 @@ impl<'a> Reader<'a> {
     fn factor(&mut self) -> Result<Expression, Fault> {
         self.depth += 1;
         if self.depth > DEEPEST {
-            return fail(self.offset(), format!("the constraint is nested more than {DEEPEST} deep"));
+            return fail(self.offset(), PictFlaw::TooDeep { most: DEEPEST });
         }
         let open = self.offset();
         let factor = if self.takes_word("NOT") {
@@ -187,7 +183,7 @@ impl<'a> Reader<'a> {
         } else if self.takes_sign("(") {
             let inner = self.predicate()?;
             if *self.peek() == Token::End {
-                return fail(open, "the `(` here is never closed");
+                return fail(open, PictFlaw::NeverClosed);
             }
             if !self.takes_sign(")") {
                 return self.expected(&[Exactly("AND"), Exactly("OR"), Exactly(")")]);
@@ -208,9 +204,7 @@ impl<'a> Reader<'a> {
         }
         let name = match self.peek().clone() {
             Token::Name(name) => name,
-            Token::Word(word) => {
-                return fail(self.offset(), format!("found `{word}`, expected a parameter in brackets, as [{word}]"));
-            }
+            Token::Word(word) => return fail(self.offset(), PictFlaw::NoBrackets { word }),
             _ => return self.expected(&[A("a parameter in brackets"), Exactly("NOT"), Exactly("(")]),
         };
         let parameter = self.parameter(&name)?;
@@ -221,8 +215,7 @@ impl<'a> Reader<'a> {
             self.list(parameter)?
         } else if self.peek().is("LIKE") {
             if parameter.numeric() {
-                let message = format!("`LIKE` compares words, but `{}` takes numbers only", parameter.name);
-                return fail(operator, message);
+                return fail(operator, PictFlaw::PatternOfNumbers { name: parameter.name.clone() });
             }
             self.take();
             let Token::Text(pattern) = self.peek().clone() else { return self.expected(&[A("a pattern in quotes")]) };
@@ -239,7 +232,7 @@ impl<'a> Reader<'a> {
     /// The parameter of that name, which stands at the next token.
     fn parameter(&self, name: &str) -> Result<&'a Declared, Fault> {
         let declared = self.declared;
-        find(declared, name).map(|i| &declared[i]).or_else(|unknown| fail(self.offset(), unknown.message))
+        find(declared, name).map(|i| &declared[i]).or_else(|flaw| fail(self.offset(), flaw))
     }
 
     /// What follows `IsNegative` or `IsPositive`.
@@ -260,7 +253,7 @@ impl<'a> Reader<'a> {
         let name = self.text[from..to].trim();
         let name = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')).unwrap_or(name);
         if !name.is_empty() {
-            let i = find(self.declared, name).or_else(|unknown| fail(from, unknown.message))?;
+            let i = find(self.declared, name).or_else(|flaw| fail(from, flaw))?;
             return Ok(terms::of_sign(&self.declared[i], negative));
         }
         let with_negatives = self.declared.iter().filter(|parameter| parameter.has_negatives());
@@ -286,9 +279,8 @@ impl<'a> Reader<'a> {
             let other = self.parameter(&name)?;
             if parameter.numeric() != other.numeric() {
                 let (numbers, words) = if parameter.numeric() { (parameter, other) } else { (other, parameter) };
-                let message =
-                    format!("`{}` takes numbers and `{}` words, which are not compared", numbers.name, words.name);
-                return fail(place, message);
+                let flaw = PictFlaw::NotCompared { numbers: numbers.name.clone(), words: words.name.clone() };
+                return fail(place, flaw);
             }
             self.take();
             return Ok(terms::with_parameter(parameter, relation, other));
@@ -302,8 +294,8 @@ impl<'a> Reader<'a> {
 
     /// A number or a word, whichever the parameter takes, and its offset.
     fn value(&mut self, parameter: &Declared) -> Result<(Value, usize), Fault> {
-        let (name, at) = (&parameter.name, self.offset());
-        let message = match self.peek().clone() {
+        let (name, at) = (parameter.name.clone(), self.offset());
+        let flaw = match self.peek().clone() {
             Token::Number(number) if parameter.numeric() => {
                 self.take();
                 return Ok((Value::Number(number), at));
@@ -312,13 +304,13 @@ impl<'a> Reader<'a> {
                 self.take();
                 return Ok((Value::Word(word), at));
             }
-            Token::Number(number) => format!("`{name}` takes words, which stand in quotes: found `{number}`"),
-            Token::Text(word) => format!("`{name}` takes numbers only, which stand without quotes: found `\"{word}\"`"),
-            Token::Word(word) => format!("found `{word}`, expected a value; words stand in quotes: \"{word}\""),
+            Token::Number(number) => PictFlaw::NumberForWords { name, number },
+            Token::Text(word) => PictFlaw::WordForNumbers { name, word },
+            Token::Word(word) => PictFlaw::NoQuotes { word },
             _ if parameter.numeric() => return self.expected(&[A("a number"), A("a parameter in brackets")]),
             _ => return self.expected(&[A("a word in quotes"), A("a parameter in brackets")]),
         };
-        fail(at, message)
+        fail(at, flaw)
     }
 
     fn list(&mut self, parameter: &Declared) -> Result<Expression, Fault> {

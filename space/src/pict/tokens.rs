@@ -1,5 +1,6 @@
 //! The signs of which the constraints of a model are made.
 
+use super::PictFlaw;
 use crate::constraint::enclosed;
 use std::fmt;
 
@@ -14,7 +15,7 @@ pub(super) enum Token {
     Number(f64),
     Sign(&'static str),
     /// What is no sign of the language, and why: found where the reader gets there, after what is wrong before it.
-    Broken(String),
+    Broken(PictFlaw),
     End,
 }
 
@@ -33,7 +34,7 @@ impl fmt::Display for Token {
             Token::Text(text) => write!(f, "`\"{text}\"`"),
             Token::Number(number) => write!(f, "`{number}`"),
             Token::Sign(sign) => write!(f, "`{sign}`"),
-            Token::Broken(message) => f.write_str(message),
+            Token::Broken(flaw) => flaw.fmt(f),
             Token::End => f.write_str("the end of the model"),
         }
     }
@@ -74,34 +75,34 @@ pub(super) fn tokens(text: &str, start: usize) -> Vec<(Token, usize)> {
 /// The token at the start of the text, and its length.
 fn token(rest: &str) -> (Token, usize) {
     let Some(sign) = rest.chars().next() else { return (Token::End, 0) };
-    let broken = |message: String| (Token::Broken(message), 0);
+    let broken = |flaw: PictFlaw| (Token::Broken(flaw), 0);
     if sign.is_alphabetic() || sign == '_' {
         let word = &rest[..rest.find(|sign: char| !sign.is_alphanumeric() && sign != '_').unwrap_or(rest.len())];
         return (Token::Word(word.to_owned()), word.len());
     }
     if sign == '[' || sign == '"' {
-        let (close, what) = if sign == '[' { (']', "name") } else { ('"', "word") };
+        let close = if sign == '[' { ']' } else { '"' };
         return match enclosed(rest, close) {
             Some((name, length)) if sign == '[' => (Token::Name(name), length),
             Some((word, length)) => (Token::Text(word), length),
-            None => broken(format!("the {what} that begins here has no closing `{close}`")),
+            None => broken(PictFlaw::Open { close }),
         };
     }
     if sign.is_ascii_digit() || matches!(sign, '-' | '+' | '.') {
         return match number(rest) {
             (written, Some(number)) => (Token::Number(number), written.len()),
-            (written, None) => broken(format!("found `{written}`, expected a number")),
+            (written, None) => broken(PictFlaw::NoNumber { written: written.to_owned() }),
         };
     }
     if sign == '#' {
-        return broken("found `#`, which begins a comment only at the start of a line".into());
+        return broken(PictFlaw::LateComment);
     }
     if let Some((foreign, meant)) = FOREIGN.into_iter().find(|(foreign, _)| rest.starts_with(foreign)) {
-        return broken(format!("found `{foreign}`, expected {meant}"));
+        return broken(PictFlaw::Foreign { sign: foreign, meant });
     }
     match SIGNS.into_iter().find(|sign| rest.starts_with(sign)) {
         Some(sign) => (Token::Sign(sign), sign.len()),
-        None => broken(format!("found `{sign}`, which is no sign of a constraint")),
+        None => broken(PictFlaw::UnknownSign { sign }),
     }
 }
 

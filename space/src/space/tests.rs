@@ -89,9 +89,9 @@ fn values_that_are_not_in_the_space_are_named_with_the_nearest_valid_one() {
 
 #[test]
 fn a_space_file_with_an_error_says_where_it_is() {
-    let refuse = |text: &str| match Space::from_toml(text).unwrap_err() {
-        SpaceError::Syntax { message, at } => (message, at.map(|at| at.line)),
-        other => (other.to_string(), None),
+    let refuse = |text: &str| {
+        let error = Space::from_toml(text).unwrap_err();
+        (error.to_string(), error.at().map(|at| at.line))
     };
     let (message, line) = refuse("[[parameter]]\nname = \"a\"\nintervall = [0.0, 1.0]\n");
     assert!(message.contains("intervall") && message.contains("interval"), "{message}");

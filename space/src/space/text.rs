@@ -46,16 +46,15 @@ impl Space {
     pub fn from_toml(text: &str) -> Result<Self, SpaceError> {
         let declaration: Declaration = toml::from_str(text).map_err(|error| {
             let at = error.span().map(|span| Position::of(text, span.start));
-            SpaceError::Syntax { message: error.message().to_owned(), at }
+            SpaceError::Toml { error: Box::new(error), at }
         })?;
         let space = Self::try_from(declaration).map(|space| space.written_as_in(text));
-        space.map_err(|error| match error {
-            SpaceError::Constraint { index, error, .. } => {
-                let span = constraint_spans(text).into_iter().nth(index);
-                let at = span.map(|span| Position::of(text, within(text, span, error.offset)));
-                SpaceError::Syntax { message: error.to_string(), at }
+        space.map_err(|mut error| {
+            if let SpaceError::Constraint { index, error, at, .. } = &mut error {
+                let span = constraint_spans(text).into_iter().nth(*index);
+                *at = span.map(|span| Position::of(text, within(text, span, error.offset)));
             }
-            error => error,
+            error
         })
     }
 
