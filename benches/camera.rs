@@ -5,7 +5,7 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm::engine::{Run, Setup, driver};
-use paracosm::render::{Camera, Outputs, Renderer, Scene, Stages, View};
+use paracosm::render::{Camera, Renderer, Scene, Stages, View, WantedImages};
 
 const BATCH: usize = 64;
 
@@ -19,25 +19,29 @@ fn main() {
 /// 128 x 128, RGB with depth and classes.
 #[divan::bench(sample_count = 20)]
 fn rgb_depth_semantic(bencher: Bencher) {
-    batches(bencher, &camera(128, 128), Outputs { rgb: true, depth: true, semantic: true, ..Outputs::default() });
+    batches(
+        bencher,
+        &camera(128, 128),
+        WantedImages { rgb: true, depth: true, semantic: true, ..WantedImages::default() },
+    );
 }
 
 /// 200 x 66, RGB.
 #[divan::bench(sample_count = 20)]
 fn rgb(bencher: Bencher) {
-    batches(bencher, &camera(200, 66), Outputs { rgb: true, ..Outputs::default() });
+    batches(bencher, &camera(200, 66), WantedImages { rgb: true, ..WantedImages::default() });
 }
 
 /// 200 x 66, RGB with shadows: what drivers that see are shown.
 #[divan::bench(sample_count = 20)]
 fn rgb_shadows_small(bencher: Bencher) {
-    batches(bencher, &camera(200, 66), Outputs { rgb: true, shadows: true, ..Outputs::default() });
+    batches(bencher, &camera(200, 66), WantedImages { rgb: true, shadows: true, ..WantedImages::default() });
 }
 
 /// 640 x 480, RGB with shadows.
 #[divan::bench(sample_count = 5)]
 fn rgb_shadows(bencher: Bencher) {
-    batches(bencher, &camera(640, 480), Outputs { rgb: true, shadows: true, ..Outputs::default() });
+    batches(bencher, &camera(640, 480), WantedImages { rgb: true, shadows: true, ..WantedImages::default() });
 }
 
 /// What a camera behind the windscreen looks at, and from where, three times a second.
@@ -65,14 +69,14 @@ fn camera(width: u32, height: u32) -> Camera {
     camera.mounted(Point3::new(0.3, 0.0, 1.35), 0.0, 0.03, 0.0).expect("a sound place")
 }
 
-fn batches(bencher: Bencher, camera: &Camera, wanted: Outputs) {
+fn batches(bencher: Bencher, camera: &Camera, wanted: WantedImages) {
     let mut renderer = Renderer::new().expect("there is an adapter");
     let moments = moments();
     assert_eq!(moments.len(), BATCH);
     bencher.counter(ItemsCount::new(BATCH)).bench_local(|| draw(&mut renderer, &moments, camera, wanted));
 }
 
-fn draw(renderer: &mut Renderer, moments: &[(Scene, Isometry3<f64>)], camera: &Camera, wanted: Outputs) {
+fn draw(renderer: &mut Renderer, moments: &[(Scene, Isometry3<f64>)], camera: &Camera, wanted: WantedImages) {
     let views: Vec<_> = moments.iter().map(|(scene, pose)| View::new(scene, camera, *pose)).collect();
     for frame in renderer.render(&views, wanted).expect("the adapter works") {
         black_box(frame.expect("the view is sound"));

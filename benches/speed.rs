@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 use paracosm::Study;
 use paracosm::engine::driver::reference;
 use paracosm::engine::kinematic::CutIn;
-use paracosm::engine::road::{Place, RoadNetwork, grid_city};
+use paracosm::engine::road::{RoadNetwork, RoutePosition, grid_city};
 use paracosm::engine::sensor::{Chance, Lidar, LidarSettings, Scan, Sensor};
 use paracosm::engine::traffic::{Traffic, TrafficCar};
 use paracosm::engine::vehicle::{Pedals, Vehicle, VehicleModel};
@@ -275,7 +275,7 @@ fn routes(bencher: Bencher) {
     const ROUTES: usize = 50;
     let city = figure_3();
     let ids: Vec<_> = city.ids().collect();
-    let place = |i: usize| Place { lane: ids[i % ids.len()], s: 1.0 };
+    let place = |i: usize| RoutePosition { lane: ids[i % ids.len()], s: 1.0 };
     bencher.counter(ItemsCount::new(ROUTES)).bench(|| {
         (0..ROUTES)
             .map(|i| city.route(place(1009 * i), place(2503 * i + 1), 20.0).map_or(0, |way| way.lanes.len()))

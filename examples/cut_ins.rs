@@ -5,7 +5,7 @@
 //! What a driver does not avoid although `ideal` does is its own fault.
 
 use paracosm::engine::driver::reference::{self, Drive, Ideal};
-use paracosm::engine::kinematic::{CutIn, Encounter, Ended, Face, Unbraked};
+use paracosm::engine::kinematic::{CutIn, Encounter, Ended, Impact, Unbraked};
 use paracosm::generators::{Request, Strategy};
 use paracosm::space::Space;
 use std::error::Error;
@@ -37,15 +37,15 @@ pub fn report() -> Result<String, Box<dyn Error>> {
     for (name, drive) in std::iter::once(none).chain(reference::ALL) {
         let ended: Vec<Ended> = encounters.iter().map(drive).collect();
         let collisions: Vec<_> = ended.iter().filter_map(|ended| ended.collision).collect();
-        let with = |face: Face| percent(collisions.iter().filter(|collision| collision.face == face).count());
+        let with = |face: Impact| percent(collisions.iter().filter(|collision| collision.face == face).count());
         let own = ended.iter().zip(&ideal).filter(|(own, ideal)| own.collision.is_some() && ideal.collision.is_none());
         let mean = collisions.iter().map(|collision| collision.speed).sum::<f64>() / collisions.len() as f64;
         writeln!(
             text,
             "{name:<8}{:>10.2}{:>8.2}{:>8.2}{:>11.2}{mean:>9.2} m/s",
             percent(collisions.len()),
-            with(Face::Front),
-            with(Face::Side),
+            with(Impact::Front),
+            with(Impact::Side),
             percent(own.count()),
         )?;
     }

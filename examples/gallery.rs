@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm::engine::object::{Body, BodyState, Class};
 use paracosm::engine::road::{CrossIntersection, RoadNetwork, RoadSegment, Roundabout};
 use paracosm::engine::{Pose, Run, Setup, driver};
-use paracosm::render::{Air, Camera, Frame, Outputs, Renderer, Scene, Stage, Stages, View};
+use paracosm::render::{Atmosphere, Camera, Frame, Renderer, Scene, Stage, Stages, View, WantedImages};
 use paracosm::space::Values;
 use std::error::Error;
 use std::fs::File;
@@ -37,7 +37,7 @@ impl Gallery {
     fn draw(&mut self, name: &str, scene: &Scene, camera: &Camera, pose: Isometry3<f64>) -> Result<(), Box<dyn Error>> {
         let head_lamps = (scene.air.light < 0.5).then(|| Point3::new(2.2, 0.0, 0.6));
         let view = View { head_lamps, ..View::new(scene, camera, pose) };
-        let wanted = Outputs { rgb: true, shadows: true, ..Outputs::default() };
+        let wanted = WantedImages { rgb: true, shadows: true, ..WantedImages::default() };
         let frame = self.renderer.render(&[view], wanted)?.pop().expect("one view, one frame")?;
         write(&self.folder.join(format!("{name}.png")), &frame)
     }
@@ -45,10 +45,10 @@ impl Gallery {
     /// Things on a road, from three sides and `far` metres away.
     fn portrait(&mut self, name: &str, bodies: &[BodyState], far: f64) -> Result<(), Box<dyn Error>> {
         let network = RoadSegment::new(200.0).build()?;
-        let scene = Stage::of(&network).scene_of(bodies.iter().enumerate(), Air::default());
+        let scene = Stage::of(&network).scene_of(bodies.iter().enumerate(), Atmosphere::default());
         let triangles: usize = scene.instances.iter().map(|instance| instance.mesh.indices().len() / 3).sum();
         let ground: usize = Stage::of(&network)
-            .scene_of([], Air::default())
+            .scene_of([], Atmosphere::default())
             .instances
             .iter()
             .map(|instance| instance.mesh.indices().len() / 3)
@@ -67,13 +67,19 @@ impl Gallery {
 
     /// An empty network from a place above it.
     fn roads(&mut self, name: &str, network: &RoadNetwork) -> Result<(), Box<dyn Error>> {
-        let scene = Stage::of(network).scene_of([], Air::default());
+        let scene = Stage::of(network).scene_of([], Atmosphere::default());
         let camera = Camera::new(800, 450, WIDE, SENSOR)?;
         self.draw(name, &scene, &camera, looking(Point3::new(-32.0, -20.0, 16.0), Point3::origin()))
     }
 
     /// A scenario as its car sees it, in this weather where the scenario says nothing of it.
-    fn scenario(&mut self, stages: &Stages, name: &str, at: f64, air: Option<Air>) -> Result<(), Box<dyn Error>> {
+    fn scenario(
+        &mut self,
+        stages: &Stages,
+        name: &str,
+        at: f64,
+        air: Option<Atmosphere>,
+    ) -> Result<(), Box<dyn Error>> {
         let program = paracosm::scenarios::find(name).ok_or("no such scenario")?;
         let test: Values = program.declare()?.nominal();
         let mut run = Run::new(program, &test, Setup::asking_every(0.1))?;
@@ -167,6 +173,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     for (name, at) in SCENARIOS {
         gallery.scenario(&stages, name, at, None)?;
     }
-    let dusk = Air { light: 0.25, sun_elevation: 0.05, sun_azimuth: 2.3, extinction: 0.012 };
+    let dusk = Atmosphere { light: 0.25, sun_elevation: 0.05, sun_azimuth: 2.3, extinction: 0.012 };
     gallery.scenario(&stages, "highway-traffic", 3.0, Some(dusk))
 }

@@ -1,7 +1,7 @@
 //! A town around a roundabout, with a way through it: `cargo run --release --example town > town.svg`.
 
 use paracosm::engine::picture::RoadPicture;
-use paracosm::engine::road::{Composite, Place, RoadError, RoadSegment, Roundabout, TIntersection};
+use paracosm::engine::road::{Composite, RoadError, RoadSegment, Roundabout, RoutePosition, TIntersection};
 use std::f64::consts::FRAC_PI_2;
 
 /// Four avenues lead from the roundabout to T-intersections, and a street around the town joins these.
@@ -37,8 +37,8 @@ fn town() -> Composite {
 
 fn main() -> Result<(), RoadError> {
     let town = town().build()?;
-    let from = Place { lane: town.lane_of("end two", 1)?, s: 5.0 };
-    let to = Place { lane: town.lane_of("street one", 1)?, s: 20.0 };
+    let from = RoutePosition { lane: town.lane_of("end two", 1)?, s: 5.0 };
+    let to = RoutePosition { lane: town.lane_of("street one", 1)?, s: 20.0 };
     let way = town.route(from, to, 20.0).expect("every street leads everywhere");
     let car = town.on_lane("end two", 1, 5.0)?;
     let other = town.on_lane("avenue four", -1, 25.0)?;

@@ -1,6 +1,6 @@
 //! The whole job in one call: a study is run, and all that is known of its tests is written into a folder.
 
-use crate::analysis::{Coverage, Explanation, Located, Modes, Promise, Summary, Suspects};
+use crate::analysis::{Coverage, Explanation, LocatedReport, Modes, Promise, Summary, SuspectReport};
 use crate::campaign::{
     Artefact, Campaign, Error, Extension, Finish, Folder, Learned, Log, Observer, Reason, Study, Trial,
 };
@@ -69,9 +69,9 @@ pub struct Report {
     /// Where tests fail; `None` where less than two continuous parameters are open.
     pub map: Option<FailureMap>,
     /// The combinations of discrete values that only failing tests have; `None` where there is nothing to tell apart.
-    pub suspects: Option<Suspects>,
+    pub suspects: Option<SuspectReport>,
     /// The combinations that further tests found guilty; `None` where nobody asked, or there is nothing to tell apart.
-    pub located: Option<Located>,
+    pub located: Option<LocatedReport>,
     /// The ways in which tests fail.
     pub modes: Modes,
     /// Which tests fail, in words; `None` where too few failed or passed.
@@ -115,7 +115,7 @@ impl Report {
         Ok(Self {
             coverage,
             map,
-            suspects: if has_levels { Suspects::of(&log)? } else { None },
+            suspects: if has_levels { SuspectReport::of(&log)? } else { None },
             located: None,
             modes: Modes::of(&log),
             explanation: Explanation::of(&log)?,
@@ -232,10 +232,10 @@ impl<'a> Runner<'a> {
         })
     }
 
-    fn located(&self, log: &Log, limit: usize) -> Result<Option<Located>, Error> {
+    fn located(&self, log: &Log, limit: usize) -> Result<Option<LocatedReport>, Error> {
         let campaign = self.campaign()?.resume(log.trials().to_vec());
         let mut next = log.trials().len();
-        Located::of(log, limit, |test| {
+        LocatedReport::of(log, limit, |test| {
             let mut verdict = Verdict::Error;
             campaign.run_tests(std::slice::from_ref(test), next, |trial| {
                 verdict = trial.verdict;

@@ -42,7 +42,7 @@ pub struct Certificate {
     /// The version of the software.
     pub version: String,
     /// The continuous parameters.
-    pub continuous: Vec<Interval>,
+    pub continuous: Vec<ParameterInterval>,
     /// The discrete parameters.
     pub discrete: Vec<Choice>,
     /// Of each test a number in `[0,1]` for each continuous parameter.
@@ -57,7 +57,7 @@ pub struct Certificate {
 
 /// A continuous parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Interval {
+pub struct ParameterInterval {
     /// Its name.
     pub name: String,
     /// Its values at the coordinates 0 and 1.
@@ -184,7 +184,7 @@ pub fn certify(
     });
     let claims = claims.collect::<Result<_, _>>()?;
     let ends = |parameter: &Parameter| [0.0, 1.0].map(|u| parameter.value_at(u));
-    let interval = |c: Coordinate| Interval { name: c.name(), interval: ends(c.parameter) };
+    let interval = |c: Coordinate| ParameterInterval { name: c.name(), interval: ends(c.parameter) };
     let values = |parameter: &Parameter| parameter.levels().unwrap_or_default().to_vec();
     let choice = |c: Coordinate| Choice { name: c.name(), values: values(c.parameter) };
     let certificate = Certificate {

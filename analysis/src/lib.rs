@@ -25,10 +25,10 @@ pub use estimate::{
 pub use explanation::{Accuracy, Explanation, Rule};
 pub use failure_estimate::FailureEstimate;
 pub use live::LiveCoverage;
-pub use modes::{Extent, Mode, Modes, Touch};
+pub use modes::{Mode, Modes, Touch, ValueRange};
 pub use plan::{Guarantee, Need, Plan};
 pub use promise::Promise;
 pub use shrink::{Change, Sameness, Shrunk};
 pub use summary::{Judged, Summary, Worst};
-pub use suspects::{Conclusion, Located, Location, Suspect, Suspects, TestOfLocation, Unexplained};
+pub use suspects::{Conclusion, LocatedReport, Location, NamedSuspect, SuspectReport, TestOfLocation, Unexplained};
 pub use traceability::{Became, Gap, Traceability, Traced, Tried};

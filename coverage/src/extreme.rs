@@ -1,6 +1,6 @@
 //! The extreme discrepancy: how far the share of points in an axis-parallel box is from the box's volume, at worst.
 
-use crate::measure::{Compare, Descriptor, Measure, Method};
+use crate::measure::{Compare, Computation, Descriptor, Measure};
 use crate::star::{Sides, largest_difference};
 use crate::{Bracket, Deadline, PointSet};
 
@@ -14,7 +14,7 @@ impl Measure {
         about: "the largest difference of volume and share of tests over all boxes",
         pace: 7,
         compare: Compare::WhereQuick(|dims, points| libm::pow(points as f64, dims as f64) <= QUICK),
-        method: Method::Bracket(extreme_discrepancy),
+        method: Computation::Bracket(extreme_discrepancy),
     });
 }
 

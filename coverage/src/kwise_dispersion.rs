@@ -12,7 +12,7 @@
 
 use crate::dispersion::{LargestEmptyBox, larger_than};
 use crate::kwise::{KwiseCoverage, KwiseError, advance, kwise_coverage, tuple};
-use crate::measure::{Compare, Descriptor, Measure, Method};
+use crate::measure::{Compare, Computation, Descriptor, Measure};
 use crate::{Bracket, Deadline, PointSet};
 use paracosm_space::Point;
 use paracosm_space::rules::Rules;
@@ -29,7 +29,7 @@ impl Measure {
         about: "the largest hole that any k parameters show, discrete and continuous ones together",
         pace: 9,
         compare: Compare::BeyondK,
-        method: Method::KwiseHole,
+        method: Computation::KwiseHole,
     });
 }
 

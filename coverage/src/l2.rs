@@ -13,7 +13,7 @@
 //! `None` for a set without points, whose mean does not exist, or where the deadline passes first.
 
 use crate::bracket::Watch;
-use crate::measure::{Compare, Descriptor, Measure, Method};
+use crate::measure::{Compare, Computation, Descriptor, Measure};
 use crate::{Deadline, PointSet};
 use rayon::prelude::*;
 
@@ -27,7 +27,7 @@ impl Measure {
         about: "the root mean square difference of volume and share of tests over boxes at the origin",
         pace: 0,
         compare: Compare::Always,
-        method: Method::Number(l2_star),
+        method: Computation::Number(l2_star),
     });
 }
 
@@ -41,7 +41,7 @@ impl Measure {
         about: "the mean square difference over boxes from a test to its nearest corner",
         pace: 1,
         compare: Compare::Always,
-        method: Method::Number(centered),
+        method: Computation::Number(centered),
     });
 }
 
@@ -55,7 +55,7 @@ impl Measure {
         about: "the mean square difference over boxes that may cross the border",
         pace: 2,
         compare: Compare::Always,
-        method: Method::Number(wraparound),
+        method: Computation::Number(wraparound),
     });
 }
 
@@ -69,7 +69,7 @@ impl Measure {
         about: "the mean square difference over boxes of both kinds",
         pace: 3,
         compare: Compare::Always,
-        method: Method::Number(mixture),
+        method: Computation::Number(mixture),
     });
 }
 

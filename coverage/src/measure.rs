@@ -33,7 +33,7 @@ pub struct Descriptor {
     /// When a comparison of strategies takes the measure.
     pub compare: Compare,
     /// How the measure is computed.
-    pub method: Method,
+    pub method: Computation,
 }
 
 /// When a comparison of strategies takes a measure.
@@ -53,7 +53,7 @@ pub enum Compare {
 
 /// How a measure is computed.
 #[derive(Debug, Clone, Copy)]
-pub enum Method {
+pub enum Computation {
     /// A number in closed form; none without points, or where the deadline passes first.
     Number(fn(&PointSet, Deadline) -> Option<f64>),
     /// A number that is exact unless the deadline cuts the search short.
@@ -105,17 +105,17 @@ impl Measure {
     /// What it says of points; none if it is not about the continuous half alone. `watch` sees the bracket close.
     pub fn take(self, points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Option<Finding> {
         match self.0.method {
-            Method::Number(number) => Some(Finding::Number(number(points, deadline))),
-            Method::Bracket(bracket) => Some(Finding::Bracket(bracket(points, deadline))),
-            Method::Hole(hole) => Some(Finding::Hole(hole(points, deadline, watch))),
-            Method::Ball(ball) => Some(Finding::Ball(ball(points, deadline))),
-            Method::Combinations | Method::KwiseHole => None,
+            Computation::Number(number) => Some(Finding::Number(number(points, deadline))),
+            Computation::Bracket(bracket) => Some(Finding::Bracket(bracket(points, deadline))),
+            Computation::Hole(hole) => Some(Finding::Hole(hole(points, deadline, watch))),
+            Computation::Ball(ball) => Some(Finding::Ball(ball(points, deadline))),
+            Computation::Combinations | Computation::KwiseHole => None,
         }
     }
 
     /// Whether it is about the continuous half alone.
     pub fn is_of_points(self) -> bool {
-        !matches!(self.0.method, Method::Combinations | Method::KwiseHole)
+        !matches!(self.0.method, Computation::Combinations | Computation::KwiseHole)
     }
 }
 

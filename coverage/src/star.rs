@@ -11,7 +11,7 @@ mod cell;
 mod search;
 mod sides;
 
-use crate::measure::{Compare, Descriptor, Measure, Method};
+use crate::measure::{Compare, Computation, Descriptor, Measure};
 use crate::{Bracket, Deadline, PointSet};
 pub(crate) use search::largest_difference;
 pub(crate) use sides::Sides;
@@ -26,7 +26,7 @@ impl Measure {
         about: "the largest difference of volume and share of tests over boxes at the origin",
         pace: 6,
         compare: Compare::Always,
-        method: Method::Bracket(star_discrepancy),
+        method: Computation::Bracket(star_discrepancy),
     });
 }
 

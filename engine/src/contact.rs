@@ -13,7 +13,7 @@ pub struct Contact {
     /// The side of the car.
     pub face: Face,
     /// What the car was doing.
-    pub motion: Motion,
+    pub motion: ContactMotion,
     /// How fast the car was, in m/s.
     pub speed: f64,
     /// How fast the object was, in m/s.
@@ -51,7 +51,7 @@ impl fmt::Display for Face {
 
 /// What a car does at a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Motion {
+pub enum ContactMotion {
     /// It drives and does not brake.
     Driving,
     /// It brakes by more than 0.5 m/s².
@@ -60,12 +60,12 @@ pub enum Motion {
     Standing,
 }
 
-impl Motion {
+impl ContactMotion {
     /// All there are.
     pub const ALL: [Self; 3] = [Self::Driving, Self::Braking, Self::Standing];
 }
 
-impl fmt::Display for Motion {
+impl fmt::Display for ContactMotion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Driving => "driving",

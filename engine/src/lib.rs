@@ -54,11 +54,11 @@ mod weather;
 mod world;
 
 pub use actor::{Actor, EnvironmentCars, Fixture, Fleet, Mover, Pedestrian, Roadside, Walk, Walker};
-pub use contact::{Contact, Face, Motion};
+pub use contact::{Contact, ContactMotion, Face};
 pub use geometry::{Line, Pose, Side};
 pub use monitor::Monitor;
 pub use observation::{Ahead, Briefing, Control, Observation, Other, Way};
-pub use outcome::{Breakdown, Ending, Invalid, Judgement, Measured, Outcome, Violation};
+pub use outcome::{Breakdown, Ending, Invalid, Judgement, Measurements, Outcome, Violation};
 pub use paracosm_space::Shape;
 pub use program::{Declaration, Program, ProgramError};
 pub use road::RoadSegment;

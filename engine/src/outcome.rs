@@ -15,7 +15,7 @@ pub struct Outcome {
     /// What became of each requirement, in their order; none where nothing could be judged.
     pub judgements: Vec<Judgement>,
     /// What was measured; `None` where there was no run.
-    pub measured: Option<Measured>,
+    pub measured: Option<Measurements>,
     /// The record of the run; `None` where there was none.
     pub trace: Option<Trace>,
 }
@@ -181,7 +181,7 @@ impl Violation {
 
 /// What is measured of a run beside its requirements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
+pub struct Measurements {
     /// How far the car under test came, in metres.
     pub travelled: f64,
     /// What it touched, which ended the run.

@@ -5,8 +5,8 @@ use paracosm_engine::object::{Body, BodyState, Class, Input, InputError, Output,
 use paracosm_engine::road::{CrossIntersection, Path, RoadSegment};
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
-    AutonomousVehicle, Car, Environment, Face, Fixture, Motion, Mover, Outcome, Pedestrian, Place, Pose, Program, Road,
-    Run, Scenario, Setup, Side, Stream, Temporal, Weather, always, driver, eventually, never, simulate,
+    AutonomousVehicle, Car, ContactMotion, Environment, Face, Fixture, Mover, Outcome, Pedestrian, Place, Pose,
+    Program, Road, Run, Scenario, Setup, Side, Stream, Temporal, Weather, always, driver, eventually, never, simulate,
 };
 use paracosm_oracles::Verdict;
 use paracosm_space::Values;
@@ -77,7 +77,7 @@ fn the_car_collides_with_another_car_by_the_side_that_meets_it() {
     let measured = outcome.measured.as_ref().expect("it was run");
     let contact = measured.contact.as_ref().expect("they touch");
     assert_eq!((contact.face, contact.with.as_str()), (Face::Front, "truck"));
-    assert_eq!((contact.class, contact.motion), (Class::Truck, Motion::Driving));
+    assert_eq!((contact.class, contact.motion), (Class::Truck, ContactMotion::Driving));
     assert!((contact.other_speed - 2.0).abs() < 1e-9);
     // The contact is what the violation comes down to, and the last that was recorded.
     let violation = outcome.judgements[0].violation.as_ref().expect("it is violated");

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 use paracosm_engine::object::{Body, Class};
-use paracosm_engine::picture::{Anchor, Drawing, Film, Mark, Record, Segment, world};
+use paracosm_engine::picture::{Anchor, Animation, Drawing, MotionRecord, PathSegment, PictureItem, world};
 use paracosm_engine::road::{Curve, Path, Roundabout};
 use paracosm_engine::vehicle::VehicleModel;
 use paracosm_engine::{
@@ -66,20 +66,20 @@ fn begun(build: fn(&mut Scenario)) -> Run {
 }
 
 /// What was seen of a run with this driver, and how it ended.
-fn seen(build: fn(&mut Scenario), name: &str) -> (Record, Verdict) {
+fn seen(build: fn(&mut Scenario), name: &str) -> (MotionRecord, Verdict) {
     let mut driver = driver::find(name).unwrap().build(&[]).unwrap();
-    let mut record = Record::default();
+    let mut record = MotionRecord::default();
     let outcome =
         watch(&program(build), &Values::default(), VehicleModel::SingleTrack, driver.as_mut(), |run| record.see(run));
     (record, outcome.verdict())
 }
 
 /// All marks, those of insets where they are on the whole picture.
-fn marks(drawing: &Drawing) -> Vec<([f64; 2], &Mark)> {
+fn marks(drawing: &Drawing) -> Vec<([f64; 2], &PictureItem)> {
     let mut all = Vec::new();
     for mark in &drawing.marks {
         match mark {
-            Mark::Inset { at, drawing } => {
+            PictureItem::Inset { at, drawing } => {
                 all.extend(marks(drawing).into_iter().map(|([x, y], mark)| ([x + at[0], y + at[1]], mark)));
             }
             _ => all.push(([0.0, 0.0], mark)),
@@ -92,13 +92,13 @@ fn marks(drawing: &Drawing) -> Vec<([f64; 2], &Mark)> {
 fn boxes(drawing: &Drawing, colour: [u8; 3]) -> Vec<[f64; 4]> {
     let mut found = Vec::new();
     for ([x, y], mark) in marks(drawing) {
-        let Mark::Fill { contour, paint } = mark else { continue };
+        let PictureItem::Fill { contour, paint } = mark else { continue };
         if paint.colour != colour {
             continue;
         }
         let mut bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
         for segment in &contour.segments {
-            if let Segment::Move(to) | Segment::Line(to) | Segment::Cubic(_, _, to) = segment {
+            if let PathSegment::Move(to) | PathSegment::Line(to) | PathSegment::Cubic(_, _, to) = segment {
                 let to = [to[0] + x, to[1] + y];
                 bounds = [bounds[0].min(to[0]), bounds[1].min(to[1]), bounds[2].max(to[0]), bounds[3].max(to[1])];
             }
@@ -109,8 +109,8 @@ fn boxes(drawing: &Drawing, colour: [u8; 3]) -> Vec<[f64; 4]> {
 }
 
 fn texts(drawing: &Drawing) -> Vec<String> {
-    let text = |(_, mark): &([f64; 2], &Mark)| match mark {
-        Mark::Text { text, .. } => Some(text.clone()),
+    let text = |(_, mark): &([f64; 2], &PictureItem)| match mark {
+        PictureItem::Text { text, .. } => Some(text.clone()),
         _ => None,
     };
     marks(drawing).iter().filter_map(text).collect()
@@ -195,10 +195,10 @@ fn many_planned_ways_are_cut_short_so_that_roads_are_still_seen() {
     }
     let drawing = world(&begun(crowd), "");
     let scale = (drawing.width - 28.0) / 780.0;
-    let dashed = |(_, mark): &([f64; 2], &Mark)| match mark {
-        Mark::Stroke { contour, dash: Some(_), .. } => {
-            let along = |segments: &[Segment]| match segments {
-                [Segment::Move(a) | Segment::Line(a), Segment::Line(b)] => (b[0] - a[0]).abs(),
+    let dashed = |(_, mark): &([f64; 2], &PictureItem)| match mark {
+        PictureItem::Stroke { contour, dash: Some(_), .. } => {
+            let along = |segments: &[PathSegment]| match segments {
+                [PathSegment::Move(a) | PathSegment::Line(a), PathSegment::Line(b)] => (b[0] - a[0]).abs(),
                 _ => 0.0,
             };
             Some(contour.segments.windows(2).map(along).sum::<f64>() / scale)
@@ -231,7 +231,7 @@ fn a_run_tells_when_and_what_it_ended_at() {
 fn watching_a_run_changes_nothing() {
     let outcome = |watched: bool| {
         let mut driver = driver::find("aeb").unwrap().build(&[]).unwrap();
-        let mut record = Record::default();
+        let mut record = MotionRecord::default();
         let outcome = watch(&program(busy), &Values::default(), VehicleModel::SingleTrack, driver.as_mut(), |run| {
             if watched {
                 record.see(run);
@@ -258,8 +258,8 @@ fn a_story_marks_the_contact_and_its_time() {
 
 /// The boxes that the time labels take at least, with letters of half the width that is reckoned with.
 fn labels(drawing: &Drawing) -> Vec<[f64; 4]> {
-    let label = |([x, y], mark): ([f64; 2], &Mark)| match mark {
-        Mark::Text { at, anchor: Anchor::Middle, size, text, .. } => {
+    let label = |([x, y], mark): ([f64; 2], &PictureItem)| match mark {
+        PictureItem::Text { at, anchor: Anchor::Middle, size, text, .. } => {
             let half = 0.25 * size * text.chars().count() as f64;
             let (x, y) = (x + at[0], y + at[1]);
             Some([x - half, y - 0.7 * size, x + half, y])
@@ -291,8 +291,8 @@ fn labels_keep_out_of_each_others_way_and_on_the_picture() {
 fn a_story_that_is_too_long_for_one_view_has_several_of_one_size() {
     let insets = |build| {
         let drawing = seen(build, "aeb").0.story("").unwrap();
-        let size = |mark: &Mark| match mark {
-            Mark::Inset { drawing, .. } => Some((drawing.width, drawing.height)),
+        let size = |mark: &PictureItem| match mark {
+            PictureItem::Inset { drawing, .. } => Some((drawing.width, drawing.height)),
             _ => None,
         };
         drawing.marks.iter().filter_map(size).collect::<Vec<_>>()
@@ -305,7 +305,7 @@ fn a_story_that_is_too_long_for_one_view_has_several_of_one_size() {
 }
 
 /// Where the car under test is on each frame.
-fn cars(film: &Film) -> Vec<[f64; 4]> {
+fn cars(film: &Animation) -> Vec<[f64; 4]> {
     let car = |frame: &paracosm_engine::picture::Frame| boxes(&frame.drawing, VERMILION).last().copied();
     film.frames.iter().filter_map(car).collect()
 }
@@ -340,6 +340,6 @@ fn a_film_never_loses_the_car_under_test_and_has_not_too_many_frames() {
 
 #[test]
 fn nothing_is_drawn_of_a_run_that_nobody_saw() {
-    assert_eq!(Record::default().story(""), None);
-    assert_eq!(Record::default().film(800.0, ""), None);
+    assert_eq!(MotionRecord::default().story(""), None);
+    assert_eq!(MotionRecord::default().film(800.0, ""), None);
 }

@@ -4,7 +4,8 @@ use nalgebra::Vector2;
 use paracosm_engine::Pose;
 use paracosm_engine::picture::RoadPicture;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, Curve, Lane, LaneId, Place, RoadNetwork, RoadSegment, Roundabout, TIntersection,
+    Composite, CrossIntersection, Curve, Lane, LaneId, RoadNetwork, RoadSegment, Roundabout, RoutePosition,
+    TIntersection,
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -276,7 +277,7 @@ proptest! {
             }
         }
         let id = |index: usize| net.ids().nth(index).unwrap();
-        let place = |index: usize, share: f64| Place { lane: id(index), s: share * lanes[index].length() };
+        let place = |index: usize, share: f64| RoutePosition { lane: id(index), s: share * lanes[index].length() };
         let route = net.route(place(from, begin), place(to, end), change);
         prop_assert_eq!(route.is_some(), best.is_finite());
         let Some(route) = route else { return Ok(()) };

@@ -3,8 +3,8 @@
 use nalgebra::Vector2;
 use paracosm_engine::picture::RoadPicture;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, LaneKind, Place, RoadError, RoadNetwork, RoadSegment, Roundabout, Strip, Surface,
-    TIntersection, grid_city,
+    Composite, CrossIntersection, LaneKind, RoadError, RoadNetwork, RoadSegment, Roundabout, RoutePosition, Strip,
+    Surface, TIntersection, grid_city,
 };
 use paracosm_engine::{Pose, Side};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -198,8 +198,8 @@ fn the_papers_loop_of_straight_roads_and_t_intersections_closes_and_leads_round_
         ring = ring.connect(&format!("{}.one", pair[1]), road(pair[1]), "one");
     }
     let net = ring.close("west road.two", "north.two").build().unwrap();
-    let start = Place { lane: net.lane_of("north road", 1).unwrap(), s: 20.0 };
-    let round = net.route(start, Place { s: 10.0, ..start }, 20.0).unwrap();
+    let start = RoutePosition { lane: net.lane_of("north road", 1).unwrap(), s: 20.0 };
+    let round = net.route(start, RoutePosition { s: 10.0, ..start }, 20.0).unwrap();
     let kinds = round.lanes.iter().map(|lane| net.lane(*lane).kind);
     let expected = [LaneKind::Road, LaneKind::Right].into_iter().cycle().take(9);
     assert!(kinds.eq(expected), "{round:?}");
@@ -224,7 +224,7 @@ fn every_lane_of_a_grid_city_leads_on_and_reaches_every_other() {
         for lane in city.lanes() {
             assert!(!lane.successors.is_empty(), "{lane:?}");
         }
-        let place = |index: usize| Place { lane: city.ids().nth(index).unwrap(), s: 0.0 };
+        let place = |index: usize| RoutePosition { lane: city.ids().nth(index).unwrap(), s: 0.0 };
         for index in (0..city.lanes().len()).step_by(7) {
             assert!(city.route(place(0), place(index), 20.0).is_some(), "{index}");
             assert!(city.route(place(index), place(0), 20.0).is_some(), "{index}");
@@ -291,7 +291,8 @@ fn traffic_keeps_to_the_right_and_goes_round_a_roundabout_counter_clockwise() {
     assert!(net.on_lane("east", -1, 10.0).unwrap().position.y > 0.0);
     // Once around from the first arm to itself: in, past the four arms and the ways between them, and out.
     let lane = |number| net.lane_of("east", number).unwrap();
-    let route = net.route(Place { lane: lane(-1), s: 0.0 }, Place { lane: lane(1), s: 30.0 }, 20.0).unwrap();
+    let route =
+        net.route(RoutePosition { lane: lane(-1), s: 0.0 }, RoutePosition { lane: lane(1), s: 30.0 }, 20.0).unwrap();
     let kinds: Vec<LaneKind> = route.lanes.iter().map(|lane| net.lane(*lane).kind).collect();
     use LaneKind::{Entry, Exit, Ring, RingAtArm, Road};
     assert_eq!(kinds, [Road, Entry, Ring, RingAtArm, Ring, RingAtArm, Ring, RingAtArm, Ring, Exit, Road]);
@@ -308,7 +309,7 @@ fn a_way_changes_lanes_only_where_that_is_cheaper() {
         .connect("three", road("west"), "one")
         .build()
         .unwrap();
-    let place = |element: &str, lane| Place { lane: net.lane_of(element, lane).unwrap(), s: 10.0 };
+    let place = |element: &str, lane| RoutePosition { lane: net.lane_of(element, lane).unwrap(), s: 10.0 };
     let route = net.route(place("east", -2), place("south", 1), 20.0).unwrap();
     assert_eq!(route.changes, 1);
     let lanes = [net.lane_of("east", -2), net.lane_of("east", -1)].map(Result::unwrap);
@@ -317,7 +318,7 @@ fn a_way_changes_lanes_only_where_that_is_cheaper() {
     assert_eq!(straight.changes, 0);
     assert!((straight.length - (90.0 + 26.0 + 10.0)).abs() < 1e-9, "{}", straight.length);
     // Behind the car, on a road that does not come back, lies nothing that it could reach.
-    let behind = Place { s: 5.0, ..place("east", -2) };
+    let behind = RoutePosition { s: 5.0, ..place("east", -2) };
     assert_eq!(net.route(place("east", -2), behind, 20.0), None);
 }
 
@@ -369,8 +370,8 @@ fn a_picture_shows_every_surface_and_what_is_laid_over_it() {
     let ground = 1;
     assert_eq!(plain.matches("<path fill=\"#").count(), ground + surfaces.len());
     let route = net.route(
-        Place { lane: net.lane_of("road", 1).unwrap(), s: 0.0 },
-        Place { lane: net.lane_of("road-2", 1).unwrap(), s: 10.0 },
+        RoutePosition { lane: net.lane_of("road", 1).unwrap(), s: 0.0 },
+        RoutePosition { lane: net.lane_of("road-2", 1).unwrap(), s: 10.0 },
         20.0,
     );
     let car = net.on_lane("road", 1, 10.0).unwrap();

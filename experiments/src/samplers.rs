@@ -3,7 +3,7 @@
 
 use crate::{Done, print};
 use indicatif::ProgressBar;
-use paracosm::analysis::compare::Comparison;
+use paracosm::analysis::compare::SamplerComparison;
 use paracosm::generators::Strategy;
 use paracosm::report;
 use std::num::NonZeroUsize;
@@ -26,7 +26,7 @@ const STRATEGIES: [Strategy; 10] = [
 
 /// Runs the study and writes it to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
-    let comparison = Comparison { budgets: vec![32, 64, 128, 256, 512], ..Comparison::of(&STRATEGIES)? };
+    let comparison = SamplerComparison { budgets: vec![32, 64, 128, 256, 512], ..SamplerComparison::of(&STRATEGIES)? };
     let plan = comparison.plan()?;
     bar.set_length(plan.sets() as u64);
     let compared = plan.run(available_parallelism().unwrap_or(NonZeroUsize::MIN), |_| {

@@ -48,7 +48,7 @@ pub use bandit::Bandit;
 pub use discrete::DiscreteFamily;
 pub use error::GeneratorError;
 pub use request::Request;
-pub use strategy::{BuildOwn, Descriptor, Look, Method, Shape, Strategy};
+pub use strategy::{BuildOwn, Descriptor, Look, MarkShape, Method, Strategy};
 
 use paracosm_space::Point;
 

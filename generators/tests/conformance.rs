@@ -3,7 +3,7 @@
 //! The suite runs over `Strategy::all()` and over a strategy that only the suite knows. A new strategy is tested by being
 //! listed there.
 
-use paracosm_generators::{Descriptor, DiscreteFamily, Generator, Look, Method, Request, Shape as Mark, Strategy};
+use paracosm_generators::{Descriptor, DiscreteFamily, Generator, Look, MarkShape as Mark, Method, Request, Strategy};
 use paracosm_space::{Domain, Parameter, Point, Shape, Space, Value};
 use proptest::prelude::*;
 

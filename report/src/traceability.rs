@@ -40,7 +40,7 @@ pub fn csv(traceability: &Traceability) -> Vec<u8> {
 mod tests {
     use super::*;
     use paracosm_campaign::{BlackBox, Learned, Log, Problem, ProblemKind, Study, Trial};
-    use paracosm_engine::{Judgement, Measured};
+    use paracosm_engine::{Judgement, Measurements};
     use paracosm_oracles::Verdict;
     use paracosm_space::{Space, Value, Values};
 
@@ -56,7 +56,7 @@ mod tests {
         let test: Values = [("x".to_owned(), Value::Number(x)), ("lanes".to_owned(), 2.into())].into_iter().collect();
         let judgements = vec![Judgement::new("a", a), Judgement::new("b", b)];
         let mut trial = Trial::judged(index, test, verdict, judgements);
-        trial.measured = triggered.map(|triggered| Measured { travelled: 0.0, contact: None, triggered });
+        trial.measured = triggered.map(|triggered| Measurements { travelled: 0.0, contact: None, triggered });
         trial
     }
 

@@ -4,7 +4,7 @@ use super::output::{Format, Table, json};
 use super::{Failure, Status, print};
 use crate::engine::driver;
 use crate::engine::{Run, Setup};
-use crate::render::{Adapter, Camera, Outputs, RenderError, Renderer, Scene, Stages, View};
+use crate::render::{Adapter, Camera, RenderError, Renderer, Scene, Stages, View, WantedImages};
 use clap::Args;
 use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
@@ -149,7 +149,7 @@ fn speeds(renderer: &mut Renderer) -> Result<Result<Vec<Speed>, RenderError>, Fa
     let scene = Stages::default().of(run.network()).scene(&run);
     let mut measured = Vec::new();
     for Size { width, height, depth, semantic, shadows, outputs } in SIZES {
-        let wanted = Outputs { rgb: true, depth, semantic, shadows, ..Outputs::default() };
+        let wanted = WantedImages { rgb: true, depth, semantic, shadows, ..WantedImages::default() };
         let camera = Camera::new(width, height, 24.0, 36.0)?;
         match speed(renderer, &scene, &camera, pose, wanted) {
             Ok(frames_per_second) => measured.push(Speed { width, height, outputs, frames_per_second }),
@@ -164,7 +164,7 @@ fn speed(
     scene: &Scene,
     camera: &Camera,
     pose: Isometry3<f64>,
-    wanted: Outputs,
+    wanted: WantedImages,
 ) -> Result<f64, RenderError> {
     let view = View { without: Some(1), ..View::new(scene, camera, pose) };
     let views = [view; BATCH];

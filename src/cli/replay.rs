@@ -4,7 +4,7 @@ use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, value_words};
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, regressions};
-use crate::engine::picture::Record;
+use crate::engine::picture::MotionRecord;
 use crate::engine::sensor::Cameras;
 use crate::space::{did_you_mean, nearest};
 use clap::{Args, ValueEnum};
@@ -104,7 +104,7 @@ impl Options {
                 format!("{option} {}: what a system does cannot be seen; --trace writes it down", file.display());
             return Err(usage(message).into());
         }
-        let mut record = Record::default();
+        let mut record = MotionRecord::default();
         let stop = Arc::default();
         on_interrupt(Arc::clone(&stop));
         let mut worker = Worker::until(study, stop.clone())?;
@@ -200,7 +200,7 @@ pub(super) fn logged<'a>(dir: &Path, log: &'a Log, index: usize) -> Result<&'a T
 const FILM: f64 = 800.0;
 
 /// The run from above.
-fn draw(record: &Record, kind: FileKind, caption: &str) -> Result<Vec<u8>, Failure> {
+fn draw(record: &MotionRecord, kind: FileKind, caption: &str) -> Result<Vec<u8>, Failure> {
     let nothing = "its world could not be built, so that there was nothing to see";
     let story = || record.story(caption).ok_or(nothing);
     match kind {

@@ -3,7 +3,7 @@
 use super::output::{Table, digits, plural};
 use crate::Report;
 use crate::space::{Value, Values};
-use paracosm_analysis::{Conclusion, Located, Location, Suspects, Unexplained};
+use paracosm_analysis::{Conclusion, LocatedReport, Location, SuspectReport, Unexplained};
 use std::cmp::Reverse;
 
 /// How many suspects a table shows.
@@ -34,7 +34,7 @@ pub(super) fn show(table: &mut Table, report: &Report, asked: bool) {
     }
 }
 
-fn show_suspects(suspects: &Suspects, table: &mut Table) {
+fn show_suspects(suspects: &SuspectReport, table: &mut Table) {
     for (i, suspect) in suspects.ranked.iter().take(SHOWN).enumerate() {
         let all = if suspect.failures == 1 {
             "the one test failed".into()
@@ -63,7 +63,7 @@ fn show_suspects(suspects: &Suspects, table: &mut Table) {
     }
 }
 
-fn show_located(located: &Located, table: &mut Table) {
+fn show_located(located: &LocatedReport, table: &mut Table) {
     let guilty = |location: &&Location| location.conclusion == Conclusion::Guilty;
     let mut found: Vec<&Location> = located.locations.iter().filter(guilty).collect();
     found.sort_by_key(|location| Reverse(location.explains.len()));
@@ -125,7 +125,7 @@ fn in_words(location: &Location) -> String {
 }
 
 /// Why a failure has no guilty combination.
-fn reason(located: &Located, failing: usize, why: &Conclusion) -> String {
+fn reason(located: &LocatedReport, failing: usize, why: &Conclusion) -> String {
     match why {
         Conclusion::Refuted { trials, further } => {
             let of_it = located.locations.iter().rev().find(|location| location.failing == failing);

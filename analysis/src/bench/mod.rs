@@ -29,7 +29,7 @@ mod target;
 pub use files::Rows;
 pub use reference::ReferenceMap;
 pub use row::Row;
-pub use summary::{Cell, Correlation, LogRank, Standing};
+pub use summary::{BenchCell, Correlation, LogRank, MeanRatio};
 pub use target::Target;
 
 use crate::asked::{ENOUGH_SEEDS, check_seeds, each_once, few_seeds};
@@ -214,18 +214,18 @@ pub struct Benched {
     /// Every run: by target, strategy and seed.
     pub rows: Vec<Row>,
     /// What is said of each strategy: by target and strategy.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<BenchCell>,
     /// How dispersion and recall go together: by target.
     pub correlations: Vec<Correlation>,
     /// How each strategy stands over all targets.
-    pub standings: Vec<Standing>,
+    pub standings: Vec<MeanRatio>,
     /// What else a reader should know, a sentence each.
     pub notes: Vec<String>,
 }
 
 impl Benched {
     /// The cells of a target, in the order of the strategies.
-    pub fn of_target<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Cell> {
+    pub fn of_target<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a BenchCell> {
         self.cells.iter().filter(move |cell| cell.scenario == name)
     }
 

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 
 /// What is said of a strategy on a target.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Cell {
+pub struct BenchCell {
     /// The name of the target.
     pub scenario: String,
     /// The strategy.
@@ -77,7 +77,7 @@ pub struct Correlation {
 
 /// A strategy over all targets: its restricted means over the least of any strategy but `auto` and the control.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Standing {
+pub struct MeanRatio {
     /// The strategy.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
@@ -94,7 +94,7 @@ fn strategy_name<S: Serializer>(strategy: &Strategy, serializer: S) -> Result<S:
 }
 
 /// All that is said of the rows of a bench.
-pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<Cell>, Vec<Correlation>, Vec<Standing>) {
+pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<BenchCell>, Vec<Correlation>, Vec<MeanRatio>) {
     let (mut cells, mut correlations) = (Vec::new(), Vec::new());
     let per_target = bench.strategies.len() * bench.seeds;
     for of_target in rows.chunks(per_target) {
@@ -142,12 +142,12 @@ impl Benched {
     }
 }
 
-fn cells_of(bench: &Bench, rows: &[Row]) -> Vec<Cell> {
+fn cells_of(bench: &Bench, rows: &[Row]) -> Vec<BenchCell> {
     let lines: Vec<&[Row]> = rows.chunks(bench.seeds).collect();
     let waited = |line: &[Row]| -> Vec<f64> { line.iter().map(|row| waited(bench, row)).collect() };
     let base = lines.iter().find(|line| line[0].strategy == bench.baseline);
     let base = base.map(|line| (waited(line), lifetimes(bench, *line)));
-    let mut cells: Vec<Cell> = lines
+    let mut cells: Vec<BenchCell> = lines
         .iter()
         .map(|line| {
             let times = waited(line);
@@ -155,7 +155,7 @@ fn cells_of(bench: &Bench, rows: &[Row]) -> Vec<Cell> {
             let versus = base.map(|(base, _)| Versus::of_means(&times, base));
             let p = base.map(|(_, base)| log_rank_p(&lifetimes(bench, *line), base));
             let log_rank = p.map(|p| LogRank { p, p_holm: p });
-            Cell { versus, log_rank, ..cell(bench, line, &times) }
+            BenchCell { versus, log_rank, ..cell(bench, line, &times) }
         })
         .collect();
     let single = cells.iter().filter(|cell| ![Strategy::AUTO, Strategy::RANDOM_CORNERS].contains(&cell.strategy));
@@ -164,11 +164,11 @@ fn cells_of(bench: &Bench, rows: &[Row]) -> Vec<Cell> {
     cells
 }
 
-fn cell(bench: &Bench, line: &[Row], times: &[f64]) -> Cell {
+fn cell(bench: &Bench, line: &[Row], times: &[f64]) -> BenchCell {
     let survival = Survival::of(&lifetimes(bench, line));
     let found: Vec<f64> = line.iter().filter_map(|row| row.first_failure).map(|tests| tests as f64).collect();
     let of = |value: fn(&Row) -> Option<f64>| line.iter().filter_map(value).collect::<Vec<f64>>();
-    Cell {
+    BenchCell {
         scenario: line[0].scenario.clone(),
         strategy: line[0].strategy,
         runs: line.len(),
@@ -215,14 +215,14 @@ fn correlation(bench: &Bench, among: &'static str, rows: &[&Row]) -> Option<Corr
     Some(Correlation { scenario: rows[0].scenario.clone(), among, runs: rows.len(), spearman: rho, interval })
 }
 
-fn standing(strategy: Strategy, cells: &[Cell]) -> Option<Standing> {
+fn standing(strategy: Strategy, cells: &[BenchCell]) -> Option<MeanRatio> {
     let ratios =
         || cells.iter().filter(|cell| cell.strategy == strategy).filter_map(|cell| Some((cell.over_best?, cell)));
     // Of equal ones the first.
     let worst = ratios().reduce(|worst, next| if next.0 > worst.0 { next } else { worst })?;
     let logs: Vec<f64> = ratios().map(|(ratio, _)| libm::log(ratio)).collect();
     let geometric_mean = libm::exp(mean(&logs)?);
-    Some(Standing { strategy, worst: worst.0, worst_scenario: worst.1.scenario.clone(), geometric_mean })
+    Some(MeanRatio { strategy, worst: worst.0, worst_scenario: worst.1.scenario.clone(), geometric_mean })
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ mod set;
 mod summary;
 
 pub use set::MeasuredSet;
-pub use summary::{Cell, Slope};
+pub use summary::{ComparisonCell, Slope};
 
 pub use crate::statistics::Versus;
 
@@ -30,7 +30,7 @@ use thiserror::Error;
 const MOST_SETS: usize = 10_000_000;
 /// What is compared, and how.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Comparison {
+pub struct SamplerComparison {
     /// The strategies, in the order in which they are shown.
     pub strategies: Vec<Strategy>,
     /// The dimensions of the unit cubes.
@@ -94,7 +94,7 @@ pub enum ComparisonFlaw {
 
 impl Reason for ComparisonFlaw {}
 
-impl Comparison {
+impl SamplerComparison {
     /// A comparison of these strategies in 2, 3 and 5 dimensions with 50, 100 and 500 points and 30 seeds, against
     /// `halton` if it is among them and the first if not.
     ///
@@ -246,7 +246,7 @@ fn list(numbers: &[usize]) -> String {
 /// A comparison that can be done.
 #[derive(Debug)]
 pub struct Schedule {
-    comparison: Comparison,
+    comparison: SamplerComparison,
     cases: Vec<Case>,
     notes: Vec<String>,
 }
@@ -302,11 +302,11 @@ impl Schedule {
 #[derive(Debug, Clone)]
 pub struct Compared {
     /// What was compared.
-    pub comparison: Comparison,
+    pub comparison: SamplerComparison,
     /// Every set: by dimension, budget, strategy, and the plain one before the seeds.
     pub sets: Vec<MeasuredSet>,
     /// What is said of each strategy: by measure, dimension, budget and strategy.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<ComparisonCell>,
     /// How fast each strategy's values fall with the budget: by measure, dimension and strategy.
     pub slopes: Vec<Slope>,
     /// What is left out and what else a reader should know, a sentence each.
@@ -315,9 +315,10 @@ pub struct Compared {
 
 impl Compared {
     /// The cell of a measure, a dimension, a budget and a strategy.
-    pub fn cell(&self, measure: Measure, dims: usize, budget: usize, strategy: Strategy) -> Option<&Cell> {
-        let at =
-            |cell: &&Cell| (cell.measure, cell.dims, cell.budget, cell.strategy) == (measure, dims, budget, strategy);
+    pub fn cell(&self, measure: Measure, dims: usize, budget: usize, strategy: Strategy) -> Option<&ComparisonCell> {
+        let at = |cell: &&ComparisonCell| {
+            (cell.measure, cell.dims, cell.budget, cell.strategy) == (measure, dims, budget, strategy)
+        };
         self.cells.iter().find(at)
     }
 

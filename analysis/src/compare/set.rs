@@ -5,7 +5,7 @@ use paracosm_campaign::Error;
 use paracosm_campaign::TestSet;
 use paracosm_coverage::Bracket;
 use paracosm_coverage::Measure;
-use paracosm_coverage::measure::Method;
+use paracosm_coverage::measure::Computation;
 use paracosm_generators::{Request, Strategy};
 use paracosm_space::Space;
 use std::time::Duration;
@@ -68,8 +68,8 @@ impl MeasuredSet {
 /// A measure in a report of the coverage of continuous parameters.
 fn value(coverage: &Coverage, measure: Measure) -> Option<Bracket> {
     match measure.descriptor().method {
-        Method::Combinations => None,
-        Method::KwiseHole => coverage.k_wise_dispersion.as_ref().map(|hole| hole.volume),
+        Computation::Combinations => None,
+        Computation::KwiseHole => coverage.k_wise_dispersion.as_ref().map(|hole| hole.volume),
         _ => coverage.continuous.as_ref()?.bracket(measure),
     }
 }

@@ -1,7 +1,7 @@
 //! What is said of many sets: medians and quartiles over the seeds, each strategy held against the baseline, and how
 //! fast values fall with the budget.
 
-use super::{Comparison, MeasuredSet};
+use super::{MeasuredSet, SamplerComparison};
 use crate::statistics::{Versus, bootstrap_interval, correct, median_and_quartiles, median_of, power_law_slope};
 use paracosm_coverage::Bracket;
 use paracosm_coverage::Measure;
@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 
 /// A strategy's values of a measure at one dimension and budget. Values that are brackets count as their lower ends.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Cell {
+pub struct ComparisonCell {
     /// The measure.
     #[serde(serialize_with = "measure_name")]
     pub measure: Measure,
@@ -68,8 +68,8 @@ fn strategy_name<S: Serializer>(strategy: &Strategy, serializer: S) -> Result<S:
 }
 
 /// All cells and slopes, each where every seed has a value.
-pub(super) fn summarise(comparison: &Comparison, sets: &[MeasuredSet]) -> (Vec<Cell>, Vec<Slope>) {
-    let Comparison { dims, budgets, strategies, baseline, .. } = comparison;
+pub(super) fn summarise(comparison: &SamplerComparison, sets: &[MeasuredSet]) -> (Vec<ComparisonCell>, Vec<Slope>) {
+    let SamplerComparison { dims, budgets, strategies, baseline, .. } = comparison;
     let (mut cells, mut slopes) = (Vec::new(), Vec::new());
     for measure in comparison.all_measures() {
         let lines = dims.iter().flat_map(|&d| strategies.iter().map(move |&strategy| (d, strategy)));
@@ -78,7 +78,7 @@ pub(super) fn summarise(comparison: &Comparison, sets: &[MeasuredSet]) -> (Vec<C
             let base = lines.iter().find(|other| other.dims == line.dims && other.strategy == *baseline)?;
             base.places.iter().find(|place| place.budget == budget)
         };
-        let mut of_measure: Vec<Cell> = lines
+        let mut of_measure: Vec<ComparisonCell> = lines
             .par_iter()
             .flat_map_iter(|line| line.places.iter().map(|place| line.cell(place, base(line, place.budget), *baseline)))
             .collect();
@@ -132,12 +132,12 @@ impl Line {
         Self { measure, dims, strategy, places: budgets.iter().filter_map(place).collect() }
     }
 
-    fn cell(&self, place: &Place, base: Option<&Place>, baseline: Strategy) -> Cell {
+    fn cell(&self, place: &Place, base: Option<&Place>, baseline: Strategy) -> ComparisonCell {
         let (median, quartiles) = median_and_quartiles(&place.values);
         // Of bracketed values the order is not known, and of values that chance does not move no test can be made.
         let tells = |base: &&Place| place.exact && base.exact && (place.spreads() || base.spreads());
         let base = base.filter(|_| self.strategy != baseline).filter(tells);
-        Cell {
+        ComparisonCell {
             measure: self.measure,
             dims: self.dims,
             budget: place.budget,

@@ -278,7 +278,7 @@ impl Clock {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use paracosm_coverage::measure::{Compare, Descriptor, Method};
+    use paracosm_coverage::measure::{Compare, Computation, Descriptor};
     use paracosm_generators::{Request, Strategy};
     use paracosm_space::Space;
 
@@ -310,7 +310,7 @@ mod tests {
             about: "a box in the corner, whatever the points are",
             pace: u8::MAX,
             compare: Compare::Never,
-            method: Method::Hole(|points, _, _| {
+            method: Computation::Hole(|points, _, _| {
                 let witness = LargestEmptyBox { lower: vec![0.0; points.dims()], upper: vec![0.1; points.dims()] };
                 Dispersion { volume: Bracket::exact(witness.volume()), witness }
             }),

@@ -14,7 +14,7 @@ mod words;
 use gap::{Figure, Group};
 use paracosm_campaign::{JsonArtefact, Log, Trial};
 use paracosm_engine::object::Class;
-use paracosm_engine::{Contact, Face, Motion, Violation};
+use paracosm_engine::{Contact, ContactMotion, Face, Violation};
 use paracosm_space::{Record, Value};
 use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
@@ -62,7 +62,7 @@ pub struct Mode {
     pub figures: Record<[f64; 2]>,
     /// Where they are in the space: from the least to the greatest value of a continuous parameter, all values of a
     /// discrete one.
-    pub parameters: Record<Extent>,
+    pub parameters: Record<ValueRange>,
     /// Their indices.
     pub trials: Vec<usize>,
 }
@@ -80,7 +80,7 @@ pub struct Touch {
     pub face: Face,
     /// What the car was doing.
     #[serde(serialize_with = "in_a_word")]
-    pub motion: Motion,
+    pub motion: ContactMotion,
 }
 
 fn in_a_word<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok, S::Error> {
@@ -90,7 +90,7 @@ fn in_a_word<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok
 /// The values of a parameter among some tests.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum Extent {
+pub enum ValueRange {
     /// From here to there.
     Interval([f64; 2]),
     /// All of them, in the order of the choice.
@@ -236,14 +236,14 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// Where some trials are in the space.
-fn extents(log: &Log, trials: &[&Trial]) -> Record<Extent> {
+fn extents(log: &Log, trials: &[&Trial]) -> Record<ValueRange> {
     let extent = |name: &str, levels: Option<&[Value]>| {
         let scalars = trials.iter().filter_map(|trial| trial.test.get(name)).flat_map(Value::scalars);
         match levels {
-            None => Extent::Interval(range(scalars.filter_map(Value::number))),
+            None => ValueRange::Interval(range(scalars.filter_map(Value::number))),
             Some(levels) => {
                 let there: Vec<&Value> = scalars.collect();
-                Extent::Values(levels.iter().filter(|level| there.contains(level)).cloned().collect())
+                ValueRange::Values(levels.iter().filter(|level| there.contains(level)).cloned().collect())
             }
         }
     };

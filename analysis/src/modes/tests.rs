@@ -1,6 +1,6 @@
 //! Modes of trials made up for the purpose.
 
-use super::{Extent, Modes};
+use super::{Modes, ValueRange};
 use paracosm_campaign::{Catalogue, Learned, Log, Study, Trial};
 
 /// A trial of the paper's study that ended with a contact.
@@ -57,7 +57,7 @@ fn what_was_touched_and_how_tells_modes_apart_and_the_words_say_it() {
     assert_eq!(told, expected);
     let first = &found.modes[0];
     assert_eq!((first.worst, first.trials.as_slice()), (2, &[0, 2][..]));
-    assert_eq!(first.parameters.get("speed"), Some(&Extent::Interval([1.0, 1.02])));
+    assert_eq!(first.parameters.get("speed"), Some(&ValueRange::Interval([1.0, 1.02])));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::{Mode, Touch};
 use paracosm_campaign::Trial;
 use paracosm_engine::object::Class;
-use paracosm_engine::{Face, Motion};
+use paracosm_engine::{ContactMotion, Face};
 
 /// Speed in m/s below which what the car touched stood.
 const STANDING: f64 = 0.1;
@@ -37,12 +37,14 @@ impl Story<'_> {
             place().filter(|_| self.apart.contains(&"critical_travelled")),
         ];
         let motion = match contact.motion {
-            Motion::Standing => "stands",
-            Motion::Braking => "brakes",
-            Motion::Driving => "goes on",
+            ContactMotion::Standing => "stands",
+            ContactMotion::Braking => "brakes",
+            ContactMotion::Driving => "goes on",
         };
-        let at =
-            speed().filter(|_| contact.motion != Motion::Standing).map(|speed| format!(" {speed}")).unwrap_or_default();
+        let at = speed()
+            .filter(|_| contact.motion != ContactMotion::Standing)
+            .map(|speed| format!(" {speed}"))
+            .unwrap_or_default();
         let also: String = also.into_iter().flatten().map(|text| format!(", {text}")).collect();
         format!("the car {motion}{at}{}{also}", meeting(contact, typical))
     }
@@ -106,7 +108,7 @@ fn meeting(contact: &Touch, typical: &Trial) -> String {
     };
     let comes = typical.contact().is_some_and(|contact| contact.other_speed > STANDING);
     match face {
-        Face::Front if *motion != Motion::Standing => format!(" and hits {other} with its front"),
+        Face::Front if *motion != ContactMotion::Standing => format!(" and hits {other} with its front"),
         _ if comes => format!("; {other} {goes} into its {side}"),
         _ => format!(" and touches {other} with its {side}"),
     }

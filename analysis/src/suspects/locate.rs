@@ -30,7 +30,7 @@ pub struct Unexplained {
 
 /// The guilty combinations of a campaign, as far as they were found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Located {
+pub struct LocatedReport {
     /// How many further tests there could be at most.
     pub limit: usize,
     /// How many were run.
@@ -41,11 +41,11 @@ pub struct Located {
     pub unexplained: Vec<Unexplained>,
 }
 
-impl JsonArtefact for Located {
+impl JsonArtefact for LocatedReport {
     const FILE: &'static str = "located.json";
 }
 
-impl Located {
+impl LocatedReport {
     /// Locates what is behind the failing trials; `run` runs a test, at most `limit` in all. `None` where there is
     /// nothing to tell apart: no discrete parameter, no failing test or no passing one.
     ///

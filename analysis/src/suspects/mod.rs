@@ -6,7 +6,7 @@ mod locate;
 mod location;
 mod search;
 
-pub use locate::{Located, Unexplained};
+pub use locate::{LocatedReport, Unexplained};
 pub use location::{Conclusion, Location, TestOfLocation};
 
 use crate::estimate::named_level;
@@ -28,7 +28,7 @@ const MOST_LOOKED_AT: f64 = 1e8;
 
 /// A combination of values that only failing tests have, and of which no part is such a combination.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Suspect {
+pub struct NamedSuspect {
     /// The values.
     pub values: Values,
     /// How many tests have them; all of them failed.
@@ -39,21 +39,21 @@ pub struct Suspect {
 
 /// What a campaign says about the combinations of discrete values behind its failures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Suspects {
+pub struct SuspectReport {
     /// How many values a combination has at most: three, or as many as the tests were to cover together; fewer where
     /// there are too many combinations to look at.
     pub size: usize,
     /// How many suspects there are.
     pub found: u64,
     /// The first of them, 20 at most: the smallest first, among these those that explain most failures.
-    pub ranked: Vec<Suspect>,
+    pub ranked: Vec<NamedSuspect>,
     /// Few suspects that together explain all failures but the unexplained ones.
-    pub explanation: Vec<Suspect>,
+    pub explanation: Vec<NamedSuspect>,
     /// The indices of the failing trials that have no suspect combination.
     pub unexplained: Vec<usize>,
 }
 
-impl Suspects {
+impl SuspectReport {
     /// The suspects of a campaign; `None` where there is nothing to tell apart: no discrete parameter, no failing test
     /// or no passing one.
     ///
@@ -66,7 +66,7 @@ impl Suspects {
         }
         let size = evidence.size(log.study().sampling().k);
         let found = suspects(&evidence.rules, &evidence.tests, size, MOST_LISTED)?;
-        let named = |suspect: suspects::Suspect| Suspect {
+        let named = |suspect: suspects::Suspect| NamedSuspect {
             values: evidence.named(&suspect.values),
             failures: suspect.failures,
             suspicion: suspect.suspicion,

@@ -71,7 +71,7 @@ impl Planted {
     }
 
     /// What is located, and the tests that were run for it.
-    fn locate(&self, limit: usize) -> (Located, Vec<Vec<usize>>) {
+    fn locate(&self, limit: usize) -> (LocatedReport, Vec<Vec<usize>>) {
         let evidence = Evidence {
             space: &self.space,
             rules: self.space.rules().unwrap(),
@@ -80,7 +80,7 @@ impl Planted {
             indices: (0..self.rows.len()).collect(),
         };
         let mut ran = Vec::new();
-        let located = Located::by(&evidence, limit, |test| {
+        let located = LocatedReport::by(&evidence, limit, |test| {
             let levels = self.space.encode(test).unwrap().discrete;
             let verdict = if self.fails(&levels) { Verdict::Fail } else { Verdict::Pass };
             ran.push(levels);
@@ -89,7 +89,7 @@ impl Planted {
         (located.unwrap(), ran)
     }
 
-    fn guilty_of(&self, located: &Located) -> Vec<Pairs> {
+    fn guilty_of(&self, located: &LocatedReport) -> Vec<Pairs> {
         let guilty = located.locations.iter().filter(|location| location.conclusion == Conclusion::Guilty);
         guilty.map(|location| pairs(&location.values)).collect()
     }

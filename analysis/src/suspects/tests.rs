@@ -45,8 +45,8 @@ fn values(named: &[(&str, f64)]) -> Values {
     named.iter().map(|&(name, value)| (name.to_owned(), value.into())).collect()
 }
 
-fn locate(study: &Study, trials: &[Trial], verdict: impl Fn(&Values) -> Verdict) -> Located {
-    Located::of(&log(study, trials), 200, |test| Ok(verdict(test))).unwrap().unwrap()
+fn locate(study: &Study, trials: &[Trial], verdict: impl Fn(&Values) -> Verdict) -> LocatedReport {
+    LocatedReport::of(&log(study, trials), 200, |test| Ok(verdict(test))).unwrap().unwrap()
 }
 
 fn log(study: &Study, trials: &[Trial]) -> Log {
@@ -61,7 +61,7 @@ fn every_guilty_combination_is_suspect_and_located_by_its_values() {
     let verdict = |test: &Values| fail_if(slippery(test) || wide(test));
     let trials = trials(&study, verdict);
 
-    let suspects = Suspects::of(&log(&study, &trials)).unwrap().unwrap();
+    let suspects = SuspectReport::of(&log(&study, &trials)).unwrap().unwrap();
     let guilty = [values(&[("lanes", 6.0)]), values(&[("speed", 3.0), ("friction", 0.3)])];
     assert_eq!(suspects.explanation.iter().map(|suspect| suspect.values.clone()).collect::<Vec<_>>(), guilty);
     assert_eq!((suspects.found, suspects.size, suspects.unexplained.len()), (2, 3, 0));
@@ -86,7 +86,7 @@ fn what_broke_or_decided_nothing_is_no_evidence() {
         (_, 2) => Verdict::Fail,
         _ => Verdict::Pass,
     };
-    let suspects = Suspects::of(&log(&study, &trials(&study, verdict))).unwrap().unwrap();
+    let suspects = SuspectReport::of(&log(&study, &trials(&study, verdict))).unwrap().unwrap();
     assert_eq!(suspects.ranked.len(), 1);
     assert_eq!((&suspects.ranked[0].values, suspects.ranked[0].failures), (&values(&[("speed", 2.0)]), 12));
     // Without any test that passed there is nothing to tell apart.
@@ -94,7 +94,7 @@ fn what_broke_or_decided_nothing_is_no_evidence() {
         Verdict::Pass => Verdict::Invalid,
         other => other,
     };
-    assert_eq!(Suspects::of(&log(&study, &trials(&study, none_passed))).unwrap(), None);
+    assert_eq!(SuspectReport::of(&log(&study, &trials(&study, none_passed))).unwrap(), None);
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn no_more_tests_are_run_than_there_may_be() {
         ran += 1;
         Ok(verdict(test))
     };
-    let located = Located::of(&log(&study, &trials), 2, count).unwrap().unwrap();
+    let located = LocatedReport::of(&log(&study, &trials), 2, count).unwrap().unwrap();
     assert_eq!((ran, located.ran, located.limit), (2, 2, 2));
     assert!(located.unexplained.iter().all(|unexplained| unexplained.why == Conclusion::LimitReached));
     assert_eq!(located.unexplained.len(), trials.iter().filter(|trial| trial.is_failure()).count());

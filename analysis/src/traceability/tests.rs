@@ -2,7 +2,7 @@
 
 use super::Traceability;
 use paracosm_campaign::{BlackBox, Learned, Log, Problem, ProblemKind, Study, Trial};
-use paracosm_engine::{Judgement, Measured};
+use paracosm_engine::{Judgement, Measurements};
 use paracosm_oracles::Verdict;
 use paracosm_space::{Space, Value, Values};
 
@@ -22,7 +22,7 @@ fn trial(index: usize, x: f64, verdict: Verdict, [a, b]: [Option<f64>; 2], trigg
     let judgements = vec![Judgement::new("a", a), Judgement::new("b", b)];
     let test: Values = [("x".to_owned(), Value::Number(x)), ("lanes".to_owned(), 2.into())].into_iter().collect();
     let mut trial = Trial::judged(index, test, verdict, judgements);
-    trial.measured = triggered.map(|triggered| Measured { travelled: 0.0, contact: None, triggered });
+    trial.measured = triggered.map(|triggered| Measurements { travelled: 0.0, contact: None, triggered });
     trial
 }
 

@@ -8,7 +8,7 @@ use crate::{Error, Reason};
 use paracosm_engine::Run;
 use paracosm_engine::sensor::{Cameras, Image, Moment, Sample};
 use paracosm_render::{
-    Cast, Developer, Exposure, Frame, NoCamera, Optics, Outputs, RenderError, Sight, Stage, Stages, Undrawn,
+    Cast, Developer, Exposure, Frame, NoCamera, Optics, RenderError, Sight, Stage, Stages, Undrawn, WantedImages,
 };
 use std::mem::take;
 use std::sync::mpsc::{Sender, channel};
@@ -89,7 +89,7 @@ impl Darkroom {
     /// of its run alone.
     pub fn develop(&self, runs: &[&Run]) -> Vec<Result<Vec<Image>, NoImage>> {
         let seen: Vec<_> = runs.iter().map(|run| Seen::by(run, self)).collect();
-        let colours = Outputs { rgb: true, ..Outputs::default() };
+        let colours = WantedImages { rgb: true, ..WantedImages::default() };
         let exposures = seen.iter().flatten().flat_map(Seen::exposures);
         let mut drawn = self.order(exposures.map(|exposure| exposure.sight(colours)).collect()).into_iter();
         let images = |seen: Result<Seen<'_>, NoImage>| seen.and_then(|seen| seen.images(&mut drawn));

@@ -12,7 +12,7 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The place of a test among the others, and how the test ended.
-pub type Became = (usize, Result<Outcome, Problem>);
+pub type TestEnd = (usize, Result<Outcome, Problem>);
 
 /// A test under way. A panic of the run or of its driver ends this one alone.
 pub(super) struct Ride {
@@ -112,7 +112,7 @@ impl Ride {
     }
 
     /// How the test ended with its place, and the driver, unless that may be in any state.
-    pub fn end(self) -> (Became, Option<Box<dyn Driver>>) {
+    pub fn end(self) -> (TestEnd, Option<Box<dyn Driver>>) {
         let left = || Err(Problem::new(ProblemKind::Interrupted, "the test was left before its end"));
         let outcome = self.outcome.unwrap_or_else(left);
         let driver = self.driver.filter(|_| !is_broken(&outcome));

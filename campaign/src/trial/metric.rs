@@ -7,7 +7,7 @@
 use super::Trial;
 use crate::json::Number;
 use paracosm_engine::object::Class;
-use paracosm_engine::{Contact, Face, Judgement, Measured, Motion, Violation};
+use paracosm_engine::{Contact, ContactMotion, Face, Judgement, Measurements, Violation};
 use paracosm_space::Record;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -75,7 +75,7 @@ pub(super) fn flat(trial: &Trial) -> Vec<(String, Metric)> {
     metrics
 }
 
-fn of_run(Measured { travelled, contact, triggered }: &Measured) -> [(&'static str, Metric); 8] {
+fn of_run(Measurements { travelled, contact, triggered }: &Measurements) -> [(&'static str, Metric); 8] {
     let contact = contact.as_ref();
     let number = |of: fn(&Contact) -> f64| Metric::Number(contact.map_or(0.0, of));
     let word = |of: fn(&Contact) -> &dyn Display| Metric::Word(contact.map(|contact| of(contact).to_string()));
@@ -101,7 +101,7 @@ fn of_violation(Violation { time, travelled, speed, part }: &Violation) -> Vec<(
 pub(super) fn read(
     metrics: Record<Metric>,
     judgements: &mut [Judgement],
-) -> Result<(Option<Measured>, Record<Metric>), UnknownWord> {
+) -> Result<(Option<Measurements>, Record<Metric>), UnknownWord> {
     let number = |name: &str| match metrics.get(name) {
         Some(Metric::Number(number)) => Some(*number),
         _ => None,
@@ -124,7 +124,7 @@ pub(super) fn read(
         _ => None,
     };
     let measured = match (number("travelled"), triggered) {
-        (Some(travelled), Some(triggered)) => Some(Measured { travelled, contact: contact(&metrics)?, triggered }),
+        (Some(travelled), Some(triggered)) => Some(Measurements { travelled, contact: contact(&metrics)?, triggered }),
         _ => None,
     };
     let known =
@@ -164,7 +164,7 @@ fn contact(metrics: &Record<Metric>) -> Result<Option<Contact>, UnknownWord> {
         with: with.to_owned(),
         class: among(&Class::ALL, class)?,
         face: among(&Face::ALL, face)?,
-        motion: among(&Motion::ALL, motion)?,
+        motion: among(&ContactMotion::ALL, motion)?,
         speed: number("impact_speed"),
         other_speed: number("other_speed"),
     }))

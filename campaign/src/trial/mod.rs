@@ -6,7 +6,7 @@ mod metric;
 pub use metric::Metric;
 
 use paracosm_engine::driver::FaultKind;
-use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measured, Outcome, Violation};
+use paracosm_engine::{Breakdown, Contact, Ending, Judgement, Measurements, Outcome, Violation};
 use paracosm_oracles::{Trace, Verdict};
 use paracosm_space::{Record, Values};
 use serde::{Deserialize, Serialize};
@@ -27,7 +27,7 @@ pub struct Trial {
     /// What became of each requirement, in the order in which they were judged.
     pub judgements: Vec<Judgement>,
     /// What was measured; `None` where there was no simulated run.
-    pub measured: Option<Measured>,
+    pub measured: Option<Measurements>,
     /// Metrics of other versions of the software.
     others: Record<Metric>,
     /// The simulated ticks.

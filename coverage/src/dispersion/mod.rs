@@ -29,7 +29,7 @@ mod trail;
 
 pub(crate) use trail::trail;
 
-use crate::measure::{Compare, Descriptor, Measure, Method};
+use crate::measure::{Compare, Computation, Descriptor, Measure};
 pub use crate::witness::{Dispersion, LargestEmptyBox};
 use crate::{Bracket, Deadline, PointSet};
 use hunt::Hunt;
@@ -45,7 +45,7 @@ impl Measure {
         about: "the volume of the largest box that no test has entered, as a share of the space",
         pace: 4,
         compare: Compare::Always,
-        method: Method::Hole(dispersion_watched),
+        method: Computation::Hole(dispersion_watched),
     });
 }
 

@@ -20,7 +20,7 @@ mod relaxation;
 mod search;
 mod tree;
 
-use crate::measure::{Compare, Descriptor, Measure, Method};
+use crate::measure::{Compare, Computation, Descriptor, Measure};
 pub use crate::witness::Fill;
 use crate::{Deadline, PointSet};
 use hunt::Hunt;
@@ -36,7 +36,7 @@ impl Measure {
         pace: 5,
         // Strategies are not judged by balls, and the balls of greedy's points take seconds.
         compare: Compare::WhereNamed,
-        method: Method::Ball(fill),
+        method: Computation::Ball(fill),
     });
 }
 

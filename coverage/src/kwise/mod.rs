@@ -13,7 +13,7 @@ mod missing;
 
 pub use counter::KwiseCounter;
 
-use crate::measure::{Compare, Descriptor, Measure, Method};
+use crate::measure::{Compare, Computation, Descriptor, Measure};
 use paracosm_space::demand::TestKind;
 use paracosm_space::rules::Rules;
 use std::cmp::Ordering;
@@ -30,7 +30,7 @@ impl Measure {
         about: "the share of valid combinations of k discrete values that some test contains",
         pace: 8,
         compare: Compare::Never,
-        method: Method::Combinations,
+        method: Computation::Combinations,
     });
 }
 

@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn under_the_usual_sun_nothing_changes_in_the_last_bit() {
         assert_eq!(Daylight::of(USUAL), NOTHING_CHANGES);
-        assert_eq!(Daylight::of(crate::Air::default().sun_elevation), NOTHING_CHANGES);
+        assert_eq!(Daylight::of(crate::Atmosphere::default().sun_elevation), NOTHING_CHANGES);
         // What scenarios say in degrees.
         let weather = paracosm_engine::Weather::default().sun_elevation;
         assert_eq!(Daylight::of((weather.to_degrees() * (std::f64::consts::PI / 180.0)) as f32), NOTHING_CHANGES);

@@ -1,6 +1,6 @@
 //! Draws sights: many at once, whatever they belong to.
 
-use crate::{Adapter, Box3, Camera, Exposure, Frame, Outputs, RenderError, Renderer, Sight, View, ViewError};
+use crate::{Adapter, Box3, Camera, Exposure, Frame, RenderError, Renderer, Sight, View, ViewError, WantedImages};
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -15,7 +15,7 @@ pub fn at_once(pixels: usize) -> usize {
 
 /// A moment that was drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Picture {
+pub struct Rendering {
     /// All that was asked for; its colours are those that the camera gives.
     pub frame: Frame,
     /// The things in front of the camera.
@@ -62,17 +62,17 @@ impl Developer {
     ///
     /// # Errors
     /// They are not.
-    pub fn check_size(&self, camera: &Camera, wanted: Outputs) -> Result<(), ViewError> {
+    pub fn check_size(&self, camera: &Camera, wanted: WantedImages) -> Result<(), ViewError> {
         self.renderer.check_size(camera, wanted)
     }
 
     /// Draws all these on all cores, in their order.
-    pub fn draw(&mut self, exposures: &[Exposure<'_>], wanted: Outputs) -> Vec<Result<Picture, Undrawn>> {
+    pub fn draw(&mut self, exposures: &[Exposure<'_>], wanted: WantedImages) -> Vec<Result<Rendering, Undrawn>> {
         let sights: Vec<Sight> = exposures.par_iter().map(|exposure| exposure.sight(wanted)).collect();
         let frames = self.render(&sights.iter().collect::<Vec<_>>());
         let all = exposures.par_iter().zip(&sights).zip(frames);
         let picture = |((exposure, sight), frame): ((&Exposure<'_>, &Sight), Result<Frame, Undrawn>)| {
-            Ok(Picture { frame: exposure.through_lens(frame?), boxes: sight.boxes() })
+            Ok(Rendering { frame: exposure.through_lens(frame?), boxes: sight.boxes() })
         };
         all.map(picture).collect()
     }
@@ -96,7 +96,7 @@ impl Developer {
     }
 
     /// Where the device fails, each is drawn by itself, so that only those fail that have to.
-    fn render_alike(&mut self, views: &[View<'_>], wanted: Outputs) -> Vec<Result<Frame, Undrawn>> {
+    fn render_alike(&mut self, views: &[View<'_>], wanted: WantedImages) -> Vec<Result<Frame, Undrawn>> {
         match self.renderer.render(views, wanted) {
             Ok(frames) => frames.into_iter().map(|frame| frame.map_err(undrawn)).collect(),
             Err(_) => views.iter().map(|view| self.render_alone(view, wanted)).collect(),
@@ -104,7 +104,7 @@ impl Developer {
     }
 
     /// A device that is lost gives way to a new one.
-    fn render_alone(&mut self, view: &View<'_>, wanted: Outputs) -> Result<Frame, Undrawn> {
+    fn render_alone(&mut self, view: &View<'_>, wanted: WantedImages) -> Result<Frame, Undrawn> {
         let view = std::slice::from_ref(view);
         let frames = self.renderer.render(view, wanted).or_else(|_| {
             self.renderer = (self.open)()?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 /// The error of the graphics interface that is behind one of ours.
-pub type Cause = Arc<dyn std::error::Error + Send + Sync>;
+pub type GraphicsCause = Arc<dyn std::error::Error + Send + Sync>;
 
 /// Why nothing can be drawn.
 #[derive(Debug, Clone, Error)]
@@ -15,14 +15,14 @@ pub enum RenderError {
         "no graphics adapter was found ({0}). None needs a display or a graphics card: on Debian and Ubuntu the package \
          mesa-vulkan-drivers draws on the processor (apt install mesa-vulkan-drivers)"
     )]
-    NoAdapter(Cause),
+    NoAdapter(GraphicsCause),
     /// There is an adapter, but it does not let itself be used.
     #[error("the graphics adapter {adapter} could not be opened: {source}")]
     NotOpened {
         /// Its name.
         adapter: String,
         /// What it said.
-        source: Cause,
+        source: GraphicsCause,
     },
     /// The adapter was taken away or its driver gave up. A new renderer may work.
     #[error("the graphics device was lost: {reason:?}, {message}; a new renderer has to be made")]
@@ -34,7 +34,7 @@ pub enum RenderError {
     },
     /// The adapter refused what it was asked for, most often memory.
     #[error("the graphics device failed: {0}")]
-    Failed(Cause),
+    Failed(GraphicsCause),
 }
 
 /// How a graphics device was lost.

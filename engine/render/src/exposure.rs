@@ -1,7 +1,7 @@
 //! A moment before a camera: the scene to draw for it, and the image after its lens.
 
 use crate::lens::Rain;
-use crate::{Air, Box3, Camera, Cast, Frame, Optics, Outputs, Scene, Stage, View, boxes_in_space};
+use crate::{Atmosphere, Box3, Camera, Cast, Frame, Optics, Scene, Stage, View, WantedImages, boxes_in_space};
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm_engine::sensor::Moment;
 
@@ -35,22 +35,27 @@ pub struct Sight {
     /// What is left out: the car itself, of which a camera within it would see the inside.
     without: Option<u16>,
     /// The outputs that the renderer has to draw.
-    pub(crate) wanted: Outputs,
+    pub(crate) wanted: WantedImages,
 }
 
 impl Exposure<'_> {
     /// The scene to draw for these outputs. Colours come with shadows.
-    pub fn sight(&self, wanted: Outputs) -> Sight {
+    pub fn sight(&self, wanted: WantedImages) -> Sight {
         let plain = self.optics.is_plain() && self.moment.weather.rain <= 0.0;
         let Moment { bodies, weather, .. } = self.moment;
         let car = &bodies[0];
         Sight {
-            scene: self.stage.scene_with(self.cast, bodies.iter().enumerate(), Air::of(weather)),
+            scene: self.stage.scene_with(self.cast, bodies.iter().enumerate(), Atmosphere::of(weather)),
             camera: self.optics.camera.clone(),
             pose: self.carrier(),
             head_lamps: Point3::new(car.body.outline.half_extent().x, 0.0, LAMPS),
             without: self.is_within_the_car().then_some(OWN),
-            wanted: Outputs { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, shadows: wanted.rgb, ..wanted },
+            wanted: WantedImages {
+                rgb: wanted.rgb && plain,
+                linear: wanted.rgb && !plain,
+                shadows: wanted.rgb,
+                ..wanted
+            },
         }
     }
 
@@ -64,7 +69,7 @@ impl Exposure<'_> {
     fn rain(&self) -> Rain {
         let Moment { bodies, weather, .. } = self.moment;
         let camera = self.optics.camera.pose(&self.carrier());
-        Rain::new(weather.rain_rate(), &Air::of(weather), &camera, &bodies[0].velocity.push(0.0))
+        Rain::new(weather.rain_rate(), &Atmosphere::of(weather), &camera, &bodies[0].velocity.push(0.0))
     }
 
     /// Whether the camera is within the box of the car, or so near that parts of the car would be too near to be drawn.

@@ -30,13 +30,13 @@ mod view;
 
 pub use boxes::{Box2, Box3, boxes, boxes_in_space};
 pub use camera::Camera;
-pub use developer::{Developer, Picture, Undrawn, at_once};
-pub use error::{CameraError, Cause, InstanceFlaw, LossReason, RenderError, ViewError};
+pub use developer::{Developer, Rendering, Undrawn, at_once};
+pub use error::{CameraError, GraphicsCause, InstanceFlaw, LossReason, RenderError, ViewError};
 pub use exposure::{Exposure, Sight};
 pub use frame::{Extent, Frame};
-pub use mesh::{Mesh, Semantic, Surface, Vertex};
+pub use mesh::{Mesh, Semantic, SurfaceKind, Vertex};
 pub use optics::Optics;
 pub use renderer::{Adapter, Renderer, adapter};
-pub use scene::{Air, Cast, Instance, Model, Scene, Stage, Stages};
+pub use scene::{Atmosphere, Cast, Instance, Model, Scene, Stage, Stages};
 pub use settings::{CameraFlaw, CameraSettings, NoCamera, RESOLUTION, camera_settings};
-pub use view::{Outputs, View};
+pub use view::{View, WantedImages};

@@ -4,7 +4,7 @@
 //! all else that lenses and sensors do, is for those who make a sensor's image of a frame.
 
 use crate::atmosphere::Daylight;
-use crate::{Air, ViewError};
+use crate::{Atmosphere, ViewError};
 
 /// A colour, or the light of three colours: red, green and blue, linear.
 type Rgb = [f32; 3];
@@ -32,7 +32,7 @@ pub(crate) struct Light {
     pub lamps: f32,
 }
 
-impl Air {
+impl Atmosphere {
     /// What the air itself looks like, in linear light: the colour of the horizon, and of what is hidden by fog. Fog
     /// turns the light `l` of what is `d` metres away into `l t + colour (1 - t)` with `t = exp(-extinction d)`
     /// (Koschmieder). It is pale and warm under a low sun, and goes dark after sunset.
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn the_sun_of_three_degrees_hardly_lights_level_ground_but_does_light_walls() {
         let level = |degrees: f32| {
-            let air = Air { sun_elevation: degrees.to_radians(), ..Air::default() };
+            let air = Atmosphere { sun_elevation: degrees.to_radians(), ..Atmosphere::default() };
             let Light { sun, sky, .. } = air.lit();
             (sun[0] * libm::sinf(air.sun_elevation) / sky[0], sun[0] / sky[0])
         };
@@ -107,8 +107,9 @@ mod tests {
 
     #[test]
     fn lamps_come_on_at_dusk_as_in_little_light() {
-        let lamps =
-            |degrees: f32, light: f32| Air { sun_elevation: degrees.to_radians(), light, ..Air::default() }.lit().lamps;
+        let lamps = |degrees: f32, light: f32| {
+            Atmosphere { sun_elevation: degrees.to_radians(), light, ..Atmosphere::default() }.lit().lamps
+        };
         assert_eq!([lamps(51.6, 1.0), lamps(0.0, 1.0), lamps(0.0, 0.0)], [0.0, 0.0, 1.0]);
         assert!(lamps(-3.0, 1.0) > 0.0 && lamps(-6.0, 1.0) > 0.9);
     }

@@ -1,7 +1,7 @@
 //! A camera ready to draw with: from its description to the pinhole for the renderer, and the lens for its light.
 
 use crate::lens::Lens;
-use crate::{Camera, CameraFlaw, CameraSettings, Frame, NoCamera, Outputs, camera_settings};
+use crate::{Camera, CameraFlaw, CameraSettings, Frame, NoCamera, WantedImages, camera_settings};
 use paracosm_engine::sensor::{CameraSpec, Cameras, Chance};
 
 /// A camera with its lens and its noise.
@@ -44,9 +44,9 @@ impl Optics {
     }
 
     /// The outputs that the renderer draws for these: colours as they are, or light for the lens.
-    pub fn needs(&self, wanted: Outputs) -> Outputs {
+    pub fn needs(&self, wanted: WantedImages) -> WantedImages {
         let plain = self.is_plain();
-        Outputs { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, ..wanted }
+        WantedImages { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, ..wanted }
     }
 
     /// Whether colours go through it as they are.

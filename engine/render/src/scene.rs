@@ -18,7 +18,7 @@ pub struct Scene {
     /// The things in it.
     pub instances: Vec<Instance>,
     /// Light and fog.
-    pub air: Air,
+    pub air: Atmosphere,
 }
 
 /// A thing: a mesh, and where it stands.
@@ -39,7 +39,7 @@ pub struct Instance {
 
 /// Light and fog.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Air {
+pub struct Atmosphere {
     /// From 0, night, to 1, broad daylight.
     pub light: f32,
     /// How high the sun stands, in radians above the horizon. Light is dimmer and warmer the lower that is, and below the
@@ -52,7 +52,7 @@ pub struct Air {
     pub extinction: f32,
 }
 
-impl Air {
+impl Atmosphere {
     /// The air of a weather, with the fog that its other sensors see through ([`sensor::Air::of`]).
     pub fn of(weather: &Weather) -> Self {
         Self {
@@ -64,7 +64,7 @@ impl Air {
     }
 }
 
-impl Default for Air {
+impl Default for Atmosphere {
     /// Broad daylight from the left and behind, no fog.
     fn default() -> Self {
         Self { light: 1.0, sun_elevation: 0.9, sun_azimuth: 2.3, extinction: 0.0 }

@@ -2,7 +2,7 @@
 //! order in which light passes. Readers of files, checks, variation from test to test and documents go by it.
 
 use crate::CameraError;
-use crate::lens::{EFFECTS, Effect};
+use crate::lens::{EFFECTS, LensEffect};
 use paracosm_engine::sensor::{CORE_CAMERA_SETTINGS, CameraSetting, CameraSpec, Cameras};
 use paracosm_space::{Record, did_you_mean, nearest};
 use thiserror::Error;
@@ -21,7 +21,7 @@ pub fn camera_settings() -> CameraSettings {
 /// A table of settings.
 #[derive(Debug, Clone, Copy)]
 pub struct CameraSettings {
-    effects: &'static [&'static Effect],
+    effects: &'static [&'static LensEffect],
 }
 
 /// A camera that cannot be.
@@ -80,12 +80,12 @@ impl CameraFlaw {
 
 impl CameraSettings {
     /// The table of cameras whose lenses have these effects, in the order in which light passes them.
-    pub const fn with(effects: &'static [&'static Effect]) -> Self {
+    pub const fn with(effects: &'static [&'static LensEffect]) -> Self {
         Self { effects }
     }
 
     /// The effects of the lens.
-    pub fn effects(self) -> &'static [&'static Effect] {
+    pub fn effects(self) -> &'static [&'static LensEffect] {
         self.effects
     }
 

@@ -28,7 +28,7 @@ impl<'a> View<'a> {
 
 /// Which images of a view are wanted. What is not asked for is not drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Outputs {
+pub struct WantedImages {
     /// Colours as a screen shows them.
     pub rgb: bool,
     /// Colours in linear light, before anything rounds or cuts them: for those who make lenses and sensors of it.
@@ -46,7 +46,7 @@ pub struct Outputs {
     pub shadows: bool,
 }
 
-impl Outputs {
+impl WantedImages {
     /// Whether light is to be computed.
     pub(crate) fn light(self) -> bool {
         self.rgb || self.linear

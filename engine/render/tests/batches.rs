@@ -3,7 +3,7 @@
 mod support;
 
 use nalgebra::Isometry3;
-use paracosm_render::{Air, Camera, Frame, Outputs, Scene, View};
+use paracosm_render::{Atmosphere, Camera, Frame, Scene, View, WantedImages};
 use support::{EVERYTHING, RGB, camera, one, renderer, street};
 
 /// Worlds of different weather, seen by cameras of different sizes, some of each.
@@ -12,7 +12,11 @@ fn worlds() -> Vec<(Scene, Camera, Isometry3<f64>)> {
     let world = |index: usize| {
         let mut scene = street();
         let part = index as f32 / 15.0;
-        scene.air = Air { light: 1.0 - part, extinction: if index % 4 == 2 { 0.03 } else { 0.0 }, ..Air::default() };
+        scene.air = Atmosphere {
+            light: 1.0 - part,
+            extinction: if index % 4 == 2 { 0.03 } else { 0.0 },
+            ..Atmosphere::default()
+        };
         scene.instances.rotate_left(index);
         let (width, height) = sizes[index % sizes.len()];
         (scene, camera(width, height), Isometry3::translation(0.37 * index as f64, -1.7, 0.0))
@@ -20,7 +24,7 @@ fn worlds() -> Vec<(Scene, Camera, Isometry3<f64>)> {
     (0..15).map(world).collect()
 }
 
-fn frames(renderer: &mut paracosm_render::Renderer, views: &[View<'_>], wanted: Outputs) -> Vec<Frame> {
+fn frames(renderer: &mut paracosm_render::Renderer, views: &[View<'_>], wanted: WantedImages) -> Vec<Frame> {
     let frames = renderer.render(views, wanted).expect("the adapter works");
     frames.into_iter().map(|frame| frame.expect("the view is sound")).collect()
 }
@@ -47,10 +51,12 @@ fn an_image_does_not_depend_on_which_others_are_asked_for() {
     let Some(mut renderer) = renderer() else { return };
     let worlds = worlds();
     let views: Vec<_> = worlds.iter().map(|(scene, camera, pose)| View::new(scene, camera, *pose)).collect();
-    let all = frames(&mut renderer, &views, Outputs { shadows: false, ..EVERYTHING });
-    for wanted in
-        [RGB, Outputs { depth: true, ..support::NOTHING }, Outputs { semantic: true, rgb: true, ..support::NOTHING }]
-    {
+    let all = frames(&mut renderer, &views, WantedImages { shadows: false, ..EVERYTHING });
+    for wanted in [
+        RGB,
+        WantedImages { depth: true, ..support::NOTHING },
+        WantedImages { semantic: true, rgb: true, ..support::NOTHING },
+    ] {
         for (some, all) in frames(&mut renderer, &views, wanted).into_iter().zip(&all) {
             assert!(if wanted.rgb { some.rgb == all.rgb } else { some.rgb.is_none() });
             assert!(if wanted.depth { some.depth == all.depth } else { some.depth.is_none() });

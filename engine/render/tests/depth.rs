@@ -3,14 +3,14 @@
 mod support;
 
 use nalgebra::{Isometry3, Point2, Point3, UnitQuaternion, Vector3};
-use paracosm_render::{Camera, Frame, Instance, Mesh, Outputs, Semantic, Surface, View};
+use paracosm_render::{Camera, Frame, Instance, Mesh, Semantic, SurfaceKind, View, WantedImages};
 use std::sync::Arc;
 use support::{Look, ball, camera, cuboid, look, one, renderer, scene, sheet, thing};
 
-const DEPTH: Outputs = Outputs { depth: true, instance: true, ..support::NOTHING };
+const DEPTH: WantedImages = WantedImages { depth: true, instance: true, ..support::NOTHING };
 
 fn grey() -> Look {
-    look([0.5; 3], Surface::Plain, Semantic::Other)
+    look([0.5; 3], SurfaceKind::Plain, Semantic::Other)
 }
 
 /// Where a ray from a point meets a thing first, in multiples of the ray.

@@ -4,14 +4,14 @@ mod support;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm_render::{
-    Air, Camera, Frame, Instance, Mesh, RenderError, Renderer, Scene, Semantic, Surface, View, ViewError,
+    Atmosphere, Camera, Frame, Instance, Mesh, RenderError, Renderer, Scene, Semantic, SurfaceKind, View, ViewError,
 };
 use std::process::Command;
 use std::sync::Arc;
 use support::{EVERYTHING, Look, RGB, camera, cuboid, look, one, renderer, scene, sheet, street, thing};
 
 fn grey() -> Look {
-    look([0.5; 3], Surface::Plain, Semantic::Other)
+    look([0.5; 3], SurfaceKind::Plain, Semantic::Other)
 }
 
 #[test]
@@ -66,11 +66,11 @@ fn what_is_wrong_with_a_thing_or_the_air_is_said() {
     let camera = camera(64, 48);
     let mesh = Arc::new(cuboid([1.0; 3], grey()));
     let sound = thing(&mesh, [9.0, 0.0, 0.0], 0.0, 7);
-    let mut message = |instance: Instance, air: Air| {
+    let mut message = |instance: Instance, air: Atmosphere| {
         let scene = Scene { instances: vec![sound.clone(), instance], air };
         refused(&mut renderer, &View::new(&scene, &camera, Isometry3::identity())).to_string()
     };
-    let air = Air::default();
+    let air = Atmosphere::default();
     let lost = thing(&mesh, [f32::INFINITY, 0.0, 0.0], 0.0, 7);
     assert!(message(lost, air).starts_with("instance 1 of the scene (id 7) has a pose of "));
     let flat = Instance { scale: [1.0, 0.0, 1.0], ..sound.clone() };
@@ -88,12 +88,12 @@ fn what_is_wrong_with_a_thing_or_the_air_is_said() {
     let torn = thing(&Arc::new(Mesh::new(vertices, mesh.indices().to_vec())), [9.0, 0.0, 0.0], 0.0, 7);
     let found = message(torn, air);
     assert!(found.starts_with("instance 1 of the scene (id 7) has a mesh of corner 5 at ["), "{found}");
-    assert_eq!(message(sound.clone(), Air { light: 1.5, ..air }), "the air has a light of 1.5, expected 0 to 1");
+    assert_eq!(message(sound.clone(), Atmosphere { light: 1.5, ..air }), "the air has a light of 1.5, expected 0 to 1");
     assert_eq!(
-        message(sound.clone(), Air { extinction: -0.1, ..air }),
+        message(sound.clone(), Atmosphere { extinction: -0.1, ..air }),
         "the air has an extinction of -0.1, expected a finite number from 0 on"
     );
-    assert!(message(sound.clone(), Air { sun_azimuth: f32::NAN, ..air }).starts_with("the air has an azimuth"));
+    assert!(message(sound.clone(), Atmosphere { sun_azimuth: f32::NAN, ..air }).starts_with("the air has an azimuth"));
 }
 
 #[test]

@@ -3,11 +3,11 @@
 mod support;
 
 use nalgebra::{Isometry3, Point2, Point3, Vector3};
-use paracosm_render::{Camera, Frame, Outputs, Semantic, Surface, View, boxes, boxes_in_space};
+use paracosm_render::{Camera, Frame, Semantic, SurfaceKind, View, WantedImages, boxes, boxes_in_space};
 use std::sync::Arc;
 use support::{EVERYTHING, camera, cuboid, look, one, renderer, scene, sheet, street, thing};
 
-const THINGS: Outputs = Outputs { semantic: true, instance: true, alone: true, ..support::NOTHING };
+const THINGS: WantedImages = WantedImages { semantic: true, instance: true, alone: true, ..support::NOTHING };
 
 #[test]
 fn the_field_of_view_is_that_of_the_focal_length() {
@@ -27,7 +27,7 @@ fn a_board_as_wide_as_the_field_of_view_fills_the_image_to_the_pixel() {
         let pixel = 8.0 * 36.0 / focal / f64::from(width);
         for (inset, expected) in [(0.45, width), (0.55, width - 2), (1.45, width - 2), (1.55, width - 4)] {
             let across = (pixel * (f64::from(width) - 2.0 * inset)) as f32;
-            let board = Arc::new(cuboid([0.5, across, 40.0], look([0.5; 3], Surface::Plain, Semantic::Wall)));
+            let board = Arc::new(cuboid([0.5, across, 40.0], look([0.5; 3], SurfaceKind::Plain, Semantic::Wall)));
             let scene = scene(vec![thing(&board, [8.25, 0.0, -20.0], 0.0, 1)]);
             let frame = one(&mut renderer, &View::new(&scene, &camera, Isometry3::identity()), THINGS);
             let row = &frame.instance.expect("asked for")[4 * width as usize..][..width as usize];
@@ -39,7 +39,7 @@ fn a_board_as_wide_as_the_field_of_view_fills_the_image_to_the_pixel() {
 #[test]
 fn a_flat_road_is_where_its_outline_is() {
     let Some(mut renderer) = renderer() else { return };
-    let road = Arc::new(sheet([-20.0, -3.5], [400.0, 3.5], look([0.1; 3], Surface::Asphalt, Semantic::Road)));
+    let road = Arc::new(sheet([-20.0, -3.5], [400.0, 3.5], look([0.1; 3], SurfaceKind::Asphalt, Semantic::Road)));
     let scene = scene(vec![thing(&road, [0.0; 3], 0.2, 0)]);
     let to_road = scene.instances[0].pose.cast::<f64>().inverse();
     for camera in [
@@ -135,7 +135,7 @@ fn boxes_are_those_of_the_pixels_and_occlusion_is_measured_against_the_thing_alo
 #[test]
 fn many_things_alone_are_told_apart() {
     let Some(mut renderer) = renderer() else { return };
-    let post = Arc::new(cuboid([0.1, 0.1, 1.0], look([0.5; 3], Surface::Plain, Semantic::Pole)));
+    let post = Arc::new(cuboid([0.1, 0.1, 1.0], look([0.5; 3], SurfaceKind::Plain, Semantic::Pole)));
     // More than the bits of two words, one behind the other.
     let place = |index: u16| [5.0 + 0.2 * f32::from(index), 0.0, 0.0];
     let scene = scene((0..70).map(|index| thing(&post, place(index), 0.0, 3 * index + 7)).collect());

@@ -1,7 +1,7 @@
 //! Models of the users' own, in files that the tests write.
 
 use nalgebra::Vector3;
-use paracosm_render::{Mesh, Semantic, Surface, gltf};
+use paracosm_render::{Mesh, Semantic, SurfaceKind, gltf};
 use std::path::{Path, PathBuf};
 
 /// A wedge: a triangle on the ground, z ahead and x to the left, and one that stands; positions, then indices.
@@ -72,7 +72,7 @@ fn check(mesh: &Mesh) {
     let normal = Vector3::from(mesh.vertices()[0].normal);
     assert!((normal + Vector3::z()).norm() < 1e-6, "{normal}");
     for vertex in mesh.vertices() {
-        assert_eq!((vertex.surface, vertex.semantic), (Surface::Paint, Semantic::Car));
+        assert_eq!((vertex.surface, vertex.semantic), (SurfaceKind::Paint, Semantic::Car));
         assert_eq!(vertex.colour, [0.5, 0.25, 0.125]);
     }
 }

@@ -3,7 +3,7 @@
 mod support;
 
 use nalgebra::{Isometry3, Point3};
-use paracosm_render::{Air, Camera, Instance, Outputs, Scene, Semantic, Surface, View};
+use paracosm_render::{Atmosphere, Camera, Instance, Scene, Semantic, SurfaceKind, View, WantedImages};
 use std::sync::Arc;
 use support::{RGB, camera, cuboid, look, one, renderer, scene, sheet, street, thing};
 
@@ -13,7 +13,7 @@ fn srgb(linear: f32) -> f64 {
     255.0 * if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
 
-const LIGHT: Outputs = Outputs { rgb: true, linear: true, depth: true, ..support::NOTHING };
+const LIGHT: WantedImages = WantedImages { rgb: true, linear: true, depth: true, ..support::NOTHING };
 
 fn mean(rgb: &[u8]) -> f64 {
     rgb.iter().map(|part| f64::from(*part)).sum::<f64>() / rgb.len() as f64
@@ -26,7 +26,7 @@ fn fog_is_that_of_koschmieder() {
     let mut scene = street();
     // An evening without lamps, and noon.
     for light in [0.7, 1.0] {
-        scene.air = Air { light, ..Air::default() };
+        scene.air = Atmosphere { light, ..Atmosphere::default() };
         let clear = one(&mut renderer, &View::new(&scene, &camera, pose), LIGHT);
         for visibility in [20.0, 60.0, 300.0, 5000.0] {
             scene.air.extinction = 3.912 / visibility;
@@ -63,11 +63,11 @@ fn colours_are_those_of_linear_light() {
 #[test]
 fn a_wall_gets_the_light_that_the_sun_sends_it() {
     let Some(mut renderer) = renderer() else { return };
-    let wall = Arc::new(cuboid([1.0, 40.0, 20.0], look([1.0; 3], Surface::Plain, Semantic::Wall)));
+    let wall = Arc::new(cuboid([1.0, 40.0, 20.0], look([1.0; 3], SurfaceKind::Plain, Semantic::Wall)));
     let camera = camera(20, 20);
     let mut seen = |azimuth: f32, elevation: f32, light: f32| {
         let mut scene = scene(vec![thing(&wall, [10.0, 0.0, -9.0], 0.0, 0)]);
-        scene.air = Air { light, sun_azimuth: azimuth, sun_elevation: elevation, extinction: 0.0 };
+        scene.air = Atmosphere { light, sun_azimuth: azimuth, sun_elevation: elevation, extinction: 0.0 };
         let frame = one(&mut renderer, &View::new(&scene, &camera, Isometry3::identity()), LIGHT);
         frame.linear.expect("asked for")[0]
     };
@@ -85,10 +85,10 @@ fn a_wall_gets_the_light_that_the_sun_sends_it() {
 
 /// A box on a light floor under a sun that stands to the left.
 fn box_in_the_sun() -> Scene {
-    let floor = Arc::new(sheet([-50.0, -50.0], [50.0, 50.0], look([0.8; 3], Surface::Plain, Semantic::Ground)));
-    let tower = Arc::new(cuboid([1.0, 1.0, 3.0], look([0.8; 3], Surface::Plain, Semantic::Static)));
+    let floor = Arc::new(sheet([-50.0, -50.0], [50.0, 50.0], look([0.8; 3], SurfaceKind::Plain, Semantic::Ground)));
+    let tower = Arc::new(cuboid([1.0, 1.0, 3.0], look([0.8; 3], SurfaceKind::Plain, Semantic::Static)));
     let mut scene = scene(vec![thing(&floor, [0.0; 3], 0.0, 0), thing(&tower, [12.0, 4.0, 0.0], 0.0, 1)]);
-    scene.air = Air { sun_azimuth: std::f32::consts::FRAC_PI_2, sun_elevation: 0.6, ..Air::default() };
+    scene.air = Atmosphere { sun_azimuth: std::f32::consts::FRAC_PI_2, sun_elevation: 0.6, ..Atmosphere::default() };
     scene
 }
 
@@ -96,7 +96,7 @@ fn box_in_the_sun() -> Scene {
 fn shadows_fall_where_the_sun_is_hidden() {
     let Some(mut renderer) = renderer() else { return };
     let (scene, camera) = (box_in_the_sun(), camera(320, 200));
-    let wanted = Outputs { shadows: true, linear: true, instance: true, ..support::NOTHING };
+    let wanted = WantedImages { shadows: true, linear: true, instance: true, ..support::NOTHING };
     let frame = one(&mut renderer, &View::new(&scene, &camera, Isometry3::identity()), wanted);
     let brightness = |place: Point3<f64>| {
         let at = camera.project(&(camera.pose(&Isometry3::identity()).inverse() * place)).expect("before the camera");
@@ -114,8 +114,11 @@ fn shadows_fall_where_the_sun_is_hidden() {
         assert!(brightness(Point3::new(x, 2.0, 0.0)) > 0.9 * lit, "beside the shadow, at x = {x}");
     }
     // Without shadows the same place is as bright as the rest.
-    let frame =
-        one(&mut renderer, &View::new(&scene, &camera, Isometry3::identity()), Outputs { shadows: false, ..wanted });
+    let frame = one(
+        &mut renderer,
+        &View::new(&scene, &camera, Isometry3::identity()),
+        WantedImages { shadows: false, ..wanted },
+    );
     let floor = frame.instance.iter().flatten().zip(frame.linear.iter().flatten().step_by(3)).skip(320 * 150);
     assert!(floor.filter(|(id, _)| **id == 0).all(|(_, light)| (light - lit).abs() < 1e-3));
 }
@@ -123,13 +126,13 @@ fn shadows_fall_where_the_sun_is_hidden() {
 #[test]
 fn a_level_floor_throws_no_shadow_on_itself_however_low_the_sun() {
     let Some(mut renderer) = renderer() else { return };
-    let slope = Arc::new(cuboid([60.0, 60.0, 0.5], look([0.8; 3], Surface::Plain, Semantic::Ground)));
+    let slope = Arc::new(cuboid([60.0, 60.0, 0.5], look([0.8; 3], SurfaceKind::Plain, Semantic::Ground)));
     let mut scene = scene(vec![thing(&slope, [20.0, 0.0, -0.5], 0.0, 0)]);
     let camera = camera(160, 100);
     for elevation in [0.05, 0.2, 0.8, 1.5] {
         scene.air.sun_elevation = elevation;
         let view = View::new(&scene, &camera, Isometry3::identity());
-        let with = one(&mut renderer, &view, Outputs { shadows: true, ..RGB });
+        let with = one(&mut renderer, &view, WantedImages { shadows: true, ..RGB });
         assert_eq!(with.rgb, one(&mut renderer, &view, RGB).rgb, "with the sun {elevation} rad high");
     }
 }
@@ -140,7 +143,7 @@ fn lamps_shine_at_night_and_not_by_day() {
     let camera: Camera = camera(160, 100);
     let pose = Isometry3::translation(0.0, -1.7, 0.0);
     let mut scene = street();
-    scene.air = Air { light: 0.0, sun_elevation: -0.3, ..Air::default() };
+    scene.air = Atmosphere { light: 0.0, sun_elevation: -0.3, ..Atmosphere::default() };
     let dark = Scene { instances: without_lamps(&scene.instances), air: scene.air };
     let head_lamps = Some(Point3::new(2.0, 0.0, 0.6));
     let mut seen = |scene: &Scene, head_lamps| {
@@ -151,14 +154,18 @@ fn lamps_shine_at_night_and_not_by_day() {
     assert!(nothing > 1.0 && nothing < 30.0, "a dark night of {nothing}");
     assert!(street_lamps > nothing + 5.0, "{street_lamps} against {nothing}");
     assert!(both > street_lamps + 5.0, "{both} against {street_lamps}");
-    scene.air = Air::default();
+    scene.air = Atmosphere::default();
     assert_eq!(seen(&scene, head_lamps), seen(&scene, None));
 }
 
 /// All but the posts, which are the things with lamps more than 4 m up.
 fn without_lamps(instances: &[Instance]) -> Vec<Instance> {
     let lamp = |instance: &&Instance| {
-        instance.mesh.vertices().iter().any(|vertex| vertex.surface == Surface::WhiteLamp && vertex.position[2] > 4.0)
+        instance
+            .mesh
+            .vertices()
+            .iter()
+            .any(|vertex| vertex.surface == SurfaceKind::WhiteLamp && vertex.position[2] > 4.0)
     };
     instances.iter().filter(|instance| !lamp(instance)).cloned().collect()
 }
@@ -168,7 +175,7 @@ fn the_sky_meets_the_fog_at_the_horizon() {
     let Some(mut renderer) = renderer() else { return };
     let camera = camera(31, 400);
     for extinction in [0.0, 0.002, 0.1] {
-        let scene = Scene { instances: Vec::new(), air: Air { extinction, ..Air::default() } };
+        let scene = Scene { instances: Vec::new(), air: Atmosphere { extinction, ..Atmosphere::default() } };
         let frame = one(&mut renderer, &View::new(&scene, &camera, Isometry3::identity()), LIGHT);
         let linear = frame.linear.expect("asked for");
         let horizon = &linear[3 * (31 * 200 + 15)..][..3];

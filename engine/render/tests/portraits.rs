@@ -7,7 +7,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use paracosm_engine::Pose;
 use paracosm_engine::object::{Body, BodyState, Class};
 use paracosm_engine::road::RoadSegment;
-use paracosm_render::{Air, Camera, Outputs, Stage, View};
+use paracosm_render::{Atmosphere, Camera, Stage, View, WantedImages};
 use support::golden::compare;
 use support::{NOTHING, renderer};
 
@@ -60,10 +60,10 @@ fn every_kind_of_thing_looks_as_it_did() {
     let scenes = sitters().map(|(bodies, far)| {
         let middle = Point3::new(100.0, 0.0, 0.5 * bodies[0].body.height);
         let pose = looking(middle + Vector3::new(0.8, 0.6, 0.35) * far, middle);
-        (stage.scene_of(bodies.iter().enumerate(), Air::default()), pose)
+        (stage.scene_of(bodies.iter().enumerate(), Atmosphere::default()), pose)
     });
     let views: Vec<_> = scenes.iter().map(|(scene, pose)| View::new(scene, &camera, *pose)).collect();
-    let wanted = Outputs { rgb: true, shadows: true, ..NOTHING };
+    let wanted = WantedImages { rgb: true, shadows: true, ..NOTHING };
     let frames = renderer.render(&views, wanted).expect("the adapter works");
     let images: Vec<_> =
         frames.into_iter().map(|frame| frame.expect("the view is sound").rgb.expect("asked for")).collect();

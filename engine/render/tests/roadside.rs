@@ -4,7 +4,7 @@ mod support;
 
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm_engine::{AutonomousVehicle, Environment, Program, RoadSegment, Roadside, Run, Scenario, Setup};
-use paracosm_render::{Camera, Frame, Outputs, Semantic, Stage, View, boxes_in_space};
+use paracosm_render::{Camera, Frame, Semantic, Stage, View, WantedImages, boxes_in_space};
 use paracosm_space::Values;
 use support::golden::compare;
 use support::{NOTHING, one, renderer};
@@ -36,7 +36,7 @@ fn seen(values: &[(&str, f64)]) -> Option<(Frame, usize)> {
     let pose = Isometry3::new(car.position.push(0.0), Vector3::z() * car.heading);
     let view = View { without: Some(1), ..View::new(&scene, &camera, pose) };
     let things = boxes_in_space(&scene, &camera, &pose).len();
-    let wanted = Outputs { rgb: true, semantic: true, instance: true, depth: true, shadows: true, ..NOTHING };
+    let wanted = WantedImages { rgb: true, semantic: true, instance: true, depth: true, shadows: true, ..NOTHING };
     Some((one(&mut renderer, &view, wanted), things))
 }
 

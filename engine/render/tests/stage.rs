@@ -9,7 +9,7 @@ use paracosm_engine::{
     AutonomousVehicle, Environment, Pedestrian, Pose, Program, Run, Scenario, Setup, Side, Stream, Weather, driver,
     eventually, never,
 };
-use paracosm_render::{Air, Instance, Mesh, Scene, Semantic, Stage, Stages, Vertex};
+use paracosm_render::{Atmosphere, Instance, Mesh, Scene, Semantic, Stage, Stages, Vertex};
 use paracosm_space::Values;
 use std::sync::Arc;
 
@@ -23,7 +23,7 @@ fn road() -> Arc<RoadNetwork> {
 }
 
 fn scene(bodies: &[BodyState]) -> Scene {
-    Stage::of(&road()).scene_of(bodies.iter().enumerate(), Air::default())
+    Stage::of(&road()).scene_of(bodies.iter().enumerate(), Atmosphere::default())
 }
 
 /// The corners of what belongs to a body, as seen from its pose.
@@ -125,7 +125,7 @@ fn people_step_up_to_the_sidewalk() {
     let stage = Stage::of(&network);
     let foot = |y: f64| {
         let state = standing(Body::adult(), 20.0, y, 0.0);
-        let scene = stage.scene_of([(0, &state)], Air::default());
+        let scene = stage.scene_of([(0, &state)], Atmosphere::default());
         bounds(&corners(&scene, 0, &state.pose))[0].z
     };
     let sidewalk = network.on_sidewalk("road", Side::Left, 20.0).unwrap().position.y;
@@ -153,7 +153,7 @@ fn area(scene: &Scene, semantic: Semantic) -> f64 {
 #[test]
 fn a_road_has_the_area_of_its_strips() {
     for network in [road(), RoadSegment::arc(60.0, -1.4).lanes(4).build().unwrap()] {
-        let ground = Stage::of(&network).scene_of([], Air::default());
+        let ground = Stage::of(&network).scene_of([], Atmosphere::default());
         let strips = network.strips();
         let of = |wanted: &dyn Fn(Surface) -> bool, shrunk: f64| -> f64 {
             let parts = strips.iter().filter(|strip| wanted(strip.surface)).flat_map(Strip::solid_parts);
@@ -178,7 +178,7 @@ fn all_that_lies_on_the_ground_faces_up_or_aside() {
         RoadSegment::new(40.0).sidewalk(0.03).build(),
     ];
     for network in networks.map(Result::unwrap) {
-        for instance in Stage::of(&network).scene_of([], Air::default()).instances {
+        for instance in Stage::of(&network).scene_of([], Atmosphere::default()).instances {
             let mesh = &instance.mesh;
             for triangle in mesh.indices().chunks_exact(3) {
                 let [a, b, c] = [0, 1, 2].map(|corner| &mesh.vertices()[triangle[corner] as usize]);
@@ -197,7 +197,7 @@ fn all_that_lies_on_the_ground_faces_up_or_aside() {
 #[test]
 fn a_city_is_made_of_chunks_near_their_places() {
     let city = grid_city(4, 4, 80.0, 2).build().unwrap();
-    let ground = Stage::of(&city).scene_of([], Air::default()).instances;
+    let ground = Stage::of(&city).scene_of([], Atmosphere::default()).instances;
     let (plain, chunks) = ground.split_last().unwrap();
     assert!(chunks.len() > 9 && plain.mesh.vertices().iter().all(|vertex| vertex.semantic == Semantic::Terrain));
     for vertex in chunks.iter().flat_map(|chunk| chunk.mesh.vertices()) {
@@ -231,7 +231,7 @@ fn bodies_have_their_colours_and_ids_and_leave_when_they_leave() {
 #[test]
 fn the_same_state_is_the_same_scene() {
     let bodies = [standing(Body::disc(Class::Tree, 0.3, 6.0), 5.0, 9.0, 0.0), standing(Body::adult(), 8.0, 9.0, 0.0)];
-    let (network, air) = (road(), Air::default());
+    let (network, air) = (road(), Atmosphere::default());
     let look = |stage: &Stage| {
         let scene = stage.scene_of(bodies.iter().enumerate(), air);
         let seen = |instance: &Instance| (instance.pose, instance.scale, instance.mesh.vertices().to_vec());
@@ -247,26 +247,26 @@ fn a_model_of_the_users_own_is_stretched_to_the_body() {
         normal: [0.0, 0.0, 1.0],
         uv: [0.0; 2],
         colour: [0.5; 3],
-        surface: paracosm_render::Surface::Plain,
+        surface: paracosm_render::SurfaceKind::Plain,
         semantic: Semantic::Car,
     };
     let mesh = Mesh::new(vec![corner(1.0, 1.0, 1.0), corner(3.0, 1.0, 1.5), corner(1.0, 5.0, 2.0)], vec![0, 1, 2]);
     let state = standing(Body::car(), 20.0, 1.0, 0.8);
     let stage = Stage::of(&road()).model(Class::Car, mesh);
-    let [min, max] = bounds(&corners(&stage.scene_of([(0, &state)], Air::default()), 0, &state.pose));
+    let [min, max] = bounds(&corners(&stage.scene_of([(0, &state)], Atmosphere::default()), 0, &state.pose));
     let expected = [Point3::new(-2.25, -0.9, 0.0), Point3::new(2.25, 0.9, 1.45)];
     assert!((min - expected[0]).amax() < 0.01 && (max - expected[1]).amax() < 0.01, "{min} {max}");
 }
 
 #[test]
 fn fog_grows_thicker_from_nothing_to_ten_metres() {
-    let extinction = |fog: f64| Air::of(&Weather { fog, ..Weather::default() }).extinction;
+    let extinction = |fog: f64| Atmosphere::of(&Weather { fog, ..Weather::default() }).extinction;
     assert_eq!(extinction(0.0), 0.0);
     assert!((3.912 / extinction(1.0) - 10.0).abs() < 1e-3);
     let values: Vec<f32> = (0..=100).map(|i| extinction(f64::from(i) / 100.0)).collect();
     assert!(values.windows(2).all(|pair| pair[0] < pair[1]));
     assert!((3.912 / extinction(0.5) - 326.0).abs() < 1.0 && (3.912 / extinction(0.2) - 3350.0).abs() < 20.0);
-    assert_eq!(Air::of(&Weather::default()), Air::default());
+    assert_eq!(Atmosphere::of(&Weather::default()), Atmosphere::default());
 }
 
 /// Dusk, with a pedestrian who walks.

@@ -38,12 +38,12 @@ pub struct Collision {
     /// The difference of their speeds along the lane, m/s.
     pub speed: f64,
     /// Where it was hit.
-    pub face: Face,
+    pub face: Impact,
 }
 
 /// The side of the car under test at which it was hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Face {
+pub enum Impact {
     /// It ran into the other, or they overlapped from the beginning.
     Front,
     /// The other moved into its side.
@@ -125,7 +125,7 @@ impl Encounter {
             }
             ego = ego.after(brake);
         }
-        if ended.collision.is_some_and(|collision| collision.face == Face::Front) {
+        if ended.collision.is_some_and(|collision| collision.face == Impact::Front) {
             ended.least_ttc = 0.0;
             ended.least_gap = 0.0;
         }
@@ -169,11 +169,11 @@ fn collision(before: Apart, now: Apart, time: f64) -> Option<Collision> {
         return None;
     }
     let face = if share == reached.0 {
-        Face::Front
+        Impact::Front
     } else if share == beside.0 {
-        Face::Side
+        Impact::Side
     } else {
-        Face::Rear
+        Impact::Rear
     };
     let closing = before.closing + share * (now.closing - before.closing);
     Some(Collision { time: (time - DT * (1.0 - share)).max(0.0), speed: closing.abs(), face })

@@ -25,7 +25,7 @@ mod regulation;
 mod situation;
 
 pub use course::{Course, Size};
-pub use encounter::{Collision, Encounter, Ended, Face};
+pub use encounter::{Collision, Encounter, Ended, Impact};
 pub use regulation::{CutIn, CutOut, LANE_WIDTH, LeaderBrakes};
 pub use situation::Situation;
 

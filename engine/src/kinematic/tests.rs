@@ -64,7 +64,7 @@ proptest! {
             let collision = collision.unwrap();
             prop_assert!((collision.time - beside.max(reached)).abs() < 1e-9, "{:?}", collision);
             prop_assert!((collision.speed - closing).abs() < 1e-9);
-            prop_assert_eq!(collision.face, if beside > reached { Face::Side } else { Face::Front });
+            prop_assert_eq!(collision.face, if beside > reached { Impact::Side } else { Impact::Front });
         }
     }
 
@@ -154,7 +154,7 @@ fn a_car_that_was_passed_and_comes_over_runs_into_the_rear_of_one_that_brakes() 
     // Passed after 1.2 s; at 2 s the car under test puts on the brakes in front of it.
     let cut_in = CutIn { speed: 20.0, other_speed: 10.0, gap: 2.0, lateral_speed: 1.0 };
     let collision = cut_in.encounter().run(&Brakes::from(20, 10.0)).collision.unwrap();
-    assert_eq!(collision.face, Face::Rear);
+    assert_eq!(collision.face, Impact::Rear);
     assert_eq!(cut_in.encounter().run(&Unbraked).collision, None);
 }
 

@@ -2,7 +2,7 @@
 
 use super::InputError;
 use super::body::BodyState;
-use crate::stream::{Datum, Graph, Node, Sample, Slot, Source, Stream};
+use crate::stream::{Datum, DatumSample, Graph, Node, Slot, Source, Stream};
 use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::marker::PhantomData;
@@ -120,7 +120,7 @@ impl<T> fmt::Debug for Output<T> {
 /// Where objects show their outputs.
 #[derive(Debug)]
 pub struct Outputs<'a> {
-    pub(crate) samples: &'a mut [Sample],
+    pub(crate) samples: &'a mut [DatumSample],
 }
 
 impl Outputs<'_> {

@@ -1,11 +1,11 @@
 //! A run moment by moment, for an animated picture.
 
 use super::body::{UNDER_TEST, body, class_colour};
-use super::drawing::{Anchor, Drawing, Mark, Paint};
+use super::drawing::{Anchor, Drawing, Paint, PictureItem};
 use super::ground::ground;
 use super::legend::{INK, PAPER, contact, legend};
 use super::pages::{Page, pages};
-use super::record::{Record, Scene};
+use super::record::{MotionRecord, Scene};
 
 /// How many frames there are at most.
 const MOST: usize = 300;
@@ -16,7 +16,7 @@ const CLOCK: f64 = 17.0;
 
 /// A run, moment by moment. Every frame lies over one of the scenes, which have all one size.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Film {
+pub struct Animation {
     /// What stands still: the ground and what is on it.
     pub scenes: Vec<Drawing>,
     /// What changes.
@@ -34,10 +34,10 @@ pub struct Frame {
     pub drawing: Drawing,
 }
 
-impl Record {
+impl MotionRecord {
     /// The run moment by moment, this many pixels wide: a frame for every tenth of a second, or fewer where there would
     /// be more than 300. Nothing where nothing was seen.
-    pub fn film(&self, width: f64, caption: &str) -> Option<Film> {
+    pub fn film(&self, width: f64, caption: &str) -> Option<Animation> {
         let scene = self.scene.as_ref().filter(|_| !self.is_empty())?;
         let pages = pages(self, scene, width);
         let entries = self.entries(scene, &pages);
@@ -47,8 +47,8 @@ impl Record {
         let still = |page: &Page| {
             let mut marks = ground(&page.view, &scene.network);
             marks.extend(self.bodies(scene, page, page.moments.start, false));
-            let map = Mark::Inset { at: [0.0, 0.0], drawing: Drawing { width, height, marks } };
-            let below = Mark::Inset { at: [0.0, height], drawing: legend.clone() };
+            let map = PictureItem::Inset { at: [0.0, 0.0], drawing: Drawing { width, height, marks } };
+            let below = PictureItem::Inset { at: [0.0, height], drawing: legend.clone() };
             Drawing { width, height: whole, marks: vec![map, below] }
         };
         let count: usize = pages.iter().map(|page| page.moments.len()).sum();
@@ -59,16 +59,16 @@ impl Record {
             let shown = page.moments.clone().filter(|moment| moment % stride == 0 || *moment == last);
             frames.extend(shown.map(|moment| {
                 let marks = self.moving(scene, page, moment);
-                let map = Mark::Inset { at: [0.0, 0.0], drawing: Drawing { width, height, marks } };
+                let map = PictureItem::Inset { at: [0.0, 0.0], drawing: Drawing { width, height, marks } };
                 let drawing = Drawing { width, height: whole, marks: vec![map] };
                 Frame { scene: index, time: self.moments[moment].time, drawing }
             }));
         }
-        Some(Film { scenes: pages.iter().map(still).collect(), frames })
+        Some(Animation { scenes: pages.iter().map(still).collect(), frames })
     }
 
     /// What lies over a scene at a moment.
-    fn moving(&self, scene: &Scene, page: &Page, moment: usize) -> Vec<Mark> {
+    fn moving(&self, scene: &Scene, page: &Page, moment: usize) -> Vec<PictureItem> {
         let mut marks = Vec::new();
         if self.moves(0, page.moments.clone()) {
             marks.push(self.way(&page.view, 0, page.moments.start..moment + 1).stroke(WAY, 2.0));
@@ -80,12 +80,19 @@ impl Record {
             clock = format!("contact, {:.2} s", self.moments[moment].time);
         }
         let halo = Some(PAPER);
-        marks.push(Mark::Text { at: [12.0, 24.0], anchor: Anchor::Start, size: CLOCK, colour: INK, halo, text: clock });
+        marks.push(PictureItem::Text {
+            at: [12.0, 24.0],
+            anchor: Anchor::Start,
+            size: CLOCK,
+            colour: INK,
+            halo,
+            text: clock,
+        });
         marks
     }
 
     /// The bodies that move on a page, or those that do not; the car under test on top.
-    fn bodies(&self, scene: &Scene, page: &Page, moment: usize, moving: bool) -> Vec<Mark> {
+    fn bodies(&self, scene: &Scene, page: &Page, moment: usize, moving: bool) -> Vec<PictureItem> {
         let these = (0..scene.bodies.len()).rev().filter(|i| self.moves(*i, page.moments.clone()) == moving);
         let poses = &self.moments[moment].poses;
         let marks = these.flat_map(|i| {

@@ -3,7 +3,7 @@
 //! The colours are those of Okabe and Ito ("Color Universal Design", 2008), which people with any kind of colour vision
 //! tell apart; nothing rests on a colour alone.
 
-use super::drawing::{Colour, Contour, Mark, Paint};
+use super::drawing::{Colour, Contour, Paint, PictureItem};
 use super::ground::seen_from;
 use super::view::View;
 use crate::geometry::Pose;
@@ -45,7 +45,7 @@ pub(super) fn extent(body: &Body) -> f64 {
 }
 
 /// The marks of a body in this colour, where it is seen; a share of them where it is a ghost of itself.
-pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share: f64) -> Vec<Mark> {
+pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share: f64) -> Vec<PictureItem> {
     if !view.shows(pose.position, extent(body)) {
         return Vec::new();
     }

@@ -18,12 +18,12 @@ pub struct Drawing {
     /// Its height, a whole number.
     pub height: f64,
     /// What is on it, from the ground up.
-    pub marks: Vec<Mark>,
+    pub marks: Vec<PictureItem>,
 }
 
 /// One thing on a picture.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Mark {
+pub enum PictureItem {
     /// A filled area: what is inside by the non-zero rule.
     Fill {
         /// Its outline.
@@ -103,12 +103,12 @@ impl Paint {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contour {
     /// What the pen does, in turn.
-    pub segments: Vec<Segment>,
+    pub segments: Vec<PathSegment>,
 }
 
 /// A movement of the pen.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Segment {
+pub enum PathSegment {
     /// Lifted, to a place.
     Move(Pixel),
     /// Straight to a place.
@@ -125,7 +125,7 @@ impl Contour {
         let mut contour = Self::default();
         for point in points {
             let first = contour.segments.is_empty();
-            contour.segments.push(if first { Segment::Move(point) } else { Segment::Line(point) });
+            contour.segments.push(if first { PathSegment::Move(point) } else { PathSegment::Line(point) });
         }
         contour
     }
@@ -133,7 +133,7 @@ impl Contour {
     /// The polygon with these corners.
     pub(super) fn polygon(corners: impl IntoIterator<Item = Pixel>) -> Self {
         let mut contour = Self::polyline(corners);
-        contour.segments.push(Segment::Close);
+        contour.segments.push(PathSegment::Close);
         contour
     }
 
@@ -150,12 +150,16 @@ impl Contour {
             let (sin, cos) = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][i % 4];
             ([x + radius * cos, y + radius * sin], [-radius * reach * sin, radius * reach * cos])
         };
-        let mut segments = vec![Segment::Move(on(0).0)];
+        let mut segments = vec![PathSegment::Move(on(0).0)];
         for i in 0..4 {
             let ((from, out), (to, into)) = (on(i), on(i + 1));
-            segments.push(Segment::Cubic([from[0] + out[0], from[1] + out[1]], [to[0] - into[0], to[1] - into[1]], to));
+            segments.push(PathSegment::Cubic(
+                [from[0] + out[0], from[1] + out[1]],
+                [to[0] - into[0], to[1] - into[1]],
+                to,
+            ));
         }
-        segments.push(Segment::Close);
+        segments.push(PathSegment::Close);
         Self { segments }
     }
 
@@ -168,15 +172,15 @@ impl Contour {
         }))
     }
 
-    pub(super) fn fill(self, paint: impl Into<Paint>) -> Mark {
-        Mark::Fill { contour: self, paint: paint.into() }
+    pub(super) fn fill(self, paint: impl Into<Paint>) -> PictureItem {
+        PictureItem::Fill { contour: self, paint: paint.into() }
     }
 
-    pub(super) fn stroke(self, paint: impl Into<Paint>, width: f64) -> Mark {
-        Mark::Stroke { contour: self, paint: paint.into(), width, dash: None }
+    pub(super) fn stroke(self, paint: impl Into<Paint>, width: f64) -> PictureItem {
+        PictureItem::Stroke { contour: self, paint: paint.into(), width, dash: None }
     }
 
-    pub(super) fn dashed(self, paint: impl Into<Paint>, width: f64, dash: [f64; 2]) -> Mark {
-        Mark::Stroke { contour: self, paint: paint.into(), width, dash: Some(dash) }
+    pub(super) fn dashed(self, paint: impl Into<Paint>, width: f64, dash: [f64; 2]) -> PictureItem {
+        PictureItem::Stroke { contour: self, paint: paint.into(), width, dash: Some(dash) }
     }
 }

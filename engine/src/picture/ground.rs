@@ -1,6 +1,6 @@
 //! Roads with their markings, as they lie there.
 
-use super::drawing::{Colour, Contour, Mark, Paint, Segment};
+use super::drawing::{Colour, Contour, Paint, PathSegment, PictureItem};
 use super::view::View;
 use crate::geometry::Pose;
 use crate::road::{Lane, LaneKind, RoadNetwork, Strip, Surface};
@@ -29,7 +29,7 @@ fn colour(surface: Surface) -> Colour {
 }
 
 /// The ground that a view shows: all strips of a surface as one shape.
-pub(super) fn ground(view: &View, network: &RoadNetwork) -> Vec<Mark> {
+pub(super) fn ground(view: &View, network: &RoadNetwork) -> Vec<PictureItem> {
     let [width, height] = view.size();
     let mut marks = vec![Contour::rectangle([0.0, 0.0], [width, height]).fill(GROUND)];
     let mut strips = network.strips();
@@ -42,11 +42,11 @@ pub(super) fn ground(view: &View, network: &RoadNetwork) -> Vec<Mark> {
         let mut contour = Contour::default();
         for part in parts {
             let end = part.curve.length();
-            contour.segments.push(Segment::Move(view.at(part.curve.beside(0.0, part.right))));
+            contour.segments.push(PathSegment::Move(view.at(part.curve.beside(0.0, part.right))));
             view.along(&mut contour, &part.curve, part.right, [0.0, end]);
-            contour.segments.push(Segment::Line(view.at(part.curve.beside(end, part.left))));
+            contour.segments.push(PathSegment::Line(view.at(part.curve.beside(end, part.left))));
             view.along(&mut contour, &part.curve, part.left, [end, 0.0]);
-            contour.segments.push(Segment::Close);
+            contour.segments.push(PathSegment::Close);
         }
         let surface = of_one[0].surface;
         if contour.segments.is_empty() {
@@ -62,7 +62,7 @@ pub(super) fn ground(view: &View, network: &RoadNetwork) -> Vec<Mark> {
 }
 
 /// Arrows on the lanes of roads, the way of their traffic; none where they would be too small to be told.
-pub(super) fn directions(view: &View, network: &RoadNetwork) -> Mark {
+pub(super) fn directions(view: &View, network: &RoadNetwork) -> PictureItem {
     let mut contour = Contour::default();
     let large = view.scale >= LEAST_SCALE;
     for lane in network.lanes().iter().filter(|lane| large && lane.kind == LaneKind::Road) {
@@ -80,7 +80,7 @@ pub(super) fn directions(view: &View, network: &RoadNetwork) -> Mark {
 }
 
 /// The middle of every lane with an arrow in its middle, in the colour of what the lane is part of.
-pub(super) fn lanes(view: &View, network: &RoadNetwork) -> Vec<Mark> {
+pub(super) fn lanes(view: &View, network: &RoadNetwork) -> Vec<PictureItem> {
     let marks = network.lanes().iter().flat_map(|lane| {
         let mut head = Contour::default();
         let corners = [(0.9, 0.0), (-0.5, 0.55), (-0.5, -0.55)];

@@ -1,6 +1,6 @@
 //! Labels that keep out of each other's way: one that finds no room is left out.
 
-use super::drawing::{Anchor, Mark, Pixel};
+use super::drawing::{Anchor, PictureItem, Pixel};
 use super::legend::{INK, PAPER, text_width};
 use nalgebra::Vector2;
 
@@ -33,7 +33,7 @@ impl Labels {
         [x, y]: Pixel,
         gap: f64,
         directions: impl IntoIterator<Item = Vector2<f64>>,
-    ) -> Option<Mark> {
+    ) -> Option<PictureItem> {
         let (wide, high) = (0.5 * text_width(text, SIZE) + 3.0, 0.5 * SIZE + 1.0);
         let room = |[x, y]: Pixel| [x - wide, y - high, x + wide, y + high];
         let free = |room: &[f64; 4]| {
@@ -51,6 +51,6 @@ impl Labels {
         self.taken.push(room(at));
         let at = [at[0], at[1] + 0.36 * SIZE];
         let halo = Some(PAPER);
-        Some(Mark::Text { at, anchor: Anchor::Middle, size: SIZE, colour: INK, halo, text: text.to_owned() })
+        Some(PictureItem::Text { at, anchor: Anchor::Middle, size: SIZE, colour: INK, halo, text: text.to_owned() })
     }
 }

@@ -1,7 +1,7 @@
 //! What stands below a picture: how long a metre is, and what is what.
 
 use super::body::{UNDER_TEST, body, class_colour};
-use super::drawing::{Anchor, Colour, Contour, Drawing, Mark, Pixel};
+use super::drawing::{Anchor, Colour, Contour, Drawing, PictureItem, Pixel};
 use super::view::View;
 use crate::geometry::Pose;
 use crate::object::{Body, Class};
@@ -36,8 +36,8 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     0.56 * size * text.chars().count() as f64
 }
 
-pub(super) fn text(at: Pixel, anchor: Anchor, text: impl Into<String>) -> Mark {
-    Mark::Text { at, anchor, size: LETTERS, colour: INK, halo: None, text: text.into() }
+pub(super) fn text(at: Pixel, anchor: Anchor, text: impl Into<String>) -> PictureItem {
+    PictureItem::Text { at, anchor, size: LETTERS, colour: INK, halo: None, text: text.into() }
 }
 
 /// The entries for the car under test and the classes of these bodies, of which the car is the first.
@@ -84,7 +84,7 @@ pub(super) fn legend(width: f64, scale: f64, entries: &[Entry], caption: &str) -
 }
 
 /// A bar of a round number of metres, eighty pixels or somewhat more long; how much room it takes.
-pub(super) fn scale_bar(marks: &mut Vec<Mark>, [x, y]: Pixel, scale: f64) -> f64 {
+pub(super) fn scale_bar(marks: &mut Vec<PictureItem>, [x, y]: Pixel, scale: f64) -> f64 {
     let wanted = 80.0 / scale;
     let mut tens = (0..12).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * libm::pow(10.0, f64::from(power))));
     let metres = tens.find(|metres| *metres >= wanted).unwrap_or(wanted);
@@ -131,7 +131,7 @@ fn shown(body: &Body) -> Body {
     }
 }
 
-fn swatch(marks: &mut Vec<Mark>, entry: &Entry, [x, y]: Pixel) {
+fn swatch(marks: &mut Vec<PictureItem>, entry: &Entry, [x, y]: Pixel) {
     let middle = [x + 0.5 * swatch_width(entry), y];
     match entry {
         Entry::UnderTest(of) => marks.extend(sample(of, UNDER_TEST, middle)),
@@ -148,13 +148,13 @@ fn swatch(marks: &mut Vec<Mark>, entry: &Entry, [x, y]: Pixel) {
 pub(super) const PLAN_DASH: [f64; 2] = [6.0, 6.0];
 
 /// A body as a sample of its class.
-fn sample(of: &Body, colour: Colour, middle: Pixel) -> Vec<Mark> {
+fn sample(of: &Body, colour: Colour, middle: Pixel) -> Vec<PictureItem> {
     let [x, y] = middle.map(|pixels| pixels / SCALE);
     let view = View { bounds: Bounds { min: Vector2::new(-x, -SWATCH), max: Vector2::new(SWATCH, y) }, scale: SCALE };
     let mut marks = body(&view, &shown(of), &Pose { position: Vector2::zeros(), heading: 0.0 }, colour, 1.0);
     // Rims are as white as the paper.
     for mark in &mut marks {
-        if let Mark::Stroke { paint, .. } = mark
+        if let PictureItem::Stroke { paint, .. } = mark
             && paint.colour == PAPER
         {
             paint.colour = [0x88, 0x88, 0x88];
@@ -164,7 +164,7 @@ fn sample(of: &Body, colour: Colour, middle: Pixel) -> Vec<Mark> {
 }
 
 /// Where the car under test touched something.
-pub(super) fn contact(middle: Pixel, radius: f64) -> [Mark; 2] {
+pub(super) fn contact(middle: Pixel, radius: f64) -> [PictureItem; 2] {
     let star = Contour::star(middle, 8, radius, 0.5 * radius);
     [star.clone().stroke([0x22, 0x22, 0x22], 2.5), star.fill([0xf0, 0xe4, 0x42])]
 }

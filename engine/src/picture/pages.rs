@@ -5,7 +5,7 @@
 //! follow a line of text. Pages on which it is all alone are left out, if there are others.
 
 use super::body::is_actor;
-use super::record::{Record, Scene};
+use super::record::{MotionRecord, Scene};
 use super::view::{View, across, with_margin};
 use crate::geometry::Pose;
 use crate::object::Body;
@@ -39,7 +39,7 @@ pub(super) struct Page {
 type Stretch = (Bounds, Range<usize>);
 
 /// The pages of a run, each a picture of this width in pixels, all of one size and scale. There are moments.
-pub(super) fn pages(record: &Record, scene: &Scene, width: f64) -> Vec<Page> {
+pub(super) fn pages(record: &MotionRecord, scene: &Scene, width: f64) -> Vec<Page> {
     let all = 0..record.moments.len();
     let whole = |reach: &f64| with_margin(&record.bounds(scene, all.clone(), *reach));
     let one = REACHES.iter().map(whole).find(|bounds| fits(bounds, ALONE));
@@ -60,7 +60,7 @@ pub(super) fn pages(record: &Record, scene: &Scene, width: f64) -> Vec<Page> {
 }
 
 /// As few pages as there have to be, each about as full as the others.
-fn several(record: &Record, scene: &Scene) -> Vec<Stretch> {
+fn several(record: &MotionRecord, scene: &Scene) -> Vec<Stretch> {
     let cut = |zoom: f64| with_company(record, scene, cut(record, scene, zoom));
     let mut zoom = 1.0;
     let mut pages = cut(zoom);
@@ -93,7 +93,7 @@ fn fits(bounds: &Bounds, zoom: f64) -> bool {
 }
 
 /// Each page as long as it fits.
-fn cut(record: &Record, scene: &Scene, zoom: f64) -> Vec<Stretch> {
+fn cut(record: &MotionRecord, scene: &Scene, zoom: f64) -> Vec<Stretch> {
     let mut pages: Vec<Stretch> = Vec::new();
     for i in 0..record.moments.len() {
         let here = with_margin(&record.bounds(scene, i..i + 1, NEAR));
@@ -110,7 +110,7 @@ fn cut(record: &Record, scene: &Scene, zoom: f64) -> Vec<Stretch> {
 }
 
 /// The pages on which other actors are to be seen near; all of them if there are none.
-fn with_company(record: &Record, scene: &Scene, pages: Vec<Stretch>) -> Vec<Stretch> {
+fn with_company(record: &MotionRecord, scene: &Scene, pages: Vec<Stretch>) -> Vec<Stretch> {
     let met = |(_, moments): &Stretch| {
         record.moments[moments.clone()].iter().any(|moment| {
             let near = |(pose, body): (&Pose, &Body)| {

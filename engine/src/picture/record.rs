@@ -17,9 +17,9 @@ const INTERVAL: f64 = 0.1;
 const STIR: f64 = 0.3;
 
 /// Where all bodies of a run were, every tenth of a second or as often as its driver is asked. Show it the run by
-/// [`Record::see`], from [`Run::watch`] for example; a run that nobody watches costs nothing.
+/// [`MotionRecord::see`], from [`Run::watch`] for example; a run that nobody watches costs nothing.
 #[derive(Debug, Clone, Default)]
-pub struct Record {
+pub struct MotionRecord {
     pub(super) scene: Option<Scene>,
     pub(super) moments: Vec<Moment>,
     /// The body that the car under test touches at the last moment.
@@ -40,7 +40,7 @@ pub(super) struct Moment {
     pub poses: Vec<Pose>,
 }
 
-impl Record {
+impl MotionRecord {
     /// Looks at a run as it stands now. What comes too soon after what was seen before is passed over, the end is not.
     pub fn see(&mut self, run: &Run) {
         let bodies = run.bodies();

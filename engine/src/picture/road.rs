@@ -1,7 +1,7 @@
 //! A road network from above, with ways and bodies on it.
 
 use super::body::body;
-use super::drawing::{Colour, Contour, Drawing, Paint, Segment};
+use super::drawing::{Colour, Contour, Drawing, Paint, PathSegment};
 use super::ground::{ground, lanes};
 use super::legend::scale_bar;
 use super::view::View;
@@ -82,7 +82,7 @@ impl<'a> RoadPicture<'a> {
 fn route(view: &View, network: &RoadNetwork, route: &Route) -> Contour {
     let curve = |index: usize| &network.lane(route.lanes[index]).curve;
     let mut from = route.start / curve(0).length();
-    let mut contour = Contour { segments: vec![Segment::Move(view.at(curve(0).point(route.start)))] };
+    let mut contour = Contour { segments: vec![PathSegment::Move(view.at(curve(0).point(route.start)))] };
     for index in 0..route.lanes.len() {
         let here = curve(index);
         match route.lanes.get(index + 1) {
@@ -93,7 +93,7 @@ fn route(view: &View, network: &RoadNetwork, route: &Route) -> Contour {
                 for (share, aside) in sideways() {
                     let along = from + (to - from) * share;
                     let [a, b] = [here, curve(index + 1)].map(|curve| curve.point(along * curve.length()));
-                    contour.segments.push(Segment::Line(view.at(a + (b - a) * aside)));
+                    contour.segments.push(PathSegment::Line(view.at(a + (b - a) * aside)));
                 }
                 from = to;
             }

@@ -2,12 +2,12 @@
 //! car under test is too long for one view, there are several below each other.
 
 use super::body::{UNDER_TEST, body, class_colour};
-use super::drawing::{Contour, Drawing, Mark, Pixel};
+use super::drawing::{Contour, Drawing, PictureItem, Pixel};
 use super::ground::ground;
 use super::labels::Labels;
 use super::legend::{Entry, INK, PAPER, contact, entries};
 use super::pages::{Page, pages};
-use super::record::{Moment, Record, Scene};
+use super::record::{Moment, MotionRecord, Scene};
 use super::view::View;
 use super::world::framed;
 use crate::object::Outline;
@@ -34,7 +34,7 @@ const WAY: f64 = 2.0;
 /// By how many pixels the drawn way may be off.
 const FAITHFUL: f64 = 0.2;
 
-impl Record {
+impl MotionRecord {
     /// The run from beginning to end; `caption` stands below it. Nothing where nothing was seen.
     pub fn story(&self, caption: &str) -> Option<Drawing> {
         let scene = self.scene.as_ref().filter(|_| !self.is_empty())?;
@@ -55,7 +55,7 @@ impl Record {
         entries(seen.map(|i| &scene.bodies[i]))
     }
 
-    fn panel(&self, scene: &Scene, page: &Page) -> Vec<Mark> {
+    fn panel(&self, scene: &Scene, page: &Page) -> Vec<PictureItem> {
         let view = &page.view;
         let mut marks = ground(view, &scene.network);
         let colour = |i: usize| if i == 0 { UNDER_TEST } else { class_colour(scene.bodies[i].class) };
@@ -115,7 +115,7 @@ impl Record {
     }
 
     /// Dots with times on the ways, and the contact.
-    fn time_marks(&self, scene: &Scene, page: &Page, times: &[usize], told: &[usize]) -> Vec<Mark> {
+    fn time_marks(&self, scene: &Scene, page: &Page, times: &[usize], told: &[usize]) -> Vec<PictureItem> {
         let view = &page.view;
         let (mut dots, mut texts, mut labels) = (Vec::new(), Vec::new(), Labels::on(view.size()));
         let end = page.moments.end - 1;

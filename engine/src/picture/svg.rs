@@ -1,6 +1,6 @@
 //! A picture as the text of an SVG file.
 
-use super::drawing::{Anchor, Colour, Contour, Drawing, Mark, Paint, Pixel, Segment};
+use super::drawing::{Anchor, Colour, Contour, Drawing, Paint, PathSegment, PictureItem, Pixel};
 use std::fmt::Write;
 
 /// The font that pictures are made for; viewers that do not have it take their own.
@@ -32,13 +32,13 @@ impl Svg {
         self.text.write_fmt(format_args!("{what}\n")).expect("a string takes all that is written");
     }
 
-    fn marks(&mut self, marks: &[Mark]) {
+    fn marks(&mut self, marks: &[PictureItem]) {
         for mark in marks {
             match mark {
-                Mark::Fill { contour, paint } => {
+                PictureItem::Fill { contour, paint } => {
                     self.line(format_args!("<path {} d=\"{}\"/>", painted("fill", paint), path(contour)));
                 }
-                Mark::Stroke { contour, paint, width, dash } => {
+                PictureItem::Stroke { contour, paint, width, dash } => {
                     let dash = dash.map_or(String::new(), |[dash, gap]| {
                         format!(" stroke-dasharray=\"{} {}\"", number(dash), number(gap))
                     });
@@ -49,7 +49,7 @@ impl Svg {
                         path(contour)
                     ));
                 }
-                Mark::Text { at, anchor, size, colour, halo, text } => {
+                PictureItem::Text { at, anchor, size, colour, halo, text } => {
                     let anchor = match anchor {
                         Anchor::Start => "",
                         Anchor::Middle => " text-anchor=\"middle\"",
@@ -66,7 +66,7 @@ impl Svg {
                         "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{fill}\"{anchor}{halo}>{text}</text>"
                     ));
                 }
-                Mark::Inset { at, drawing } => {
+                PictureItem::Inset { at, drawing } => {
                     let [x, y, width, height] = [at[0], at[1], drawing.width, drawing.height].map(number);
                     self.line(format_args!("<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\">"));
                     self.marks(&drawing.marks);
@@ -97,10 +97,10 @@ fn path(contour: &Contour) -> String {
     };
     for segment in &contour.segments {
         match *segment {
-            Segment::Move(to) => points("M", &[to]),
-            Segment::Line(to) => points("L", &[to]),
-            Segment::Cubic(a, b, to) => points("C", &[a, b, to]),
-            Segment::Close => points("Z", &[]),
+            PathSegment::Move(to) => points("M", &[to]),
+            PathSegment::Line(to) => points("L", &[to]),
+            PathSegment::Cubic(a, b, to) => points("C", &[a, b, to]),
+            PathSegment::Close => points("Z", &[]),
         }
     }
     text

@@ -1,6 +1,6 @@
 //! Which part of the ground a picture shows, and how large.
 
-use super::drawing::{Contour, Pixel, Segment};
+use super::drawing::{Contour, PathSegment, Pixel};
 use crate::road::{Bounds, Curve, RoadNetwork, Surface};
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_4;
@@ -75,7 +75,7 @@ impl View {
 
     /// The contour of a curve, `offset` metres to its left.
     pub fn curve(&self, curve: &Curve, offset: f64) -> Contour {
-        let mut contour = Contour { segments: vec![Segment::Move(self.at(curve.beside(0.0, offset)))] };
+        let mut contour = Contour { segments: vec![PathSegment::Move(self.at(curve.beside(0.0, offset)))] };
         self.along(&mut contour, curve, offset, [0.0, curve.length()]);
         contour
     }
@@ -84,7 +84,7 @@ impl View {
     /// radius.
     pub fn along(&self, contour: &mut Contour, curve: &Curve, offset: f64, [from, to]: [f64; 2]) {
         if curve.curvature() == 0.0 {
-            return contour.segments.push(Segment::Line(self.at(curve.beside(to, offset))));
+            return contour.segments.push(PathSegment::Line(self.at(curve.beside(to, offset))));
         }
         let turn = curve.curvature() * (to - from);
         let pieces = (turn.abs() / FRAC_PI_4).ceil().max(1.0);
@@ -94,7 +94,7 @@ impl View {
             let ahead = |s: f64| curve.at(s).forward() * reach;
             let [start, end] = [a, b].map(|s| curve.beside(s, offset));
             let points = [start + ahead(a), end - ahead(b), end].map(|point| self.at(point));
-            contour.segments.push(Segment::Cubic(points[0], points[1], points[2]));
+            contour.segments.push(PathSegment::Cubic(points[0], points[1], points[2]));
         }
     }
 }

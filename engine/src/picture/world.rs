@@ -1,7 +1,7 @@
 //! A world as it begins: roads, bodies, and the ways that are planned.
 
 use super::body::{UNDER_TEST, body, class_colour, extent, is_actor};
-use super::drawing::{Contour, Drawing, Mark, Paint};
+use super::drawing::{Contour, Drawing, Paint, PictureItem};
 use super::ground::{directions, ground, seen_from};
 use super::legend::{Entry, PAPER, PLAN_DASH, entries, legend};
 use super::view::{View, across, with_margin};
@@ -59,19 +59,19 @@ pub fn world(run: &Run, caption: &str) -> Drawing {
 }
 
 /// Pictures of one size below each other, and the legend.
-pub(super) fn framed(view: &View, panels: Vec<Vec<Mark>>, entries: &[Entry], caption: &str) -> Drawing {
+pub(super) fn framed(view: &View, panels: Vec<Vec<PictureItem>>, entries: &[Entry], caption: &str) -> Drawing {
     const GAP: f64 = 4.0;
     let [width, height] = view.size();
     let mut marks = Vec::new();
     let mut y = 0.0;
     for panel in panels {
-        marks.push(Mark::Inset { at: [0.0, y], drawing: Drawing { width, height, marks: panel } });
+        marks.push(PictureItem::Inset { at: [0.0, y], drawing: Drawing { width, height, marks: panel } });
         y += height + GAP;
     }
     let legend = legend(width, view.scale, entries, caption);
     y -= GAP;
     let total = y + legend.height;
-    marks.push(Mark::Inset { at: [0.0, y], drawing: legend });
+    marks.push(PictureItem::Inset { at: [0.0, y], drawing: legend });
     Drawing { width, height: total, marks }
 }
 
@@ -99,7 +99,7 @@ fn points(path: &Path, length: f64) -> impl Iterator<Item = Vector2<f64>> {
 }
 
 /// A planned way with an arrow at its end.
-fn plan(view: &View, path: &Path, paint: Paint) -> Vec<Mark> {
+fn plan(view: &View, path: &Path, paint: Paint) -> Vec<PictureItem> {
     let mut contour = Contour::default();
     for curve in path.curves() {
         let piece = view.curve(curve, 0.0);
@@ -114,7 +114,7 @@ fn plan(view: &View, path: &Path, paint: Paint) -> Vec<Mark> {
 }
 
 /// An arrow before the car under test: where it goes is its driver's to say.
-fn heading(view: &View, car: &BodyState) -> Mark {
+fn heading(view: &View, car: &BodyState) -> PictureItem {
     let front = car.body.outline.half_extent().x + 6.0 / view.scale;
     let size = 1.0 / view.scale;
     let half = [(0.0, 2.0), (20.0, 2.0), (20.0, 6.5), (31.0, 0.0)];

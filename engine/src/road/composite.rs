@@ -3,7 +3,7 @@
 //! The first mistake is kept and reported when the network is built, so that programs need no `?` on every line;
 //! what is connected after it is left out, since it would only lead to further messages.
 
-use super::element::{Element, Shape};
+use super::element::{Element, ElementShape};
 use super::error::{ANGLE, GAP, RoadError};
 use super::layout::{Plan, Port};
 use crate::geometry::Pose;
@@ -46,7 +46,7 @@ pub(super) struct End {
     pub port: usize,
 }
 
-impl<S: Into<Shape>> From<Element<S>> for Composite {
+impl<S: Into<ElementShape>> From<Element<S>> for Composite {
     fn from(element: Element<S>) -> Self {
         let plan = Plan { shape: element.shape.into(), profile: element.profile };
         let named = element.name.is_some();
@@ -62,7 +62,7 @@ impl<S: Into<Shape>> From<Element<S>> for Composite {
     }
 }
 
-impl<S: Into<Shape>> Element<S> {
+impl<S: Into<ElementShape>> Element<S> {
     /// Joins `child_point` of another element or composite to `point` of this one: [`Composite::connect`].
     pub fn connect(self, point: &str, child: impl Into<Composite>, child_point: &str) -> Composite {
         Composite::from(self).connect(point, child, child_point)

@@ -89,7 +89,7 @@ pub struct Ring {
 
 /// Any shape. Public only because [`Element`] speaks of it; nobody outside can name it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
+pub enum ElementShape {
     Segment(Segment),
     /// With the radius of its kerbs.
     Tee(f64),
@@ -98,27 +98,27 @@ pub enum Shape {
     Ring(Ring),
 }
 
-impl From<Segment> for Shape {
+impl From<Segment> for ElementShape {
     fn from(segment: Segment) -> Self {
-        Shape::Segment(segment)
+        ElementShape::Segment(segment)
     }
 }
 
-impl From<Tee> for Shape {
+impl From<Tee> for ElementShape {
     fn from(tee: Tee) -> Self {
-        Shape::Tee(tee.corner)
+        ElementShape::Tee(tee.corner)
     }
 }
 
-impl From<Cross> for Shape {
+impl From<Cross> for ElementShape {
     fn from(cross: Cross) -> Self {
-        Shape::Cross(cross.corner)
+        ElementShape::Cross(cross.corner)
     }
 }
 
-impl From<Ring> for Shape {
+impl From<Ring> for ElementShape {
     fn from(ring: Ring) -> Self {
-        Shape::Ring(ring)
+        ElementShape::Ring(ring)
     }
 }
 

@@ -40,7 +40,7 @@ pub enum LaneKind {
 
 /// Where two lanes of an intersection are in each other's way: they cross there, or join.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Conflict {
+pub struct LaneConflict {
     /// The other lane.
     pub with: LaneId,
     /// From how many metres along this lane on the other is too close.
@@ -76,7 +76,7 @@ pub struct Lane {
     /// The lanes that end where it begins.
     pub predecessors: Vec<LaneId>,
     /// The lanes of the same intersection that cross it or join it.
-    pub conflicts: Vec<Conflict>,
+    pub conflicts: Vec<LaneConflict>,
 }
 
 impl Lane {

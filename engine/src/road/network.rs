@@ -3,9 +3,9 @@
 use super::bounds::{Bounds, Tree};
 use super::composite::Composite;
 use super::curve::Curve;
-use super::element::{Element, Profile, Shape};
+use super::element::{Element, ElementShape, Profile};
 use super::error::RoadError;
-use super::lane::{Conflict, Lane, LaneId, LaneKind};
+use super::lane::{Lane, LaneConflict, LaneId, LaneKind};
 use super::layout::{ConflictPlan, LanePlan, Layout, Plan, ZEBRA};
 use super::overlap;
 use super::strip::Strip;
@@ -55,7 +55,7 @@ pub struct Crossing {
     pub lanes: Vec<(LaneId, f64)>,
 }
 
-impl<S: Into<Shape>> Element<S> {
+impl<S: Into<ElementShape>> Element<S> {
     /// The network of this element alone: [`Composite::build`].
     ///
     /// # Errors
@@ -89,7 +89,7 @@ impl RoadNetwork {
             let first = lanes.len();
             lanes.extend(layout.lanes.iter().map(|plan| {
                 let id = |index: &usize| LaneId::new(first + index);
-                let conflict = |plan: &ConflictPlan| Conflict {
+                let conflict = |plan: &ConflictPlan| LaneConflict {
                     with: id(&plan.with),
                     from: plan.span.0,
                     to: plan.span.1,
@@ -162,7 +162,7 @@ impl RoadNetwork {
         placed.lanes().find(wanted).ok_or_else(|| {
             let n = placed.plan.profile.each_way();
             let has = match placed.plan.shape {
-                Shape::Segment(_) => format!("1 to {n} and -1 to -{n}"),
+                ElementShape::Segment(_) => format!("1 to {n} and -1 to -{n}"),
                 _ => format!("only lanes from one of its points to another: {}", placed.points.join(", ")),
             };
             RoadError::UnknownLane { element: element.to_owned(), lane: number, between: None, has }
@@ -285,7 +285,7 @@ fn layouts(composite: &Composite) -> Vec<Arc<Layout>> {
     for plan in composite.parts.iter().map(|part| &part.plan) {
         let known = intersections.iter().find(|(known, _)| *known == plan);
         let layout = known.map_or_else(|| Arc::new(plan.layout()), |(_, layout)| layout.clone());
-        if known.is_none() && !matches!(plan.shape, Shape::Segment(_)) {
+        if known.is_none() && !matches!(plan.shape, ElementShape::Segment(_)) {
             intersections.push((plan, layout.clone()));
         }
         layouts.push(layout);
@@ -320,13 +320,15 @@ impl Placed {
     /// The centre line, if it is a road.
     fn centre_line(&self) -> Option<Curve> {
         match &self.plan.shape {
-            Shape::Segment(road) => Some(road.centre_line().moved(&self.pose)),
+            ElementShape::Segment(road) => Some(road.centre_line().moved(&self.pose)),
             _ => None,
         }
     }
 
     fn crossings(&self, element: usize) -> Vec<Crossing> {
-        let (Shape::Segment(road), Some(centre)) = (&self.plan.shape, self.centre_line()) else { return Vec::new() };
+        let (ElementShape::Segment(road), Some(centre)) = (&self.plan.shape, self.centre_line()) else {
+            return Vec::new();
+        };
         let profile = &self.plan.profile;
         let half = profile.half_width();
         let crossing = |at: f64| {

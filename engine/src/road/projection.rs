@@ -3,13 +3,13 @@
 use super::bounds::Bounds;
 use super::lane::{Lane, LaneId};
 use super::network::RoadNetwork;
-use super::route::Place;
+use super::route::RoutePosition;
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 
 /// A position as seen from a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Projection {
+pub struct LanePosition {
     /// The lane.
     pub lane: LaneId,
     /// How many metres along the lane the nearest point of its middle lies.
@@ -22,17 +22,17 @@ pub struct Projection {
     pub distance: f64,
 }
 
-impl Projection {
+impl LanePosition {
     /// The place on the lane.
-    pub fn place(&self) -> Place {
-        Place { lane: self.lane, s: self.s }
+    pub fn place(&self) -> RoutePosition {
+        RoutePosition { lane: self.lane, s: self.s }
     }
 }
 
 impl RoadNetwork {
     /// The lane whose middle is nearest to a position, the first of them among equals. Nothing can be said of a
     /// position that is not finite.
-    pub fn project(&self, position: Vector2<f64>) -> Projection {
+    pub fn project(&self, position: Vector2<f64>) -> LanePosition {
         let nearest = self.tree.nearest(position, |lane| Some(self.distance_squared(lane, position)));
         let lane = nearest.expect("a network has lanes");
         self.project_onto(LaneId(lane), position)
@@ -40,7 +40,7 @@ impl RoadNetwork {
 
     /// The same among the lanes that lead where a pose faces: to less than a right angle at their nearest points. None
     /// where no lane does.
-    pub fn project_along(&self, pose: &Pose) -> Option<Projection> {
+    pub fn project_along(&self, pose: &Pose) -> Option<LanePosition> {
         let forward = pose.forward();
         let lane = self.tree.nearest(pose.position, |index| {
             let curve = &self.lanes()[index as usize].curve;
@@ -54,12 +54,12 @@ impl RoadNetwork {
     ///
     /// # Panics
     /// It is a lane of another network, which has more.
-    pub fn project_onto(&self, lane: LaneId, position: Vector2<f64>) -> Projection {
+    pub fn project_onto(&self, lane: LaneId, position: Vector2<f64>) -> LanePosition {
         let curve = &self.lane(lane).curve;
         let s = curve.nearest(position);
         let at = curve.at(s);
         let beyond = position - at.position;
-        Projection { lane, s, offset: at.forward().perp(&beyond), heading: at.heading, distance: beyond.norm() }
+        LanePosition { lane, s, offset: at.forward().perp(&beyond), heading: at.heading, distance: beyond.norm() }
     }
 
     /// The lanes that come near a box, all that meet it among them, in no particular order. `open` is what the search

@@ -10,7 +10,7 @@ use std::collections::BinaryHeap;
 
 /// A place on a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct RoutePosition {
     /// The lane.
     pub lane: LaneId,
     /// Metres along it.
@@ -84,7 +84,7 @@ impl RoadNetwork {
     ///
     /// # Panics
     /// A lane is of another network, which has more, or `change` is no number from 0 on.
-    pub fn route(&self, from: Place, to: Place, change: f64) -> Option<Route> {
+    pub fn route(&self, from: RoutePosition, to: RoutePosition, change: f64) -> Option<Route> {
         assert!(change >= 0.0, "a lane change costs {change} m, expected a number from 0 on");
         // As a share of the lane, so that it means the same place on the lanes beside.
         let begun = (from.s / self.lane(from.lane).length()).clamp(0.0, 1.0);

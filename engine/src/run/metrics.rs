@@ -1,8 +1,8 @@
 //! What is measured of a run beside its requirements: the figures by which runs, and failures above all, are told apart.
 
 use super::scene::Scene;
-use crate::contact::{Contact, Motion};
-use crate::outcome::Measured;
+use crate::contact::{Contact, ContactMotion};
+use crate::outcome::Measurements;
 use crate::vehicle::VehicleState;
 
 /// Speed in m/s below which the car stands at a contact.
@@ -11,7 +11,7 @@ const STANDING: f64 = 0.1;
 const BRAKING: f64 = 0.5;
 
 /// What there is to measure of a run as it ends.
-pub(super) fn measured(scene: &Scene, triggered: bool) -> Measured {
+pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
     let car = scene.ego.dynamics.state();
     let contact = scene.contact.map(|touching| {
         let touched = &scene.bodies[touching.body];
@@ -24,16 +24,16 @@ pub(super) fn measured(scene: &Scene, triggered: bool) -> Measured {
             other_speed: touched.velocity.norm(),
         }
     });
-    Measured { travelled: car.travelled, contact, triggered }
+    Measurements { travelled: car.travelled, contact, triggered }
 }
 
 /// What the car does at a contact.
-fn motion(car: &VehicleState) -> Motion {
+fn motion(car: &VehicleState) -> ContactMotion {
     if car.speed() < STANDING {
-        Motion::Standing
+        ContactMotion::Standing
     } else if car.acceleration.x < -BRAKING {
-        Motion::Braking
+        ContactMotion::Braking
     } else {
-        Motion::Driving
+        ContactMotion::Driving
     }
 }

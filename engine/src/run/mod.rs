@@ -21,7 +21,7 @@ use crate::outcome::{Breakdown, Ending, Judgement, Outcome, Violation};
 use crate::program::{Program, ProgramError};
 use crate::road::{Path, RoadNetwork};
 use crate::scenario::ticks;
-use crate::stream::{Clock, Graph, Sample, Slot, Source};
+use crate::stream::{Clock, DatumSample, Graph, Slot, Source};
 use crate::test::Test;
 use crate::upset::Upset;
 use crate::vehicle::VehicleModel;
@@ -332,11 +332,11 @@ impl Run {
 }
 
 /// A sample as a trace records it: truths as 1 and 0, what is absent as NaN.
-fn as_number(sample: Sample) -> f64 {
+fn as_number(sample: DatumSample) -> f64 {
     match sample {
-        Sample::Number(number) => number,
-        Sample::Truth(truth) => f64::from(u8::from(truth)),
-        Sample::Absent | Sample::Event | Sample::Vector(_) | Sample::Word(_) => f64::NAN,
+        DatumSample::Number(number) => number,
+        DatumSample::Truth(truth) => f64::from(u8::from(truth)),
+        DatumSample::Absent | DatumSample::Event | DatumSample::Vector(_) | DatumSample::Word(_) => f64::NAN,
     }
 }
 

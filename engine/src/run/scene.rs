@@ -6,7 +6,7 @@ use crate::outcome::Invalid;
 use crate::road::{Path, RoadNetwork};
 use crate::scenario::Ego;
 use crate::scenario::Scenario;
-use crate::stream::{Clock, Graph, Sample, Slot};
+use crate::stream::{Clock, DatumSample, Graph, Slot};
 use crate::upset::Upset;
 use crate::vehicle::{GRAVITY, VehicleModel};
 use crate::weather::{Weather, WeatherPart};
@@ -34,7 +34,7 @@ pub(super) struct Scene {
     /// How many of them are no scenery: nothing but sensors and the physics knows of the others.
     told: usize,
     /// What the objects show at this tick.
-    pub outputs: Vec<Sample>,
+    pub outputs: Vec<DatumSample>,
     wiring: Wiring,
     /// Where the values of their inputs stand.
     inputs: Vec<Slot>,
@@ -81,7 +81,7 @@ impl Scene {
             ego,
             network,
             inputs: scenario.wiring.slots(graph),
-            outputs: vec![Sample::Absent; scenario.wiring.samples()],
+            outputs: vec![DatumSample::Absent; scenario.wiring.samples()],
             wiring: scenario.wiring,
             friction: graph.slot(&scenario.conditions.friction.node),
             weather,
@@ -146,7 +146,7 @@ impl Scene {
 
     /// Shows the outputs of all objects as they stand.
     pub fn show(&mut self) {
-        self.outputs.fill(Sample::Absent);
+        self.outputs.fill(DatumSample::Absent);
         let mut outputs = Outputs { samples: &mut self.outputs };
         self.ego.show(self.clearance, &self.bodies[..self.told], &self.network, &mut outputs);
         for object in &self.objects {

@@ -5,7 +5,7 @@
 //! that reads it gets a [`Stream`] either way.
 
 use super::{Problems, Scenario};
-use crate::stream::{Datum, NodeKind, Sample, Stream, samples};
+use crate::stream::{Datum, DatumSample, NodeKind, Stream, samples};
 use crate::test::{Declared, entry};
 use paracosm_space::{Shape, Value};
 use std::cell::{Cell, RefCell};
@@ -154,7 +154,7 @@ impl<T: Datum> Param<T> {
             return Stream::new(NodeKind::Constant { value, parameter: Some(parameter) }, []);
         };
         let expected = shape.coordinates();
-        let values: Vec<Sample> = match &value {
+        let values: Vec<DatumSample> = match &value {
             Value::List(values) if values.len() == expected => {
                 values.iter().flat_map(|value| samples(self.read(Some(value)))).collect()
             }

@@ -1,6 +1,6 @@
 //! Requirements as programs state them: temporal operators over streams.
 
-use crate::stream::{Binary, Node, NodeKind, Sample, Stream, Unary};
+use crate::stream::{Binary, DatumSample, Node, NodeKind, Stream, Unary};
 use paracosm_oracles::{Comparison, Formula, Interval, Requirement, signal};
 use std::cell::RefCell;
 use std::ops::Not;
@@ -104,7 +104,7 @@ impl Temporal {
         let truth = node.unnamed();
         match (&truth.kind, truth.inputs.as_slice()) {
             (NodeKind::Compare(comparison), [left, right]) => match &right.unnamed().kind {
-                NodeKind::Constant { value, .. } if let [Sample::Number(threshold)] = value[..] => {
+                NodeKind::Constant { value, .. } if let [DatumSample::Number(threshold)] = value[..] => {
                     Self::compare(left.clone(), *comparison, threshold)
                 }
                 _ => {

@@ -143,7 +143,7 @@ impl Streets {
     }
 
     /// The place on a lane of a road, `at` metres along the road: where cars of the [traffic](crate::traffic) start.
-    pub fn place_on(&self, road: &str, lane: i32, at: f64) -> Option<road::Place> {
+    pub fn place_on(&self, road: &str, lane: i32, at: f64) -> Option<road::RoutePosition> {
         self.ask(|network| place_on(network, (road, lane, at)))
     }
 
@@ -164,7 +164,7 @@ impl Streets {
     }
 }
 
-fn place_on(network: &RoadNetwork, (road, lane, at): (&str, i32, f64)) -> Result<road::Place, RoadError> {
+fn place_on(network: &RoadNetwork, (road, lane, at): (&str, i32, f64)) -> Result<road::RoutePosition, RoadError> {
     let position = network.on_lane(road, lane, at)?.position;
     Ok(network.project_onto(network.lane_of(road, lane)?, position).place())
 }

@@ -59,7 +59,7 @@ pub use drift::Inaccuracy;
 pub use error::SensorError;
 pub use gnss::{Fix, Gnss, GnssSettings};
 pub use imu::{Imu, ImuSettings, Inertia};
-pub use lidar::{Beam, Lidar, LidarSettings, Pinhole, Point, Scan, scan_of_depth};
+pub use lidar::{Beam, Lidar, LidarPoint, LidarSettings, Pinhole, Scan, scan_of_depth};
 pub use mount::Mount;
 pub use radar::{Detection, Radar, RadarSettings};
 pub use rig::{Delivery, Handle, Rig, Sample};

@@ -1,6 +1,6 @@
 //! The typed handles by which programs write streams of any type.
 
-use super::datum::{Datum, Sample, samples};
+use super::datum::{Datum, DatumSample, samples};
 use super::node::{Node, NodeKind, Source};
 use std::cell::RefCell;
 use std::fmt;
@@ -63,7 +63,7 @@ impl<T: Datum> Stream<T> {
 
     /// The stream that has a value at no tick: what an input reads that nothing is bound to.
     pub fn absent() -> Self {
-        Self::new(NodeKind::Constant { value: vec![Sample::Absent; T::WIDTH], parameter: None }, [])
+        Self::new(NodeKind::Constant { value: vec![DatumSample::Absent; T::WIDTH], parameter: None }, [])
     }
 
     pub(crate) fn output(source: Source, name: String) -> Self {

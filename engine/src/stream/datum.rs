@@ -4,7 +4,7 @@ use nalgebra::Vector2;
 
 /// A value at one tick, or a part of one. Public only because [`Datum`] speaks of it; nobody outside can name it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Sample {
+pub enum DatumSample {
     Absent,
     Event,
     Truth(bool),
@@ -13,9 +13,9 @@ pub enum Sample {
     Word(&'static str),
 }
 
-impl Sample {
+impl DatumSample {
     pub fn is_absent(self) -> bool {
-        matches!(self, Sample::Absent)
+        matches!(self, DatumSample::Absent)
     }
 }
 
@@ -27,10 +27,10 @@ pub trait Datum: Copy + 'static {
     const WIDTH: usize;
     /// Writes the value over the first samples.
     #[doc(hidden)]
-    fn put(self, samples: &mut [Sample]);
+    fn put(self, samples: &mut [DatumSample]);
     /// Reads the value from the first samples.
     #[doc(hidden)]
-    fn get(samples: &[Sample]) -> Option<Self>;
+    fn get(samples: &[DatumSample]) -> Option<Self>;
 }
 
 macro_rules! datum {
@@ -38,21 +38,21 @@ macro_rules! datum {
         impl Datum for $type {
             const WIDTH: usize = 1;
 
-            fn put(self, samples: &mut [Sample]) {
+            fn put(self, samples: &mut [DatumSample]) {
                 samples[0] = self.into();
             }
 
-            fn get(samples: &[Sample]) -> Option<Self> {
+            fn get(samples: &[DatumSample]) -> Option<Self> {
                 match samples[0] {
-                    Sample::$variant(value) => Some(value),
+                    DatumSample::$variant(value) => Some(value),
                     _ => None,
                 }
             }
         }
 
-        impl From<$type> for Sample {
+        impl From<$type> for DatumSample {
             fn from(value: $type) -> Self {
-                Sample::$variant(value)
+                DatumSample::$variant(value)
             }
         }
     };
@@ -66,11 +66,11 @@ datum!(&'static str, Word);
 impl Datum for i32 {
     const WIDTH: usize = 1;
 
-    fn put(self, samples: &mut [Sample]) {
-        samples[0] = Sample::Number(self.into());
+    fn put(self, samples: &mut [DatumSample]) {
+        samples[0] = DatumSample::Number(self.into());
     }
 
-    fn get(samples: &[Sample]) -> Option<Self> {
+    fn get(samples: &[DatumSample]) -> Option<Self> {
         f64::get(samples).map(|number| number as i32)
     }
 }
@@ -78,11 +78,11 @@ impl Datum for i32 {
 impl Datum for () {
     const WIDTH: usize = 1;
 
-    fn put(self, samples: &mut [Sample]) {
-        samples[0] = Sample::Event;
+    fn put(self, samples: &mut [DatumSample]) {
+        samples[0] = DatumSample::Event;
     }
 
-    fn get(samples: &[Sample]) -> Option<Self> {
+    fn get(samples: &[DatumSample]) -> Option<Self> {
         (!samples[0].is_absent()).then_some(())
     }
 }
@@ -90,19 +90,19 @@ impl Datum for () {
 impl<A: Datum, B: Datum> Datum for (A, B) {
     const WIDTH: usize = A::WIDTH + B::WIDTH;
 
-    fn put(self, samples: &mut [Sample]) {
+    fn put(self, samples: &mut [DatumSample]) {
         self.0.put(samples);
         self.1.put(&mut samples[A::WIDTH..]);
     }
 
-    fn get(samples: &[Sample]) -> Option<Self> {
+    fn get(samples: &[DatumSample]) -> Option<Self> {
         A::get(samples).zip(B::get(&samples[A::WIDTH..]))
     }
 }
 
 /// A value as the samples that it takes.
-pub(crate) fn samples<T: Datum>(value: T) -> Vec<Sample> {
-    let mut samples = vec![Sample::Absent; T::WIDTH];
+pub(crate) fn samples<T: Datum>(value: T) -> Vec<DatumSample> {
+    let mut samples = vec![DatumSample::Absent; T::WIDTH];
     value.put(&mut samples);
     samples
 }

@@ -1,6 +1,6 @@
 //! The streams of a run laid out for evaluation: operands first, all values in one place, no allocation per tick.
 
-use super::datum::{Datum, Sample};
+use super::datum::{Datum, DatumSample};
 use super::node::{Equation, Node, NodeKind};
 use super::order::{Fault, order};
 use paracosm_space::Shape;
@@ -41,7 +41,7 @@ enum Memory {
     Left(usize),
     /// A value, and whether it was the last one.
     Value {
-        samples: Vec<Sample>,
+        samples: Vec<DatumSample>,
         over: bool,
     },
     /// The values of a signal.
@@ -52,7 +52,7 @@ enum Memory {
 #[derive(Debug, Default)]
 pub(crate) struct Graph {
     operations: Vec<Operation>,
-    values: Vec<Sample>,
+    values: Vec<DatumSample>,
     /// Of each value, whether its stream is over.
     over: Vec<bool>,
     /// The operations that take in their operand when the tick is over.
@@ -90,7 +90,7 @@ impl Graph {
         let at = self.values.len();
         let initial = match &node.kind {
             NodeKind::Constant { value, .. } | NodeKind::Hold { initial: value } => value.clone(),
-            _ => vec![Sample::Absent; node.width],
+            _ => vec![DatumSample::Absent; node.width],
         };
         self.values.extend(initial);
         self.over.resize(self.values.len(), false);
@@ -100,7 +100,7 @@ impl Graph {
         let memory = match &node.kind {
             NodeKind::SkipUntil | NodeKind::TakeUntil => Memory::Occurred(false),
             NodeKind::Take(count) => Memory::Left(*count),
-            NodeKind::Pre => Memory::Value { samples: vec![Sample::Absent; node.width], over: false },
+            NodeKind::Pre => Memory::Value { samples: vec![DatumSample::Absent; node.width], over: false },
             NodeKind::Sum(initial) => Memory::Value { samples: vec![*initial], over: false },
             NodeKind::Scan { initial, .. } => Memory::Value { samples: initial.clone(), over: false },
             NodeKind::Signal { values, shape, .. } if !matches!(shape, Shape::PiecewiseConstant { .. }) => {
@@ -129,7 +129,7 @@ impl Graph {
     }
 
     /// Evaluates every stream for the tick at whose beginning the objects show these outputs.
-    pub fn tick(&mut self, clock: Clock, outputs: &[Sample]) {
+    pub fn tick(&mut self, clock: Clock, outputs: &[DatumSample]) {
         for operation in &mut self.operations {
             let (values, rest) = self.values.split_at_mut(operation.at);
             let over = operation.evaluate(clock, values, &mut rest[..operation.width], &self.over, outputs);
@@ -149,14 +149,14 @@ impl Graph {
         T::get(&self.values[slot.0..])
     }
 
-    pub fn sample(&self, slot: Slot) -> Sample {
+    pub fn sample(&self, slot: Slot) -> DatumSample {
         self.values[slot.0]
     }
 }
 
 /// Whether an event occurs: a truth that holds, or any other value that is there.
-fn occurs(value: &[Sample]) -> bool {
-    !matches!(value[0], Sample::Absent | Sample::Truth(false))
+fn occurs(value: &[DatumSample]) -> bool {
+    !matches!(value[0], DatumSample::Absent | DatumSample::Truth(false))
 }
 
 impl Operation {
@@ -164,10 +164,10 @@ impl Operation {
     fn evaluate(
         &mut self,
         clock: Clock,
-        values: &[Sample],
-        output: &mut [Sample],
+        values: &[DatumSample],
+        output: &mut [DatumSample],
         over: &[bool],
-        outputs: &[Sample],
+        outputs: &[DatumSample],
     ) -> bool {
         let Self { node, width, inputs: [left, right], memory, .. } = self;
         let width = *width;
@@ -202,8 +202,8 @@ impl Operation {
             }
             (NodeKind::Compare(comparison), _) => {
                 output[0] = match (values[left], values[right]) {
-                    (Sample::Number(left), Sample::Number(right)) => comparison.holds(left, right).into(),
-                    _ => Sample::Absent,
+                    (DatumSample::Number(left), DatumSample::Number(right)) => comparison.holds(left, right).into(),
+                    _ => DatumSample::Absent,
                 };
                 left_over || right_over
             }
@@ -211,18 +211,18 @@ impl Operation {
                 let width = node.inputs[0].width;
                 let absent = values[left].is_absent() || values[right].is_absent();
                 let equal = values[left..left + width] == values[right..right + width];
-                output[0] = if absent { Sample::Absent } else { equal.into() };
+                output[0] = if absent { DatumSample::Absent } else { equal.into() };
                 left_over || right_over
             }
             (NodeKind::Towards(line), _) => {
                 output[0] = match values[left] {
-                    Sample::Vector(position) => line.ahead_of(position).into(),
-                    _ => Sample::Absent,
+                    DatumSample::Vector(position) => line.ahead_of(position).into(),
+                    _ => DatumSample::Absent,
                 };
                 left_over
             }
             (NodeKind::Map(map), _) => {
-                output[0] = Sample::Absent;
+                output[0] = DatumSample::Absent;
                 map(&values[left..], output);
                 left_over
             }
@@ -240,7 +240,7 @@ impl Operation {
                 output[..middle].copy_from_slice(&values[left..left + middle]);
                 output[middle..].copy_from_slice(&values[right..right + width - middle]);
                 if !present {
-                    output[0] = Sample::Absent;
+                    output[0] = DatumSample::Absent;
                 }
                 left_over || right_over
             }
@@ -303,16 +303,16 @@ impl Operation {
 }
 
 /// The value, if it is to be seen.
-fn put(output: &mut [Sample], present: bool, value: &[Sample]) {
+fn put(output: &mut [DatumSample], present: bool, value: &[DatumSample]) {
     if present {
         copy(value, output);
     } else {
-        output[0] = Sample::Absent;
+        output[0] = DatumSample::Absent;
     }
 }
 
 /// Nearly all values are one sample, for which a call to copy memory would take longer than the rest.
-fn copy(value: &[Sample], output: &mut [Sample]) {
+fn copy(value: &[DatumSample], output: &mut [DatumSample]) {
     match (value, output) {
         ([value], [output]) => *output = *value,
         (value, output) => output.copy_from_slice(value),

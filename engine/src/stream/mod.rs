@@ -74,7 +74,7 @@ mod tests;
 
 pub use combinators::{Effect, Stream};
 pub use datum::Datum;
-pub(crate) use datum::{Sample, samples};
+pub(crate) use datum::{DatumSample, samples};
 pub(crate) use dot::dot;
 pub use forward::Forward;
 pub(crate) use graph::{Clock, Graph, Slot};

@@ -1,6 +1,6 @@
 //! The nodes that streams are handles of: what each computes, and from which others.
 
-use super::datum::Sample;
+use super::datum::DatumSample;
 use crate::geometry::Line;
 use paracosm_oracles::Comparison;
 use paracosm_space::Shape;
@@ -43,27 +43,27 @@ pub(crate) enum Binary {
 }
 
 /// Reads a value and writes another one.
-pub(crate) type Map = Rc<dyn Fn(&[Sample], &mut [Sample])>;
+pub(crate) type Map = Rc<dyn Fn(&[DatumSample], &mut [DatumSample])>;
 /// Reads a value and judges it.
-pub(crate) type Filter = Rc<dyn Fn(&[Sample]) -> bool>;
+pub(crate) type Filter = Rc<dyn Fn(&[DatumSample]) -> bool>;
 /// Changes the first value by the second.
-pub(crate) type Scan = Rc<dyn Fn(&mut [Sample], &[Sample])>;
+pub(crate) type Scan = Rc<dyn Fn(&mut [DatumSample], &[DatumSample])>;
 /// Does something with a value.
-pub(crate) type Effect = Rc<RefCell<dyn FnMut(&[Sample])>>;
+pub(crate) type Effect = Rc<RefCell<dyn FnMut(&[DatumSample])>>;
 
 /// What a node makes of its inputs. [The module](super) says what that is, tick by tick.
 #[derive(Clone)]
 pub(crate) enum NodeKind {
     /// A value, and the parameter that it is of.
     Constant {
-        value: Vec<Sample>,
+        value: Vec<DatumSample>,
         parameter: Option<String>,
     },
     /// The values of a parameter that varies over time, one after the other.
     Signal {
         parameter: String,
         shape: Shape,
-        values: Vec<Sample>,
+        values: Vec<DatumSample>,
     },
     /// Seconds since the run began.
     Time,
@@ -90,9 +90,9 @@ pub(crate) enum NodeKind {
     Take(usize),
     Concat,
     /// The sum so far, from this value on.
-    Sum(Sample),
+    Sum(DatumSample),
     Scan {
-        initial: Vec<Sample>,
+        initial: Vec<DatumSample>,
         step: Scan,
     },
     Merge,
@@ -100,7 +100,7 @@ pub(crate) enum NodeKind {
     SkipUntil,
     Pre,
     Hold {
-        initial: Vec<Sample>,
+        initial: Vec<DatumSample>,
     },
     ForEach(Effect),
 }
@@ -226,8 +226,8 @@ impl Unary {
     }
 
     /// The value of the function; absent where its argument is.
-    pub fn of(self, value: Sample) -> Sample {
-        use Sample::{Absent, Number, Truth, Vector};
+    pub fn of(self, value: DatumSample) -> DatumSample {
+        use DatumSample::{Absent, Number, Truth, Vector};
         match (self, value) {
             (Unary::Negative, Number(x)) => Number(-x),
             (Unary::Negative, Vector(v)) => Vector(-v),
@@ -259,8 +259,8 @@ impl Binary {
     }
 
     /// The value of the function; absent where an argument is.
-    pub fn of(self, left: Sample, right: Sample) -> Sample {
-        use Sample::{Absent, Number, Truth, Vector};
+    pub fn of(self, left: DatumSample, right: DatumSample) -> DatumSample {
+        use DatumSample::{Absent, Number, Truth, Vector};
         match (self, left, right) {
             (Binary::Sum, Number(a), Number(b)) => Number(a + b),
             (Binary::Difference, Number(a), Number(b)) => Number(a - b),
@@ -281,14 +281,14 @@ impl Binary {
     }
 }
 
-fn text(sample: &Sample) -> String {
+fn text(sample: &DatumSample) -> String {
     match sample {
-        Sample::Absent => "absent".to_owned(),
-        Sample::Event => "tick".to_owned(),
-        Sample::Truth(truth) => truth.to_string(),
-        Sample::Number(number) => number.to_string(),
-        Sample::Vector(vector) => format!("({}, {})", vector.x, vector.y),
-        Sample::Word(word) => (*word).to_owned(),
+        DatumSample::Absent => "absent".to_owned(),
+        DatumSample::Event => "tick".to_owned(),
+        DatumSample::Truth(truth) => truth.to_string(),
+        DatumSample::Number(number) => number.to_string(),
+        DatumSample::Vector(vector) => format!("({}, {})", vector.x, vector.y),
+        DatumSample::Word(word) => (*word).to_owned(),
     }
 }
 

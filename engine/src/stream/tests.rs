@@ -24,7 +24,7 @@ fn over<T: Datum>(stream: &Stream<T>, ticks: &[(Option<f64>, Option<f64>)]) -> V
     let mut values = Vec::new();
     for (tick, (x, y)) in ticks.iter().enumerate() {
         let clock = Clock { tick, ticks: ticks.len() - 1, dt: 0.5 };
-        graph.tick(clock, &[x, y].map(|output| output.map_or(Sample::Absent, Sample::Number)));
+        graph.tick(clock, &[x, y].map(|output| output.map_or(DatumSample::Absent, DatumSample::Number)));
         values.push(graph.value(slot));
     }
     values
@@ -127,7 +127,10 @@ fn an_effect_takes_place_at_the_ticks_that_have_a_value() {
     let effect = y().for_each(move |y| sink.borrow_mut().push(y));
     let mut graph = Graph::new([&effect.0], &[]).unwrap();
     for (tick, y) in [None, Some(7.0), Some(8.0)].into_iter().enumerate() {
-        graph.tick(Clock { tick, ticks: 2, dt: 0.5 }, &[Sample::Absent, y.map_or(Sample::Absent, Sample::Number)]);
+        graph.tick(
+            Clock { tick, ticks: 2, dt: 0.5 },
+            &[DatumSample::Absent, y.map_or(DatumSample::Absent, DatumSample::Number)],
+        );
     }
     assert_eq!(*seen.borrow(), [7.0, 8.0]);
 }
@@ -135,7 +138,7 @@ fn an_effect_takes_place_at_the_ticks_that_have_a_value() {
 #[test]
 fn a_signal_goes_through_its_values() {
     let signal = |shape, values: &[f64]| {
-        let values = values.iter().map(|value| Sample::Number(*value)).collect();
+        let values = values.iter().map(|value| DatumSample::Number(*value)).collect();
         Stream::<f64>::new(NodeKind::Signal { parameter: "p".into(), shape, values }, [])
     };
     row(&signal(Shape::PiecewiseConstant { pieces: 2 }, &[1.0, 2.0]), numbers([1.0, 1.0, 2.0, 2.0, 2.0]));

@@ -4,7 +4,7 @@ use super::error::TrafficError;
 use super::idm::Idm;
 use super::map::Map;
 use crate::object::Colour;
-use crate::road::{LaneId, LaneKind, Place, RoadNetwork, Route};
+use crate::road::{LaneId, LaneKind, RoadNetwork, Route, RoutePosition};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -20,7 +20,7 @@ const SLOT: f64 = 9.0;
 /// A car of the traffic, before it drives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficCar {
-    pub(super) start: Place,
+    pub(super) start: RoutePosition,
     pub(super) way: Way,
     pub(super) desired: f64,
     pub(super) speed: f64,
@@ -44,7 +44,7 @@ pub(super) enum Way {
 impl TrafficCar {
     /// A car of 4.5 m by 1.8 m that stands with its middle at this place, then drives at 50 km/h where the road is
     /// free and turns as chance has it.
-    pub fn at(start: Place) -> Self {
+    pub fn at(start: RoutePosition) -> Self {
         Self {
             start,
             way: Way::Wander,
@@ -65,7 +65,7 @@ impl TrafficCar {
     /// # Panics
     /// The route has no lanes.
     pub fn following(route: &Route) -> Self {
-        let start = Place { lane: route.lanes[0], s: route.start };
+        let start = RoutePosition { lane: route.lanes[0], s: route.start };
         Self { way: Way::Follow(route.lanes.clone(), route.end), ..Self::at(start) }
     }
 
@@ -78,12 +78,12 @@ impl TrafficCar {
         if lanes.len() > 1 && lanes.last() == lanes.first() {
             lanes.pop();
         }
-        let start = Place { lane: lanes[0], s: route.start };
+        let start = RoutePosition { lane: lanes[0], s: route.start };
         Self { way: Way::Circle(lanes), ..Self::at(start) }
     }
 
     /// Where it starts.
-    pub fn start(&self) -> Place {
+    pub fn start(&self) -> RoutePosition {
         self.start
     }
 
@@ -164,18 +164,18 @@ impl TrafficCar {
     }
 
     /// A van of 6 m by 2.1 m.
-    pub fn van(start: Place) -> Self {
+    pub fn van(start: RoutePosition) -> Self {
         Self::at(start).size(6.0, 2.1)
     }
 
     /// A lorry of 10 m by 2.5 m, which accelerates half as fast as a car: for lanes that lead straight on.
-    pub fn lorry(start: Place) -> Self {
+    pub fn lorry(start: RoutePosition) -> Self {
         let idm = Idm { acceleration: 0.8, ..Idm::default() };
         Self::at(start).size(10.0, 2.5).idm(idm)
     }
 
     /// A bicycle: 1.8 m long, at most 5 m/s, at the right of its lane.
-    pub fn bicycle(start: Place) -> Self {
+    pub fn bicycle(start: RoutePosition) -> Self {
         let idm = Idm { acceleration: 0.8, deceleration: 1.5, gap: 1.5, ..Idm::default() };
         Self::at(start).size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0).idm(idm)
     }
@@ -186,7 +186,7 @@ impl TrafficCar {
         let mut places = Vec::new();
         for (id, lane) in network.ids().zip(network.lanes()).filter(|(_, lane)| lane.kind == LaneKind::Road) {
             let slots = (lane.length() / SLOT) as usize;
-            places.extend((0..slots).map(|slot| Place { lane: id, s: (slot as f64 + 0.5) * SLOT }));
+            places.extend((0..slots).map(|slot| RoutePosition { lane: id, s: (slot as f64 + 0.5) * SLOT }));
         }
         let mut random = Pcg64::seed_from_u64(seed);
         let count = count.min(places.len());
@@ -334,9 +334,11 @@ impl Itinerary {
     }
 
     /// Where it ends, if it does, `end` metres along its last lane.
-    pub fn goal(&self, end: f64) -> Option<Place> {
+    pub fn goal(&self, end: f64) -> Option<RoutePosition> {
         match self {
-            Self::Lanes { lanes, circular: false, .. } => lanes.last().map(|lane| Place { lane: *lane, s: end }),
+            Self::Lanes { lanes, circular: false, .. } => {
+                lanes.last().map(|lane| RoutePosition { lane: *lane, s: end })
+            }
             _ => None,
         }
     }

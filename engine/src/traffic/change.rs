@@ -9,7 +9,7 @@ use super::map::Map;
 use super::occupancy::{Body, Who};
 use super::state::{Car, Change, WALKING};
 use crate::geometry::Side;
-use crate::road::{LaneId, LaneKind, Place};
+use crate::road::{LaneId, LaneKind, RoutePosition};
 
 /// Seconds that a lane change takes where it pays, and where the route asks for it.
 const DURATION: f64 = 4.0;
@@ -174,9 +174,10 @@ impl Car {
             return;
         }
         self.stuck = 0.0;
-        let goal = self.itinerary.goal(self.end).unwrap_or(Place { lane: *self.path.get(2).unwrap_or(&due), s: 0.0 });
+        let goal =
+            self.itinerary.goal(self.end).unwrap_or(RoutePosition { lane: *self.path.get(2).unwrap_or(&due), s: 0.0 });
         let ways = map.network.lane(self.lane).successors.iter();
-        let ways = ways.filter_map(|next| map.network.route(Place { lane: *next, s: 0.0 }, goal, 50.0));
+        let ways = ways.filter_map(|next| map.network.route(RoutePosition { lane: *next, s: 0.0 }, goal, 50.0));
         let Some(way) = ways.min_by(|a, b| a.length.total_cmp(&b.length)) else { return };
         self.complete = self.end.is_finite();
         self.path.drain(..if self.complete { self.path.len() } else { self.path.len().min(3) });

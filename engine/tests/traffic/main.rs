@@ -9,7 +9,7 @@ mod orders;
 
 use nalgebra::Vector2;
 use paracosm_engine::road::{
-    Composite, CrossIntersection, LaneKind, Place, RoadNetwork, RoadSegment, Roundabout, Route, TIntersection,
+    Composite, CrossIntersection, LaneKind, RoadNetwork, RoadSegment, Roundabout, Route, RoutePosition, TIntersection,
     grid_city,
 };
 use paracosm_engine::traffic::{CarState, Idm, Obstacle, Traffic, TrafficCar, TrafficError};
@@ -35,8 +35,8 @@ fn road(length: f64) -> Arc<RoadNetwork> {
     RoadSegment::new(length).lanes(4).named("road").build().unwrap()
 }
 
-fn place(net: &RoadNetwork, element: &str, lane: i32, s: f64) -> Place {
-    Place { lane: net.lane_of(element, lane).unwrap(), s }
+fn place(net: &RoadNetwork, element: &str, lane: i32, s: f64) -> RoutePosition {
+    RoutePosition { lane: net.lane_of(element, lane).unwrap(), s }
 }
 
 fn corners(pose: &Pose, length: f64, width: f64) -> [Vector2<f64>; 4] {
@@ -157,6 +157,6 @@ fn tee() -> Arc<RoadNetwork> {
     net.connect("three", arm("west"), "one").build().unwrap()
 }
 
-fn route(net: &RoadNetwork, from: Place, to: Place) -> Route {
+fn route(net: &RoadNetwork, from: RoutePosition, to: RoutePosition) -> Route {
     net.route(from, to, 20.0).expect("there is a way")
 }

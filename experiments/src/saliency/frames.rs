@@ -6,7 +6,7 @@ use crate::scenario;
 use paracosm::campaign::Worker;
 use paracosm::engine::object::Colour;
 use paracosm::engine::sensor::{Cameras, Image};
-use paracosm::render::{Outputs, Stages};
+use paracosm::render::{Stages, WantedImages};
 use paracosm::report::record::{Film, Projector, Shot};
 use paracosm::space::{Value, Values};
 use paracosm_neural::camera;
@@ -81,7 +81,7 @@ impl Studio {
         let cameras = Cameras { seed: 0, all: [("front".to_owned(), camera(FOLLOW.resolution))].into() };
         let film = Film::of(&mut worker, &trial, &cameras, &Stages::default())?;
         let first = film.shots[0].first().ok_or("the camera takes no image")?.clone();
-        let outputs = Outputs { rgb: true, instance: true, ..Outputs::default() };
+        let outputs = WantedImages { rgb: true, instance: true, ..WantedImages::default() };
         Ok(Self { projector: Projector::new(&cameras, outputs)?, film, first })
     }
 

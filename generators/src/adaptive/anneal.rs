@@ -9,7 +9,7 @@ use super::chains::{Chains, Start};
 use super::cube::{Axis, mirrored};
 use super::normal;
 use super::solver::{Cost, Solver, lock};
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use argmin::core::{CostFunction, Error, Executor, IterState};
 use argmin::solver::simulatedannealing::{Anneal, SATempFunc, SimulatedAnnealing};
 use rand::Rng;
@@ -23,7 +23,7 @@ impl Strategy {
         name: "anneal",
         about: "random walks towards failures, uphill now and then: rough robustness, cheap tests",
         dims: ANY,
-        look: Look::hollow(0xf0_8080, Shape::Tip),
+        look: Look::hollow(0xf0_8080, MarkShape::Tip),
         method: Method(MethodKind::Search {
             seeks_a_failure: true,
             build: |it, request, rules| Adaptive::build(it, request, rules, |axes, rng| Box::new(anneal(axes, rng))),

@@ -18,7 +18,7 @@ use super::nelder_mead::nelder_mead;
 use super::{Adaptive, signals};
 use super::{Evaluation, Optimiser};
 use crate::seeded::{Purpose, seeded};
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use nalgebra::DMatrix;
 use rand::Rng;
 use rand_pcg::Pcg64;
@@ -30,7 +30,7 @@ impl Strategy {
         name: "auto",
         about: "gp-cmaes, bayes and nelder-mead side by side, learning from each other: where nothing is known",
         dims: ANY,
-        look: Look::filled(0x7b_3294, Shape::Diamond),
+        look: Look::filled(0x7b_3294, MarkShape::Diamond),
         method: Method(MethodKind::Search {
             seeks_a_failure: true,
             build: |it, request, rules| {

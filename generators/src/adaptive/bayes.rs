@@ -15,7 +15,7 @@ use super::places::snapped;
 use super::region::Region;
 use super::surrogate::{Surrogate, View};
 use super::{Evaluation, Optimiser, anywhere};
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use rand_pcg::Pcg64;
 
 impl Strategy {
@@ -24,7 +24,7 @@ impl Strategy {
         name: "bayes",
         about: "a model of the robustness says which test is likely to fail: few, costly tests",
         dims: ANY,
-        look: Look::filled(0x7b_3294, Shape::Circle),
+        look: Look::filled(0x7b_3294, MarkShape::Circle),
         method: Method(MethodKind::Search {
             seeks_a_failure: true,
             build: |it, request, rules| {

@@ -11,7 +11,7 @@ use super::cube::Axis;
 use super::places::{nudged, snapped};
 use super::surrogate::{Surrogate, View};
 use super::{Evaluation, Optimiser, anywhere};
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -21,7 +21,7 @@ impl Strategy {
         name: "boundary",
         about: "a model says where passing turns into failing: maps the border instead of one failure",
         dims: ANY,
-        look: Look::hollow(0x7b_3294, Shape::Circle),
+        look: Look::hollow(0x7b_3294, MarkShape::Circle),
         method: Method(MethodKind::Search {
             seeks_a_failure: false,
             build: |it, request, rules| {

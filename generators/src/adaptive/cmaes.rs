@@ -18,7 +18,7 @@ use super::evolution::{Evolution, default_lambda};
 use super::preselection::Preselection;
 use super::{Adaptive, signals};
 use super::{Evaluation, Optimiser, anywhere};
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use nalgebra::DMatrix;
 use rand::Rng;
 use rand_pcg::Pcg64;
@@ -29,7 +29,7 @@ impl Strategy {
         name: "cmaes",
         about: "a distribution that learns where failures lie: hundreds of tests, narrow valleys",
         dims: ANY,
-        look: Look::filled(0xa0_1c1c, Shape::Diamond),
+        look: Look::filled(0xa0_1c1c, MarkShape::Diamond),
         method: Method(MethodKind::Search {
             seeks_a_failure: true,
             build: |it, request, rules| {
@@ -47,7 +47,7 @@ impl Strategy {
         name: "gp-cmaes",
         about: "cmaes with a model that chooses from its samples: the fewest tests to a failure nearly everywhere",
         dims: ANY,
-        look: Look::hollow(0xa0_1c1c, Shape::Diamond),
+        look: Look::hollow(0xa0_1c1c, MarkShape::Diamond),
         method: Method(MethodKind::Search {
             seeks_a_failure: true,
             build: |it, request, rules| {

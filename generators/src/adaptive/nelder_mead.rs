@@ -10,7 +10,7 @@ use super::Adaptive;
 use super::chains::{Chains, Start};
 use super::cube::{Axis, mirrored};
 use super::solver::{Cost, Solver, lock};
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use argmin::core::{CostFunction, Error, Executor, IterState};
 use argmin::solver::neldermead::NelderMead;
 use rand::Rng;
@@ -24,7 +24,7 @@ impl Strategy {
         name: "nelder-mead",
         about: "simplices downhill to a failure: few parameters and a robustness that slopes",
         dims: ANY,
-        look: Look::hollow(0xf0_8080, Shape::Triangle),
+        look: Look::hollow(0xf0_8080, MarkShape::Triangle),
         method: Method(MethodKind::Search {
             seeks_a_failure: true,
             build: |it, request, rules| {

@@ -9,7 +9,7 @@ use super::chains::{Chains, Start};
 use super::cube::Axis;
 use super::solver::{Cost, Solver};
 use super::{anywhere, normal};
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use argmin::core::{CostFunction, Executor, PopulationState};
 use argmin::solver::particleswarm::{Particle, ParticleSwarm};
 use rand_pcg::Pcg64;
@@ -20,7 +20,7 @@ impl Strategy {
         name: "pso",
         about: "swarms drawn to the worst tests so far: rough robustness, many tests at a time",
         dims: ANY,
-        look: Look::hollow(0xf0_8080, Shape::Square),
+        look: Look::hollow(0xf0_8080, MarkShape::Square),
         method: Method(MethodKind::Search {
             seeks_a_failure: true,
             build: |it, request, rules| Adaptive::build(it, request, rules, |axes, rng| Box::new(pso(axes, rng))),

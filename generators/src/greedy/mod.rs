@@ -34,7 +34,7 @@ mod rows;
 pub(crate) use kwise::KwiseGreedy;
 pub(crate) use rows::GreedyRows;
 
-use crate::strategy::{Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use holes::Holes;
 use paracosm_coverage::PointSetError;
 use paracosm_coverage::dispersion::LargestEmptyBox;
@@ -48,7 +48,7 @@ impl Strategy {
         name: "greedy",
         about: "every test into the largest holes: the lowest dispersion, at some milliseconds a test",
         dims: 1..=MOST_DIMS,
-        look: Look::filled(0x00_0000, Shape::Triangle),
+        look: Look::filled(0x00_0000, MarkShape::Triangle),
         method: Method(MethodKind::Holes),
     });
 }

@@ -5,7 +5,7 @@
 
 use super::Sequence;
 use super::uniform::Uniform;
-use crate::strategy::{ANY, Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
     /// Independent random corners of the cube, which repeat: a control.
@@ -13,7 +13,7 @@ impl Strategy {
         name: "random-corners",
         about: "every parameter at a random end: the control that a search for failures should beat",
         dims: ANY,
-        look: Look::hollow(0x99_9999, Shape::Triangle),
+        look: Look::hollow(0x99_9999, MarkShape::Triangle),
         method: Method(MethodKind::Sequence(Endless {
             first: None,
             plain: false,

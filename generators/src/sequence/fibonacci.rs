@@ -11,7 +11,7 @@
 
 use super::per_row::PerRow;
 use super::{per_row::RowSet, radical::ratio, shift::Shift};
-use crate::strategy::{Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
     /// The Fibonacci lattice in two dimensions; with a seed shifted.
@@ -19,7 +19,7 @@ impl Strategy {
         name: "fibonacci",
         about: "the most even lattice for just two parameters, by exactly the budget of tests",
         dims: 2..=2,
-        look: Look::hollow(0x8c_510a, Shape::Tip),
+        look: Look::hollow(0x8c_510a, MarkShape::Tip),
         method: Method(MethodKind::Sets {
             plain: true,
             build: |_, seed, deal| Ok(Box::new(PerRow::new(deal, Fibonacci::new(seed)))),

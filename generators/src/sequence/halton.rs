@@ -7,7 +7,7 @@ use super::{
     radical::{INDICES, primes, radical_inverse},
     shift::Shift,
 };
-use crate::strategy::{ANY, Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
     /// The Halton sequence, the paper's choice; with a seed shifted modulo 1 by a random vector.
@@ -15,7 +15,7 @@ impl Strategy {
         name: "halton",
         about: "low-dispersion sequence of any length: the default for up to about ten parameters",
         dims: ANY,
-        look: Look::filled(0x00_72b2, Shape::Circle),
+        look: Look::filled(0x00_72b2, MarkShape::Circle),
         // Point 0 of the Halton sequence is the corner of the cube.
         method: Method(MethodKind::Sequence(Endless {
             first: Some(1),

@@ -13,7 +13,7 @@ use super::{
     radical::{INDICES, primes, ratio},
 };
 use crate::seeded::{Purpose, seeded};
-use crate::strategy::{Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 use rand::seq::SliceRandom;
 
 impl Strategy {
@@ -22,7 +22,7 @@ impl Strategy {
         name: "halton-scrambled",
         about: "halton with random digits: without its stripes in ten parameters and more",
         dims: 1..=MOST_DIMS,
-        look: Look::filled(0x56_b4e9, Shape::Tip),
+        look: Look::filled(0x56_b4e9, MarkShape::Tip),
         method: Method(MethodKind::Sequence(Endless {
             first: Some(0),
             plain: false,

@@ -9,7 +9,7 @@ use super::{
     radical::{primes, radical_inverse, ratio},
     shift::Shift,
 };
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
     /// The Hammersley set; with a seed shifted.
@@ -17,7 +17,7 @@ impl Strategy {
         name: "hammersley",
         about: "halton with one axis evenly spaced: more even than halton, by exactly the budget",
         dims: ANY,
-        look: Look::filled(0xcc_79a7, Shape::Triangle),
+        look: Look::filled(0xcc_79a7, MarkShape::Triangle),
         method: Method(MethodKind::Sets {
             plain: true,
             build: |dims, seed, deal| Ok(Box::new(PerRow::new(deal, Hammersley::new(dims, seed)))),

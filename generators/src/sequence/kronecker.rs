@@ -11,7 +11,7 @@
 
 use super::{Sequence, radical::INDICES, unit};
 use crate::seeded::{Purpose, seeded};
-use crate::strategy::{ANY, Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 use rand::Rng;
 
 impl Strategy {
@@ -20,7 +20,7 @@ impl Strategy {
         name: "kronecker",
         about: "golden steps on every axis: a sequence of any length, for few parameters",
         dims: ANY,
-        look: Look::filled(0x00_9e73, Shape::Square),
+        look: Look::filled(0x00_9e73, MarkShape::Square),
         method: Method(MethodKind::Sequence(Endless {
             first: Some(0),
             plain: true,

@@ -7,7 +7,7 @@
 use super::Sequence;
 use super::per_row::PerRow;
 use super::per_row::RowSet;
-use crate::strategy::{ANY, Descriptor, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 use crate::{
     GeneratorError,
     deal::Deal,
@@ -21,7 +21,7 @@ impl Strategy {
         name: "lhs",
         about: "Latin hypercube: each parameter on its own covered evenly, by exactly the budget of tests",
         dims: ANY,
-        look: Look::filled(0x99_9999, Shape::Square),
+        look: Look::filled(0x99_9999, MarkShape::Square),
         method: Method(MethodKind::Sets {
             plain: false,
             build: |dims, seed, deal| cells(dims, seed, deal, Place::Random),
@@ -35,7 +35,7 @@ impl Strategy {
         name: "lhs-centred",
         about: "Latin hypercube with tests in the middle of their cells: no two close on any axis",
         dims: ANY,
-        look: Look::filled(0x99_9999, Shape::Diamond),
+        look: Look::filled(0x99_9999, MarkShape::Diamond),
         method: Method(MethodKind::Sets {
             plain: false,
             build: |dims, seed, deal| cells(dims, seed, deal, Place::Centre),

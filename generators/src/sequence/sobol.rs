@@ -11,7 +11,7 @@
 
 use super::{Sequence, owen, radical::INDICES, unit};
 use crate::seeded::{Purpose, seeded};
-use crate::strategy::{Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 use rand::Rng;
 use sobol::params::{JoeKuoD6, JoeKuoD6Dim};
 
@@ -21,7 +21,7 @@ impl Strategy {
         name: "sobol",
         about: "digital sequence for many parameters; best with a power of two of tests",
         dims: 1..=MOST_DIMS,
-        look: Look::filled(0xd5_5e00, Shape::Diamond),
+        look: Look::filled(0xd5_5e00, MarkShape::Diamond),
         method: Method(MethodKind::Sequence(Endless {
             first: Some(0),
             plain: true,
@@ -37,7 +37,7 @@ impl Strategy {
         name: "sobol-owen",
         about: "sobol with Owen's nested scrambling: repetitions that are as even as sobol",
         dims: 1..=MOST_DIMS,
-        look: Look::hollow(0xe6_9f00, Shape::Diamond),
+        look: Look::hollow(0xe6_9f00, MarkShape::Diamond),
         method: Method(MethodKind::Sequence(Endless {
             first: Some(0),
             plain: false,

@@ -4,7 +4,7 @@
 
 use super::Sequence;
 use crate::seeded::{Purpose, seeded};
-use crate::strategy::{ANY, Descriptor, Endless, Look, Method, MethodKind, Shape, Strategy};
+use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
@@ -14,7 +14,7 @@ impl Strategy {
         name: "random",
         about: "independent uniform points: the baseline, and what statistics assume",
         dims: ANY,
-        look: Look::filled(0x99_9999, Shape::Circle),
+        look: Look::filled(0x99_9999, MarkShape::Circle),
         method: Method(MethodKind::Sequence(Endless {
             first: None,
             plain: false,

@@ -5,7 +5,7 @@
 
 mod look;
 
-pub use look::{Look, Shape};
+pub use look::{Look, MarkShape};
 
 use crate::Aim;
 use crate::deal::Deal;

@@ -1,7 +1,7 @@
 //! The figures of a bench: for every scenario how many runs are still without a failure, and recall over dispersion.
 
-use crate::plot::{Entry, Frame, Picture, Series, Shares, Survivals, Waiting};
-use paracosm_analysis::bench::{Benched, Cell, Row};
+use crate::plot::{Entry, Picture, PlotFrame, Series, Shares, Survivals, Waiting};
+use paracosm_analysis::bench::{BenchCell, Benched, Row};
 
 /// All figures with their names.
 pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
@@ -20,7 +20,7 @@ pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
 /// The curves of Kaplan and Meier.
 fn survival(benched: &Benched, scenario: &str) -> Survivals {
     let (budget, seeds) = (benched.bench.budget, benched.bench.seeds);
-    let curve = |cell: &Cell| {
+    let curve = |cell: &BenchCell| {
         let rows = || benched.rows_of(scenario, cell.strategy);
         let end = |row: &Row| row.first_failure.map_or(f64::INFINITY, |tests| tests as f64);
         Waiting {
@@ -30,10 +30,10 @@ fn survival(benched: &Benched, scenario: &str) -> Survivals {
             censored: rows().any(|row| row.first_failure.is_none() && !row.is_exhausted(budget)),
         }
     };
-    let number = |cell: &Cell| format!("{:.1}", cell.restricted_mean);
-    let rank = |cell: &Cell| cell.restricted_mean;
+    let number = |cell: &BenchCell| format!("{:.1}", cell.restricted_mean);
+    let rank = |cell: &BenchCell| cell.restricted_mean;
     Survivals {
-        frame: Frame {
+        frame: PlotFrame {
             title: format!("Tests to the first failure: {scenario}"),
             note: format!(
                 "Kaplan-Meier curves of {seeds} runs each; a tick at the end: runs censored after {budget} tests; legend: restricted mean"
@@ -59,12 +59,13 @@ fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
         range = marks.iter().fold(range, |(least, most), mark| (least.min(mark.0), most.max(mark.0)));
         all.push(Series { look: strategy.look(), marks });
     }
-    let (budget, number) = (benched.bench.budget, |cell: &Cell| cell.recall.map_or("-".into(), |r| format!("{r:.2}")));
+    let (budget, number) =
+        (benched.bench.budget, |cell: &BenchCell| cell.recall.map_or("-".into(), |r| format!("{r:.2}")));
     let correlations = benched.correlations.iter().filter(|correlation| correlation.scenario == scenario);
     let words: Vec<String> = correlations.map(|c| format!("{} {:.2}", c.among, c.spearman)).collect();
     let words = words.join(", ").replace('-', "\u{2212}");
     Some(Shares {
-        frame: Frame {
+        frame: PlotFrame {
             title: format!("Does a low dispersion find failures? {scenario}"),
             note: format!("a mark for each run of {budget} tests; rank correlation: {words}; legend: mean recall"),
             legend: ["strategy".into(), "recall".into()],
@@ -82,17 +83,17 @@ fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
 fn entries(
     benched: &Benched,
     scenario: &str,
-    number: impl Fn(&Cell) -> String,
-    rank: impl Fn(&Cell) -> f64,
+    number: impl Fn(&BenchCell) -> String,
+    rank: impl Fn(&BenchCell) -> f64,
 ) -> Vec<Entry> {
     let entry =
-        |cell: &Cell| Entry { look: cell.strategy.look(), name: cell.strategy.to_string(), number: number(cell) };
+        |cell: &BenchCell| Entry { look: cell.strategy.look(), name: cell.strategy.to_string(), number: number(cell) };
     ranked(benched, scenario, rank).into_iter().map(entry).collect()
 }
 
 /// The cells of a scenario, from the greatest to the least of a number.
-fn ranked<'a>(benched: &'a Benched, scenario: &'a str, rank: impl Fn(&Cell) -> f64) -> Vec<&'a Cell> {
-    let mut cells: Vec<&Cell> = benched.of_target(scenario).collect();
+fn ranked<'a>(benched: &'a Benched, scenario: &'a str, rank: impl Fn(&BenchCell) -> f64) -> Vec<&'a BenchCell> {
+    let mut cells: Vec<&BenchCell> = benched.of_target(scenario).collect();
     cells.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     cells
 }

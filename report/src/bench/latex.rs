@@ -1,7 +1,7 @@
 //! The bench as a LaTeX table in the manner of the package booktabs.
 
 use crate::write_up::latex::{LEVEL, escaped, p_value, ratio};
-use paracosm_analysis::bench::{Benched, Cell};
+use paracosm_analysis::bench::{BenchCell, Benched};
 use std::fmt::Write;
 
 /// The table, ready to be `\input`.
@@ -34,7 +34,7 @@ pub(super) fn table(benched: &Benched) -> String {
     text
 }
 
-fn row(cell: &Cell, least: f64) -> String {
+fn row(cell: &BenchCell, least: f64) -> String {
     let number = |value: Option<f64>, digits: usize| value.map_or(String::new(), |value| format!("${value:.digits$}$"));
     let [low, high] = cell.rate_interval;
     let found = format!("${:.2}$ $[{low:.2}, {high:.2}]$", cell.rate);

@@ -1,12 +1,12 @@
 //! The bench as tables for people.
 
 use crate::write_up::{p_value, three_digits};
-use paracosm_analysis::bench::{Benched, Cell};
+use paracosm_analysis::bench::{BenchCell, Benched};
 use paracosm_analysis::statistics::Versus;
 use std::fmt::Write;
 
 /// What a column shows of a strategy.
-type Value = fn(&Cell) -> Option<f64>;
+type Value = fn(&BenchCell) -> Option<f64>;
 
 /// For every scenario how soon each strategy finds a failure and what it knows after all its tests; then how the
 /// strategies stand over all scenarios.
@@ -97,7 +97,7 @@ fn over_all(benched: &Benched, text: &mut String) {
     }
 }
 
-fn first_failure(cell: &Cell) -> String {
+fn first_failure(cell: &BenchCell) -> String {
     let [low, high] = cell.rate_interval;
     let found = format!("{}/{} ({low:.2} to {high:.2})", cell.found, cell.runs);
     let number = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.1}"));

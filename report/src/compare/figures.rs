@@ -1,8 +1,8 @@
 //! The figures of a comparison: for every measure and dimension the values over the budgets, and beside them how the
 //! strategies stand against the baseline.
 
-use crate::plot::{Curve, Entry, Frame, LogLog, Picture, Plane};
-use paracosm_analysis::compare::{Cell, Compared};
+use crate::plot::{Entry, LogLog, LogLogCurve, Picture, Plane, PlotFrame};
+use paracosm_analysis::compare::{Compared, ComparisonCell};
 use paracosm_coverage::Measure;
 use paracosm_generators::Look;
 use paracosm_generators::Strategy;
@@ -26,7 +26,7 @@ fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
     let most = *budgets.last()?;
     let mut strategies = compared.shown(measure, dims);
     let at = |strategy: Strategy, budget: usize| compared.cell(measure, dims, budget, strategy);
-    let lines: Vec<(Look, Vec<&Cell>)> = strategies
+    let lines: Vec<(Look, Vec<&ComparisonCell>)> = strategies
         .iter()
         .map(|&strategy| (strategy.look(), budgets.iter().filter_map(|&budget| at(strategy, budget)).collect()))
         .collect();
@@ -51,7 +51,7 @@ fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
     };
     let right = if compares { "; right: median ratios with 95 % intervals" } else { "" };
     let seeds = compared.comparison.seeds;
-    let frame = Frame {
+    let frame = PlotFrame {
         title: format!("{}{}, d = {dims}", label[..1].to_uppercase(), &label[1..]),
         note: format!("left: medians of {seeds} seeds with quartiles{right}; marks of one n stand beside each other"),
         legend: ["strategy".into(), if budgets.len() > 1 { "slope".into() } else { String::new() }],
@@ -61,20 +61,21 @@ fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
     Some(LogLog { frame, planes: if compares { vec![values, ratios] } else { vec![values] } })
 }
 
-fn has_logarithms(cell: &Cell) -> bool {
+fn has_logarithms(cell: &ComparisonCell) -> bool {
     let versus = cell.versus.iter().flat_map(|versus| versus.interval);
     cell.quartiles.into_iter().chain(cell.plain).chain(versus).all(|value| value > 0.0 && value.is_finite())
 }
 
 /// Medians and quartiles, and the plain sets.
-fn values((look, cells): &(Look, Vec<&Cell>)) -> Curve {
+fn values((look, cells): &(Look, Vec<&ComparisonCell>)) -> LogLogCurve {
     let marks = cells.iter().map(|cell| (cell.budget as f64, cell.median, cell.quartiles)).collect();
     let crosses = cells.iter().filter_map(|cell| Some((cell.budget as f64, cell.plain?))).collect();
-    Curve { look: *look, marks, crosses }
+    LogLogCurve { look: *look, marks, crosses }
 }
 
 /// Ratios to the baseline with their intervals.
-fn ratios((look, cells): &(Look, Vec<&Cell>)) -> Curve {
-    let versus = |cell: &&Cell| cell.versus.as_ref().map(|versus| (cell.budget as f64, versus.ratio, versus.interval));
-    Curve { look: *look, marks: cells.iter().filter_map(versus).collect(), crosses: Vec::new() }
+fn ratios((look, cells): &(Look, Vec<&ComparisonCell>)) -> LogLogCurve {
+    let versus =
+        |cell: &&ComparisonCell| cell.versus.as_ref().map(|versus| (cell.budget as f64, versus.ratio, versus.interval));
+    LogLogCurve { look: *look, marks: cells.iter().filter_map(versus).collect(), crosses: Vec::new() }
 }

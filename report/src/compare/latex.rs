@@ -2,7 +2,7 @@
 
 use crate::write_up::latex::{LEVEL, escaped, in_math, ratio};
 use crate::write_up::three_digits;
-use paracosm_analysis::compare::{Cell, Compared};
+use paracosm_analysis::compare::{Compared, ComparisonCell};
 use paracosm_coverage::Measure;
 use std::fmt::Write;
 
@@ -65,7 +65,7 @@ fn table(text: &mut String, compared: &Compared, measure: Measure) {
     text.push_str("\\bottomrule\n\\end{tabular}\n\\end{table}\n");
 }
 
-fn median(cell: &Cell, least: f64) -> String {
+fn median(cell: &ComparisonCell, least: f64) -> String {
     let number = in_math(&three_digits(cell.median));
     let number = if cell.median == least { format!("\\mathbf{{{number}}}") } else { number };
     let differs = cell.versus.as_ref().is_some_and(|versus| versus.p_holm <= LEVEL);

@@ -1,7 +1,7 @@
 //! The comparison as tables for people.
 
 use crate::write_up::{p_value, three_digits};
-use paracosm_analysis::compare::{Cell, Compared};
+use paracosm_analysis::compare::{Compared, ComparisonCell};
 use paracosm_coverage::Measure;
 use std::fmt::Write;
 
@@ -34,7 +34,8 @@ fn block(compared: &Compared, text: &mut String, measure: Measure, dims: usize) 
         for &budget in &budgets {
             let cell = compared.cell(measure, dims, budget, strategy);
             cut_short |= cell.is_some_and(|cell| !cell.exact);
-            let mark = |cell: &Cell| format!("{}{}", three_digits(cell.median), if cell.exact { "" } else { "*" });
+            let mark =
+                |cell: &ComparisonCell| format!("{}{}", three_digits(cell.median), if cell.exact { "" } else { "*" });
             let _ = write!(text, "{:>10}", cell.map_or("-".into(), mark));
         }
         let slope = compared.slope(measure, dims, strategy).map_or("-".into(), |slope| format!("{:.2}", slope.slope));

@@ -5,7 +5,7 @@
 
 use super::raster::{draw, opaque, rasterised};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
-use paracosm_engine::picture::Film;
+use paracosm_engine::picture::Animation;
 use std::collections::BTreeMap;
 use std::error::Error as StdError;
 use std::io::Write;
@@ -29,7 +29,7 @@ type Failure = Box<dyn StdError + Send + Sync>;
 ///
 /// # Errors
 /// The encoder fails: the film is more than 65,535 pixels wide, say.
-pub fn film_gif(film: &Film) -> Result<Vec<u8>, Failure> {
+pub fn film_gif(film: &Animation) -> Result<Vec<u8>, Failure> {
     let scenes: Vec<_> = film.scenes.iter().map(|scene| rasterised(scene, 1.0)).collect();
     let pixels = |index: usize| {
         let frame = &film.frames[index];
@@ -194,15 +194,15 @@ fn bin(rgb: [u8; 3]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use paracosm_engine::picture::{Contour, Drawing, Frame as Still, Mark, Segment};
+    use paracosm_engine::picture::{Contour, Drawing, Frame as Still, PathSegment, PictureItem};
 
     /// A square of this colour at a place on nothing.
     fn square(at: f64, colour: [u8; 3], side: f64) -> Drawing {
         let corners = [[at, 0.0], [at + side, 0.0], [at + side, side], [at, side]];
-        let mut segments = vec![Segment::Move(corners[0])];
-        segments.extend(corners[1..].iter().map(|corner| Segment::Line(*corner)));
-        segments.push(Segment::Close);
-        let marks = vec![Mark::Fill { contour: Contour { segments }, paint: colour.into() }];
+        let mut segments = vec![PathSegment::Move(corners[0])];
+        segments.extend(corners[1..].iter().map(|corner| PathSegment::Line(*corner)));
+        segments.push(PathSegment::Close);
+        let marks = vec![PictureItem::Fill { contour: Contour { segments }, paint: colour.into() }];
         Drawing { width: 60.0, height: 20.0, marks }
     }
 
@@ -216,7 +216,7 @@ mod tests {
             // It stands still for a while.
             drawing: square(2.0 * i.min(8) as f64, [200, 0, 0], 10.0),
         };
-        let film = Film { scenes, frames: (0..20).map(still).collect() };
+        let film = Animation { scenes, frames: (0..20).map(still).collect() };
         let file = film_gif(&film).unwrap();
         let mut options = gif::DecodeOptions::new();
         options.set_color_output(gif::ColorOutput::RGBA);

@@ -15,7 +15,7 @@ pub(super) const TEXT: f64 = 16.0;
 
 /// Title, note and legend.
 #[derive(Debug, Clone)]
-pub struct Frame {
+pub struct PlotFrame {
     /// The first line above the planes.
     pub title: String,
     /// The second line, smaller.
@@ -42,7 +42,7 @@ pub struct Entry {
 type Areas<B> = (DrawingArea<B, Shift>, DrawingArea<B, Shift>);
 type Result<T, B> = std::result::Result<T, DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
-impl Frame {
+impl PlotFrame {
     /// Draws the lines above; what is left for the planes, so wide, and for the legend.
     pub(super) fn split<B: DrawingBackend>(
         &self,

@@ -4,7 +4,7 @@
 //! other, so that whiskers do not cover each other. Curves are told apart by the colours of Okabe and Ito (Color
 //! Universal Design, 2008), which differ for any colour vision, and by the shapes of their marks, also in grey.
 
-use super::frame::{Frame, TEXT};
+use super::frame::{PlotFrame, TEXT};
 use super::log_axis::Log;
 use super::symbol::{LINE, Symbol, rgb};
 use super::{GRID, INK, ink};
@@ -20,7 +20,7 @@ pub(super) const PLANE: u32 = 500;
 #[derive(Debug, Clone)]
 pub struct LogLog {
     /// What stands around the planes.
-    pub frame: Frame,
+    pub frame: PlotFrame,
     /// At least one.
     pub planes: Vec<Plane>,
 }
@@ -35,12 +35,12 @@ pub struct Plane {
     /// A value with a line of its own.
     pub level: Option<f64>,
     /// The curves, the last on top.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<LogLogCurve>,
 }
 
 /// The values of one curve, all above 0.
 #[derive(Debug, Clone)]
-pub struct Curve {
+pub struct LogLogCurve {
     /// The mark and colour of the curve.
     pub look: Look,
     /// Size, value, and the ends of the whisker.

@@ -26,10 +26,10 @@ mod wrapped;
 pub use animation::film_gif;
 #[cfg(feature = "camera")]
 pub use animation::{Colours, Reel};
-pub use frame::{Entry, Frame};
+pub use frame::{Entry, PlotFrame};
 pub use heat::HeatMap;
 pub use lines::Lines;
-pub use log_log::{Curve, LogLog, Plane};
+pub use log_log::{LogLog, LogLogCurve, Plane};
 pub use map::{Axis, FailureMap};
 pub use map_files::MapFiles;
 pub use mark::Mark;

@@ -1,6 +1,6 @@
 //! Shares over sizes: a logarithmic axis from left to right, and from bottom to top 0 to 1. Clouds of marks.
 
-use super::frame::{Frame, TEXT};
+use super::frame::{PlotFrame, TEXT};
 use super::log_axis::Log;
 use super::symbol::Symbol;
 use super::{GRID, INK, ink};
@@ -15,7 +15,7 @@ pub(super) const PLANE: u32 = 640;
 #[derive(Debug, Clone)]
 pub struct Shares {
     /// What stands around the plane.
-    pub frame: Frame,
+    pub frame: PlotFrame,
     /// What the horizontal axis shows.
     pub x: String,
     /// What the vertical axis shows, written above it.

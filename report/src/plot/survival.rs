@@ -3,7 +3,7 @@
 //!
 //! The horizontal axis is linear, so that the area under a curve is the restricted mean that the legend tells.
 
-use super::frame::{Frame, TEXT};
+use super::frame::{PlotFrame, TEXT};
 use super::map::Ends;
 use super::symbol::{LINE, Symbol, rgb};
 use super::{GRID, HPos, INK, ink, level};
@@ -30,7 +30,7 @@ const STEPS: usize = 6;
 #[derive(Debug, Clone)]
 pub struct Survivals {
     /// What stands around the plane.
-    pub frame: Frame,
+    pub frame: PlotFrame,
     /// What the horizontal axis shows, and the vertical one, written above it.
     pub axes: [String; 2],
     /// What the numbers below the plane are.
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_curve_begins_with_all_and_ends_where_nobody_waits() {
-        let look = Look { colour: (0, 0, 0), shape: paracosm_generators::Shape::Circle, filled: true };
+        let look = Look { colour: (0, 0, 0), shape: paracosm_generators::MarkShape::Circle, filled: true };
         let waiting = |steps: &[(f64, f64)]| Waiting { look, steps: steps.to_vec(), ends: vec![], censored: false };
         let all = waiting(&[(1.0, 0.5), (4.0, 0.0)]);
         assert_eq!(all.corners(10.0), [(0.0, 1.0), (1.0, 1.0), (1.0, 0.5), (4.0, 0.5), (4.0, 0.0)]);

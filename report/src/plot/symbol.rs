@@ -1,6 +1,6 @@
 //! Marks of curves: shapes that are told apart without colour, too.
 
-use paracosm_generators::{Look, Shape};
+use paracosm_generators::{Look, MarkShape};
 use plotters::element::{Drawable, PointCollection};
 use plotters::prelude::*;
 use plotters_backend::DrawingErrorKind;
@@ -20,7 +20,7 @@ pub(super) fn rgb(look: Look) -> RGBColor {
 /// A mark, `side` pixels from its middle to its end.
 pub(super) struct Symbol {
     /// None is a cross.
-    shape: Option<Shape>,
+    shape: Option<MarkShape>,
     colour: RGBColor,
     filled: bool,
     side: f64,
@@ -45,13 +45,13 @@ impl Symbol {
     ) -> std::result::Result<(), DrawingErrorKind<B::ErrorType>> {
         // Shapes of about the same area.
         let corners: &[(f64, f64)] = match self.shape {
-            Some(Shape::Circle) => {
+            Some(MarkShape::Circle) => {
                 return backend.draw_circle((x, y), (1.1 * share * self.side).round() as u32, &colour, true);
             }
-            Some(Shape::Square) => &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)],
-            Some(Shape::Diamond) => &[(0.0, -1.5), (1.5, 0.0), (0.0, 1.5), (-1.5, 0.0)],
-            Some(Shape::Triangle) => &[(0.0, -1.4), (1.3, 0.9), (-1.3, 0.9)],
-            Some(Shape::Tip) => &[(0.0, 1.4), (1.3, -0.9), (-1.3, -0.9)],
+            Some(MarkShape::Square) => &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)],
+            Some(MarkShape::Diamond) => &[(0.0, -1.5), (1.5, 0.0), (0.0, 1.5), (-1.5, 0.0)],
+            Some(MarkShape::Triangle) => &[(0.0, -1.4), (1.3, 0.9), (-1.3, 0.9)],
+            Some(MarkShape::Tip) => &[(0.0, 1.4), (1.3, -0.9), (-1.3, -0.9)],
             None => &[],
         };
         let along = |middle: i32, offset: f64| middle + (offset * share * self.side).round() as i32;

@@ -6,12 +6,12 @@ use super::image::{Pixels, write};
 use super::missing::Missing;
 use super::part::Part;
 use super::video::Video;
-use super::{Film, Picture, Projector, Shot};
+use super::{Film, Projector, Rendering, Shot};
 use crate::plot;
 use paracosm_campaign::files::is_new;
 use paracosm_campaign::{Error, Failure, Reason, Trial, Worker};
 use paracosm_engine::sensor::{CameraSpec, Cameras};
-use paracosm_render::{Outputs, Stages};
+use paracosm_render::{Stages, WantedImages};
 use paracosm_space::{did_you_mean, nearest};
 use rayon::prelude::*;
 use std::error::Error as StdError;
@@ -120,7 +120,7 @@ impl Clip {
     /// There is no adapter, the test is not the one that was logged, nothing was seen, or nothing can be written.
     pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<Vec<String>, Error> {
         let film = Film::of(worker, trial, cameras, &Stages::default())?;
-        let mut projector = Projector::new(cameras, Outputs { rgb: true, ..Outputs::default() })?;
+        let mut projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() })?;
         let (name, camera) = cameras.all.iter().next().expect("there is a camera in every set");
         let mut missing = Missing::of(name, camera);
         let images = match self.form {
@@ -233,6 +233,6 @@ impl Clip {
     }
 }
 
-fn colours_of(seen: &Result<Picture, super::Inside>) -> Option<&[u8]> {
+fn colours_of(seen: &Result<Rendering, super::Inside>) -> Option<&[u8]> {
     seen.as_ref().ok()?.frame.rgb.as_deref()
 }

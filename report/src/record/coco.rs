@@ -1,7 +1,7 @@
 //! Boxes as the COCO format has them (Lin et al. 2014): images, annotations, categories, and beside them what COCO does
 //! not know: how much is hidden, and the box in space.
 
-use super::{Picture, Shot};
+use super::{Rendering, Shot};
 use paracosm_campaign::Error;
 use paracosm_render::{Box2, Box3, Semantic, boxes};
 use serde::{Deserialize, Serialize};
@@ -79,7 +79,7 @@ impl Annotations {
     }
 
     /// Adds a picture of a camera that is in this file, if it is kept.
-    pub fn add(&mut self, camera: &str, file_name: Option<String>, shot: &Shot, picture: &Picture) {
+    pub fn add(&mut self, camera: &str, file_name: Option<String>, shot: &Shot, picture: &Rendering) {
         let image_id = self.images.len() + 1;
         let (width, height) = (picture.frame.width(), picture.frame.height());
         let (frame, time) = (shot.number, shot.time);

@@ -6,11 +6,11 @@ use super::coco::{ANNOTATIONS, Annotations, merge};
 use super::image::{Pixels, depth_words, write};
 use super::missing::Missing;
 use super::part::Part;
-use super::{Film, Inside, Picture, Projector, Shot, VariedCameras};
+use super::{Film, Inside, Projector, Rendering, Shot, VariedCameras};
 use paracosm_campaign::files::write_whole;
 use paracosm_campaign::{Error, Reason, Trial, Worker};
 use paracosm_engine::sensor::Cameras;
-use paracosm_render::{Camera, NoCamera, Outputs, Stages, camera_settings};
+use paracosm_render::{Camera, NoCamera, Stages, WantedImages, camera_settings};
 use paracosm_space::{did_you_mean, nearest};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -45,14 +45,14 @@ impl Kept {
     pub const ALL: Self = Self { rgb: true, semantic: true, depth: true, instance: true, boxes: true };
 
     /// What has to be drawn.
-    pub fn outputs(self) -> Outputs {
-        Outputs {
+    pub fn outputs(self) -> WantedImages {
+        WantedImages {
             rgb: self.rgb,
             depth: self.depth,
             semantic: self.semantic || self.boxes,
             instance: self.instance || self.boxes,
             alone: self.boxes,
-            ..Outputs::default()
+            ..WantedImages::default()
         }
     }
 }
@@ -283,7 +283,7 @@ fn file_name(shot: &Shot) -> String {
     format!("{:06}.png", shot.number)
 }
 
-fn write_images(camera: &Path, shot: &Shot, picture: &Picture, kept: Kept) -> Result<(), Error> {
+fn write_images(camera: &Path, shot: &Shot, picture: &Rendering, kept: Kept) -> Result<(), Error> {
     let frame = &picture.frame;
     let size = [frame.width(), frame.height()];
     let depth = frame.planar_depth().map(|depth| depth_words(&depth));

@@ -1,6 +1,6 @@
 //! Says which images of a camera there are not, and why.
 
-use super::{Inside, Picture, Shot};
+use super::{Inside, Rendering, Shot};
 use paracosm_engine::sensor::CameraSpec;
 
 /// What came of the shots of one camera in a test.
@@ -19,7 +19,7 @@ impl<'a> Missing<'a> {
     }
 
     /// Takes note of a shot.
-    pub fn see(&mut self, shot: &Shot, seen: &Result<Picture, Inside>) {
+    pub fn see(&mut self, shot: &Shot, seen: &Result<Rendering, Inside>) {
         self.shots += 1;
         if let Err(Inside(thing)) = seen {
             match self.inside.iter_mut().find(|(known, ..)| known == thing) {

@@ -24,6 +24,6 @@ pub use cameras::{cameras_for_people, read_cameras, standard_cameras, standard_c
 pub use clip::Clip;
 pub use dataset::{Dataset, Kept, Recorded};
 pub use film::{Film, Shot, check_rates};
-pub use paracosm_render::Picture;
+pub use paracosm_render::Rendering;
 pub use projector::{Developed, Inside, Projector};
 pub use varied::VariedCameras;

@@ -4,7 +4,7 @@ use super::{Film, Shot};
 use paracosm_campaign::{Error, Reason};
 use paracosm_engine::sensor::Cameras;
 use paracosm_render::{
-    Adapter, Developer, Exposure, Optics, Outputs, Picture, RenderError, Undrawn, ViewError, at_once,
+    Adapter, Developer, Exposure, Optics, RenderError, Rendering, Undrawn, ViewError, WantedImages, at_once,
 };
 use thiserror::Error;
 
@@ -13,7 +13,7 @@ use thiserror::Error;
 pub struct Inside(pub String);
 
 /// A shot and what there was to see.
-pub type Developed<'f> = (&'f Shot, Result<Picture, Inside>);
+pub type Developed<'f> = (&'f Shot, Result<Rendering, Inside>);
 
 /// Why cameras cannot be drawn for.
 #[derive(Debug, Clone, Error)]
@@ -48,7 +48,7 @@ impl Reason for DrawingFlaw {}
 pub struct Projector {
     developer: Developer,
     cameras: Vec<Optics>,
-    wanted: Outputs,
+    wanted: WantedImages,
 }
 
 impl Projector {
@@ -56,7 +56,7 @@ impl Projector {
     ///
     /// # Errors
     /// There is no adapter, no such camera, or its images are too large for the adapter.
-    pub fn new(cameras: &Cameras, wanted: Outputs) -> Result<Self, Error> {
+    pub fn new(cameras: &Cameras, wanted: WantedImages) -> Result<Self, Error> {
         // That there is no such camera is said even where there is no adapter.
         let optics = Optics::of(cameras)?;
         let developer = Developer::new().map_err(|source| Error::unavailable(DrawingFlaw::Nothing(source)))?;

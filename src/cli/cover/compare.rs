@@ -6,7 +6,7 @@ use crate::cli::{Failure, Verbosity, print};
 use crate::generators::Strategy;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use paracosm_analysis::compare::Comparison;
+use paracosm_analysis::compare::SamplerComparison;
 use paracosm_campaign::{Error, TestSet};
 use paracosm_coverage::Measure;
 use serde_json::json;
@@ -94,15 +94,15 @@ impl Options {
         })
     }
 
-    fn comparison(&self) -> Result<Comparison, Error> {
+    fn comparison(&self) -> Result<SamplerComparison, Error> {
         let limit = time_limit("--time-limit", self.time_limit)?;
         let most = |numbers: &[usize]| numbers.iter().copied().max().unwrap_or_default();
         let (dims, budget) = (most(&self.dims), most(&self.budgets));
         TestSet::check_size(budget, dims)?;
         let strategies: Vec<Strategy> = self.strategies.iter().map(|name| open_loop(name)).collect::<Result<_, _>>()?;
-        let defaults = Comparison::of(&strategies)?;
+        let defaults = SamplerComparison::of(&strategies)?;
         let baseline = self.baseline.as_ref().map(|name| open_loop(name)).transpose()?;
-        Ok(Comparison {
+        Ok(SamplerComparison {
             dims: self.dims.clone(),
             budgets: self.budgets.clone(),
             seeds: self.seeds,

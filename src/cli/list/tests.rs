@@ -3,16 +3,16 @@
 
 use super::*;
 use crate::coverage::Measure;
-use crate::coverage::measure::{self, Compare, Method};
+use crate::coverage::measure::{self, Compare, Computation};
 use crate::engine::driver::{self, Driver, Fault};
 use crate::engine::{AutonomousVehicle, Briefing, Control, Observation, RoadSegment, Scenario, sensor};
-use crate::generators::{self, Look, Shape, Strategy};
+use crate::generators::{self, Look, MarkShape, Strategy};
 
 static STRATEGY: generators::Descriptor = generators::Descriptor {
     name: "scratch-strategy",
     about: "a strategy of this test",
     dims: 1..=2,
-    look: Look::filled(0x12_3456, Shape::Circle),
+    look: Look::filled(0x12_3456, MarkShape::Circle),
     method: generators::Method::own(|request| Strategy::HALTON.build(request)),
 };
 
@@ -24,7 +24,7 @@ static MEASURE: measure::Descriptor = measure::Descriptor {
     about: "a measure of this test",
     pace: 0,
     compare: Compare::Always,
-    method: Method::Number(|points, _| Some(points.len() as f64)),
+    method: Computation::Number(|points, _| Some(points.len() as f64)),
 };
 
 struct Idle;

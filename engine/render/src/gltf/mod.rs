@@ -9,7 +9,7 @@
 
 mod bytes;
 
-use crate::mesh::{Mesh, Semantic, Surface, Vertex};
+use crate::mesh::{Mesh, Semantic, SurfaceKind, Vertex};
 use bytes::{Bytes, floats, indices};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
@@ -275,19 +275,19 @@ impl Found {
 }
 
 /// What a material is to light, and its colour.
-fn look(material: &Material<'_>) -> (Surface, [f32; 3]) {
+fn look(material: &Material<'_>) -> (SurfaceKind, [f32; 3]) {
     let [red, green, blue, _] = material.pbr_metallic_roughness().base_color_factor();
     let base = [red, green, blue];
     let name = material.name().unwrap_or_default().to_lowercase();
     let shine = material.emissive_factor();
     if name.contains("paint") {
-        (Surface::Paint, base)
+        (SurfaceKind::Paint, base)
     } else if name.contains("glass") || material.alpha_mode() == gltf::material::AlphaMode::Blend {
-        (Surface::Glass, base)
+        (SurfaceKind::Glass, base)
     } else if shine.iter().any(|level| *level > 0.0) {
         let red = shine[0] > 2.0 * shine[1].max(shine[2]);
-        (if red { Surface::RedLamp } else { Surface::WhiteLamp }, shine)
+        (if red { SurfaceKind::RedLamp } else { SurfaceKind::WhiteLamp }, shine)
     } else {
-        (Surface::Plain, base)
+        (SurfaceKind::Plain, base)
     }
 }

@@ -1,9 +1,9 @@
 //! Blur: a lens makes a Gaussian of a point.
 
-use super::{Effect, FARTHEST, Kernel};
+use super::{FARTHEST, Kernel, LensEffect};
 use paracosm_engine::sensor::CameraSetting;
 
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: LensEffect = LensEffect {
     name: "blur",
     about: "makes a Gaussian of a point",
     settings: &[CameraSetting::of_lens(

@@ -1,9 +1,9 @@
 //! Defocus: a point becomes a disc.
 
-use super::{Effect, FARTHEST, Kernel};
+use super::{FARTHEST, Kernel, LensEffect};
 use paracosm_engine::sensor::CameraSetting;
 
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: LensEffect = LensEffect {
     name: "defocus",
     about: "makes an evenly bright disc of a point",
     settings: &[CameraSetting::of_lens(

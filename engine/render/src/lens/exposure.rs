@@ -2,11 +2,11 @@
 //!
 //! They are one effect, because a pixel's light is multiplied by both at once, and rounded once.
 
-use super::{Effect, Light};
+use super::{LensEffect, Light};
 use nalgebra::Point2;
 use paracosm_engine::sensor::CameraSetting;
 
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: LensEffect = LensEffect {
     name: "exposure",
     about: "dims the light towards the corners, and multiplies all of it",
     settings: &[

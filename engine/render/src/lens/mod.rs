@@ -21,14 +21,15 @@ use crate::{Camera, Frame};
 use paracosm_engine::sensor::{CameraSetting, CameraSpec, Chance};
 
 /// All effects, in the order in which light passes them.
-pub const EFFECTS: &[&Effect] = &[&motion::EFFECT, &defocus::EFFECT, &blur::EFFECT, &exposure::EFFECT, &noise::EFFECT];
+pub const EFFECTS: &[&LensEffect] =
+    &[&motion::EFFECT, &defocus::EFFECT, &blur::EFFECT, &exposure::EFFECT, &noise::EFFECT];
 
 /// Kernels reach no further than this, in pixels.
 const FARTHEST: f64 = 64.0;
 
 /// Something that a lens or a sensor does to light.
 #[derive(Debug)]
-pub struct Effect {
+pub struct LensEffect {
     /// Its name; its noise is drawn under this name.
     pub name: &'static str,
     /// What it does to light, in a few words.
@@ -60,7 +61,7 @@ impl Light<'_> {
 /// A lens with its sensor: the effects that it has, with the values of their settings. By default it has none.
 #[derive(Debug, Clone, Default)]
 pub struct Lens {
-    effects: Vec<(&'static Effect, Vec<f64>)>,
+    effects: Vec<(&'static LensEffect, Vec<f64>)>,
 }
 
 impl Lens {
@@ -70,8 +71,8 @@ impl Lens {
     }
 
     /// A lens of these effects instead of [`EFFECTS`].
-    pub fn with(effects: &[&'static Effect], camera: &CameraSpec) -> Self {
-        let values = |effect: &&'static Effect| {
+    pub fn with(effects: &[&'static LensEffect], camera: &CameraSpec) -> Self {
+        let values = |effect: &&'static LensEffect| {
             let values: Vec<_> = effect.settings.iter().map(|setting| setting.value(camera)).collect();
             (*effect, values)
         };

@@ -1,9 +1,9 @@
 //! Motion blur: the image moves while it is exposed.
 
-use super::{Effect, FARTHEST, Kernel};
+use super::{FARTHEST, Kernel, LensEffect};
 use paracosm_engine::sensor::CameraSetting;
 
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: LensEffect = LensEffect {
     name: "motion",
     about: "smears the image along a line",
     settings: &[

@@ -3,12 +3,12 @@
 //! A pixel of `n` electrons has a variance of `n` from counting (a Poisson distribution, taken for a normal one) and one of
 //! `read_noise` squared from reading.
 
-use super::Effect;
+use super::LensEffect;
 use paracosm_engine::sensor::{CameraSetting, Chance};
 
 const ELECTRONS: (f64, f64) = (0.0, 1e9);
 
-pub(super) const EFFECT: Effect = Effect {
+pub(super) const EFFECT: LensEffect = LensEffect {
     name: "noise",
     about: "counts light as electrons, and adds the noise of counting and of reading",
     settings: &[

@@ -4,7 +4,7 @@
 //! as it is covered by it of the exposure (Garg and Nayar, Vision and Rain, IJCV 2007). What is farther away than a few metres
 //! is too faint to be told apart: it is the veil that [`sensor::Air`](paracosm_engine::sensor::Air) makes of rain.
 
-use crate::{Air, Camera, Frame};
+use crate::{Atmosphere, Camera, Frame};
 use nalgebra::{Isometry3, Point2, Point3, Vector3};
 use paracosm_engine::sensor::Chance;
 use std::f64::consts::{FRAC_PI_4, PI};
@@ -40,7 +40,7 @@ struct Streak {
 
 impl Rain {
     /// Rain of so many mm/h in this air, before a camera that is here in the world and moves so there, in m/s.
-    pub fn new(rate: f64, air: &Air, camera: &Isometry3<f64>, velocity: &Vector3<f64>) -> Self {
+    pub fn new(rate: f64, air: &Atmosphere, camera: &Isometry3<f64>, velocity: &Vector3<f64>) -> Self {
         let turned = |direction: &Vector3<f64>| camera.rotation.inverse() * direction;
         Self { rate, up: turned(&Vector3::z()), velocity: turned(velocity), light: air.colour() }
     }

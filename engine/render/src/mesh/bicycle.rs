@@ -2,7 +2,7 @@
 
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::colours::{BLACK, HAIR, RUBBER, SKIN, STEEL, TROUSERS};
-use super::{Mesh, Semantic, Surface};
+use super::{Mesh, Semantic, SurfaceKind};
 
 /// Length, width and height as it is modelled, in metres: those of [`Body::bicycle`](paracosm_engine::object::Body::bicycle).
 pub(crate) const SIZE: [f32; 3] = [1.8, 0.6, 1.75];
@@ -30,11 +30,11 @@ pub(crate) fn parked() -> Mesh {
 
 fn frame(clay: &mut Clay) {
     let matter = |surface, colour| Matter::new(surface, colour, Semantic::Bicycle);
-    let paint = Matter::painted(Surface::Paint, Semantic::Bicycle);
-    let (dark, steel) = (matter(Surface::Plain, BLACK), matter(Surface::Plain, STEEL));
+    let paint = Matter::painted(SurfaceKind::Paint, Semantic::Bicycle);
+    let (dark, steel) = (matter(SurfaceKind::Plain, BLACK), matter(SurfaceKind::Plain, STEEL));
     for centre in [FRONT, REAR] {
         let centre = Point::from(centre);
-        clay.tyre(centre, [WHEEL - 0.045, WHEEL], 0.045, 12, matter(Surface::Plain, RUBBER));
+        clay.tyre(centre, [WHEEL - 0.045, WHEEL], 0.045, 12, matter(SurfaceKind::Plain, RUBBER));
         // Two crossed spokes say that it is a wheel, as well as thirty would.
         for spoke in [at(0.3, 0.0, 0.0), at(0.0, 0.0, 0.3)] {
             clay.tube([centre - spoke, centre + spoke], [0.006; 2], 4, steel);
@@ -49,14 +49,14 @@ fn frame(clay: &mut Clay) {
     clay.tube([at(0.34, -0.3, 1.0), at(0.34, 0.3, 1.0)], [0.018; 2], 4, dark);
     clay.cuboid([-0.38, -0.07, 0.90], [-0.12, 0.07, 0.96], dark);
     clay.tube([pedals - Point::y() * 0.12, pedals + Point::y() * 0.12], [0.05; 2], 6, steel);
-    clay.cuboid([0.36, -0.03, 0.86], [0.42, 0.03, 0.92], matter(Surface::WhiteLamp, super::colours::LAMP));
-    clay.cuboid([-0.62, -0.03, 0.72], [-0.58, 0.03, 0.78], matter(Surface::RedLamp, super::colours::RED));
+    clay.cuboid([0.36, -0.03, 0.86], [0.42, 0.03, 0.92], matter(SurfaceKind::WhiteLamp, super::colours::LAMP));
+    clay.cuboid([-0.62, -0.03, 0.72], [-0.58, 0.03, 0.78], matter(SurfaceKind::RedLamp, super::colours::RED));
 }
 
 fn rider(clay: &mut Clay) {
-    let matter = |colour| Matter::new(Surface::Plain, colour, Semantic::Rider);
+    let matter = |colour| Matter::new(SurfaceKind::Plain, colour, Semantic::Rider);
     let (skin, trousers, shoes) = (matter(SKIN), matter(TROUSERS), matter(BLACK));
-    let jacket = Matter::painted(Surface::Cloth, Semantic::Rider);
+    let jacket = Matter::painted(SurfaceKind::Cloth, Semantic::Rider);
     // The back leans forward, as a stack of ovals.
     let back = [
         (-0.26, 0.92, 0.12, 0.16),

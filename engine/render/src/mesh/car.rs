@@ -2,7 +2,7 @@
 
 use super::clay::{Clay, Matter, Point, at, patch, ring};
 use super::colours::{BLACK, GLASS, LAMP, RED, RUBBER, STEEL, WHITE};
-use super::{Mesh, Semantic, Surface};
+use super::{Mesh, Semantic, SurfaceKind};
 
 /// Length, width and height of the car as it is modelled, in metres: those of [`Body::car`](paracosm_engine::object::Body::car).
 pub(crate) const SIZE: [f32; 3] = [4.5, 1.8, 1.45];
@@ -25,12 +25,12 @@ struct Station {
     top: f32,
 }
 
-fn matter(surface: Surface, colour: [f32; 3]) -> Matter {
+fn matter(surface: SurfaceKind, colour: [f32; 3]) -> Matter {
     Matter::new(surface, colour, Semantic::Car)
 }
 
 fn paint() -> Matter {
-    Matter::painted(Surface::Paint, Semantic::Car)
+    Matter::painted(SurfaceKind::Paint, Semantic::Car)
 }
 
 pub(crate) fn car() -> Mesh {
@@ -87,12 +87,12 @@ fn body(clay: &mut Clay) {
         clay.facet(&end(&sections[sections.len() - 1]), paint());
         clay.facet(&end(&sections[0]).into_iter().rev().collect::<Vec<_>>(), paint());
     });
-    let dark = matter(Surface::Plain, BLACK);
+    let dark = matter(SurfaceKind::Plain, BLACK);
     clay.cuboid([-2.16, -0.68, 0.19], [2.12, 0.68, 0.68], dark);
     // Bumper and grille, and a number plate at either end.
     clay.cuboid([2.1, -0.5, 0.36], [2.262, 0.5, 0.50], dark);
     clay.cuboid([-2.262, -0.62, 0.36], [-2.1, 0.62, 0.46], dark);
-    let plate = matter(Surface::Plain, WHITE);
+    let plate = matter(SurfaceKind::Plain, WHITE);
     clay.facet(&[at(2.27, -0.26, 0.38), at(2.27, 0.26, 0.38), at(2.27, 0.26, 0.49), at(2.27, -0.26, 0.49)], plate);
     clay.facet(&[at(-2.27, 0.26, 0.56), at(-2.27, -0.26, 0.56), at(-2.27, -0.26, 0.67), at(-2.27, 0.26, 0.67)], plate);
 }
@@ -103,7 +103,7 @@ fn cabin(clay: &mut Clay) {
     // The roof bends inwards over the windows.
     let inner = [at(0.10, 0.42, 1.45), at(-1.02, 0.40, 1.45)];
     let across = |point: Point| at(point.x, -point.y, point.z);
-    let glass = matter(Surface::Glass, GLASS);
+    let glass = matter(SurfaceKind::Glass, GLASS);
     let windscreen = [across(front), front, high, across(high)];
     let window = [rear, across(rear), across(back), back];
     for (facet, u, v) in [(windscreen, [0.05, 0.95], [0.10, 0.95]), (window, [0.08, 0.92], [0.12, 0.92])] {
@@ -126,11 +126,11 @@ fn cabin(clay: &mut Clay) {
 
 fn wheel(clay: &mut Clay, x: f32) {
     let [inner, outer] = [at(x, 0.66, WHEEL), at(x, 0.885, WHEEL)];
-    clay.tube([inner, outer], [WHEEL; 2], 12, matter(Surface::Plain, RUBBER));
-    clay.facet(&ring(outer + Point::y() * 0.008, Point::y(), 0.2, 8), matter(Surface::Plain, STEEL));
+    clay.tube([inner, outer], [WHEEL; 2], 12, matter(SurfaceKind::Plain, RUBBER));
+    clay.facet(&ring(outer + Point::y() * 0.008, Point::y(), 0.2, 8), matter(SurfaceKind::Plain, STEEL));
 }
 
 fn lamps(clay: &mut Clay) {
-    clay.cuboid([1.98, 0.46, 0.52], [2.245, 0.79, 0.64], matter(Surface::WhiteLamp, LAMP));
-    clay.cuboid([-2.235, 0.48, 0.68], [-2.02, 0.815, 0.82], matter(Surface::RedLamp, RED));
+    clay.cuboid([1.98, 0.46, 0.52], [2.245, 0.79, 0.64], matter(SurfaceKind::WhiteLamp, LAMP));
+    clay.cuboid([-2.235, 0.48, 0.68], [-2.02, 0.815, 0.82], matter(SurfaceKind::RedLamp, RED));
 }

@@ -3,7 +3,7 @@
 //! Everything is flat until [`Clay::mesh`] rounds off whatever bends less than [`CREASE`]: so a tube of ten sides
 //! looks round, and a box keeps its edges. Texture coordinates are metres along the two axes that a facet faces least.
 
-use super::{Mesh, Surface, Vertex};
+use super::{Mesh, SurfaceKind, Vertex};
 use crate::Semantic;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::HashMap;
@@ -20,17 +20,17 @@ pub(crate) type Point = Vector3<f32>;
 pub(crate) struct Matter {
     /// Linear light.
     pub colour: [f32; 3],
-    pub surface: Surface,
+    pub surface: SurfaceKind,
     pub semantic: Semantic,
 }
 
 impl Matter {
-    pub fn new(surface: Surface, colour: [f32; 3], semantic: Semantic) -> Self {
+    pub fn new(surface: SurfaceKind, colour: [f32; 3], semantic: Semantic) -> Self {
         Self { colour, surface, semantic }
     }
 
     /// A surface that has its colour from the instance.
-    pub fn painted(surface: Surface, semantic: Semantic) -> Self {
+    pub fn painted(surface: SurfaceKind, semantic: Semantic) -> Self {
         Self::new(surface, [1.0; 3], semantic)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::clay::{Clay, Matter, Point, at, oval, ring};
 use super::colours::{BLACK, GREY, LAMP, ORANGE, RED, STEEL, WHITE};
-use super::{Mesh, Semantic, Surface};
+use super::{Mesh, Semantic, SurfaceKind};
 
 /// What a sign shows: they differ in shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub(crate) enum Plate {
 pub(crate) const PLATE: f32 = 0.32;
 
 fn of(semantic: Semantic) -> impl Fn([f32; 3]) -> Matter {
-    move |colour| Matter::new(Surface::Plain, colour, semantic)
+    move |colour| Matter::new(SurfaceKind::Plain, colour, semantic)
 }
 
 /// A pole of radius 1 and height 1.
@@ -34,7 +34,7 @@ pub(crate) fn pole() -> Mesh {
 /// A plate around the origin that faces along x. What is neither ring nor sign on it is painted.
 pub(crate) fn plate(plate: Plate) -> Mesh {
     let of = of(Semantic::TrafficSign);
-    let painted = Matter::painted(Surface::Cloth, Semantic::TrafficSign);
+    let painted = Matter::painted(SurfaceKind::Cloth, Semantic::TrafficSign);
     let mut clay = Clay::default();
     let shape = |x: f32, size: f32| match plate {
         Plate::Limit => ring(at(x, 0.0, 0.0), Point::x(), size, 14),
@@ -85,7 +85,7 @@ pub(crate) fn lantern() -> Mesh {
     let (of, top) = (of(Semantic::Pole), LANTERN);
     clay.tube([at(0.0, 0.0, top - 0.05), at(1.3, 0.0, top - 0.06)], [0.05, 0.04], 6, of(STEEL));
     clay.cuboid([1.05, -0.14, top - 0.1], [1.75, 0.14, top], of(GREY));
-    let lamp = Matter::new(Surface::WhiteLamp, LAMP, Semantic::Pole);
+    let lamp = Matter::new(SurfaceKind::WhiteLamp, LAMP, Semantic::Pole);
     clay.cuboid([1.1, -0.11, top - 0.15], [1.7, 0.11, top - 0.09], lamp);
     clay.mesh()
 }
@@ -94,7 +94,7 @@ pub(crate) fn lantern() -> Mesh {
 pub(crate) fn cone() -> Mesh {
     let mut clay = Clay::default();
     let of = of(Semantic::Dynamic);
-    let painted = Matter::painted(Surface::Cloth, Semantic::Dynamic);
+    let painted = Matter::painted(SurfaceKind::Cloth, Semantic::Dynamic);
     clay.cuboid([-0.5, -0.5, 0.0], [0.5, 0.5, 0.05], of(BLACK));
     let layer = |z: f32| oval(at(0.0, 0.0, z), 0.40 - 0.32 * z, 0.40 - 0.32 * z, 8);
     for (from, to, matter) in [
@@ -113,7 +113,7 @@ pub(crate) fn cone() -> Mesh {
 /// A barrel in a box of 1 m each way.
 pub(crate) fn barrel() -> Mesh {
     let mut clay = Clay::default();
-    let painted = Matter::painted(Surface::Cloth, Semantic::Dynamic);
+    let painted = Matter::painted(SurfaceKind::Cloth, Semantic::Dynamic);
     let layers = [(0.0, 0.47), (0.06, 0.5), (0.94, 0.5), (1.0, 0.47)];
     clay.loft(&layers.map(|(z, radius)| oval(at(0.0, 0.0, z), radius, radius, 12)), painted);
     for z in [0.3, 0.66] {
@@ -126,14 +126,14 @@ pub(crate) fn barrel() -> Mesh {
 /// A ball in a box of 1 m each way.
 pub(crate) fn ball() -> Mesh {
     let mut clay = Clay::default();
-    clay.ball(at(0.0, 0.0, 0.5), [0.5; 3], 12, Matter::painted(Surface::Cloth, Semantic::Dynamic));
+    clay.ball(at(0.0, 0.0, 0.5), [0.5; 3], 12, Matter::painted(SurfaceKind::Cloth, Semantic::Dynamic));
     clay.fitted([1.0; 3]).mesh()
 }
 
 /// A box of 1 m each way, with tape over it.
 pub(crate) fn parcel() -> Mesh {
     let mut clay = Clay::default();
-    clay.cuboid([-0.5, -0.5, 0.0], [0.5, 0.5, 1.0], Matter::painted(Surface::Cloth, Semantic::Dynamic));
+    clay.cuboid([-0.5, -0.5, 0.0], [0.5, 0.5, 1.0], Matter::painted(SurfaceKind::Cloth, Semantic::Dynamic));
     let tape = of(Semantic::Dynamic)(TAPE);
     clay.cuboid([-0.505, -0.06, -0.0], [0.505, 0.06, 1.004], tape);
     clay.fitted([1.0; 3]).mesh()

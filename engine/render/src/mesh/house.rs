@@ -2,7 +2,7 @@
 
 use super::clay::{Clay, Matter, Point, at, patch};
 use super::colours::{GLASS, GREY, TILES, WHITE, WOOD};
-use super::{Mesh, Semantic, Surface};
+use super::{Mesh, Semantic, SurfaceKind};
 
 /// What a house is built to: the rest is stretched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -25,12 +25,12 @@ const BAYS: usize = 20;
 /// How far the roof stands out over the walls.
 const EAVES: f32 = 0.2;
 
-fn matter(surface: Surface, colour: [f32; 3]) -> Matter {
+fn matter(surface: SurfaceKind, colour: [f32; 3]) -> Matter {
     Matter::new(surface, colour, Semantic::Building)
 }
 
 fn wall() -> Matter {
-    Matter::painted(Surface::Cloth, Semantic::Building)
+    Matter::painted(SurfaceKind::Cloth, Semantic::Building)
 }
 
 impl Plan {
@@ -69,7 +69,7 @@ impl Plan {
             clay.cuboid(
                 [-x - EAVES, -y - EAVES, height - 0.3],
                 [x + EAVES, y + EAVES, height],
-                matter(Surface::Plain, GREY),
+                matter(SurfaceKind::Plain, GREY),
             );
         }
         let front = [at(x, -y, 0.0), at(x, y, 0.0), at(x, y, eaves), at(x, -y, eaves)];
@@ -83,13 +83,13 @@ impl Plan {
 
     /// A window for every storey and bay of a wall, and a door in one of the bays.
     fn windows(&self, clay: &mut Clay, wall: [Point; 4], bays: usize, door: Option<usize>) {
-        let (white, glass) = (matter(Surface::Plain, WHITE), matter(Surface::Glass, GLASS));
+        let (white, glass) = (matter(SurfaceKind::Plain, WHITE), matter(SurfaceKind::Glass, GLASS));
         for (storey, bay) in (0..self.storeys).flat_map(|storey| (0..bays).map(move |bay| (storey, bay))) {
             let u = |share: f32| (bay as f32 + share) / bays as f32;
             let v = |share: f32| (storey as f32 + share) / self.storeys as f32;
             if storey == 0 && door == Some(bay) {
                 clay.facet(&patch(wall, [u(0.28), u(0.72)], [0.0, v(0.80)], 0.02), white);
-                clay.facet(&patch(wall, [u(0.32), u(0.68)], [0.0, v(0.77)], 0.04), matter(Surface::Plain, WOOD));
+                clay.facet(&patch(wall, [u(0.32), u(0.68)], [0.0, v(0.77)], 0.04), matter(SurfaceKind::Plain, WOOD));
             } else {
                 clay.facet(&patch(wall, [u(0.26), u(0.74)], [v(0.30), v(0.82)], 0.02), white);
                 // Two panes.
@@ -104,5 +104,5 @@ impl Plan {
 /// The left half of a gable roof.
 fn roof(clay: &mut Clay, x: f32, y: f32, eaves: f32, ridge: f32) {
     let slab = |x: f32| vec![at(x, y, eaves - 0.18), at(x, y, eaves), at(x, 0.0, ridge), at(x, 0.0, ridge - 0.18)];
-    clay.loft(&[slab(-x), slab(x)], matter(Surface::Plain, TILES));
+    clay.loft(&[slab(-x), slab(x)], matter(SurfaceKind::Plain, TILES));
 }

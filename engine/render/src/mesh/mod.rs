@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// How a surface answers to light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
-pub enum Surface {
+pub enum SurfaceKind {
     /// Its own colour, dull.
     Plain = 0,
     /// The colour of the instance, glossy: a car's body.
@@ -83,7 +83,7 @@ pub struct Vertex {
     /// Red, green and blue in linear light, from 0 to 1.
     pub colour: [f32; 3],
     /// How it answers to light.
-    pub surface: Surface,
+    pub surface: SurfaceKind,
     /// What it is part of.
     pub semantic: Semantic,
 }

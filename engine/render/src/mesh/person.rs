@@ -2,7 +2,7 @@
 
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::colours::{BLACK, HAIR, SKIN, TROUSERS};
-use super::{Mesh, Semantic, Surface};
+use super::{Mesh, Semantic, SurfaceKind};
 
 /// Depth, width and height of the whole person as modelled, in metres: those of
 /// [`Body::adult`](paracosm_engine::object::Body::adult), but for the depth, which is the person's own.
@@ -20,11 +20,11 @@ pub(crate) const SHIN: f32 = 0.48;
 pub(crate) const SOLE: [f32; 2] = [-0.09, 0.17];
 
 fn matter(colour: [f32; 3]) -> Matter {
-    Matter::new(Surface::Plain, colour, Semantic::Pedestrian)
+    Matter::new(SurfaceKind::Plain, colour, Semantic::Pedestrian)
 }
 
 fn jacket() -> Matter {
-    Matter::painted(Surface::Cloth, Semantic::Pedestrian)
+    Matter::painted(SurfaceKind::Cloth, Semantic::Pedestrian)
 }
 
 /// Hips, trunk, neck and head, over the middle between the soles. The head of a child is larger for its body.

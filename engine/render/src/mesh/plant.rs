@@ -2,19 +2,19 @@
 
 use super::clay::{Clay, Matter, at, oval};
 use super::colours::BARK;
-use super::{Mesh, Semantic, Surface};
+use super::{Mesh, Semantic, SurfaceKind};
 
 /// A trunk of radius 1 and height 1.
 pub(crate) fn trunk() -> Mesh {
     let mut clay = Clay::default();
-    let bark = Matter::new(Surface::Plain, BARK, Semantic::Vegetation);
+    let bark = Matter::new(SurfaceKind::Plain, BARK, Semantic::Vegetation);
     clay.loft(&[oval(at(0.0, 0.0, 0.0), 1.0, 1.0, 8), oval(at(0.0, 0.0, 1.0), 0.6, 0.6, 8)], bark);
     clay.mesh()
 }
 
 /// A crown in a box of 1 m each way: that of a conifer, or one of broad leaves.
 pub(crate) fn crown(conifer: bool, colour: [f32; 3]) -> Mesh {
-    let leaves = Matter::new(Surface::Grown, colour, Semantic::Vegetation);
+    let leaves = Matter::new(SurfaceKind::Grown, colour, Semantic::Vegetation);
     let mut clay = Clay::default();
     if conifer {
         for (low, wide, high, narrow) in [(0.0, 0.5, 0.45, 0.18), (0.28, 0.4, 0.74, 0.12), (0.56, 0.28, 1.0, 0.0)] {

@@ -1,10 +1,10 @@
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::furniture::{self, Plate};
-use super::{Mesh, Semantic, Surface, bicycle, car, house, person, plant, truck};
+use super::{Mesh, Semantic, SurfaceKind, bicycle, car, house, person, plant, truck};
 use std::collections::BTreeMap;
 
 fn plain() -> Matter {
-    Matter::new(Surface::Plain, [0.5; 3], Semantic::Other)
+    Matter::new(SurfaceKind::Plain, [0.5; 3], Semantic::Other)
 }
 
 fn shape(build: impl FnOnce(&mut Clay)) -> Mesh {

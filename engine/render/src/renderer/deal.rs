@@ -2,7 +2,7 @@
 
 use super::prepare::Prepared;
 use super::targets::Format;
-use crate::{Camera, Outputs};
+use crate::{Camera, WantedImages};
 use std::ops::Range;
 
 /// The most views in a batch.
@@ -29,8 +29,8 @@ impl Layer<'_> {
     }
 
     /// What images it has.
-    fn format(&self, wanted: Outputs) -> Format {
-        let masks = Outputs { alone: true, ..Outputs::default() };
+    fn format(&self, wanted: WantedImages) -> Format {
+        let masks = WantedImages { alone: true, ..WantedImages::default() };
         let wanted = if self.has_images() { wanted } else { masks };
         Format { width: self.camera.width(), height: self.camera.height(), wanted }
     }
@@ -50,7 +50,7 @@ pub(super) struct Hand<'a> {
 }
 
 /// Deals views out: to hands of one size each, and not too many to any.
-pub(super) fn deal(layers: Vec<Layer<'_>>, wanted: Outputs, limit: usize) -> Vec<Hand<'_>> {
+pub(super) fn deal(layers: Vec<Layer<'_>>, wanted: WantedImages, limit: usize) -> Vec<Hand<'_>> {
     let mut hands: Vec<Hand<'_>> = Vec::new();
     for layer in layers {
         let format = layer.format(wanted);

@@ -1,6 +1,6 @@
 //! The images of a view, and how their pixels are stored.
 
-use crate::Outputs;
+use crate::WantedImages;
 
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
@@ -41,7 +41,7 @@ impl Image {
         matches!(self, Self::Rgb | Self::Linear)
     }
 
-    pub fn is_wanted(self, wanted: Outputs) -> bool {
+    pub fn is_wanted(self, wanted: WantedImages) -> bool {
         match self {
             Self::Rgb => wanted.rgb,
             Self::Depth => wanted.depth,

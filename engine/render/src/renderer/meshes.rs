@@ -2,7 +2,7 @@
 
 use super::adapter::Gpu;
 use super::raw::{RawCorner, Shape};
-use crate::{InstanceFlaw, Mesh, Surface, Vertex};
+use crate::{InstanceFlaw, Mesh, SurfaceKind, Vertex};
 use nalgebra::{Point3, Vector3};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -37,11 +37,11 @@ pub(super) enum Finish {
 impl Finish {
     pub const ALL: [Self; 3] = [Self::Dull, Self::Glossy, Self::Grained];
 
-    fn of(surface: Surface) -> Self {
+    fn of(surface: SurfaceKind) -> Self {
         match surface {
-            Surface::Paint | Surface::Glass => Self::Glossy,
-            Surface::Asphalt | Surface::Grown => Self::Grained,
-            Surface::Plain | Surface::Cloth | Surface::WhiteLamp | Surface::RedLamp => Self::Dull,
+            SurfaceKind::Paint | SurfaceKind::Glass => Self::Glossy,
+            SurfaceKind::Asphalt | SurfaceKind::Grown => Self::Grained,
+            SurfaceKind::Plain | SurfaceKind::Cloth | SurfaceKind::WhiteLamp | SurfaceKind::RedLamp => Self::Dull,
         }
     }
 }
@@ -122,7 +122,7 @@ impl GpuMesh {
 
 /// The middle of the lamps high up in a mesh, if it has any.
 fn lamp_of(mesh: &Mesh) -> Option<Point3<f64>> {
-    let lamps = mesh.vertices().iter().filter(|vertex| vertex.surface == Surface::WhiteLamp);
+    let lamps = mesh.vertices().iter().filter(|vertex| vertex.surface == SurfaceKind::WhiteLamp);
     let high: Vec<_> = lamps.filter(|vertex| vertex.position[2] > HIGH).collect();
     let sum: Vector3<f64> = high.iter().map(|vertex| Vector3::from(vertex.position).cast::<f64>()).sum();
     (!high.is_empty()).then(|| Point3::from(sum / high.len() as f64))

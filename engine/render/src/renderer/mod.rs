@@ -20,7 +20,7 @@ mod tests;
 
 pub use adapter::{Adapter, adapter};
 
-use crate::{Camera, Frame, Outputs, RenderError, View, ViewError};
+use crate::{Camera, Frame, RenderError, View, ViewError, WantedImages};
 use adapter::Gpu;
 use deal::{Hand, Layer, deal};
 use meshes::{Finish, Meshes};
@@ -83,7 +83,7 @@ impl Renderer {
     pub fn render(
         &mut self,
         views: &[View<'_>],
-        wanted: Outputs,
+        wanted: WantedImages,
     ) -> Result<Vec<Result<Frame, ViewError>>, RenderError> {
         self.gpu.trouble.check()?;
         self.meshes.evict();
@@ -116,7 +116,7 @@ impl Renderer {
     ///
     /// # Errors
     /// They are not.
-    pub fn check_size(&self, camera: &Camera, wanted: Outputs) -> Result<(), ViewError> {
+    pub fn check_size(&self, camera: &Camera, wanted: WantedImages) -> Result<(), ViewError> {
         let (width, height) = (camera.width(), camera.height());
         let limits = &self.gpu.limits;
         let limit = limits.max_texture_dimension_2d;
@@ -128,7 +128,7 @@ impl Renderer {
         if bytes > limit { Err(ViewError::TooMuch { what, bytes, limit }) } else { Ok(()) }
     }
 
-    fn prepare(&mut self, view: &View<'_>, wanted: Outputs) -> Result<Prepared, ViewError> {
+    fn prepare(&mut self, view: &View<'_>, wanted: WantedImages) -> Result<Prepared, ViewError> {
         self.check_size(view.camera, wanted)?;
         let prepared = prepare(&self.gpu, &mut self.meshes, view, wanted)?;
         let (bytes, limit) = (format(view.camera, wanted).mask_bytes(prepared.words(), 1), self.most_masks);
@@ -192,7 +192,7 @@ impl Renderer {
     ) {
         let offset = layer * view_stride(&self.gpu) as u32;
         // Where nothing throws a shadow, there is no map to clear, nor one to look at.
-        let wanted = Outputs { shadows: !prepared.casters.is_empty(), ..targets.format.wanted };
+        let wanted = WantedImages { shadows: !prepared.casters.is_empty(), ..targets.format.wanted };
         let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
         if wanted.shadows {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -313,6 +313,6 @@ impl Renderer {
 /// How many sets of layers wait for another batch of their kind: two of each of two kinds.
 const MOST_IDLE: usize = 4;
 
-fn format(camera: &Camera, wanted: Outputs) -> Format {
+fn format(camera: &Camera, wanted: WantedImages) -> Format {
     Format { width: camera.width(), height: camera.height(), wanted }
 }

@@ -6,7 +6,7 @@ use super::meshes::Finish;
 use super::prepare::Weather;
 use super::raw::{RawCorner, RawInstance, RawView};
 use super::shadow::TEXELS;
-use crate::Outputs;
+use crate::WantedImages;
 use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 use wgpu::{BindingType, CompareFunction, ShaderStages};
@@ -23,7 +23,7 @@ pub(super) struct Pipelines {
     shaded: wgpu::PipelineLayout,
     pub shadow: wgpu::RenderPipeline,
     pub alone: wgpu::RenderPipeline,
-    drawing: BTreeMap<(Outputs, Weather), Drawing>,
+    drawing: BTreeMap<(WantedImages, Weather), Drawing>,
 }
 
 /// The programs that draw what is asked for.
@@ -76,7 +76,7 @@ impl Pipelines {
     }
 
     /// The programs for these images in this weather.
-    pub fn drawing(&mut self, gpu: &Gpu, wanted: Outputs, weather: Weather) -> Drawing {
+    pub fn drawing(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather) -> Drawing {
         // Where there is no light, weather makes no difference.
         let weather = if wanted.light() { weather } else { Weather::default() };
         let Self { modules, shaded, drawing, .. } = self;
@@ -85,7 +85,13 @@ impl Pipelines {
 }
 
 impl Drawing {
-    fn new(gpu: &Gpu, modules: &Modules, layout: &wgpu::PipelineLayout, wanted: Outputs, weather: Weather) -> Self {
+    fn new(
+        gpu: &Gpu,
+        modules: &Modules,
+        layout: &wgpu::PipelineLayout,
+        wanted: WantedImages,
+        weather: Weather,
+    ) -> Self {
         let pipeline = |finish: Option<Finish>| {
             let sky = finish.is_none();
             let choices = [

@@ -6,7 +6,7 @@ use super::meshes::{GpuMesh, Meshes, Unfit};
 use super::raw::Shape;
 use super::raw::{RawInstance, RawView, four};
 use super::shadow::{ShadowMap, to_sun};
-use crate::{Camera, Instance, InstanceFlaw, Outputs, View, ViewError};
+use crate::{Camera, Instance, InstanceFlaw, View, ViewError, WantedImages};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -60,7 +60,12 @@ struct Placed<'a> {
 }
 
 /// Gets a view ready.
-pub(super) fn prepare(gpu: &Gpu, meshes: &mut Meshes, view: &View<'_>, wanted: Outputs) -> Result<Prepared, ViewError> {
+pub(super) fn prepare(
+    gpu: &Gpu,
+    meshes: &mut Meshes,
+    view: &View<'_>,
+    wanted: WantedImages,
+) -> Result<Prepared, ViewError> {
     check(view)?;
     let eye = view.camera.pose(&view.pose);
     let to_eye = eye.inverse();

@@ -1,7 +1,7 @@
 //! Where the shadow map lies: a square before the camera, across the sun's rays.
 
 use super::raw::rows;
-use crate::Air;
+use crate::Atmosphere;
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
 /// Texels of the map each way.
@@ -21,7 +21,7 @@ pub(super) struct ShadowMap {
 }
 
 /// The direction to the sun, in the world.
-pub(super) fn to_sun(air: &Air) -> Vector3<f64> {
+pub(super) fn to_sun(air: &Atmosphere) -> Vector3<f64> {
     let (sin_up, cos_up) = libm::sincos(f64::from(air.sun_elevation));
     let (sin_around, cos_around) = libm::sincos(f64::from(air.sun_azimuth));
     Vector3::new(cos_up * cos_around, cos_up * sin_around, sin_up)

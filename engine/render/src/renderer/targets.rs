@@ -6,7 +6,7 @@
 use super::adapter::Gpu;
 use super::pipelines::Pipelines;
 use super::raw::{RawInstance, RawView};
-use crate::Outputs;
+use crate::WantedImages;
 
 use super::images::{DEPTH_FORMAT, Image};
 
@@ -15,7 +15,7 @@ use super::images::{DEPTH_FORMAT, Image};
 pub(super) struct Format {
     pub width: u32,
     pub height: u32,
-    pub wanted: Outputs,
+    pub wanted: WantedImages,
 }
 
 impl Format {

@@ -4,7 +4,7 @@
 mod adapter;
 
 use super::Renderer;
-use crate::{Camera, Instance, Mesh, Outputs, RenderError, Scene, Semantic, Surface, Vertex, View};
+use crate::{Camera, Instance, Mesh, RenderError, Scene, Semantic, SurfaceKind, Vertex, View, WantedImages};
 use nalgebra::Isometry3;
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ fn board() -> Scene {
         normal: [-1.0, 0.0, 0.0],
         uv: [y, z],
         colour: [0.5; 3],
-        surface: Surface::Plain,
+        surface: SurfaceKind::Plain,
         semantic: Semantic::Wall,
     };
     let corners = vec![corner(-9.0, -9.0), corner(-9.0, 9.0), corner(9.0, 9.0), corner(9.0, -9.0)];
@@ -27,12 +27,19 @@ fn board() -> Scene {
     let pose = Isometry3::translation(5.0, 0.0, 0.0);
     Scene {
         instances: vec![Instance { mesh, pose, scale: [1.0; 3], paint: [0.5; 3], id: 3 }],
-        air: crate::Air::default(),
+        air: crate::Atmosphere::default(),
     }
 }
 
-const INSTANCES: Outputs =
-    Outputs { instance: true, rgb: false, linear: false, depth: false, semantic: false, alone: false, shadows: false };
+const INSTANCES: WantedImages = WantedImages {
+    instance: true,
+    rgb: false,
+    linear: false,
+    depth: false,
+    semantic: false,
+    alone: false,
+    shadows: false,
+};
 
 fn camera() -> Camera {
     Camera::new(7, 5, 24.0, 36.0).expect("a sound camera")
@@ -96,7 +103,7 @@ fn masks_of_things_alone_are_the_same_in_however_many_bands_they_are_drawn() {
         let scale = [1.0, 0.002 * f32::from(id), 0.1];
         scene.instances.push(Instance { mesh: mesh.clone(), pose, scale, paint: [0.5; 3], id });
     }
-    let wanted = Outputs { alone: true, ..INSTANCES };
+    let wanted = WantedImages { alone: true, ..INSTANCES };
     let cameras = [(48, 31), (20, 7)].map(|(width, height)| Camera::new(width, height, 24.0, 36.0).expect("a camera"));
     let views: Vec<_> = cameras.iter().chain(&cameras).map(|c| View::new(&scene, c, Isometry3::identity())).collect();
     let whole = renderer.render(&views, wanted).expect("the adapter works");

@@ -5,7 +5,7 @@
 
 use super::Instance;
 use crate::mesh::clay::{Clay, Matter, at};
-use crate::mesh::{Mesh, Semantic, Surface};
+use crate::mesh::{Mesh, Semantic, SurfaceKind};
 use nalgebra::{Isometry3, Vector2};
 use paracosm_engine::road::{Bounds, Curve, RoadNetwork, Strip, Surface as Paved};
 use std::collections::BTreeMap;
@@ -51,12 +51,12 @@ fn lie(surface: Paved) -> Lie {
     };
     match surface {
         // Under kerbs, and under the next element, so that no seam shows.
-        Paved::Carriageway => lie(Surface::Asphalt, ASPHALT, Semantic::Road, 0.0, [UNDER; 2], UNDER),
-        Paved::Sidewalk => lie(Surface::Asphalt, FLAGSTONE, Semantic::Sidewalk, KERB, [0.0, -UNDER], 0.0),
-        Paved::Island => lie(Surface::Grown, GRASS, Semantic::Terrain, KERB, [-UNDER, 0.0], 0.0),
-        Paved::Kerb => lie(Surface::Plain, STONE, Semantic::Sidewalk, KERB + 0.005, [0.0; 2], 0.0),
+        Paved::Carriageway => lie(SurfaceKind::Asphalt, ASPHALT, Semantic::Road, 0.0, [UNDER; 2], UNDER),
+        Paved::Sidewalk => lie(SurfaceKind::Asphalt, FLAGSTONE, Semantic::Sidewalk, KERB, [0.0, -UNDER], 0.0),
+        Paved::Island => lie(SurfaceKind::Grown, GRASS, Semantic::Terrain, KERB, [-UNDER, 0.0], 0.0),
+        Paved::Kerb => lie(SurfaceKind::Plain, STONE, Semantic::Sidewalk, KERB + 0.005, [0.0; 2], 0.0),
         Paved::CentreLine | Paved::LaneLine | Paved::EdgeLine | Paved::StopLine | Paved::GiveWayLine | Paved::Zebra => {
-            lie(Surface::Plain, LINE, Semantic::RoadLine, PAINT, [0.0; 2], 0.0)
+            lie(SurfaceKind::Plain, LINE, Semantic::RoadLine, PAINT, [0.0; 2], 0.0)
         }
     }
 }
@@ -133,7 +133,10 @@ fn plain(bounds: &Bounds) -> Instance {
     let half = (0.5 * (bounds.max - bounds.min)).map(|metres| (metres + HORIZON) as f32);
     let mut clay = Clay::default();
     let corners = [(-half.x, -half.y), (half.x, -half.y), (half.x, half.y), (-half.x, half.y)];
-    clay.facet(&corners.map(|(x, y)| at(x, y, PLAIN as f32)), Matter::new(Surface::Grown, GRASS, Semantic::Terrain));
+    clay.facet(
+        &corners.map(|(x, y)| at(x, y, PLAIN as f32)),
+        Matter::new(SurfaceKind::Grown, GRASS, Semantic::Terrain),
+    );
     standing(clay.mesh_at(middle.into()), middle)
 }
 

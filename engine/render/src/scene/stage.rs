@@ -3,7 +3,7 @@
 use super::figure::Figure;
 use super::ground::ground;
 use super::pavement::Pavement;
-use super::{Air, Instance, Scene};
+use super::{Atmosphere, Instance, Scene};
 use crate::Mesh;
 use nalgebra::{Isometry3, Vector3};
 use paracosm_engine::Run;
@@ -57,11 +57,11 @@ impl Stage {
     /// A run as it stands, with all bodies that are present. The car under test has the id 1: a camera that is mounted on
     /// it leaves that out.
     pub fn scene(&self, run: &Run) -> Scene {
-        self.scene_of(run.bodies().iter().enumerate(), Air::of(&run.weather()))
+        self.scene_of(run.bodies().iter().enumerate(), Atmosphere::of(&run.weather()))
     }
 
     /// These bodies, each with its index among those of the run, in this air. Those that have left the world are left out.
-    pub fn scene_of<'a>(&self, bodies: impl IntoIterator<Item = (usize, &'a BodyState)>, air: Air) -> Scene {
+    pub fn scene_of<'a>(&self, bodies: impl IntoIterator<Item = (usize, &'a BodyState)>, air: Atmosphere) -> Scene {
         self.scene_with(&Cast::new(), bodies, air)
     }
 
@@ -70,7 +70,7 @@ impl Stage {
         &self,
         cast: &Cast,
         bodies: impl IntoIterator<Item = (usize, &'a BodyState)>,
-        air: Air,
+        air: Atmosphere,
     ) -> Scene {
         let mut instances = self.still.clone();
         for (index, state) in bodies.into_iter().filter(|(_, state)| state.present) {

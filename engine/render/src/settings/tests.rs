@@ -1,7 +1,7 @@
 //! The table of settings: its messages, and that one effect more is in all that goes by the table.
 
 use super::*;
-use crate::lens::{Effect, Lens};
+use crate::lens::{Lens, LensEffect};
 use crate::{Camera, Frame, Optics};
 
 fn cameras(lens: &[(&str, f64)]) -> Cameras {
@@ -88,14 +88,14 @@ fn cameras_that_see_the_same_are_the_same_when_they_are_complete() {
 }
 
 /// An effect of a user's own: it multiplies all light.
-static GAIN: Effect = Effect {
+static GAIN: LensEffect = LensEffect {
     name: "gain",
     about: "multiplies all light",
     settings: &[CameraSetting::of_lens("gain", "", (0.0, 8.0), "how much more light there is").with_default(1.0)],
     is_idle: |settings| settings == [1.0],
     apply: |settings, light, _| light.values.iter_mut().for_each(|value| *value *= settings[0] as f32),
 };
-static WITH_GAIN: [&Effect; 2] = [&GAIN, EFFECTS[4]];
+static WITH_GAIN: [&LensEffect; 2] = [&GAIN, EFFECTS[4]];
 
 #[test]
 fn one_effect_more_is_in_the_table_in_the_checks_and_in_the_image() {

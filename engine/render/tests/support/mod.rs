@@ -6,7 +6,9 @@ mod adapter;
 pub mod golden;
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
-use paracosm_render::{Air, Camera, Frame, Instance, Mesh, Outputs, Renderer, Scene, Semantic, Surface, Vertex, View};
+use paracosm_render::{
+    Atmosphere, Camera, Frame, Instance, Mesh, Renderer, Scene, Semantic, SurfaceKind, Vertex, View, WantedImages,
+};
 use std::sync::Arc;
 
 /// A renderer; `None`, and a note, where there is no adapter and nobody insists.
@@ -14,14 +16,21 @@ pub fn renderer() -> Option<Renderer> {
     adapter::unless_missing(Renderer::new())
 }
 
-pub const NOTHING: Outputs =
-    Outputs { rgb: false, linear: false, depth: false, semantic: false, instance: false, alone: false, shadows: false };
-pub const RGB: Outputs = Outputs { rgb: true, ..NOTHING };
-pub const EVERYTHING: Outputs =
-    Outputs { rgb: true, linear: true, depth: true, semantic: true, instance: true, alone: true, shadows: true };
+pub const NOTHING: WantedImages = WantedImages {
+    rgb: false,
+    linear: false,
+    depth: false,
+    semantic: false,
+    instance: false,
+    alone: false,
+    shadows: false,
+};
+pub const RGB: WantedImages = WantedImages { rgb: true, ..NOTHING };
+pub const EVERYTHING: WantedImages =
+    WantedImages { rgb: true, linear: true, depth: true, semantic: true, instance: true, alone: true, shadows: true };
 
 /// One frame of one view.
-pub fn one(renderer: &mut Renderer, view: &View<'_>, wanted: Outputs) -> Frame {
+pub fn one(renderer: &mut Renderer, view: &View<'_>, wanted: WantedImages) -> Frame {
     let mut frames = renderer.render(std::slice::from_ref(view), wanted).expect("the adapter works");
     frames.pop().expect("one view, one frame").expect("the view is sound")
 }
@@ -34,11 +43,11 @@ pub fn vertex(position: [f32; 3], normal: [f32; 3], look: Look) -> Vertex {
 #[derive(Clone, Copy)]
 pub struct Look {
     pub colour: [f32; 3],
-    pub surface: Surface,
+    pub surface: SurfaceKind,
     pub semantic: Semantic,
 }
 
-pub fn look(colour: [f32; 3], surface: Surface, semantic: Semantic) -> Look {
+pub fn look(colour: [f32; 3], surface: SurfaceKind, semantic: Semantic) -> Look {
     Look { colour, surface, semantic }
 }
 
@@ -100,7 +109,7 @@ pub fn thing(mesh: &Arc<Mesh>, place: [f32; 3], yaw: f32, id: u16) -> Instance {
 }
 
 pub fn scene(instances: Vec<Instance>) -> Scene {
-    Scene { instances, air: Air::default() }
+    Scene { instances, air: Atmosphere::default() }
 }
 
 /// A camera 1.5 m above the origin of what carries it, that looks forward.
@@ -111,16 +120,16 @@ pub fn camera(width: u32, height: u32) -> Camera {
 
 /// A street with a crossing, parked cars, houses, trees, lamps and people: about 30 things of 10 meshes.
 pub fn street() -> Scene {
-    let plain = |colour, semantic| look(colour, Surface::Plain, semantic);
+    let plain = |colour, semantic| look(colour, SurfaceKind::Plain, semantic);
     let meshes = [
-        sheet([-100.0, -60.0], [300.0, 60.0], look([0.10, 0.17, 0.04], Surface::Grown, Semantic::Terrain)),
-        sheet([-50.0, -3.5], [250.0, 3.5], look([0.075, 0.075, 0.08], Surface::Asphalt, Semantic::Road)),
+        sheet([-100.0, -60.0], [300.0, 60.0], look([0.10, 0.17, 0.04], SurfaceKind::Grown, Semantic::Terrain)),
+        sheet([-50.0, -3.5], [250.0, 3.5], look([0.075, 0.075, 0.08], SurfaceKind::Asphalt, Semantic::Road)),
         sheet([-1.5, -0.06], [1.5, 0.06], plain([0.8, 0.8, 0.8], Semantic::RoadLine)),
         sheet([-1.5, -0.25], [1.5, 0.25], plain([0.8, 0.8, 0.8], Semantic::RoadLine)),
         cuboid([300.0, 2.0, 0.12], plain([0.35, 0.34, 0.33], Semantic::Sidewalk)),
-        cuboid([10.0, 8.0, 7.0], look([0.5; 3], Surface::Cloth, Semantic::Building)),
+        cuboid([10.0, 8.0, 7.0], look([0.5; 3], SurfaceKind::Cloth, Semantic::Building)),
         car(),
-        ball(1.0, 12, look([0.08, 0.2, 0.03], Surface::Grown, Semantic::Vegetation)),
+        ball(1.0, 12, look([0.08, 0.2, 0.03], SurfaceKind::Grown, Semantic::Vegetation)),
         cuboid([0.25, 0.25, 3.0], plain([0.15, 0.1, 0.06], Semantic::Vegetation)),
         person(),
         lamp_post(),
@@ -182,15 +191,15 @@ fn joined(parts: impl IntoIterator<Item = (Mesh, [f32; 3])>) -> Mesh {
 
 fn car() -> Mesh {
     let of = |surface, colour| look(colour, surface, Semantic::Car);
-    let tyre = || cuboid([0.62, 0.2, 0.62], of(Surface::Plain, [0.02; 3]));
+    let tyre = || cuboid([0.62, 0.2, 0.62], of(SurfaceKind::Plain, [0.02; 3]));
     joined([
-        (cuboid([4.3, 1.8, 0.6], of(Surface::Paint, [1.0; 3])), [0.0, 0.0, 0.3]),
-        (cuboid([2.2, 1.6, 0.5], of(Surface::Glass, [0.03; 3])), [-0.2, 0.0, 0.9]),
-        (cuboid([2.0, 1.5, 0.06], of(Surface::Paint, [1.0; 3])), [-0.2, 0.0, 1.38]),
-        (cuboid([0.04, 0.3, 0.15], of(Surface::RedLamp, [0.3, 0.0, 0.0])), [-2.16, 0.7, 0.65]),
-        (cuboid([0.04, 0.3, 0.15], of(Surface::RedLamp, [0.3, 0.0, 0.0])), [-2.16, -0.7, 0.65]),
-        (cuboid([0.04, 0.3, 0.15], of(Surface::WhiteLamp, [0.8; 3])), [2.16, 0.7, 0.6]),
-        (cuboid([0.04, 0.3, 0.15], of(Surface::WhiteLamp, [0.8; 3])), [2.16, -0.7, 0.6]),
+        (cuboid([4.3, 1.8, 0.6], of(SurfaceKind::Paint, [1.0; 3])), [0.0, 0.0, 0.3]),
+        (cuboid([2.2, 1.6, 0.5], of(SurfaceKind::Glass, [0.03; 3])), [-0.2, 0.0, 0.9]),
+        (cuboid([2.0, 1.5, 0.06], of(SurfaceKind::Paint, [1.0; 3])), [-0.2, 0.0, 1.38]),
+        (cuboid([0.04, 0.3, 0.15], of(SurfaceKind::RedLamp, [0.3, 0.0, 0.0])), [-2.16, 0.7, 0.65]),
+        (cuboid([0.04, 0.3, 0.15], of(SurfaceKind::RedLamp, [0.3, 0.0, 0.0])), [-2.16, -0.7, 0.65]),
+        (cuboid([0.04, 0.3, 0.15], of(SurfaceKind::WhiteLamp, [0.8; 3])), [2.16, 0.7, 0.6]),
+        (cuboid([0.04, 0.3, 0.15], of(SurfaceKind::WhiteLamp, [0.8; 3])), [2.16, -0.7, 0.6]),
         (tyre(), [1.4, 0.8, 0.0]),
         (tyre(), [1.4, -0.8, 0.0]),
         (tyre(), [-1.4, 0.8, 0.0]),
@@ -201,18 +210,18 @@ fn car() -> Mesh {
 fn person() -> Mesh {
     let of = |surface, colour| look(colour, surface, Semantic::Pedestrian);
     joined([
-        (cuboid([0.22, 0.16, 0.8], of(Surface::Plain, [0.03, 0.03, 0.06])), [0.0, 0.1, 0.0]),
-        (cuboid([0.22, 0.16, 0.8], of(Surface::Plain, [0.03, 0.03, 0.06])), [0.0, -0.1, 0.0]),
-        (cuboid([0.28, 0.46, 0.65], of(Surface::Cloth, [1.0; 3])), [0.0, 0.0, 0.8]),
-        (ball(0.13, 8, of(Surface::Plain, [0.5, 0.3, 0.2])), [0.0, 0.0, 1.62]),
+        (cuboid([0.22, 0.16, 0.8], of(SurfaceKind::Plain, [0.03, 0.03, 0.06])), [0.0, 0.1, 0.0]),
+        (cuboid([0.22, 0.16, 0.8], of(SurfaceKind::Plain, [0.03, 0.03, 0.06])), [0.0, -0.1, 0.0]),
+        (cuboid([0.28, 0.46, 0.65], of(SurfaceKind::Cloth, [1.0; 3])), [0.0, 0.0, 0.8]),
+        (ball(0.13, 8, of(SurfaceKind::Plain, [0.5, 0.3, 0.2])), [0.0, 0.0, 1.62]),
     ])
 }
 
 fn lamp_post() -> Mesh {
     let of = |surface, colour| look(colour, surface, Semantic::Pole);
     joined([
-        (cuboid([0.14, 0.14, 5.0], of(Surface::Plain, [0.2; 3])), [0.0; 3]),
-        (cuboid([1.2, 0.1, 0.1], of(Surface::Plain, [0.2; 3])), [0.6, 0.0, 4.95]),
-        (cuboid([0.5, 0.2, 0.08], of(Surface::WhiteLamp, [0.7; 3])), [1.1, 0.0, 4.87]),
+        (cuboid([0.14, 0.14, 5.0], of(SurfaceKind::Plain, [0.2; 3])), [0.0; 3]),
+        (cuboid([1.2, 0.1, 0.1], of(SurfaceKind::Plain, [0.2; 3])), [0.6, 0.0, 4.95]),
+        (cuboid([0.5, 0.2, 0.08], of(SurfaceKind::WhiteLamp, [0.7; 3])), [1.1, 0.0, 4.87]),
     ])
 }

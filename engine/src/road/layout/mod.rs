@@ -6,7 +6,7 @@ mod roundabout;
 mod segment;
 
 use super::curve::Curve;
-use super::element::{Profile, Shape};
+use super::element::{ElementShape, Profile};
 use super::lane::LaneKind;
 use super::strip::{Strip, Surface};
 use crate::geometry::Pose;
@@ -72,7 +72,7 @@ pub(super) struct Layout {
 /// An element's shape and what its roads are across.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Plan {
-    pub shape: Shape,
+    pub shape: ElementShape,
     pub profile: Profile,
 }
 
@@ -83,10 +83,10 @@ impl Plan {
     /// What an element without a name is called.
     pub fn kind(&self) -> &'static str {
         match self.shape {
-            Shape::Segment(_) => "road",
-            Shape::Tee(_) => "t-intersection",
-            Shape::Cross(_) => "cross-intersection",
-            Shape::Ring(_) => "roundabout",
+            ElementShape::Segment(_) => "road",
+            ElementShape::Tee(_) => "t-intersection",
+            ElementShape::Cross(_) => "cross-intersection",
+            ElementShape::Ring(_) => "roundabout",
         }
     }
 
@@ -103,9 +103,9 @@ impl Plan {
             return Some(format!("has sidewalks of {sidewalk} m, expected 0 to 20 m"));
         }
         match &self.shape {
-            Shape::Segment(road) => segment::problem(road, &self.profile),
-            Shape::Tee(corner) | Shape::Cross(corner) => kerb_problem("kerbs", *corner, sidewalk),
-            Shape::Ring(ring) => kerb_problem("kerbs at its entries", ring.entry, sidewalk)
+            ElementShape::Segment(road) => segment::problem(road, &self.profile),
+            ElementShape::Tee(corner) | ElementShape::Cross(corner) => kerb_problem("kerbs", *corner, sidewalk),
+            ElementShape::Ring(ring) => kerb_problem("kerbs at its entries", ring.entry, sidewalk)
                 .or_else(|| roundabout::problem(ring, &self.profile)),
         }
     }
@@ -114,18 +114,18 @@ impl Plan {
     fn arms(&self) -> Vec<f64> {
         let quarter = 0.5 * PI;
         match &self.shape {
-            Shape::Segment(_) => Vec::new(),
-            Shape::Tee(_) => vec![0.0, -quarter, PI],
-            Shape::Cross(_) => vec![0.0, -quarter, PI, quarter],
-            Shape::Ring(ring) => roundabout::headings(ring.arms).collect(),
+            ElementShape::Segment(_) => Vec::new(),
+            ElementShape::Tee(_) => vec![0.0, -quarter, PI],
+            ElementShape::Cross(_) => vec![0.0, -quarter, PI, quarter],
+            ElementShape::Ring(ring) => roundabout::headings(ring.arms).collect(),
         }
     }
 
     pub fn ports(&self) -> Vec<Port> {
         let reach = match &self.shape {
-            Shape::Segment(road) => return segment::ports(road).into(),
-            Shape::Tee(corner) | Shape::Cross(corner) => self.profile.half_width() + corner,
-            Shape::Ring(ring) => ring.reach(&self.profile),
+            ElementShape::Segment(road) => return segment::ports(road).into(),
+            ElementShape::Tee(corner) | ElementShape::Cross(corner) => self.profile.half_width() + corner,
+            ElementShape::Ring(ring) => ring.reach(&self.profile),
         };
         let port = |(heading, name)| Port { name, pose: arm(heading).then(&pose(reach, 0.0, 0.0)) };
         self.arms().into_iter().zip(POINTS).map(port).collect()
@@ -133,9 +133,11 @@ impl Plan {
 
     pub fn layout(&self) -> Layout {
         match &self.shape {
-            Shape::Segment(road) => segment::layout(road, &self.profile),
-            Shape::Tee(corner) | Shape::Cross(corner) => intersection::layout(&self.arms(), *corner, &self.profile),
-            Shape::Ring(ring) => roundabout::layout(ring, &self.profile),
+            ElementShape::Segment(road) => segment::layout(road, &self.profile),
+            ElementShape::Tee(corner) | ElementShape::Cross(corner) => {
+                intersection::layout(&self.arms(), *corner, &self.profile)
+            }
+            ElementShape::Ring(ring) => roundabout::layout(ring, &self.profile),
         }
     }
 }

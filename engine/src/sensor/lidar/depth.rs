@@ -1,6 +1,6 @@
 //! A LiDAR from a rendered picture: what its beams hit is read from the distances that a camera at its place sees.
 
-use super::{Beam, Point, Scan};
+use super::{Beam, LidarPoint, Scan};
 use crate::sensor::SensorError;
 use crate::sensor::error::Checks;
 use nalgebra::Vector3;
@@ -82,7 +82,7 @@ pub fn scan_of_depth(
     scan.points.extend(beams.into_iter().filter_map(|beam| {
         let [column, row] = camera.pixel(beam.direction())?;
         let distance = f64::from(depth[row * width + column]);
-        (0.0..=range).contains(&distance).then(|| Point {
+        (0.0..=range).contains(&distance).then(|| LidarPoint {
             position: (camera.direction([column, row]) * distance).cast(),
             intensity: libm::exp(-fading * distance) as f32,
             id: 0,

@@ -97,7 +97,7 @@ impl Beam {
 
 /// A place from which an echo came.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Point {
+pub struct LidarPoint {
     /// Where it is as seen from the sensor: x ahead, y to the left, z up, in metres.
     pub position: Vector3<f32>,
     /// How strong the echo is, from 0 to 1.
@@ -110,7 +110,7 @@ pub struct Point {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scan {
     /// The echoes, column by column from ahead counter-clockwise, and in each from the lowest channel up.
-    pub points: Vec<Point>,
+    pub points: Vec<LidarPoint>,
 }
 
 impl Scan {
@@ -203,7 +203,7 @@ impl Sensor for Lidar {
             let intensity = libm::exp(-fading * echo.distance);
             if echo.distance <= range && luck >= self.loss(intensity) {
                 let position = echo.direction * (echo.distance + noise).max(0.0);
-                reading.points.push(Point { position: position.cast(), intensity: intensity as f32, id: echo.id });
+                reading.points.push(LidarPoint { position: position.cast(), intensity: intensity as f32, id: echo.id });
             }
         }
     }

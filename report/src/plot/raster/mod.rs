@@ -8,7 +8,7 @@ pub(super) use canvas::{Canvas, sheet};
 use super::FONT;
 use ab_glyph::FontRef;
 use letters::letters;
-use paracosm_engine::picture::{Contour, Drawing, Mark, Paint as Look, Pixel, Segment};
+use paracosm_engine::picture::{Contour, Drawing, Paint as Look, PathSegment, PictureItem, Pixel};
 use std::error::Error as StdError;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
@@ -28,19 +28,19 @@ pub(super) fn draw(pixels: &mut Pixmap, drawing: &Drawing, scale: f32) {
     let zoom = Transform::from_scale(scale, scale);
     for mark in &drawing.marks {
         match mark {
-            Mark::Fill { contour, paint } => fill(pixels, path(contour), &painted(*paint), zoom),
-            Mark::Stroke { contour, paint, width, dash } => {
+            PictureItem::Fill { contour, paint } => fill(pixels, path(contour), &painted(*paint), zoom),
+            PictureItem::Stroke { contour, paint, width, dash } => {
                 let dash = dash.and_then(|[dash, gap]| StrokeDash::new(vec![dash as f32, gap as f32], 0.0));
                 stroke(pixels, path(contour), &painted(*paint), *width, dash, zoom);
             }
-            Mark::Text { at, anchor, size, colour, halo, text } => {
+            PictureItem::Text { at, anchor, size, colour, halo, text } => {
                 let letters = || letters(&font, text, *at, *anchor, *size);
                 if let Some(halo) = halo {
                     stroke(pixels, letters(), &painted((*halo).into()), 0.25 * size, None, zoom);
                 }
                 fill(pixels, letters(), &painted((*colour).into()), zoom);
             }
-            Mark::Inset { at, drawing } => {
+            PictureItem::Inset { at, drawing } => {
                 let inset = rasterised(drawing, scale);
                 let [x, y] = at.map(|pixel| (pixel as f32 * scale).round() as i32);
                 pixels.draw_pixmap(x, y, inset.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
@@ -98,19 +98,19 @@ fn path(contour: &Contour) -> Option<Path> {
     let single = |[x, y]: Pixel| (x as f32, y as f32);
     for segment in &contour.segments {
         match *segment {
-            Segment::Move(to) => {
+            PathSegment::Move(to) => {
                 let (x, y) = single(to);
                 path.move_to(x, y);
             }
-            Segment::Line(to) => {
+            PathSegment::Line(to) => {
                 let (x, y) = single(to);
                 path.line_to(x, y);
             }
-            Segment::Cubic(a, b, to) => {
+            PathSegment::Cubic(a, b, to) => {
                 let ((ax, ay), (bx, by), (x, y)) = (single(a), single(b), single(to));
                 path.cubic_to(ax, ay, bx, by, x, y);
             }
-            Segment::Close => path.close(),
+            PathSegment::Close => path.close(),
         }
     }
     path.finish()
@@ -124,15 +124,15 @@ mod tests {
     const WHITE: Colour = [255, 255, 255];
     const RED: Colour = [200, 0, 0];
 
-    fn square(from: f64, to: f64, colour: Colour, opacity: f64) -> Mark {
+    fn square(from: f64, to: f64, colour: Colour, opacity: f64) -> PictureItem {
         let corners = [[from, from], [to, from], [to, to], [from, to]];
-        let mut segments = vec![Segment::Move(corners[0])];
-        segments.extend(corners[1..].iter().map(|corner| Segment::Line(*corner)));
-        segments.push(Segment::Close);
-        Mark::Fill { contour: Contour { segments }, paint: Look { colour, opacity } }
+        let mut segments = vec![PathSegment::Move(corners[0])];
+        segments.extend(corners[1..].iter().map(|corner| PathSegment::Line(*corner)));
+        segments.push(PathSegment::Close);
+        PictureItem::Fill { contour: Contour { segments }, paint: Look { colour, opacity } }
     }
 
-    fn drawing(marks: Vec<Mark>) -> Drawing {
+    fn drawing(marks: Vec<PictureItem>) -> Drawing {
         let background = square(0.0, 40.0, WHITE, 1.0);
         Drawing { width: 40.0, height: 40.0, marks: [vec![background], marks].concat() }
     }
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn an_inset_cuts_off_what_reaches_beyond_it() {
         let inset = Drawing { width: 10.0, height: 10.0, marks: vec![square(-50.0, 50.0, RED, 1.0)] };
-        let drawing = drawing(vec![Mark::Inset { at: [20.0, 10.0], drawing: inset }]);
+        let drawing = drawing(vec![PictureItem::Inset { at: [20.0, 10.0], drawing: inset }]);
         for (x, y, colour) in [(20, 10, RED), (29, 19, RED), (19, 10, WHITE), (30, 19, WHITE), (20, 9, WHITE)] {
             assert_eq!(at(&drawing, 1, x, y), colour, "at {x}, {y}");
         }
@@ -164,7 +164,7 @@ mod tests {
     /// How many pixels left and right of the middle are dark.
     fn dark(anchor: Anchor, text: &str) -> [usize; 2] {
         let text = text.to_owned();
-        let text = Mark::Text { at: [20.0, 30.0], anchor, size: 12.0, colour: [0, 0, 0], halo: None, text };
+        let text = PictureItem::Text { at: [20.0, 30.0], anchor, size: 12.0, colour: [0, 0, 0], halo: None, text };
         let pixels = opaque(&rasterised(&drawing(vec![text]), 1.0));
         let dark = |of: std::ops::Range<usize>| {
             (0..1600).filter(|pixel| of.contains(&(pixel % 40)) && pixels[3 * pixel] < 128).count()
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_letter_with_a_hole_keeps_it() {
-        let zero = Mark::Text {
+        let zero = PictureItem::Text {
             at: [20.0, 36.0],
             anchor: Anchor::Middle,
             size: 40.0,

@@ -8,7 +8,7 @@ use paracosm_engine::sensor::{Image, Rig};
 use paracosm_engine::{
     AutonomousVehicle, Briefing, Control, Environment, Monitor, Observation, Program, RoadSegment, Scenario,
 };
-use paracosm_render::{Outputs, Stages};
+use paracosm_render::{Stages, WantedImages};
 use std::sync::{Arc, Mutex};
 
 const QUIET: Program = Program::new("quiet-road", "a car alone on a road", quiet_road);
@@ -56,7 +56,7 @@ fn more_rain_changes_more_of_an_image_and_no_rain_changes_nothing() {
         }
         let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
         let mut first = None;
-        let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();
+        let mut projector = Projector::new(&cameras, WantedImages { rgb: true, ..WantedImages::default() }).unwrap();
         let show = |pictures: Vec<Developed<'_>>| {
             first = first.take().or_else(|| pictures.into_iter().next()?.1.ok()?.frame.rgb);
             Ok(())
@@ -129,7 +129,7 @@ fn a_driver_sees_what_a_recording_shows_after_its_latency_and_but_for_what_is_lo
     assert_eq!(worker.eyes().unwrap(), cameras);
     let film = Film::of(&mut worker, &trial, &cameras, &Stages::default()).unwrap();
     let mut recorded = Vec::new();
-    let mut projector = Projector::new(&cameras, Outputs { rgb: true, ..Outputs::default() }).unwrap();
+    let mut projector = Projector::new(&cameras, WantedImages { rgb: true, ..WantedImages::default() }).unwrap();
     let show = |pictures: Vec<Developed<'_>>| {
         recorded.extend(pictures.into_iter().map(|(shot, picture)| (shot.number, picture.unwrap().frame.rgb.unwrap())));
         Ok(())

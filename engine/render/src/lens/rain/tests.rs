@@ -22,7 +22,7 @@ fn dark(camera: &Camera) -> Frame {
 }
 
 fn rain(rate: f64, velocity: Vector3<f64>) -> Rain {
-    Rain { light: [1.0; 3], ..Rain::new(rate, &Air::default(), &Isometry3::identity(), &velocity) }
+    Rain { light: [1.0; 3], ..Rain::new(rate, &Atmosphere::default(), &Isometry3::identity(), &velocity) }
 }
 
 /// What the rain of many images leaves on a dark one, in pixels as bright as a drop, in the mean.
