@@ -7,9 +7,11 @@
 //! - [`cycles`]: the modules of a crate do not import one another in a circle.
 //! - [`texts`]: an error is a type with data; its words are made where it is shown.
 //! - [`decisions`]: no decision reads the words of a message.
+//! - [`excerpts`]: the page on extending shows code that exists.
 
 mod cycles;
 mod decisions;
+mod excerpts;
 mod floors;
 mod imports;
 mod source;
