@@ -139,7 +139,7 @@ fn an_error_of_a_space_made_by_a_program_names_the_constraint() {
 fn what_is_wrong_with_a_model_is_said_with_line_and_column() {
     let check = |text: &str, at: (usize, usize), expected: &str| match Model::from_pict(text) {
         Err(error) => {
-            assert_eq!(((error.line, error.column), error.flaw.to_string().as_str()), (at, expected), "{text}")
+            assert_eq!(((error.line, error.column), error.flaw.to_string().as_str()), (at, expected), "{text}");
         }
         Ok(model) => panic!("{text}: {model:?}"),
     };
