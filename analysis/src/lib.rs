@@ -25,7 +25,7 @@ pub use estimate::{
 pub use explanation::{Accuracy, Explanation, Rule};
 pub use failure_estimate::FailureEstimate;
 pub use live::LiveCoverage;
-pub use modes::{Mode, Modes, Touch, ValueRange};
+pub use modes::{CriticalFigure, Mode, Modes, Touch, ValueRange};
 pub use plan::{Guarantee, Need, Plan};
 pub use promise::Promise;
 pub use shrink::{Change, Sameness, Shrunk};

@@ -66,8 +66,8 @@ impl<'a> Campaign<'a> {
     /// A campaign on all cores.
     ///
     /// # Errors
-    /// The study cannot be run: its scenario, driver, system or strategy does not exist or cannot do what is asked; or its
-    /// driver sees through cameras, and there is nothing to draw with.
+    /// The scenario, the driver or the system of the study cannot do what is asked; or the driver sees through cameras, and there is
+    /// nothing to draw with. [`Campaign::check`] asks the strategy.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
         Self::until(study, Arc::default())
     }

@@ -66,7 +66,7 @@ pub mod reasons {
     pub use crate::campaign::ForeignTrial;
     pub use crate::catalogue::UnknownScenario;
     pub use crate::darkroom::Blind;
-    pub use crate::drivers::NoDriver;
+    pub use crate::drivers::{DriverAway, NoDriver};
     pub use crate::error::CsvFlaw;
     pub use crate::extension::OtherTests;
     pub use crate::files::Exists;

@@ -169,7 +169,7 @@ fn asked(connection: &mut Connection, study: &Study, index: usize, test: &Values
     let has_specs = study.given().next().is_some();
     let wrong = |message: &str| Err(Problem::new(ProblemKind::Answer, message));
     let answered = connection.ask(index, test).and_then(|answer| match answer {
-        Answer::Error(message) => Err(Problem::new(ProblemKind::System, message)),
+        Answer::NotDone { why } => Err(Problem::new(ProblemKind::System, why)),
         Answer::Trace(trace) if has_specs => {
             let mut trial = Trial::judged(index, test.clone(), Verdict::Pass, Vec::new()).traced(&trace);
             judge(&mut trial, study.given(), &trace);

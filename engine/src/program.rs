@@ -1,5 +1,6 @@
 //! A scenario as the function that it is, and what it declares when it is run without a test.
 
+use crate::flaw::WorldFlaw;
 use crate::scenario::Scenario;
 use crate::test::{Declared, Test};
 use paracosm_oracles::Requirement;
@@ -75,12 +76,12 @@ pub enum ProgramError {
         source: SpaceError,
     },
     /// Its world cannot be built.
-    #[error("scenario `{program}`: {}", problems.join("; "))]
+    #[error("scenario `{program}`: {}", joined(.flaws))]
     World {
         /// The scenario.
         program: String,
         /// What is wrong with it.
-        problems: Vec<String>,
+        flaws: Vec<WorldFlaw>,
     },
     /// It asks for other parameters with a test than without.
     #[error("scenario `{program}` asked for other parameters than it was given: {}", names.join(", "))]
@@ -90,6 +91,10 @@ pub enum ProgramError {
         /// The parameters that are on one side only.
         names: Vec<String>,
     },
+}
+
+fn joined(flaws: &[WorldFlaw]) -> String {
+    flaws.iter().map(WorldFlaw::to_string).collect::<Vec<_>>().join("; ")
 }
 
 /// The most ticks that a run may have: three hours at 1 kHz. A trace is kept in memory.
@@ -166,56 +171,48 @@ impl Program {
             self.check_names(&scenario, test.values)?;
         }
         scenario.lay_out();
-        let mut problems = Vec::new();
-        for problem in scenario.problems.take() {
+        let mut flaws = Vec::new();
+        for flaw in scenario.flaws.take() {
             // The same mistake on every line that uses the same value is one mistake.
-            if !problems.contains(&problem) {
-                problems.push(problem);
+            if !flaws.contains(&flaw) {
+                flaws.push(flaw);
             }
         }
         if scenario.cars.len() != 1 || scenario.networks.len() != 1 {
             let (cars, roads) = (scenario.cars.len(), scenario.networks.len());
-            problems.push(format!("{cars} cars under test on {roads} roads, expected one on one"));
+            flaws.push(WorldFlaw::Cars { cars, roads });
         }
         if !(scenario.duration > 0.0 && scenario.duration.is_finite()) {
-            problems.push(format!("a run takes {} s, expected a positive number", scenario.duration));
+            flaws.push(WorldFlaw::Duration { seconds: scenario.duration });
         }
         if !(scenario.dt > 0.0 && scenario.dt <= scenario.duration) {
-            problems.push(format!(
-                "a tick takes {} s, expected a positive number up to the run's {}",
-                scenario.dt, scenario.duration
-            ));
+            flaws.push(WorldFlaw::Tick { tick: scenario.dt, run: scenario.duration });
         }
         if scenario.duration / scenario.dt > MOST_TICKS {
-            problems.push(format!(
-                "a run has {:.0} ticks, expected at most {MOST_TICKS:.0}",
-                scenario.duration / scenario.dt
-            ));
+            flaws.push(WorldFlaw::Ticks { ticks: scenario.duration / scenario.dt, most: MOST_TICKS });
         }
         let requirements = scenario.requirements.borrow();
         for (i, stated) in requirements.iter().enumerate() {
             let id = &stated.requirement.id;
             if requirements[..i].iter().any(|other| other.requirement.id == *id) {
-                problems.push(format!("requirement `{id}` is stated twice"));
+                flaws.push(WorldFlaw::RequirementTwice { id: id.clone() });
             }
             for signal in &stated.signals {
                 let name = signal.to_string();
                 let others = requirements[..=i].iter().flat_map(|other| &other.signals);
                 if others.filter(|other| other.to_string() == name).any(|other| !other.means(signal)) {
-                    problems.push(format!(
-                        "two streams that requirements speak of are called `{name}`: tell them apart by `named`"
-                    ));
+                    flaws.push(WorldFlaw::SameName { stream: name.clone() });
                 }
                 if !signal.is_output() && scenario.signals.iter().any(|(output, _)| *output == name) {
-                    problems.push(format!("a stream is called `{name}`, which is the name of an object's output"));
+                    flaws.push(WorldFlaw::NameOfOutput { stream: name });
                 }
             }
         }
         drop(requirements);
-        if problems.is_empty() {
+        if flaws.is_empty() {
             Ok(scenario)
         } else {
-            Err(ProgramError::World { program: self.name().to_owned(), problems })
+            Err(ProgramError::World { program: self.name().to_owned(), flaws })
         }
     }
 

@@ -23,20 +23,23 @@ pub struct Case<'a> {
     pub replay: String,
     /// How it ends as a test case.
     pub end: End,
+    /// What there is to be said of that end.
+    pub message: String,
     /// What was expected of it, if that is not that it passes.
     pub expected: Option<&'static str>,
 }
 
-/// How a test case ends, with what there is to be said of that.
+/// How a test case ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
     /// As it should.
     Passed,
     /// CI has to stop for it.
-    Failed(String),
+    Failed,
     /// It came to nothing.
-    Error(String),
+    Error,
     /// It says nothing either way.
-    Skipped(String),
+    Skipped,
 }
 
 impl Junit {
@@ -108,16 +111,17 @@ impl<'a> Case<'a> {
     /// A trial of a campaign, which ends as its verdict says.
     fn of(study: &Study, trial: &'a Trial, replay: String) -> Self {
         let error = trial.error().unwrap_or_default();
-        let end = match trial.verdict {
-            Verdict::Pass => End::Passed,
-            Verdict::Fail => End::Failed(violations(study, trial)),
-            Verdict::Error => End::Error(error.to_owned()),
-            Verdict::Inconclusive => End::Skipped(
+        let (end, message) = match trial.verdict {
+            Verdict::Pass => (End::Passed, String::new()),
+            Verdict::Fail => (End::Failed, violations(study, trial)),
+            Verdict::Error => (End::Error, error.to_owned()),
+            Verdict::Inconclusive => (
+                End::Skipped,
                 "inconclusive: the situation that the test is about never came about, or it ended too early".to_owned(),
             ),
-            Verdict::Invalid => End::Skipped(format!("invalid: {error}")),
+            Verdict::Invalid => (End::Skipped, format!("invalid: {error}")),
         };
-        Self { name: format!("test {}", trial.index), trial, replay, end, expected: None }
+        Self { name: format!("test {}", trial.index), trial, replay, end, message, expected: None }
     }
 
     fn junit(&self, study: &Study) -> TestCase {
@@ -153,18 +157,16 @@ impl<'a> Case<'a> {
     /// How it ends. An attribute has no lines, so the first line of a message is the attribute, and the description has all
     /// of the message.
     fn status(&self) -> TestCaseStatus {
-        let (kind, word, message) = match &self.end {
+        let message = &self.message;
+        let (kind, word) = match self.end {
             End::Passed => return TestCaseStatus::success(),
-            End::Skipped(message) => {
+            End::Skipped => {
                 let mut status = TestCaseStatus::skipped();
                 status.set_message(message.as_str());
                 return status;
             }
-            End::Failed(message) => {
-                let violated = self.trial.violated().collect::<Vec<_>>().join(" ");
-                (NonSuccessKind::Failure, violated, message)
-            }
-            End::Error(message) => (NonSuccessKind::Error, "error".to_owned(), message),
+            End::Failed => (NonSuccessKind::Failure, self.trial.violated().collect::<Vec<_>>().join(" ")),
+            End::Error => (NonSuccessKind::Error, "error".to_owned()),
         };
         let mut status = TestCaseStatus::non_success(kind);
         status.set_type(word).set_message(first_line(message)).set_description(format!("{message}\n{}", self.replay));

@@ -41,12 +41,12 @@ pub(super) fn replay(
         if replayed.trial.is_failure() {
             found = Status::Violation;
         }
-        let ended = end(&replayed, words);
-        if let End::Error(words) = &ended {
-            wrong.get_or_insert(format!("{}: {words}", file.display()));
+        let ended = end(&replayed);
+        if ended == End::Error {
+            wrong.get_or_insert_with(|| format!("{}: {words}", file.display()));
         }
         trials.push(replayed.trial);
-        ends.push(ended);
+        ends.push((ended, words));
     }
     if let Some(path) = junit {
         let suites = regressions.iter().zip(&trials).zip(ends);
@@ -70,21 +70,25 @@ fn is_report(path: &Path) -> Result<(), Error> {
 }
 
 /// How a test ends for CI: by what was expected of it, not by its verdict alone.
-fn end(replayed: &Replayed, words: String) -> End {
+fn end(replayed: &Replayed) -> End {
     match replayed {
-        _ if broke(&replayed.trial) || replayed.same_trace == Some(false) => End::Error(words),
+        _ if broke(&replayed.trial) || replayed.same_trace == Some(false) => End::Error,
         Replayed { as_expected: true, .. } => End::Passed,
-        _ if replayed.trial.is_failure() => End::Failed(words),
-        _ => End::Skipped(words),
+        _ if replayed.trial.is_failure() => End::Failed,
+        _ => End::Skipped,
     }
 }
 
 /// The suite of one test.
-fn suite<'a>(file: &Path, regression: &'a Regression, (trial, end): (&'a Trial, End)) -> (String, &'a Study, Case<'a>) {
+fn suite<'a>(
+    file: &Path,
+    regression: &'a Regression,
+    (trial, (end, message)): (&'a Trial, (End, String)),
+) -> (String, &'a Study, Case<'a>) {
     let name = file.to_string_lossy().into_owned();
     let replay = format!("paracosm-fuzz replay {}", shell_word(&name));
     let expected = Some(if regression.expect == Expectation::Fail { "fail" } else { "pass" });
-    let case = Case { name: name.clone(), trial, replay, end, expected };
+    let case = Case { name: name.clone(), trial, replay, end, message, expected };
     (name, regression.study(), case)
 }
 

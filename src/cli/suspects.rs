@@ -4,7 +4,9 @@ use super::output::{Table, digits, plural};
 use crate::Report;
 use crate::space::{Value, Values};
 use paracosm_analysis::{Conclusion, LocatedReport, Location, SuspectReport, Unexplained};
+use paracosm_oracles::Verdict;
 use std::cmp::Reverse;
+use std::fmt;
 
 /// How many suspects a table shows.
 const SHOWN: usize = 5;
@@ -73,9 +75,9 @@ fn show_located(located: &LocatedReport, table: &mut Table) {
     rows("located", lines, "nothing", table);
     table.row("  further tests", &format!("{} run, of at most {}", located.ran, located.limit));
     // Failures that are unexplained for the same reason share a line.
-    let mut reasons: Vec<(String, Vec<usize>)> = Vec::new();
+    let mut reasons: Vec<(Reason, Vec<usize>)> = Vec::new();
     for Unexplained { failing, why } in &located.unexplained {
-        let reason = reason(located, *failing, why);
+        let reason = Reason::of(located, *failing, why);
         match reasons.iter_mut().find(|(known, _)| *known == reason) {
             Some((_, failures)) => failures.push(*failing),
             None => reasons.push((reason, vec![*failing])),
@@ -124,22 +126,50 @@ fn in_words(location: &Location) -> String {
     format!("{text} ({ran}{others})")
 }
 
-/// Why a failure has no guilty combination.
-fn reason(located: &LocatedReport, failing: usize, why: &Conclusion) -> String {
-    match why {
-        Conclusion::Refuted { trials, further } => {
-            let of_it = located.locations.iter().rev().find(|location| location.failing == failing);
-            let values = of_it.map(|location| names(&location.values)).unwrap_or_default();
-            let passed = plural(trials.len() + further, "test");
-            format!(
-                "{values} make the difference, but {passed} with these values passed: they are no cause by themselves"
-            )
+/// Why a failure has no guilty combination. Failures with equal reasons share a line.
+#[derive(PartialEq)]
+enum Reason<'a> {
+    /// Tests with these values passed.
+    Refuted {
+        values: Option<&'a Values>,
+        passed: usize,
+    },
+    NoStart,
+    NoPassingTest,
+    Undecided(Verdict),
+    LimitReached,
+}
+
+impl<'a> Reason<'a> {
+    fn of(located: &'a LocatedReport, failing: usize, why: &Conclusion) -> Self {
+        match why {
+            Conclusion::Refuted { trials, further } => {
+                let of_it = located.locations.iter().rev().find(|location| location.failing == failing);
+                Self::Refuted { values: of_it.map(|location| &location.values), passed: trials.len() + further }
+            }
+            Conclusion::NoStart(_) => Self::NoStart,
+            Conclusion::NoPassingTest => Self::NoPassingTest,
+            Conclusion::Undecided(verdict) => Self::Undecided(*verdict),
+            Conclusion::LimitReached => Self::LimitReached,
+            Conclusion::Guilty => unreachable!("a guilty combination explains its failure"),
         }
-        Conclusion::NoStart(_) => "the discrete values of passing tests fail here, too".to_owned(),
-        Conclusion::NoPassingTest => "all passing tests have the same discrete values".to_owned(),
-        Conclusion::Undecided(verdict) => format!("a test on the way ended {verdict}"),
-        Conclusion::LimitReached => "no further tests were left; --locate=N allows more".to_owned(),
-        Conclusion::Guilty => unreachable!("what is guilty explains"),
+    }
+}
+
+impl fmt::Display for Reason<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Refuted { values, passed } => write!(
+                f,
+                "{} make the difference, but {} with these values passed: they are no cause by themselves",
+                values.map(names).unwrap_or_default(),
+                plural(*passed, "test")
+            ),
+            Self::NoStart => f.write_str("the discrete values of passing tests fail here, too"),
+            Self::NoPassingTest => f.write_str("all passing tests have the same discrete values"),
+            Self::Undecided(verdict) => write!(f, "a test on the way ended {verdict}"),
+            Self::LimitReached => f.write_str("no further tests were left; --locate=N allows more"),
+        }
     }
 }
 

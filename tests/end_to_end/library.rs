@@ -60,3 +60,12 @@ fn the_log_of_a_campaign_that_extends_others_counts_their_tests() {
     let log = Campaign::new(&study).unwrap().extending(&extension).unwrap().into_log().unwrap();
     assert_eq!((log.trials().len(), log.test_set().unwrap().points.len()), (4, 7));
 }
+
+#[test]
+fn a_driver_that_nobody_offers_is_a_failure_of_the_environment() {
+    let program = paracosm::catalogue().find("pedestrian-crossing").expect("it is in the catalogue");
+    let study = paracosm::Study::of(program).driver("grpc://127.0.0.1:1").build().expect("a sound study");
+    let error = paracosm::Campaign::new(&study).err().expect("nobody listens there");
+    assert!(matches!(error, paracosm::Error::Environment(_)), "{error}");
+    assert!(error.to_string().contains("127.0.0.1:1"), "{error}");
+}

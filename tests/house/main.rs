@@ -5,6 +5,7 @@
 //!
 //! - [`floors`]: a crate uses crates of lower floors, never one above or beside it.
 //! - [`cycles`]: the modules of a crate do not import one another in a circle.
+//! - [`sizes`]: a crate has at most 20,000 lines without its tests.
 //! - [`texts`]: an error is a type with data; its words are made where it is shown.
 //! - [`decisions`]: no decision reads the words of a message.
 //! - [`excerpts`]: the page on extending shows code that exists.
@@ -14,6 +15,7 @@ mod decisions;
 mod excerpts;
 mod floors;
 mod imports;
+mod sizes;
 mod source;
 mod texts;
 mod workspace;

@@ -20,15 +20,40 @@ use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// A figure that divides modes: its name, the figure of a violation, and how much is no difference in it.
-type FigureOf = (&'static str, fn(&Violation) -> Option<f64>, f64);
+/// A figure of a violation that divides modes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub enum CriticalFigure {
+    /// The time, in seconds.
+    #[serde(rename = "critical_time")]
+    Time,
+    /// The way that the car had come by then, in metres.
+    #[serde(rename = "critical_travelled")]
+    Travelled,
+    /// The speed of the car then, in m/s.
+    #[serde(rename = "critical_speed")]
+    Speed,
+}
 
-/// The figures that divide modes: 0.5 s, 2 m and 1 m/s are no differences.
-const FIGURES: [FigureOf; 3] = [
-    ("critical_time", |violation| Some(violation.time), 0.5),
-    ("critical_travelled", |violation| violation.travelled, 2.0),
-    ("critical_speed", |violation| violation.speed, 1.0),
-];
+impl CriticalFigure {
+    const ALL: [Self; 3] = [Self::Time, Self::Travelled, Self::Speed];
+
+    fn of(self, violation: &Violation) -> Option<f64> {
+        match self {
+            Self::Time => Some(violation.time),
+            Self::Travelled => violation.travelled,
+            Self::Speed => violation.speed,
+        }
+    }
+
+    /// How much is no difference.
+    const fn resolution(self) -> f64 {
+        match self {
+            Self::Time => 0.5,
+            Self::Travelled => 2.0,
+            Self::Speed => 1.0,
+        }
+    }
+}
 
 /// The failure modes of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -58,8 +83,8 @@ pub struct Mode {
     pub parts: Record<String>,
     /// What the car touched, and how.
     pub contact: Option<Touch>,
-    /// The least and the greatest critical time (s), way come (m) and speed (m/s) of the car then.
-    pub figures: Record<[f64; 2]>,
+    /// The least and the greatest value of each figure that all its tests have.
+    pub figures: BTreeMap<CriticalFigure, [f64; 2]>,
     /// Where they are in the space: from the least to the greatest value of a continuous parameter, all values of a
     /// discrete one.
     pub parameters: Record<ValueRange>,
@@ -155,19 +180,19 @@ fn of_parts(
 ) -> Vec<Mode> {
     let figures = figures(violates, trials);
     let known: Vec<Figure> =
-        figures.iter().map(|(_, values, resolution)| Figure { values, resolution: *resolution }).collect();
+        figures.iter().map(|(figure, values)| Figure { values, resolution: figure.resolution() }).collect();
     let name = [Some(violates.join("+")), contact.as_ref().map(Touch::name)];
     let name = name.into_iter().flatten().collect::<Vec<_>>().join("/");
     let parts: Vec<(&str, &str)> =
         violates.iter().zip(parts).filter_map(|(id, part)| Some((id.as_str(), (*part)?))).collect();
     let mode = |Group { members, set_apart_by }: Group| {
         let all: Vec<&Trial> = members.iter().map(|member| trials[*member]).collect();
-        let ranges: Vec<(&str, [f64; 2])> = figures
+        let ranges: BTreeMap<CriticalFigure, [f64; 2]> = figures
             .iter()
-            .map(|(name, values, _)| (*name, range(members.iter().map(|member| values[*member]))))
+            .map(|(figure, values)| (*figure, range(members.iter().map(|member| values[*member]))))
             .collect();
         let typical = typical(log, trials, &members, &known);
-        let apart: Vec<&str> = set_apart_by.iter().map(|figure| figures[*figure].0).collect();
+        let apart: Vec<CriticalFigure> = set_apart_by.iter().map(|figure| figures[*figure].0).collect();
         let story = words::Story { violates, parts: &parts, is_told_by_part, ranges: &ranges, apart: &apart };
         Mode {
             name: name.clone(),
@@ -178,7 +203,7 @@ fn of_parts(
             violates: violates.clone(),
             parts: parts.iter().map(|(id, part)| ((*id).to_owned(), (*part).to_owned())).collect(),
             contact: contact.clone(),
-            figures: ranges.iter().map(|(name, range)| ((*name).to_owned(), *range)).collect(),
+            figures: ranges,
             parameters: extents(log, &all),
             trials: all.iter().map(|trial| trial.index).collect(),
         }
@@ -193,12 +218,12 @@ impl Touch {
 }
 
 /// The figures that all trials have, of the requirement that was the first to be violated in most of them.
-fn figures(violates: &[String], trials: &[&Trial]) -> Vec<(&'static str, Vec<f64>, f64)> {
+fn figures(violates: &[String], trials: &[&Trial]) -> Vec<(CriticalFigure, Vec<f64>)> {
     let time = |trial: &Trial, id: &str| trial.violation(id).map_or(f64::INFINITY, |violation| violation.time);
     let first = |trial: &Trial| violates.iter().min_by(|a, b| time(trial, a).total_cmp(&time(trial, b)));
-    let all = FIGURES.iter().filter_map(|(name, of, resolution)| {
-        let value = |trial: &&Trial| of(trial.violation(first(trial)?)?).filter(|value| value.is_finite());
-        Some((*name, trials.iter().map(value).collect::<Option<Vec<f64>>>()?, *resolution))
+    let all = CriticalFigure::ALL.into_iter().filter_map(|figure| {
+        let value = |trial: &&Trial| figure.of(trial.violation(first(trial)?)?).filter(|value| value.is_finite());
+        Some((figure, trials.iter().map(value).collect::<Option<Vec<f64>>>()?))
     });
     all.collect()
 }

@@ -1,6 +1,7 @@
 //! Modes of trials made up for the purpose.
 
 use super::{Modes, ValueRange};
+use crate::CriticalFigure;
 use paracosm_campaign::{Catalogue, Learned, Log, Study, Trial};
 
 /// A trial of the paper's study that ended with a contact.
@@ -71,7 +72,7 @@ fn a_gap_in_the_speed_makes_two_modes_of_one_kind_each_with_a_typical_test() {
         [&found[0].name, &found[1].name].map(|name| name.rsplit('/').next().unwrap()),
         ["braking#1", "braking#2"]
     );
-    assert_eq!(found[1].figures.get("critical_speed"), Some(&[14.0, 16.0]));
+    assert_eq!(found[1].figures.get(&CriticalFigure::Speed), Some(&[14.0, 16.0]));
     // Evenly spread, they are one.
     let even: Vec<Trial> = (0..12).map(|i| contact(i, "front", "braking", 2.0 + i as f64, WALKER)).collect();
     assert_eq!(modes(&even).modes.len(), 1);

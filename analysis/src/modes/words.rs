@@ -1,9 +1,10 @@
 //! What happens in a failure mode, in words.
 
-use super::{Mode, Touch};
+use super::{CriticalFigure, Mode, Touch};
 use paracosm_campaign::Trial;
 use paracosm_engine::object::Class;
 use paracosm_engine::{ContactMotion, Face};
+use std::collections::BTreeMap;
 
 /// Speed in m/s below which what the car touched stood.
 const STANDING: f64 = 0.1;
@@ -15,17 +16,17 @@ pub(super) struct Story<'a> {
     pub parts: &'a [(&'a str, &'a str)],
     /// Whether these tell it from other modes.
     pub is_told_by_part: bool,
-    pub ranges: &'a [(&'a str, [f64; 2])],
+    pub ranges: &'a BTreeMap<CriticalFigure, [f64; 2]>,
     /// Those of the ranges that set it apart.
-    pub apart: &'a [&'a str],
+    pub apart: &'a [CriticalFigure],
 }
 
 impl Story<'_> {
     /// A sentence about it, with what was touched and a typical trial.
     pub fn words(&self, contact: Option<&Touch>, typical: &Trial) -> String {
-        let time = || self.range("critical_time").map(|range| format!("{} s after the start", span(range)));
-        let place = || self.range("critical_travelled").map(|range| format!("after {} m", span(range)));
-        let speed = || self.range("critical_speed").map(|range| format!("at {} m/s", span(range)));
+        let time = || self.range(CriticalFigure::Time).map(|range| format!("{} s after the start", span(range)));
+        let place = || self.range(CriticalFigure::Travelled).map(|range| format!("after {} m", span(range)));
+        let speed = || self.range(CriticalFigure::Speed).map(|range| format!("at {} m/s", span(range)));
         let Some(contact) = contact else {
             let rest = [self.part(), time(), place(), speed()].into_iter().flatten();
             let violates = format!("violates {}", self.violates.join(" and "));
@@ -33,8 +34,8 @@ impl Story<'_> {
         };
         let also = [
             self.part().filter(|_| self.is_told_by_part),
-            time().filter(|_| self.apart.contains(&"critical_time")),
-            place().filter(|_| self.apart.contains(&"critical_travelled")),
+            time().filter(|_| self.apart.contains(&CriticalFigure::Time)),
+            place().filter(|_| self.apart.contains(&CriticalFigure::Travelled)),
         ];
         let motion = match contact.motion {
             ContactMotion::Standing => "stands",
@@ -49,8 +50,8 @@ impl Story<'_> {
         format!("the car {motion}{at}{}{also}", meeting(contact, typical))
     }
 
-    fn range(&self, figure: &str) -> Option<[f64; 2]> {
-        self.ranges.iter().find(|(name, _)| *name == figure).map(|(_, range)| *range)
+    fn range(&self, figure: CriticalFigure) -> Option<[f64; 2]> {
+        self.ranges.get(&figure).copied()
     }
 
     /// What of the formulas is not so.
@@ -65,14 +66,13 @@ type Difference<'a> = dyn Fn(&Mode) -> Option<String> + 'a;
 /// Adds to the words that several modes share what tells these apart: what they violate, by which part of it, and when,
 /// where and how fast the car was; and where nothing of that does, their names.
 pub(super) fn tell_apart(modes: &mut [Mode]) {
-    let figure =
-        |mode: &Mode, name: &str| mode.figures.iter().find(|(other, _)| *other == name).map(|(_, at)| span(*at));
+    let figure = |mode: &Mode, figure| mode.figures.get(&figure).map(|at| span(*at));
     let differences: [&Difference; 6] = [
         &|mode| Some(format!("violating {}", mode.violates.join(" and "))),
         &|mode| by_parts(mode.parts.iter().map(|(_, part)| part.as_str())),
-        &|mode| figure(mode, "critical_time").map(|time| format!("{time} s after the start")),
-        &|mode| figure(mode, "critical_travelled").map(|place| format!("after {place} m")),
-        &|mode| figure(mode, "critical_speed").map(|speed| format!("at {speed} m/s")),
+        &|mode| figure(mode, CriticalFigure::Time).map(|time| format!("{time} s after the start")),
+        &|mode| figure(mode, CriticalFigure::Travelled).map(|place| format!("after {place} m")),
+        &|mode| figure(mode, CriticalFigure::Speed).map(|speed| format!("at {speed} m/s")),
         &|mode| Some(mode.name.clone()),
     ];
     for difference in differences {

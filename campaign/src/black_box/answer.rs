@@ -17,8 +17,11 @@ pub enum Answer {
     Trace(Trace),
     /// The robustness of requirements by their ids.
     Robustness(Vec<(String, f64)>),
-    /// The system says that it could not do the test, and why.
-    Error(String),
+    /// The system could not do the test.
+    NotDone {
+        /// The reason that the system gives.
+        why: String,
+    },
 }
 
 /// What is expected of an answer, in words.
@@ -102,7 +105,7 @@ impl Answer {
         match (answer.trace, answer.robustness, answer.error) {
             (Some(trace), None, None) => Ok(Self::Trace(read_trace(&trace)?)),
             (None, Some(robustness), None) => read_robustness(&robustness).map(Self::Robustness),
-            (None, None, Some(error)) => Ok(Self::Error(error)),
+            (None, None, Some(error)) => Ok(Self::NotDone { why: error }),
             (None, None, None) => Err(AnswerFlaw::Empty),
             _ => Err(AnswerFlaw::Several),
         }
@@ -268,7 +271,7 @@ mod tests {
         let line = r#" {"robustness":{"x":-1,"y":"inf"},"index":3} "#;
         let robustness = vec![("x".to_owned(), -1.0), ("y".to_owned(), f64::INFINITY)];
         assert_eq!(Answer::read(line, 3).unwrap(), Answer::Robustness(robustness));
-        assert_eq!(Answer::read(r#"{"index":3,"error":"no"}"#, 3).unwrap(), Answer::Error("no".into()));
+        assert_eq!(Answer::read(r#"{"index":3,"error":"no"}"#, 3).unwrap(), Answer::NotDone { why: "no".into() });
     }
 
     #[test]

@@ -45,6 +45,14 @@ pub enum NoDriver {
     /// It cannot be made.
     #[error(transparent)]
     Made(#[from] Error),
+    /// Its process does not offer one.
+    #[error(transparent)]
+    Away(#[from] DriverAway),
+}
+
+/// Why a process offers no driver.
+#[derive(Debug, Error)]
+pub enum DriverAway {
     /// Its server does not offer one.
     #[error("driver {address}: {source}")]
     Server {
@@ -63,15 +71,24 @@ pub enum NoDriver {
     },
 }
 
-impl Reason for NoDriver {}
+impl Reason for DriverAway {}
+
+impl From<NoDriver> for Error {
+    fn from(error: NoDriver) -> Self {
+        match error {
+            NoDriver::Made(error) => error,
+            NoDriver::Away(away) => Self::unavailable(away),
+        }
+    }
+}
 
 impl From<NoDriver> for Problem {
     fn from(error: NoDriver) -> Self {
         let message = error.to_string();
         match error {
             NoDriver::Made(_) => Self::new(ProblemKind::Driver, message),
-            NoDriver::Server { source, .. } => Self { message, ..Self::unopened(&source) },
-            NoDriver::Command { problem, .. } => Self { message, ..problem },
+            NoDriver::Away(DriverAway::Server { source, .. }) => Self { message, ..Self::unopened(&source) },
+            NoDriver::Away(DriverAway::Command { problem, .. }) => Self { message, ..problem },
         }
     }
 }
@@ -104,7 +121,7 @@ impl<'a> Drivers<'a> {
             }
             Origin::Server(address, terms) => Source::Made(Box::new(move || {
                 let session = Session::open(address, terms, ended.clone());
-                let session = session.map_err(|source| NoDriver::Server { address: address.clone(), source })?;
+                let session = session.map_err(|source| DriverAway::Server { address: address.clone(), source })?;
                 Ok(Box::new(Late { driver: Box::new(session), latency }))
             })),
             Origin::Process(words, terms) => {

@@ -1,6 +1,6 @@
 //! Drivers in a process that is started for them, and again when it has ended.
 
-use super::{Late, NoDriver};
+use super::{DriverAway, Late, NoDriver};
 use crate::process::Process;
 use crate::{Problem, ProblemKind};
 use paracosm_engine::driver::{Driver, Equipment, Fault, FaultKind};
@@ -54,7 +54,7 @@ impl Launcher {
     /// # Errors
     /// It cannot be started, ends, does not listen, or is no driver.
     pub fn driver(&mut self) -> Result<Box<dyn Driver>, NoDriver> {
-        let wrong = |problem: Problem| NoDriver::Command { command: shell_words::join(&self.words), problem };
+        let wrong = |problem: Problem| DriverAway::Command { command: shell_words::join(&self.words), problem };
         let running = match self.running.take().filter(Running::is_alive) {
             Some(running) => running,
             None => Running::start(&self.words).map_err(wrong)?,

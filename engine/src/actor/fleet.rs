@@ -1,8 +1,8 @@
 //! Environment cars: [`Traffic`] as an object of a scenario, that minds the other objects and can be told what to do.
 
+use crate::flaw::{Flaws, WorldFlaw};
 use crate::geometry::{Pose, Side};
 use crate::object::{Body, Class, Geometric, Input, InputError, Output, Outputs, Tick, Wiring};
-use crate::problem::Problems;
 use crate::scenario::{Place, Scenario, Streets};
 use crate::stream::{Datum, Stream};
 use crate::traffic::{CarState, Obstacle, Traffic, TrafficCar};
@@ -29,7 +29,7 @@ pub struct Fleet {
     /// Whether it has begun: why it has not has been reported.
     sound: bool,
     wiring: Wiring,
-    problems: Problems,
+    flaws: Flaws,
     told: Rc<RefCell<Told>>,
 }
 
@@ -98,11 +98,11 @@ impl Place for EnvironmentCars {
 
     fn place(mut self, scenario: &mut Scenario) -> Fleet {
         self.cars.truncate(self.most);
-        let (wiring, problems) = (scenario.wiring.clone(), scenario.problems.clone());
+        let (wiring, flaws) = (scenario.wiring.clone(), scenario.flaws.clone());
         let mut draft = scenario.object("traffic");
         let told = Rc::<RefCell<Told>>::default();
         let (name, count) = (draft.name().to_owned(), self.cars.len());
-        let mut fleet = Fleet { name, count, sound: false, wiring, problems, told: told.clone() };
+        let mut fleet = Fleet { name, count, sound: false, wiring, flaws, told: told.clone() };
         // A network that cannot be built has been reported.
         let Some(network) = self.streets.network() else { return fleet };
         let colours: Vec<_> = self.cars.iter().map(|car| car.colour).collect();
@@ -115,7 +115,7 @@ impl Place for EnvironmentCars {
                 draft.geometric(Driving { traffic, obstacles: Vec::new(), told });
                 fleet.sound = true;
             }
-            Err(error) => draft.problem(&format!("cannot begin: {error}")),
+            Err(error) => draft.flaw(error.into()),
         }
         fleet
     }
@@ -165,8 +165,7 @@ impl Fleet {
         if seconds > 0.0 && seconds.is_finite() {
             self.order(car, "change_lane", event, |event| Order::Change(side, seconds, event));
         } else {
-            let lane_change = format!("{}: car {car} changes lanes within {seconds} s", self.name);
-            self.problems.borrow_mut().push(format!("{lane_change}, expected a finite number above 0"));
+            self.flaws.borrow_mut().push(WorldFlaw::LaneChange { traffic: self.name.clone(), car, seconds });
         }
     }
 
@@ -187,12 +186,11 @@ impl Fleet {
         }
     }
 
-    /// Whether there is such a car; it is a problem where there is not.
+    /// Whether there is such a car; it is a mistake where there is not.
     fn has(&self, car: usize) -> bool {
         if self.sound && car >= self.count {
-            let message =
-                format!("{}: there is no car {car}, cars are counted from 0 and there are {}", self.name, self.count);
-            self.problems.borrow_mut().push(message);
+            let traffic = self.name.clone();
+            self.flaws.borrow_mut().push(WorldFlaw::NoCar { traffic, car, count: self.count });
         }
         self.sound && car < self.count
     }

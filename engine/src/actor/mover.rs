@@ -3,6 +3,7 @@
 //! They do not look around: what they do is the scenario's to say. Traffic that drives itself is in
 //! [`traffic`](crate::traffic).
 
+use crate::flaw::ObjectFlaw;
 use crate::geometry::Pose;
 use crate::object::{Body, Geometric, Input, InputError, Output, Outputs, Tick};
 use crate::road::Path;
@@ -120,11 +121,11 @@ impl Place for Mover {
     fn place(self, scenario: &mut Scenario) -> Actor {
         let mut draft = scenario.object(&self.name);
         let length = self.path.length();
-        if let Some(problem) = self.path.problem() {
-            draft.problem(&format!("has a path that {problem}"));
+        if let Some(piece) = self.path.wrong_piece() {
+            draft.flaw(ObjectFlaw::Piece { line: "path", piece });
         }
         if !(0.0..=length).contains(&self.start) {
-            draft.problem(&format!("starts {} m along a path of {length} m", self.start));
+            draft.flaw(ObjectFlaw::Start { line: "path", start: self.start, length });
         }
         let pose = self.path.beside(self.start, 0.0);
         draft.body(self.body, pose);

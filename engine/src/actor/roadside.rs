@@ -6,6 +6,7 @@
 //! the sidewalk; it is left out where the disc meets another road, a body that is there, or the way of one.
 
 use super::Fixture;
+use crate::flaw::WorldFlaw;
 use crate::geometry::Pose;
 use crate::geometry::wrapped;
 use crate::object::{Behaviour, Body, Class, Colour, ObjectSetup};
@@ -116,10 +117,10 @@ impl Place for Roadside {
 
     fn place(self, scenario: &mut Scenario) {
         if !(0.0..=1.0).contains(&self.fullness) {
-            return scenario.problem(format!("the roadside is {} full, expected 0 to 1", self.fullness));
+            return scenario.flaw(WorldFlaw::Roadside { fullness: self.fullness });
         }
         // A world that cannot be built has no place for anything.
-        let sound = scenario.problems.borrow().is_empty();
+        let sound = scenario.flaws.borrow().is_empty();
         let network = scenario.networks.first().cloned().flatten();
         let Some(network) = network.filter(|_| sound && self.fullness > 0.0) else { return };
         let mut room = Room::beside(&network, scenario);

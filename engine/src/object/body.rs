@@ -170,11 +170,11 @@ impl Body {
         Self { colour, ..self }
     }
 
-    /// What is wrong with its measures.
-    pub(crate) fn problem(&self) -> Option<String> {
+    /// Length, width and height in metres, if one of them is no length.
+    pub(crate) fn wrong_measures(&self) -> Option<[f64; 3]> {
         let extent = self.outline.half_extent();
         let sound = [extent.x, extent.y, self.height].iter().all(|metres| *metres > 0.0 && metres.is_finite());
-        (!sound).then(|| format!("{} m long, {} m wide and {} m tall", 2.0 * extent.x, 2.0 * extent.y, self.height))
+        (!sound).then_some([2.0 * extent.x, 2.0 * extent.y, self.height])
     }
 }
 

@@ -40,11 +40,10 @@ impl Path {
         Self { lanes: Some(lanes.into_iter().collect()), ..self }
     }
 
-    /// What is wrong with it, if anything is.
-    pub(crate) fn problem(&self) -> Option<String> {
+    /// The length of a piece that cannot be, in metres.
+    pub(crate) fn wrong_piece(&self) -> Option<f64> {
         let broken = |(_, curve): &&(f64, Curve)| !(curve.length() >= 0.0 && curve.end().is_finite());
-        let curve = self.pieces.iter().find(broken)?;
-        Some(format!("has a piece {} m long, expected a number from 0 on", curve.1.length()))
+        self.pieces.iter().find(broken).map(|(_, curve)| curve.length())
     }
 
     /// The lanes that it leads over between two distances along it, in order; none where it is of no lanes.

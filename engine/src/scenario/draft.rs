@@ -1,6 +1,7 @@
 //! An object under construction: what it is made of before it is left to its behaviour.
 
 use super::Scenario;
+use crate::flaw::{ObjectFlaw, WorldFlaw};
 use crate::geometry::Pose;
 use crate::object::{Behaviour, Body, Geometric, Input, ObjectSetup, Output, Physical};
 use crate::stream::{Datum, Stream};
@@ -26,12 +27,12 @@ impl<'a> ObjectDraft<'a> {
 
     /// Gives it a body, which stands at `start`. An object may have none, or several.
     pub fn body(&mut self, body: Body, start: Pose) {
-        if let Some(measures) = body.problem() {
-            self.problem(&format!("is {measures}, expected finite lengths above 0"));
+        if let Some([length, width, height]) = body.wrong_measures() {
+            self.flaw(ObjectFlaw::Measures { length, width, height });
         }
         if !start.is_finite() {
             let (x, y, heading) = (start.position.x, start.position.y, start.heading);
-            self.problem(&format!("stands at ({x}, {y}) and faces {heading}, expected numbers"));
+            self.flaw(ObjectFlaw::Pose { x, y, heading });
         }
         self.bodies.push((body, start));
     }
@@ -54,10 +55,13 @@ impl<'a> ObjectDraft<'a> {
         output
     }
 
-    /// Reports a mistake in what the object was made with: the world cannot be built. The message goes on from the
-    /// object's name.
-    pub fn problem(&mut self, message: &str) {
-        self.scenario.problem(format!("{} {message}", self.name));
+    /// Says that there can be no such object, and why: the world cannot be built. The words go on from the object's name.
+    pub fn refuse(&mut self, why: &str) {
+        self.flaw(ObjectFlaw::Refused { why: why.to_owned() });
+    }
+
+    pub(crate) fn flaw(&mut self, flaw: ObjectFlaw) {
+        self.scenario.flaw(WorldFlaw::Object { object: self.name.clone(), flaw });
     }
 
     /// Leaves the object to this behaviour, which moves its bodies.
@@ -69,11 +73,10 @@ impl<'a> ObjectDraft<'a> {
     /// Leaves the object to the physics and to this behaviour, which pushes its one body of this mass in kg.
     pub fn physical(mut self, mass: f64, behaviour: impl Physical) {
         if self.bodies.len() != 1 {
-            let message = format!("is physical and has {} bodies, expected 1", self.bodies.len());
-            return self.problem(&message);
+            return self.flaw(ObjectFlaw::Bodies { found: self.bodies.len() });
         }
         if !(mass > 0.0 && mass.is_finite()) {
-            self.problem(&format!("weighs {mass} kg, expected a finite number above 0"));
+            self.flaw(ObjectFlaw::Mass { mass });
         }
         let behaviour = Behaviour::Physical(mass, Box::new(behaviour));
         self.scenario.objects.push(ObjectSetup { name: self.name, bodies: self.bodies, behaviour });

@@ -20,8 +20,8 @@ pub use param::Param;
 pub use requirement::{RequirementDraft, Temporal, always, eventually, never};
 pub use road::{Paved, Road, Streets};
 
+use crate::flaw::{Flaws, WorldFlaw};
 use crate::object::{ObjectSetup, Wiring};
-use crate::problem::Problems;
 use crate::road::RoadNetwork;
 use crate::stream::{Datum, Effect, Equation, Forward, Graph, Node, NodeKind, Slot, Source, Stream, dot};
 use crate::test::{Declared, Test};
@@ -49,7 +49,7 @@ pub struct Scenario {
     /// A number that another test hardly has, as far as its parameters are asked for: [`Test::key`]. 0 without a test.
     pub(crate) key: Rc<Cell<u64>>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
-    pub(crate) problems: Problems,
+    pub(crate) flaws: Flaws,
     /// Those that were placed, also such as cannot be built.
     pub(crate) networks: Vec<Option<Arc<RoadNetwork>>>,
     pub(crate) cars: Vec<EgoSetup>,
@@ -110,7 +110,7 @@ impl Scenario {
             given: test.map(|test| test.values.iter().map(given).collect()).unwrap_or_default(),
             key: Rc::new(Cell::new(test.map_or(0, Test::key))),
             parameters: Rc::default(),
-            problems: Rc::default(),
+            flaws: Rc::default(),
             networks: Vec::new(),
             cars: Vec::new(),
             objects: Vec::new(),
@@ -190,12 +190,11 @@ impl Scenario {
     pub fn forward<T: Datum>(&mut self, name: &str) -> Forward<T> {
         let mut equations = self.equations.borrow_mut();
         let equation = equations.len();
-        equations.push(Equation { name: name.to_owned(), definition: None });
+        equations.push(Equation { name: name.to_owned(), definition: None, is_defined_twice: false });
         Forward {
             stream: Stream::new(NodeKind::Forward { equation, name: name.to_owned() }, []),
             equation,
             equations: self.equations.clone(),
-            problems: self.problems.clone(),
         }
     }
 
@@ -213,7 +212,7 @@ impl Scenario {
 
     fn say_friction(&mut self, friction: Stream<f64>) {
         if std::mem::replace(&mut self.said.friction, true) {
-            self.problem("the friction of the roads is said twice".to_owned());
+            self.flaw(WorldFlaw::FrictionTwice);
         }
         self.conditions.friction = if self.said.rain { self.conditions.wet(friction) } else { friction };
     }
@@ -227,7 +226,7 @@ impl Scenario {
 
     fn say_weather(&mut self, light: Stream<f64>, fog: Stream<f64>, sun: Option<[Stream<f64>; 2]>) {
         if std::mem::replace(&mut self.said.weather, true) {
-            self.problem("there are two environments, expected one at most".to_owned());
+            self.flaw(WorldFlaw::EnvironmentTwice);
         }
         self.conditions.light = light;
         self.conditions.fog = fog;
@@ -251,7 +250,7 @@ impl Scenario {
 
     /// Says that there is no such world, and why: the test is invalid. For what the intervals of the parameters cannot say.
     pub fn refuse(&mut self, why: &str) {
-        self.problem(why.to_owned());
+        self.flaw(WorldFlaw::Refused { why: why.to_owned() });
     }
 
     /// How long a run takes in simulated seconds, unless a contact ends it before; 10 where nothing is said.
@@ -290,10 +289,13 @@ impl Scenario {
     pub(crate) fn lay_out(&mut self) {
         let readers = self.readers();
         let equations = self.equations.borrow();
+        for equation in equations.iter().filter(|equation| equation.is_defined_twice) {
+            self.flaw(WorldFlaw::DefinedTwice { stream: equation.name.clone() });
+        }
         let definitions = equations.iter().filter_map(|equation| equation.definition.as_ref());
         match Graph::new(readers.iter().map(|(_, node)| node).chain(definitions), &equations) {
             Ok(graph) => self.graph = graph,
-            Err(fault) => self.problem(fault.to_string()),
+            Err(flaw) => self.flaw(flaw.into()),
         }
     }
 
@@ -315,7 +317,7 @@ impl Scenario {
         dot(title, &self.readers(), &self.equations.borrow()).expect("what has been laid out can be drawn")
     }
 
-    pub(crate) fn problem(&self, message: String) {
-        self.problems.borrow_mut().push(message);
+    pub(crate) fn flaw(&self, flaw: WorldFlaw) {
+        self.flaws.borrow_mut().push(flaw);
     }
 }

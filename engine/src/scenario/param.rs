@@ -4,7 +4,8 @@
 //! Whether a parameter is constant or a signal that varies over a run is nobody's business but the test's: the object
 //! that reads it gets a [`Stream`] either way.
 
-use super::{Problems, Scenario};
+use super::Scenario;
+use crate::flaw::{Flaws, WorldFlaw};
 use crate::stream::{Datum, DatumSample, NodeKind, Stream, samples};
 use crate::test::{Declared, entry};
 use paracosm_space::{Shape, Value};
@@ -18,7 +19,7 @@ use std::rc::Rc;
 pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
     index: usize,
-    problems: Problems,
+    flaws: Flaws,
     /// The key of the test: [`Test::key`](crate::Test::key).
     key: Rc<Cell<u64>>,
     given: Given,
@@ -64,14 +65,13 @@ impl<T: Into<Value> + Clone + 'static> Read<T> {
 impl<T: Clone> Param<T> {
     /// Of the parameter that was declared last.
     pub(super) fn new(scenario: &Scenario, given: Given, read: Read<T>) -> Self {
-        let Scenario { parameters, problems, key, .. } = scenario;
-        let (declared, problems, key) = (parameters.clone(), problems.clone(), key.clone());
+        let Scenario { parameters, flaws, key, .. } = scenario;
+        let (declared, flaws, key) = (parameters.clone(), flaws.clone(), key.clone());
         let index = declared.borrow().len() - 1;
-        let parameter = Self { declared, index, problems, key, given, read };
+        let parameter = Self { declared, index, flaws, key, given, read };
         for value in parameter.given.value.iter().flat_map(Value::scalars) {
             if (parameter.read.with)(value).is_none() {
-                let name = parameter.name();
-                parameter.problem(format!("parameter `{name}` has the value {value}, which is of another type"));
+                parameter.flaw(WorldFlaw::OtherType { parameter: parameter.name(), value: value.clone() });
             }
         }
         parameter
@@ -111,8 +111,7 @@ impl<T: Clone> Param<T> {
     /// for a value needs one for the whole run.
     pub fn value(&self) -> T {
         if self.shape().is_some() {
-            let name = self.name();
-            self.problem(format!("parameter `{name}` varies over time, but the world is built with one value of it"));
+            self.flaw(WorldFlaw::Varies { parameter: self.name() });
         }
         self.read(self.given_or_nominal().scalars().first())
     }
@@ -121,8 +120,8 @@ impl<T: Clone> Param<T> {
         self.declared.borrow()[self.index].parameter.name.clone()
     }
 
-    fn problem(&self, message: String) {
-        self.problems.borrow_mut().push(message);
+    fn flaw(&self, flaw: WorldFlaw) {
+        self.flaws.borrow_mut().push(flaw);
     }
 
     fn shape(&self) -> Option<Shape> {
@@ -144,11 +143,11 @@ impl<T: Datum> Param<T> {
         let value = self.given_or_nominal();
         let shape = self.shape().filter(|shape| {
             let suits = self.declared.borrow()[self.index].parameter.check_signal(*shape);
-            suits.map_err(|error| self.problem(error.to_string())).is_ok()
+            suits.map_err(|error| self.flaw(error.into())).is_ok()
         });
         let Some(shape) = shape else {
             if matches!(value, Value::List(_)) {
-                self.problem(format!("parameter `{parameter}` has the values {value}, but does not vary over time"));
+                self.flaw(WorldFlaw::DoesNotVary { parameter: parameter.clone(), value: value.clone() });
             }
             let value = samples(self.read(value.scalars().first()));
             return Stream::new(NodeKind::Constant { value, parameter: Some(parameter) }, []);
@@ -161,9 +160,8 @@ impl<T: Datum> Param<T> {
             value => {
                 let found = value.scalars().len();
                 if found != 1 {
-                    let message =
-                        format!("parameter `{parameter}` has {found} values, expected {expected} of a {shape}");
-                    self.problem(message);
+                    let parameter = parameter.clone();
+                    self.flaw(WorldFlaw::Coordinates { parameter, found, expected, shape });
                 }
                 samples(self.read(value.scalars().first())).repeat(expected)
             }

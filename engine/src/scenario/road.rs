@@ -1,8 +1,8 @@
 //! The roads of a scenario: a single road or a whole network, and where its lanes and sidewalks are.
 
 use super::{Place, Scenario};
+use crate::flaw::Flaws;
 use crate::geometry::{Line, Pose, Side};
-use crate::problem::Problems;
 use crate::road::{self, Composite, Path, RoadError, RoadNetwork, RoadSegment};
 use crate::stream::Stream;
 use nalgebra::Vector2;
@@ -29,7 +29,7 @@ pub struct Road {
 pub struct Streets {
     /// None where the network cannot be as it is described.
     network: Option<Arc<RoadNetwork>>,
-    problems: Problems,
+    flaws: Flaws,
 }
 
 impl RoadSegment {
@@ -66,7 +66,7 @@ impl Place for Composite {
         match self.build() {
             Ok(network) => scenario.place(network),
             Err(error) => {
-                scenario.problem(error.to_string());
+                scenario.flaw(error.into());
                 Streets::new(None, scenario)
             }
         }
@@ -113,7 +113,7 @@ impl Road {
 impl Streets {
     fn new(network: Option<Arc<RoadNetwork>>, scenario: &mut Scenario) -> Self {
         scenario.networks.push(network.clone());
-        Self { network, problems: scenario.problems.clone() }
+        Self { network, flaws: scenario.flaws.clone() }
     }
 
     /// The network itself; `None` where it cannot be as it is described, which is reported.
@@ -160,7 +160,7 @@ impl Streets {
 
     fn ask<T>(&self, question: impl FnOnce(&RoadNetwork) -> Result<T, RoadError>) -> Option<T> {
         let answer = question(self.network.as_ref()?);
-        answer.map_err(|error| self.problems.borrow_mut().push(error.to_string())).ok()
+        answer.map_err(|error| self.flaws.borrow_mut().push(error.into())).ok()
     }
 }
 

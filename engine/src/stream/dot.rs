@@ -1,7 +1,7 @@
 //! A graph of streams in the DOT language of Graphviz, to be looked at.
 
 use super::node::{Binary, Equation, Node, NodeKind};
-use super::order::{Fault, order};
+use super::order::{GraphFlaw, order};
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::rc::Rc;
@@ -9,7 +9,7 @@ use std::rc::Rc;
 /// A graph with its readers: outputs of objects are boxes, parameters ellipses, readers bold boxes, and what a `pre`
 /// takes from the tick before comes along a dashed line. Where the order of two inputs matters, their lines are
 /// numbered.
-pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equation]) -> Result<String, Fault> {
+pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equation]) -> Result<String, GraphFlaw> {
     let ordered = order(readers.iter().map(|(_, node)| node), equations)?;
     let mut names: HashMap<*const Node, Vec<&str>> = HashMap::new();
     let mut numbers: HashMap<*const Node, usize> = HashMap::new();

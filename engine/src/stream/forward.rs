@@ -2,7 +2,6 @@
 
 use super::Stream;
 use super::node::Equation;
-use crate::problem::Problems;
 use std::cell::RefCell;
 use std::ops::Deref;
 use std::rc::Rc;
@@ -15,16 +14,13 @@ pub struct Forward<T> {
     /// The position of its equation among all.
     pub(crate) equation: usize,
     pub(crate) equations: Rc<RefCell<Vec<Equation>>>,
-    pub(crate) problems: Problems,
 }
 
 impl<T> Forward<T> {
     /// Says what the stream is. To define it twice is a mistake of the scenario.
     pub fn define(&self, definition: impl Into<Stream<T>>) {
         let equation = &mut self.equations.borrow_mut()[self.equation];
-        if equation.definition.replace(definition.into().node).is_some() {
-            self.problems.borrow_mut().push(format!("the stream `{}` is defined twice", equation.name));
-        }
+        equation.is_defined_twice |= equation.definition.replace(definition.into().node).is_some();
     }
 }
 

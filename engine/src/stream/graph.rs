@@ -2,7 +2,7 @@
 
 use super::datum::{Datum, DatumSample};
 use super::node::{Equation, Node, NodeKind};
-use super::order::{Fault, order};
+use super::order::{GraphFlaw, order};
 use paracosm_space::Shape;
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -65,7 +65,10 @@ pub(crate) struct Graph {
 
 impl Graph {
     /// Lays out all that the roots are made of.
-    pub fn new<'a>(roots: impl IntoIterator<Item = &'a Rc<Node>>, equations: &'a [Equation]) -> Result<Self, Fault> {
+    pub fn new<'a>(
+        roots: impl IntoIterator<Item = &'a Rc<Node>>,
+        equations: &'a [Equation],
+    ) -> Result<Self, GraphFlaw> {
         let mut graph = Self::default();
         for node in order(roots, equations)? {
             let slot = match &node.kind {

@@ -79,3 +79,4 @@ pub(crate) use dot::dot;
 pub use forward::Forward;
 pub(crate) use graph::{Clock, Graph, Slot};
 pub(crate) use node::{Binary, Equation, Node, NodeKind, Source, Unary};
+pub use order::GraphFlaw;

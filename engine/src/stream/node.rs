@@ -119,6 +119,7 @@ pub(crate) struct Node {
 pub(crate) struct Equation {
     pub name: String,
     pub definition: Option<Rc<Node>>,
+    pub is_defined_twice: bool,
 }
 
 impl Node {

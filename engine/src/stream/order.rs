@@ -7,39 +7,36 @@
 use super::node::{Equation, Node, NodeKind};
 use std::collections::{HashMap, VecDeque};
 use std::rc::Rc;
+use thiserror::Error;
 
-/// Why a graph has no meaning.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Fault {
+/// Why a graph of streams has no meaning.
+#[derive(Debug, Clone, Error, PartialEq)]
+pub enum GraphFlaw {
     /// A stream that something reads and nothing defines.
-    Undefined(String),
-    /// Streams that depend on themselves within a tick: the labels of the nodes, each the operand of the next, the last
-    /// that of the first.
-    Cycle(Vec<String>),
+    #[error("the stream `{stream}` is read, but nothing defines it")]
+    Undefined {
+        /// The stream.
+        stream: String,
+    },
+    /// Streams that depend on themselves within a tick.
+    #[error("a stream depends on its own value at the same tick: {}; put a `pre` on the way", circle(.labels))]
+    Cycle {
+        /// The labels of the nodes. Each node is an operand of the next, and the last node an operand of the first.
+        labels: Vec<String>,
+    },
 }
 
-impl std::fmt::Display for Fault {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Fault::Undefined(name) => write!(f, "the stream `{name}` is read, but nothing defines it"),
-            Fault::Cycle(labels) => {
-                f.write_str("a stream depends on its own value at the same tick: ")?;
-                for label in labels {
-                    write!(f, "`{label}` -> ")?;
-                }
-                write!(f, "`{}`; put a `pre` on the way", labels[0])
-            }
-        }
-    }
+fn circle(labels: &[String]) -> String {
+    labels.iter().chain(labels.first()).map(|label| format!("`{label}`")).collect::<Vec<_>>().join(" -> ")
 }
 
 /// What a node needs evaluated before itself.
-fn operands<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> Result<&'a [Rc<Node>], Fault> {
+fn operands<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> Result<&'a [Rc<Node>], GraphFlaw> {
     match &node.kind {
         NodeKind::Pre => Ok(&[]),
         NodeKind::Forward { equation, name } => {
             let definition = equations.get(*equation).and_then(|equation| equation.definition.as_ref());
-            definition.map(std::slice::from_ref).ok_or_else(|| Fault::Undefined(name.clone()))
+            definition.map(std::slice::from_ref).ok_or_else(|| GraphFlaw::Undefined { stream: name.clone() })
         }
         _ => Ok(&node.inputs),
     }
@@ -49,7 +46,7 @@ fn operands<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> Result<&'a [Rc
 pub(crate) fn order<'a>(
     roots: impl IntoIterator<Item = &'a Rc<Node>>,
     equations: &'a [Equation],
-) -> Result<Vec<&'a Rc<Node>>, Fault> {
+) -> Result<Vec<&'a Rc<Node>>, GraphFlaw> {
     let mut ordered = Vec::new();
     // Whether a node is done, or else on the path. Only looked up, never iterated over: addresses differ between runs.
     let mut done: HashMap<*const Node, bool> = HashMap::new();
@@ -79,7 +76,8 @@ pub(crate) fn order<'a>(
                 None => path.push((operand, 0)),
                 Some(false) => {
                     let from = path.iter().position(|(node, _)| Rc::ptr_eq(node, operand)).unwrap_or(0);
-                    return Err(Fault::Cycle(path[from..].iter().rev().map(|(node, _)| node.label()).collect()));
+                    let labels = path[from..].iter().rev().map(|(node, _)| node.label()).collect();
+                    return Err(GraphFlaw::Cycle { labels });
                 }
             }
         }

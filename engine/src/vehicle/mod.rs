@@ -27,12 +27,14 @@
 //! tyres of the source, which are as stiff by load on one axle as on the other, make a neutral car of it. What is left
 //! comes with the slip angle: a part of the side acceleration is along the car, and loads the rear axle.
 
+mod flaw;
 mod jointed;
 mod motion;
 mod parameters;
 mod single_track;
 mod tyre;
 
+pub use flaw::VehicleFlaw;
 pub use jointed::Jointed;
 pub use motion::Motion;
 pub use parameters::{Drive, Vehicle};
@@ -138,7 +140,7 @@ impl VehicleModel {
     /// A car of this model whose middle has the pose `start`, going straight ahead at `speed` m/s.
     ///
     /// # Panics
-    /// The vehicle has a [`Vehicle::problem`].
+    /// The vehicle has a [`Vehicle::flaw`].
     pub fn build(self, vehicle: &Vehicle, start: Pose, speed: f64) -> Box<dyn Dynamics> {
         match self {
             VehicleModel::SingleTrack => Box::new(SingleTrack::new(vehicle, start, speed)),

@@ -1,6 +1,7 @@
 //! What a car is made of, and what follows for it on a straight road.
 
 use super::GRAVITY;
+use super::VehicleFlaw;
 
 /// Which wheels the engine drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -162,16 +163,16 @@ impl Vehicle {
     /// The same car, if nothing is wrong with it.
     ///
     /// # Panics
-    /// It has a [`Vehicle::problem`].
+    /// It has a [`Vehicle::flaw`].
     pub(super) fn checked(&self) -> Self {
-        if let Some(problem) = self.problem() {
-            panic!("{problem}");
+        if let Some(flaw) = self.flaw() {
+            panic!("{flaw}");
         }
         *self
     }
 
-    /// What is wrong with it, if anything: the field, its value and what was expected.
-    pub fn problem(&self) -> Option<String> {
+    /// Why it cannot be, if it cannot.
+    pub fn flaw(&self) -> Option<VehicleFlaw> {
         let positive = [
             ("length", self.length),
             ("width", self.width),
@@ -193,12 +194,11 @@ impl Vehicle {
             ("max_speed", self.max_speed),
         ];
         let wrong = positive.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()));
-        if let Some((name, value)) = wrong {
-            return Some(format!("the vehicle's {name} is {value}, expected a number above 0"));
+        if let Some((parameter, value)) = wrong {
+            return Some(VehicleFlaw::NotPositive { parameter, value });
         }
-        let between = |name: &str, value: f64, most: f64| {
-            let wrong = !(0.0..most).contains(&value);
-            wrong.then(|| format!("the vehicle's {name} is {value}, expected 0 to less than {most}"))
+        let between = |parameter, value: f64, most: f64| {
+            (!(0.0..most).contains(&value)).then_some(VehicleFlaw::OutOfRange { parameter, value, most })
         };
         let wrong = between("front_axle", self.front_axle, self.wheelbase)
             .or_else(|| between("max_steering_angle", self.max_steering_angle, std::f64::consts::FRAC_PI_2));
@@ -209,19 +209,12 @@ impl Vehicle {
         for (axle, load) in ["front", "rear"].into_iter().zip(self.axle_loads(0.0)) {
             let carried = load / GRAVITY;
             if carried <= wheels {
-                return Some(format!(
-                    "the vehicle's {axle} axle carries {carried:.1} kg, expected more than its {wheels} kg of wheels"
-                ));
+                return Some(VehicleFlaw::Axle { axle, carried, wheels });
             }
         }
         let body = self.body_inertia();
-        (body <= 0.0).then(|| {
-            format!(
-                "the vehicle's yaw_inertia is {}, expected more than its wheels' {:.1}",
-                self.yaw_inertia,
-                self.yaw_inertia - body
-            )
-        })
+        let flaw = VehicleFlaw::YawInertia { whole: self.yaw_inertia, wheels: self.yaw_inertia - body };
+        (body <= 0.0).then_some(flaw)
     }
 }
 
@@ -299,8 +292,8 @@ mod tests {
 
     #[test]
     fn what_no_car_has_is_named() {
-        assert_eq!(CAR.problem(), None);
-        let problem = |car: Vehicle| car.problem().unwrap();
+        assert_eq!(CAR.flaw(), None);
+        let problem = |car: Vehicle| car.flaw().unwrap().to_string();
         assert!(problem(Vehicle { mass: f64::NAN, ..CAR }).contains("mass is NaN"));
         assert!(problem(Vehicle { track: 0.0, ..CAR }).contains("track is 0"));
         assert!(problem(Vehicle { wheel_mass: 250.0, ..CAR }).contains("rear axle carries 490.1 kg"));

@@ -63,7 +63,7 @@ impl SingleTrack {
     /// A car whose middle has the pose `start`, going straight ahead at `speed` m/s.
     ///
     /// # Panics
-    /// The vehicle has a [`Vehicle::problem`].
+    /// The vehicle has a [`Vehicle::flaw`].
     pub fn new(vehicle: &Vehicle, start: Pose, speed: f64) -> Self {
         let state = VehicleState::new(start, speed);
         Self { vehicle: vehicle.checked(), straight: Straight::from(&state), state, throttle: 0.0, friction: 0.0 }

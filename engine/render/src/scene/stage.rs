@@ -16,10 +16,10 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 ///
 /// ```
 /// use paracosm_engine::road::CrossIntersection;
-/// use paracosm_render::{Air, Stage};
+/// use paracosm_render::{Atmosphere, Stage};
 ///
 /// let stage = Stage::of(&*CrossIntersection::new().build()?);
-/// let empty = stage.scene_of([], Air::default());
+/// let empty = stage.scene_of([], Atmosphere::default());
 /// assert!(empty.instances.iter().all(|instance| instance.id == 0));
 /// # Ok::<(), paracosm_engine::road::RoadError>(())
 /// ```

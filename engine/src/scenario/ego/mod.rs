@@ -4,6 +4,7 @@ mod quantity;
 mod right_of_way;
 
 use super::{Place, Scenario};
+use crate::flaw::ObjectFlaw;
 use crate::geometry::wrapped;
 use crate::geometry::{Line, Pose};
 use crate::object::{Body, BodyState, Class, Output, Outputs};
@@ -123,18 +124,18 @@ impl Place for AutonomousVehicle {
         let (speed, most) = (self.speed, self.vehicle.max_speed);
         let asked = Rc::new(Asked::new(scenario.wiring.clone()));
         let mut draft = scenario.object("car");
-        if let Some(problem) = self.vehicle.problem() {
-            draft.problem(&format!("cannot be built: {problem}"));
+        if let Some(flaw) = self.vehicle.flaw() {
+            draft.flaw(flaw.into());
         }
-        if let Some(problem) = self.way.problem() {
-            draft.problem(&format!("has a way that {problem}"));
+        if let Some(piece) = self.way.wrong_piece() {
+            draft.flaw(ObjectFlaw::Piece { line: "way", piece });
         }
         let length = self.way.length();
         if !(0.0..=length).contains(&self.start) {
-            draft.problem(&format!("starts {} m along a way of {length} m", self.start));
+            draft.flaw(ObjectFlaw::Start { line: "way", start: self.start, length });
         }
         if !(0.0..=most).contains(&speed) {
-            draft.problem(&format!("has the speed {speed} m/s, expected 0 to {most}"));
+            draft.flaw(ObjectFlaw::Speed { speed, most });
         }
         let shown = Shown {
             position: draft.output("position"),

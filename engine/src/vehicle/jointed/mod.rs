@@ -65,7 +65,7 @@ impl Jointed {
     /// A car whose middle has the pose `start`, going straight ahead at `speed` m/s.
     ///
     /// # Panics
-    /// The vehicle has a [`Vehicle::problem`].
+    /// The vehicle has a [`Vehicle::flaw`].
     pub fn new(vehicle: &Vehicle, start: Pose, speed: f64) -> Self {
         let vehicle = &vehicle.checked();
         let mut physics = PhysicsWorld { gravity: vector(0.0, 0.0, -GRAVITY), ..PhysicsWorld::default() };

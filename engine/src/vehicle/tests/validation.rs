@@ -57,7 +57,7 @@ fn a_car_of_another_make_brakes_as_well() {
     };
     let small = Vehicle { front_axle: 1.5, mass: 650.0, yaw_inertia: 900.0, wheel_mass: 18.0, ..CAR };
     for (model, vehicle) in VehicleModel::ALL.into_iter().flat_map(|model| [(model, van), (model, small)]) {
-        assert_eq!(vehicle.problem(), None);
+        assert_eq!(vehicle.flaw(), None);
         let ideal = 20.0 * 20.0 / (2.0 * 0.7 * GRAVITY);
         let mut car = model.build(&vehicle, ORIGIN, 20.0);
         for _ in 0..500 {
@@ -260,7 +260,7 @@ proptest! {
 
     #[test]
     fn any_car_bends_and_stops(car in any_car(), friction in 0.2..0.8_f64, dt in 0.002..0.02_f64) {
-        prop_assert_eq!(car.problem(), None);
+        prop_assert_eq!(car.flaw(), None);
         for model in VehicleModel::ALL {
             let mut moving = model.build(&car, ORIGIN, 15.0);
             let angle = 0.3 * friction * GRAVITY * car.wheelbase / (15.0 * 15.0);
