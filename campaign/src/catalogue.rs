@@ -94,3 +94,21 @@ impl Catalogue {
         Err(UnknownScenario { name: name.to_owned(), nearest }.into())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reader_makes_programs_of_the_files_with_its_ending_and_of_no_others() {
+        let read = |path: &Path| {
+            let name = path.file_stem().and_then(OsStr::to_str).unwrap_or_default().to_owned();
+            Ok(Program::of(name, "a world of a file", |_| ()))
+        };
+        let catalogue = Catalogue::default().reading(Reader { ending: "world", about: "worlds of a test", read });
+        assert_eq!(catalogue.find("folder/town.world").expect("it is read").name(), "town");
+        let error = catalogue.find("town.xodr").expect_err("nothing reads it");
+        assert!(matches!(error.reason(), Some(UnknownScenario { name, .. }) if name == "town.xodr"), "{error}");
+        assert_eq!(catalogue.readers().len(), 1);
+    }
+}

@@ -44,6 +44,7 @@ mod strategy;
 
 pub use adaptive::{FailingShare, FailureModel};
 pub use aim::Aim;
+pub use all::Purpose;
 pub use bandit::Bandit;
 pub use discrete::DiscreteFamily;
 pub use error::GeneratorError;

@@ -6,7 +6,7 @@ use super::sampling::Sampling;
 use super::subject::Subject;
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, report};
-use crate::generators::Strategy;
+use crate::generators::{Purpose, Strategy};
 use crate::oracles::Verdict;
 use crate::space::{did_you_mean, nearest};
 use crate::{Report, Runner};
@@ -211,9 +211,11 @@ impl Options {
     fn strategy(&self) -> Result<Strategy, Error> {
         Ok(match (&self.strategy, &self.extend) {
             (Some(name), _) => name.parse()?,
-            (None, Some(_)) => Strategy::GREEDY,
-            (None, None) if self.stop_at_first && !self.sampling.says_how_to_cover() => Strategy::AUTO,
-            (None, None) => Strategy::HALTON,
+            (None, Some(_)) => Strategy::usual(Purpose::Complete),
+            (None, None) if self.stop_at_first && !self.sampling.says_how_to_cover() => {
+                Strategy::usual(Purpose::FirstFailure)
+            }
+            (None, None) => Strategy::usual(Purpose::Cover),
         })
     }
 }

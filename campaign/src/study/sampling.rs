@@ -2,7 +2,7 @@
 
 use crate::Reason;
 use paracosm_coverage::Deadline;
-use paracosm_generators::{Aim, DiscreteFamily, Request, Strategy};
+use paracosm_generators::{Aim, DiscreteFamily, Purpose, Request, Strategy};
 use paracosm_space::{Point, Space};
 use std::fmt;
 use thiserror::Error;
@@ -50,7 +50,7 @@ impl Default for Sampling {
     /// The strategy `halton`, 500 tests.
     fn default() -> Self {
         Self {
-            strategy: Strategy::HALTON,
+            strategy: Strategy::usual(Purpose::Cover),
             discrete: DiscreteFamily::default(),
             k: None,
             epsilon: None,

@@ -8,7 +8,7 @@ use crate::cli::sampling::Sampling;
 use crate::cli::usage;
 use crate::cli::{Failure, Verbosity, complain};
 use crate::coverage::Deadline;
-use crate::generators::{DiscreteFamily, Generator, Request, Strategy};
+use crate::generators::{DiscreteFamily, Generator, Purpose, Request, Strategy};
 use crate::space::demand::Demand;
 use crate::space::{Point, Space};
 use clap::{ArgGroup, Args};
@@ -100,8 +100,8 @@ impl Options {
         demand.groups.extend(strength::groups(&self.strength, &space)?);
         let strategy = match &self.strategy {
             Some(name) => open_loop(name)?,
-            None if self.extend.is_some() => Strategy::GREEDY,
-            None => Strategy::HALTON,
+            None if self.extend.is_some() => Strategy::usual(Purpose::Complete),
+            None => Strategy::usual(Purpose::Cover),
         };
         let request = self.request(&space, strategy, &existing)?;
         if strategy.has_rows(&request) {
