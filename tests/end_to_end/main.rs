@@ -13,6 +13,7 @@ mod commands;
 mod common;
 mod comparison;
 mod covering;
+mod documents;
 mod earlier_versions;
 mod extend;
 mod external_drivers;
