@@ -117,7 +117,7 @@ impl<'a> Campaign<'a> {
         self.stop.clone()
     }
 
-    /// Checks that the strategy can do what is asked of it.
+    /// Checks that the strategy can do what is asked of it, beside the tests that the campaign extends.
     ///
     /// # Errors
     /// It cannot.

@@ -223,7 +223,7 @@ impl StudyBuilder {
     /// # Errors
     /// The program cannot be run; there is no such driver, setting, parameter or actor; a value is out of range; a parameter is
     /// fixed twice; a file cannot be read or says what makes no sense; a formula is none of the study's signals; the budget or
-    /// the batch is 0. The error names what was found and what was expected.
+    /// the batch is 0; the strategy cannot do what is asked of it. The error names what was found and what was expected.
     pub fn build(self) -> Result<Study, Error> {
         let (subject, space, requirements) = match &self.subject {
             Wanted::Scenario(program) => {
@@ -258,6 +258,8 @@ impl StudyBuilder {
         self.odd.iter().try_for_each(|path| study.odd_of_space(path))?;
         self.requirements.iter().try_for_each(|path| study.require(path))?;
         self.specs.iter().try_for_each(|(time, formula)| study.ask(*time, formula))?;
+        // The strategy says whether it can do what is asked of it.
+        study.generator(&[])?;
         Ok(study)
     }
 
