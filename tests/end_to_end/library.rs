@@ -74,7 +74,7 @@ fn a_driver_that_nobody_offers_is_a_failure_of_the_environment() {
 fn a_study_whose_strategy_cannot_do_what_is_asked_is_not_built() {
     let program = paracosm::catalogue().find("pedestrian-crossing").expect("it is in the catalogue");
     let study = paracosm::Study::of(program).open("friction").strategy(Strategy::FIBONACCI).build();
-    let error = study.err().expect("fibonacci covers two parameters, and three are open");
+    let error = study.expect_err("fibonacci covers two parameters, and three are open");
     assert!(matches!(error, paracosm::Error::Use(_)), "{error}");
     assert!(error.to_string().contains("fibonacci"), "{error}");
 }
