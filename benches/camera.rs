@@ -1,5 +1,6 @@
-//! Frames per second of `pedestrian-crossing`, 64 cameras a batch, each at another moment of a test. Divan's items per second are the
-//! figures. They are the adapter's: on the processor, of as many cores as there are.
+//! Measures how many frames a second cameras draw in `pedestrian-crossing`, with 64 cameras in a batch, each at another
+//! moment of a test. Divan's items per second are the results. They depend on the adapter; if the processor draws, they
+//! depend on its cores.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
@@ -16,7 +17,7 @@ fn main() {
     divan::main();
 }
 
-/// 128 x 128, RGB with depth and classes.
+/// Images of 128 x 128 pixels: RGB with depth and classes.
 #[divan::bench(sample_count = 20)]
 fn rgb_depth_semantic(bencher: Bencher) {
     batches(
@@ -26,25 +27,25 @@ fn rgb_depth_semantic(bencher: Bencher) {
     );
 }
 
-/// 200 x 66, RGB.
+/// Images of 200 x 66 pixels: RGB.
 #[divan::bench(sample_count = 20)]
 fn rgb(bencher: Bencher) {
     batches(bencher, &camera(200, 66), WantedImages { rgb: true, ..WantedImages::default() });
 }
 
-/// 200 x 66, RGB with shadows: what drivers that see are shown.
+/// Images of 200 x 66 pixels: RGB with shadows, as shown to drivers with cameras.
 #[divan::bench(sample_count = 20)]
 fn rgb_shadows_small(bencher: Bencher) {
     batches(bencher, &camera(200, 66), WantedImages { rgb: true, shadows: true, ..WantedImages::default() });
 }
 
-/// 640 x 480, RGB with shadows.
+/// Images of 640 x 480 pixels: RGB with shadows.
 #[divan::bench(sample_count = 5)]
 fn rgb_shadows(bencher: Bencher) {
     batches(bencher, &camera(640, 480), WantedImages { rgb: true, shadows: true, ..WantedImages::default() });
 }
 
-/// What a camera behind the windscreen looks at, and from where, three times a second.
+/// Returns the scenes in front of a camera behind the windscreen, with the poses of the car, three times a second.
 fn moments() -> Vec<(Scene, Isometry3<f64>)> {
     let program = paracosm::scenarios::find("pedestrian-crossing").expect("it is in the catalogue");
     let test = program.declare().expect("it is sound").nominal();

@@ -1,5 +1,5 @@
-//! How long it takes to measure point sets, to cover combinations and to place points: the work that
-//! `paracosm-cover` does. `baseline` is plain integer arithmetic, by which two machines can be compared.
+//! Measures how long it takes to measure sets of points, to cover combinations and to place points: the work of
+//! `paracosm-cover`. `baseline` is plain integer arithmetic, to compare two machines.
 
 mod baseline;
 
@@ -28,14 +28,14 @@ fn halton(dims: usize, n: usize) -> PointSet {
     PointSet::new(dims, points(Strategy::HALTON, dims, n).iter().map(|point| &point.continuous)).unwrap()
 }
 
-/// Halton points: dimensions and number.
+/// Exact dispersion of Halton points; the arguments are the dimensions and the number of points.
 #[divan::bench(args = [(2, 100_000), (3, 10_000), (4, 10_000), (5, 1_000), (6, 1_000), (8, 1_000), (10, 100)], sample_count = 3)]
 fn exact_dispersion(bencher: Bencher, (dims, n): (usize, usize)) {
     let points = halton(dims, n);
     bencher.bench(|| dispersion(black_box(&points), Deadline::never()));
 }
 
-/// Points of the Sobol sequence, exact.
+/// Exact dispersion of points of the Sobol sequence.
 #[divan::bench(args = [(10, 1_024)], sample_count = 3)]
 fn exact_dispersion_of_sobol(bencher: Bencher, (dims, n): (usize, usize)) {
     let points = PointSet::new(dims, points(Strategy::SOBOL, dims, n).iter().map(|point| &point.continuous)).unwrap();
@@ -69,14 +69,14 @@ fn l2_family(bencher: Bencher, (dims, n): (usize, usize)) {
     });
 }
 
-/// 1,000 points in 20 dimensions: 190 projections on two coordinates, 1,140 on three.
+/// K-wise dispersion of 1,000 points in 20 dimensions: 190 projections on two coordinates, 1,140 on three.
 #[divan::bench(args = [2, 3], sample_count = 3)]
 fn kwise_dispersion_of_20_dimensions(bencher: Bencher, k: usize) {
     let (rules, points) = (Rules::free(&[]), points(Strategy::HALTON, 20, 1_000));
     bencher.bench(|| kwise_dispersion(20, &rules, black_box(&points), k, Deadline::never()));
 }
 
-/// So many parameters with so many levels, at this strength.
+/// Covering arrays; the arguments are the number of parameters, the levels of each, and the strength.
 #[divan::bench(args = [(16, 10, 3), (16, 10, 4), (100, 2, 3), (20, 10, 2), (10, 4, 3)], sample_count = 3)]
 fn array(bencher: Bencher, (parameters, levels, k): (usize, usize, usize)) {
     let rules = Rules::free(&vec![levels; parameters]);

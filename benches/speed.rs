@@ -1,6 +1,6 @@
-//! Whole tests per second on one core, points per second of each generator, samples per second of formulas, and a city's
-//! roads and traffic. Divan's items per second are the figures; `baseline` is plain integer arithmetic, by which two machines (or two
-//! moods of one) can be compared.
+//! Measures whole tests per second on one core, points per second of each generator, samples per second of formulas,
+//! and the roads and traffic of a city. Divan's items per second are the results. `baseline` is plain integer
+//! arithmetic, to compare two machines, or one machine at two times.
 
 mod baseline;
 
@@ -29,7 +29,7 @@ fn study(scenario: &str) -> Study {
     Study::of(paracosm::catalogue().find(scenario).unwrap()).build().unwrap()
 }
 
-/// Tests of `pedestrian-crossing`: 25 simulated seconds at 100 Hz, but for those that a contact ends.
+/// Tests of `pedestrian-crossing`: 25 simulated seconds at 100 Hz, except tests that end with a contact.
 #[divan::bench(args = ["aeb", "cruise"], sample_count = 20)]
 fn tests(bencher: Bencher, driver: &str) {
     const TESTS: usize = 100;
@@ -47,7 +47,7 @@ fn tests(bencher: Bencher, driver: &str) {
     });
 }
 
-/// The same with the car of joints, that the physics moves.
+/// The same tests with the jointed car, which the physics engine moves.
 #[divan::bench(sample_count = 20)]
 fn jointed_tests(bencher: Bencher) {
     const TESTS: usize = 20;
@@ -63,7 +63,7 @@ fn jointed_tests(bencher: Bencher) {
     });
 }
 
-/// Simulated seconds of `grid-traffic`: a car under test on its way among a hundred.
+/// Simulated seconds of `grid-traffic`: a car under test on its way among a hundred cars.
 #[divan::bench(sample_count = 20)]
 fn grid_traffic(bencher: Bencher) {
     let study = study("grid-traffic");
@@ -76,7 +76,7 @@ fn grid_traffic(bencher: Bencher) {
     bencher.counter(ItemsCount::new(seconds as usize)).bench_local(run);
 }
 
-/// Scans of a LiDAR of 32 channels and 1,800 columns half a minute into `grid-traffic`, with noise and drop-off.
+/// Scans of a LiDAR with 32 channels and 1,800 columns, half a minute into `grid-traffic`, with noise and drop-off.
 #[divan::bench(sample_count = 20)]
 fn lidar_scans(bencher: Bencher) {
     const SCANS: usize = 10;
@@ -100,7 +100,7 @@ fn lidar_scans(bencher: Bencher) {
     });
 }
 
-/// Cut-ins of UN R157 in the plain kinematic world, each with a reference driver.
+/// Cut-ins of UN R157 in the plain kinematic world, with each reference driver.
 #[divan::bench(args = reference::ALL.map(|(name, _)| name), sample_count = 20)]
 fn cut_ins(bencher: Bencher, driver: &str) {
     const CUT_INS: usize = 30_000;
@@ -114,7 +114,7 @@ fn cut_ins(bencher: Bencher, driver: &str) {
         .bench_local(|| encounters.iter().filter(|encounter| drive(encounter).collision.is_some()).count());
 }
 
-/// Ways of a car over 10 seconds at 100 Hz, with throttle, brakes and steering.
+/// Drives of a car over 10 seconds at 100 Hz, with throttle, brakes and steering.
 #[divan::bench(args = VehicleModel::ALL, sample_count = 20)]
 fn ways(bencher: Bencher, model: VehicleModel) {
     const WAYS: usize = 10;
@@ -132,8 +132,8 @@ fn ways(bencher: Bencher, model: VehicleModel) {
     });
 }
 
-/// Nodes of streams evaluated in each tick of a run of 1,000 ticks: arithmetic, a comparison, a closure, and what
-/// remembers something. The run around them takes the time of some thirty nodes.
+/// Nodes of streams, evaluated in each tick of a run of 1,000 ticks: arithmetic, a comparison, a closure, and a node
+/// with memory. The rest of the run takes the time of about thirty nodes.
 #[divan::bench(sample_count = 20)]
 fn stream_nodes(bencher: Bencher) {
     const CHAINS: usize = 100;
@@ -159,8 +159,8 @@ fn stream_nodes(bencher: Bencher) {
         .bench_local_values(|mut run| black_box(run.drive(driver.as_mut())));
 }
 
-/// Points in five dimensions, the building of the generator included. `greedy`, which thinks for milliseconds about
-/// each, is asked for fewer.
+/// Points in five dimensions, including the construction of the generator. `greedy` takes milliseconds for each point,
+/// so it is asked for fewer points.
 #[divan::bench(args = Strategy::all().filter(|s| s.dims().contains(&5) && !s.is_adaptive()), sample_count = 20)]
 fn points(bencher: Bencher, strategy: Strategy) {
     let points = if strategy == Strategy::GREEDY { 100 } else { 10_000 };
@@ -171,7 +171,7 @@ fn points(bencher: Bencher, strategy: Strategy) {
     });
 }
 
-/// One window of 0.1 s and one of 100 s should take the same time.
+/// The window of 0.1 s and the window of 100 s should take the same time.
 const FORMULAS: [&str; 4] = [
     "always always[0,0.1] (a > 0)",
     "always always[0,100] (a > 0)",
@@ -179,7 +179,7 @@ const FORMULAS: [&str; 4] = [
     "always (a > 0 -> b < 3 until[0,5] b > 0)",
 ];
 
-/// Two signals of a thousand seconds at 100 Hz, each the sum of what xorshift says, slowly forgotten.
+/// Returns two signals of a thousand seconds at 100 Hz, each a slowly decaying sum of xorshift's numbers.
 fn wandering() -> Trace {
     let mut trace = Trace::new(0.01, vec!["a".into(), "b".into()]);
     let mut x: u64 = 1;
@@ -197,7 +197,7 @@ fn wandering() -> Trace {
     trace
 }
 
-/// Samples of a recorded trace.
+/// Evaluation of a recorded trace, in samples.
 #[divan::bench(args = FORMULAS)]
 fn offline(bencher: Bencher, formula: &str) {
     let trace = wandering();
@@ -205,7 +205,7 @@ fn offline(bencher: Bencher, formula: &str) {
     bencher.counter(ItemsCount::new(trace.len())).bench(|| formula.evaluate(black_box(&trace)).unwrap());
 }
 
-/// Samples of a recorded trace, and the time between them.
+/// Evaluation of a recorded trace, including the time between the samples.
 #[divan::bench(args = &FORMULAS[1..])]
 fn dense(bencher: Bencher, formula: &str) {
     let trace = wandering();
@@ -213,7 +213,7 @@ fn dense(bencher: Bencher, formula: &str) {
     bencher.counter(ItemsCount::new(trace.len())).bench(|| formula.evaluate_in(Semantics::Dense, &trace).unwrap());
 }
 
-/// The same, with the part and the time on which the robustness depends.
+/// The same evaluation, with the part of the formula and the time that decide the robustness.
 #[divan::bench(args = &FORMULAS[1..])]
 fn dense_cause(bencher: Bencher, formula: &str) {
     let trace = wandering();
@@ -223,7 +223,7 @@ fn dense_cause(bencher: Bencher, formula: &str) {
         .bench(|| formula.explain_in(Semantics::Dense, &trace).unwrap().is_some());
 }
 
-/// Samples told one by one.
+/// Online monitoring of samples, one by one.
 #[divan::bench(args = FORMULAS)]
 fn online(bencher: Bencher, formula: &str) {
     let trace = wandering();
@@ -235,7 +235,7 @@ fn online(bencher: Bencher, formula: &str) {
     });
 }
 
-/// Formulas read.
+/// Parsing of formulas.
 #[divan::bench]
 fn parse(bencher: Bencher) {
     let text = FORMULAS[2];
@@ -253,13 +253,13 @@ fn city(bencher: Bencher) {
     bencher.bench(figure_3);
 }
 
-/// Positions all over the city, most of them far from any street, projected onto the nearest lane.
+/// Projections of positions all over the city, most of them far from any street, onto the nearest lane.
 #[divan::bench(sample_count = 20)]
 fn projections(bencher: Bencher) {
     const POSITIONS: usize = 10_000;
     let city = figure_3();
     let (low, high) = (city.bounds().min, city.bounds().max);
-    // The plastic number's Kronecker sequence.
+    // The positions follow the plastic number's Kronecker sequence.
     let share = |i: usize, step: f64| (i as f64 * step).fract();
     let position =
         |i| Vector2::new(share(i, 0.754_877_666), share(i, 0.569_840_291)).component_mul(&(high - low)) + low;
@@ -269,7 +269,7 @@ fn projections(bencher: Bencher) {
         .bench(|| positions.iter().map(|position| city.project(*position).distance).sum::<f64>());
 }
 
-/// Shortest ways between lanes all over the city.
+/// Shortest routes between lanes all over the city.
 #[divan::bench(sample_count = 20)]
 fn routes(bencher: Bencher) {
     const ROUTES: usize = 50;
@@ -283,8 +283,8 @@ fn routes(bencher: Bencher) {
     });
 }
 
-/// Steps of traffic all over the city, a fiftieth of a second each. Half of the cars change lanes where that pays; the
-/// streets have two lanes for each direction.
+/// Steps of traffic all over the city, each a fiftieth of a second. Half of the cars change lanes if it saves them
+/// time; the streets have two lanes for each direction.
 #[divan::bench(args = [10, 100, 1000], sample_count = 20)]
 fn traffic(bencher: Bencher, cars: usize) {
     const STEPS: usize = 500;
@@ -293,7 +293,7 @@ fn traffic(bencher: Bencher, cars: usize) {
     let scattered = TrafficCar::scattered(&city, cars, 1).into_iter().enumerate();
     let scattered = scattered.map(|(i, car)| if i.is_multiple_of(2) { car.changing_lanes() } else { car }).collect();
     let mut traffic = Traffic::new(city, scattered, 1).unwrap();
-    // From standstill to the usual.
+    // The traffic first runs from standstill to its usual state.
     (0..STEPS).for_each(|_| traffic.step(DT, &[]));
     bencher.counter(ItemsCount::new(STEPS)).bench_local(|| (0..STEPS).for_each(|_| traffic.step(DT, &[])));
 }

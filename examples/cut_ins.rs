@@ -1,8 +1,9 @@
-//! How many cut-ins of UN R157 each reference driver gets out of: `cargo run --release --example cut_ins`.
+//! Counts the cut-ins of UN R157 in which each reference driver avoids a collision: `cargo run --release --example
+//! cut_ins`.
 //!
-//! 30,000 cut-ins from the regulation's ranges, drawn at random (those are left out in which the other car would have
-//! to drive backwards), each driven by every reference driver in the plain kinematic world, and by one that never brakes.
-//! What a driver does not avoid although `ideal` does is its own fault.
+//! 30,000 cut-ins are drawn at random from the regulation's ranges, without those in which the other car would have to
+//! drive backwards. Every reference driver, and a driver that never brakes, drives each cut-in in the plain kinematic
+//! world. A collision that a driver does not avoid although `ideal` does is the driver's own fault.
 
 use paracosm::engine::driver::reference::{self, Drive, Ideal};
 use paracosm::engine::kinematic::{CutIn, Encounter, Ended, Impact, Unbraked};
@@ -12,7 +13,7 @@ use std::error::Error;
 use std::fmt::Write;
 
 const CUT_INS: usize = 30_000;
-/// In 28 of 100 points the other would drive backwards.
+/// The number of points. In 28 of 100 points the other car would drive backwards.
 const POINTS: usize = 2 * CUT_INS;
 
 fn cut_ins() -> Result<Vec<Encounter>, Box<dyn Error>> {
@@ -26,7 +27,7 @@ fn cut_ins() -> Result<Vec<Encounter>, Box<dyn Error>> {
     Ok(cut_ins.take(CUT_INS).collect())
 }
 
-/// The whole example in words.
+/// Returns the results of the whole example as text.
 pub fn report() -> Result<String, Box<dyn Error>> {
     let encounters = cut_ins()?;
     let percent = |count: usize| 100.0 * count as f64 / encounters.len() as f64;

@@ -1,4 +1,4 @@
-//! Draws every kind of object from three sides, and some scenarios from the driver's eye, into a folder of PNG files:
+//! Draws every kind of object from three sides, and some scenarios from the driver's eye, as PNG files in a folder:
 //!
 //! ```text
 //! cargo run --release --example gallery -- FOLDER
@@ -14,11 +14,12 @@ use std::error::Error;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// Width of a sensor in millimetres, and the focal length of a camera that looks at one thing and of one in a car.
+/// The width of a sensor in millimetres, and the focal lengths of a camera that looks at one thing and of a camera in a
+/// car.
 const SENSOR: f64 = 36.0;
 const PORTRAIT: f64 = 50.0;
 const WIDE: f64 = 24.0;
-/// Scenarios, with the second at which each is looked at.
+/// The scenarios, each with the time in seconds at which it is drawn.
 const SCENARIOS: [(&str, f64); 6] = [
     ("pedestrian-crossing", 5.0),
     ("follow-leader", 3.0),
@@ -42,7 +43,7 @@ impl Gallery {
         write(&self.folder.join(format!("{name}.png")), &frame)
     }
 
-    /// Things on a road, from three sides and `far` metres away.
+    /// Draws things on a road from three sides, `far` metres away.
     fn portrait(&mut self, name: &str, bodies: &[BodyState], far: f64) -> Result<(), Box<dyn Error>> {
         let network = RoadSegment::new(200.0).build()?;
         let scene = Stage::of(&network).scene_of(bodies.iter().enumerate(), Atmosphere::default());
@@ -65,14 +66,14 @@ impl Gallery {
         Ok(())
     }
 
-    /// An empty network from a place above it.
+    /// Draws an empty network from a place above it.
     fn roads(&mut self, name: &str, network: &RoadNetwork) -> Result<(), Box<dyn Error>> {
         let scene = Stage::of(network).scene_of([], Atmosphere::default());
         let camera = Camera::new(800, 450, WIDE, SENSOR)?;
         self.draw(name, &scene, &camera, looking(Point3::new(-32.0, -20.0, 16.0), Point3::origin()))
     }
 
-    /// A scenario as its car sees it, in this weather where the scenario says nothing of it.
+    /// Draws a scenario as its car sees it, with the scenario's own weather if `air` is `None`.
     fn scenario(
         &mut self,
         stages: &Stages,
@@ -100,7 +101,7 @@ impl Gallery {
     }
 }
 
-/// The pose of who stands at `eye` and looks at `target`.
+/// Returns the pose of a camera at `eye` that looks at `target`.
 fn looking(eye: Point3<f64>, target: Point3<f64>) -> Isometry3<f64> {
     let way = target - eye;
     let (yaw, pitch) = (libm::atan2(way.y, way.x), -libm::atan2(way.z, way.xy().norm()));
@@ -124,7 +125,7 @@ fn standing(body: Body, y: f64) -> BodyState {
     BodyState { body, pose, velocity: [0.0, 0.0].into(), altitude: 0.0, travelled: 0.0, present: true }
 }
 
-/// Somebody on the way, at a speed in m/s.
+/// Returns a person on the way, at a speed in m/s.
 fn walking(body: Body, y: f64, speed: f64, travelled: f64) -> BodyState {
     BodyState { velocity: [speed, 0.0].into(), travelled, ..standing(body, y) }
 }

@@ -1,4 +1,4 @@
-//! A scenario of one's own, run as a campaign: `cargo run --release --example jogger`.
+//! Shows how to write a scenario and run it as a campaign: `cargo run --release --example jogger`.
 
 use paracosm::engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never};
 use paracosm::{Campaign, Error, Study};

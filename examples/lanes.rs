@@ -1,8 +1,9 @@
-//! Example 3.1 of the PARACOSM paper, counted out: `cargo run --release --example lanes`.
+//! Counts the pairs in Example 3.1 of the PARACOSM paper: `cargo run --release --example lanes`.
 //!
-//! A road of 2 or 4 lanes, three cars that each come towards the test vehicle or drive with it, each red or green: seven
-//! parameters of two values, 128 tests. The paper covers all pairs with 6 of them. Here its 6 tests are counted, a
-//! covering array is made, a fault is hidden in a pair of values, and the pair is found again.
+//! A road has 2 or 4 lanes; three cars each come towards the test vehicle or drive along with it, and each car is red
+//! or green: seven parameters of two values, 128 tests. The paper covers all pairs with 6 of these tests. This example
+//! counts the pairs of the paper's 6 tests, makes a covering array, hides a fault in a pair of values, and finds the
+//! pair again.
 
 use paracosm::coverage::kwise::kwise_coverage;
 use paracosm::coverage::suspects::{JudgedTest, Locator, suspects};
@@ -22,7 +23,7 @@ fn space() -> Result<Space, SpaceError> {
     Space::new(std::iter::once(lanes).chain(directions).chain(colours).collect())
 }
 
-/// The paper's tests, as it writes them; `any` is the colour of which it says that either may be used.
+/// Returns the tests as the paper writes them; `any` is the colour for the place where the paper allows either colour.
 fn of_the_paper(any: char) -> Vec<Vec<usize>> {
     let tests = [
         (2, "011", "GGG"),
@@ -41,28 +42,28 @@ fn of_the_paper(any: char) -> Vec<Vec<usize>> {
     tests.map(row).into()
 }
 
-/// The fault that nobody knows of: the second car comes towards the test vehicle and is red.
+/// Returns `true` if a test has the hidden fault: the second car comes towards the test vehicle and is red.
 fn fails(test: &[usize]) -> bool {
     test[2] == 0 && test[5] == 0
 }
 
-/// The whole example in words.
+/// Returns the results of the whole example as text.
 pub fn report() -> Result<String, Box<dyn Error>> {
     let mut text = String::new();
     let space = space()?;
     let rules = Rules::new(&space.levels(), &space.clauses())?;
     let pairs = |rows: &[Vec<usize>]| kwise_coverage(&rules, 2, rows.iter().map(Vec::as_slice));
 
-    // 7 * 6 / 2 pairs of parameters with 4 pairs of values each. The paper's naive count, 2n (2n + 1) = 42 for n = 3 cars,
-    // is half of them.
+    // There are 7 * 6 / 2 pairs of parameters with 4 pairs of values each. The paper's naive count, 2n (2n + 1) = 42
+    // for n = 3 cars, is half of them.
     for any in ['R', 'G'] {
         let rows = of_the_paper(any);
         let counted = pairs(&rows)?;
         writeln!(text, "the paper's {} tests, * as {any}: {} of {} pairs", rows.len(), counted.covered, counted.valid)?;
     }
 
-    // Six is least: n rows cover the pairs of at most C(n - 1, n / 2 - 1) parameters of two values (Katona 1973, Kleitman
-    // and Spencer 1973), n / 2 rounded down. That is 4 for 5 rows, and 10 for 6.
+    // Six is the least number: n rows cover the pairs of at most C(n - 1, n / 2 - 1) parameters of two values (Katona
+    // 1973, Kleitman and Spencer 1973), with n / 2 rounded down. That is 4 parameters for 5 rows, and 10 for 6.
     let array = covering_array(&CoveringRequest::new(&rules, 2))?;
     let counted = pairs(&array.rows)?;
     writeln!(text, "our {} tests: {} of {} pairs", array.rows.len(), counted.covered, counted.valid)?;

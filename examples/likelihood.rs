@@ -1,5 +1,5 @@
-//! How near the estimates of `paracosm::analysis::likelihood` come to probabilities that are known, and how often their intervals
-//! cover these: 100 runs of each.
+//! Compares the estimates of `paracosm::analysis::likelihood` with known probabilities, and counts how often the
+//! confidence intervals hold the true probability, in 100 runs of each case.
 //!
 //!     cargo run --release --example likelihood
 

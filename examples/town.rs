@@ -1,16 +1,17 @@
-//! A town around a roundabout, with a way through it: `cargo run --release --example town > town.svg`.
+//! Draws a town around a roundabout, with a route through it: `cargo run --release --example town > town.svg`.
 
 use paracosm::engine::picture::RoadPicture;
 use paracosm::engine::road::{Composite, RoadError, RoadSegment, Roundabout, RoutePosition, TIntersection};
 use std::f64::consts::FRAC_PI_2;
 
-/// Four avenues lead from the roundabout to T-intersections, and a street around the town joins these.
+/// Returns a town: four avenues lead from the roundabout to T-intersections, and a street around the town joins these.
 fn town() -> Composite {
     const AVENUE: f64 = 60.0;
     const BEND: f64 = 30.0;
     let circus = Roundabout::new().named("circus");
     let tee = TIntersection::new();
-    // From the middle of the town to that of a T, and what of it is left for the straight streets.
+    // `away` is the distance from the middle of the town to the middle of a T; `side` is the part left for straight
+    // streets.
     let away = circus.reach() + AVENUE + tee.reach();
     let side = away - BEND - tee.reach();
 

@@ -1,6 +1,6 @@
-//! A hundred cars in a city after two minutes: `cargo run --release --example traffic > traffic.svg`.
+//! Draws a hundred cars in a city after two minutes: `cargo run --release --example traffic > traffic.svg`.
 //!
-//! Blue cars drive, red ones brake or stand, yellow ones change lanes.
+//! Blue cars drive, red cars brake or stand, yellow cars change lanes.
 
 use paracosm::engine::picture::{Colour, RoadPicture};
 use paracosm::engine::road::grid_city;

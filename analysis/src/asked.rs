@@ -1,56 +1,57 @@
-//! Checks of what a user asks of a comparison or a bench.
+//! Checks the lists, seeds and folders that a user gives to a comparison or a bench.
 
 use paracosm_campaign::{Error, Reason};
 use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// With how many pairs tests and intervals have enough power; fewer are remarked upon.
+/// The number of seeds (pairs) from which statistical tests and intervals have enough power. Fewer seeds cause a
+/// remark.
 pub const ENOUGH_SEEDS: usize = 30;
 
-/// What makes no sense in a comparison or a bench.
+/// A flaw in a list or in the seeds that a user gave to a comparison or a bench.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ListFlaw {
     /// A list is empty.
     #[error("the list of {of} is empty")]
     Empty {
-        /// What is listed.
+        /// The kind of things that the list names, in the plural.
         of: &'static str,
     },
-    /// A list names something twice.
+    /// A list names the same thing twice.
     #[error("{name} is twice among the {of}")]
     Twice {
-        /// What is listed.
+        /// The kind of things that the list names, in the plural.
         of: &'static str,
-        /// What is named twice.
+        /// The name that the list has twice.
         name: String,
     },
     /// There are too few seeds to compare.
     #[error("the number of seeds is {seeds}, expected at least 2, or better {ENOUGH_SEEDS}")]
     FewSeeds {
-        /// How many there are.
+        /// The number of seeds.
         seeds: usize,
     },
-    /// A seed is too large.
+    /// The last seed would be above 2^64 - 1.
     #[error("{seeds} seeds from {first} on go beyond {}", u64::MAX)]
     LargeSeeds {
-        /// How many there are.
+        /// The number of seeds.
         seeds: usize,
-        /// The first.
+        /// The first seed.
         first: u64,
     },
 }
 
-/// A place that a study cannot be written to.
+/// A reason why a study cannot be written to a path.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PlaceFlaw {
-    /// It has something in it.
+    /// The folder is not empty.
     #[error("{} is not empty: write elsewhere", path.display())]
     NotEmpty {
         /// The folder.
         path: PathBuf,
     },
-    /// It is a file.
+    /// The path is that of a file.
     #[error("{} is a file, expected a folder to write to", path.display())]
     File {
         /// The file.
@@ -61,10 +62,11 @@ pub enum PlaceFlaw {
 impl Reason for ListFlaw {}
 impl Reason for PlaceFlaw {}
 
-/// Checks a list that a user gave.
+/// Checks that a list that a user gave is not empty and names nothing twice. `of` says in an error what the list
+/// names.
 ///
 /// # Errors
-/// It is empty, or names something twice.
+/// The list is empty, or names something twice.
 pub fn each_once(of: &'static str, names: impl Iterator<Item = String>) -> Result<(), ListFlaw> {
     let names: Vec<String> = names.collect();
     if names.is_empty() {
@@ -74,10 +76,10 @@ pub fn each_once(of: &'static str, names: impl Iterator<Item = String>) -> Resul
     twice.map_or(Ok(()), |(_, name)| Err(ListFlaw::Twice { of, name: name.clone() }))
 }
 
-/// Checks that there are seeds enough to compare, and that none is too large.
+/// Checks that there are enough seeds to compare, and that no seed is too large.
 ///
 /// # Errors
-/// There are fewer than two, or one is above 2^64 - 1.
+/// There are fewer than two seeds, or the last seed is above 2^64 - 1.
 pub fn check_seeds(seeds: usize, first: u64) -> Result<(), ListFlaw> {
     if seeds < 2 {
         return Err(ListFlaw::FewSeeds { seeds });
@@ -88,15 +90,15 @@ pub fn check_seeds(seeds: usize, first: u64) -> Result<(), ListFlaw> {
     }
 }
 
-/// What a reader should know where there are few seeds.
+/// Returns a remark for the reader if there are fewer seeds than [`ENOUGH_SEEDS`].
 pub fn few_seeds(seeds: usize) -> Option<String> {
     (seeds < ENOUGH_SEEDS).then(|| format!("{seeds} seeds are few; from {ENOUGH_SEEDS} on the tests have enough power"))
 }
 
-/// Makes a folder for a study, if need be.
+/// Makes a folder for a study if it does not exist, and checks that it is empty.
 ///
 /// # Errors
-/// It cannot be made, or has something in it.
+/// The folder cannot be made or read, or is not empty, or the path is that of a file.
 pub fn new_folder(path: &Path) -> Result<(), Error> {
     make_folder(path)?;
     let mut there = fs::read_dir(path).map_err(Error::io("read", path))?;
@@ -106,10 +108,10 @@ pub fn new_folder(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Makes a folder, if need be.
+/// Makes a folder if it does not exist.
 ///
 /// # Errors
-/// It cannot be made.
+/// The folder cannot be made, or the path is that of a file.
 pub fn make_folder(path: &Path) -> Result<(), Error> {
     if path.exists() && !path.is_dir() {
         return Err(PlaceFlaw::File { path: path.to_owned() }.into());

@@ -1,9 +1,10 @@
-//! Certificates: what `paracosm-cover estimate` says of the largest holes, in a form that others can check without
-//! trusting this software.
+//! Makes certificates: the sizes of the largest holes that `paracosm-cover estimate` reports, in a form that others
+//! can check without trusting this software.
 //!
-//! A certificate stands alone. It has the tests' coordinates; for each claim an empty box that shows that the number is
-//! not smaller, and proofs that it is not larger, in the form that [`paracosm_coverage::proof`] describes.
-//! `tests/check_certificate.py`, which shares nothing with this software, checks it.
+//! A certificate stands alone. It holds the coordinates of the tests. For each claim it holds an empty box, which
+//! shows that the volume is not smaller, and proofs that the volume is not larger, in the form that
+//! [`paracosm_coverage::proof`] describes. `tests/check_certificate.py`, which shares no code with this software,
+//! checks certificates.
 
 use crate::estimate::{Holes, KwiseWorst, keeping, measure_holes, place};
 use crate::{Coverage, Watch};
@@ -22,22 +23,22 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// The version of the form of certificates.
+/// The version of the format of certificates.
 const FORMAT: u32 = 1;
 
-/// How many pivots the proofs of one claim may have: some 30 MB of them.
+/// The greatest number of pivots in the proofs of one claim, which take some 30 MB.
 const MOST_PIVOTS: usize = 5_000_000;
 
-/// By how much, as a share, a bound may be above what was measured without being called another one.
+/// The relative difference up to which a proved bound counts as equal to the measured bound.
 const ROUNDING: f64 = 1e-9;
 
-/// The share of a time limit that the measures have before proofs are looked for.
+/// The share of the time limit for the measures. The search for proofs has the rest.
 const MEASURING: f64 = 0.5;
 
-/// How large the largest holes of a set of tests are, with proof.
+/// A proof of the sizes of the largest holes of a set of tests.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
-    /// The version of this form.
+    /// The version of the format of certificates.
     pub format: u32,
     /// The version of the software.
     pub version: String,
@@ -45,78 +46,79 @@ pub struct Certificate {
     pub continuous: Vec<ParameterInterval>,
     /// The discrete parameters.
     pub discrete: Vec<Choice>,
-    /// Of each test a number in `[0,1]` for each continuous parameter.
+    /// For each test, a number in `[0,1]` for each continuous parameter.
     pub coordinates: Vec<Vec<f64>>,
-    /// Of each test the position of its value for each discrete parameter.
+    /// For each test, the position of its value for each discrete parameter.
     pub levels: Vec<Vec<usize>>,
-    /// The constraints on the discrete parameters. The tests are those that keep them.
+    /// The constraints on the discrete parameters. The certificate holds only tests that satisfy them.
     pub constraints: Vec<String>,
-    /// What is claimed.
+    /// The claims that the certificate proves.
     pub claims: Vec<Claim>,
 }
 
-/// A continuous parameter.
+/// A continuous parameter of a certificate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterInterval {
-    /// Its name.
+    /// The name of the parameter.
     pub name: String,
-    /// Its values at the coordinates 0 and 1.
+    /// The parameter's values at the coordinates 0 and 1.
     pub interval: [f64; 2],
 }
 
-/// A discrete parameter.
+/// A discrete parameter of a certificate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// Its name.
+    /// The name of the parameter.
     pub name: String,
-    /// Its values.
+    /// The values of the parameter, in the order of its levels.
     pub values: Vec<Value>,
 }
 
-/// The volume of the largest hole: at least that of a witness, at most what is proved.
+/// A bracket of the volume of the largest hole. A witness shows the lower bound, and proofs show the upper bound.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
-    /// `dispersion`, of all continuous parameters together, or `k-wise-dispersion`, of any k parameters.
+    /// The name of the measure, `dispersion` (over all continuous parameters) or `k-wise-dispersion` (over any k
+    /// parameters).
     pub measure: String,
-    /// How many parameters are looked at together; `None` of `dispersion`.
+    /// The number of parameters that are considered together; `None` for `dispersion`.
     pub k: Option<usize>,
-    /// The volume of the witness, 0 where there is none.
+    /// The volume of the witness, or 0 if there is no witness.
     pub lower: f64,
-    /// The largest hole that was found.
+    /// The largest hole that was found, if any.
     pub witness: Option<Witness>,
-    /// Combinations of values of discrete parameters that constraints exclude, as positions and levels: nothing is
-    /// claimed of them.
+    /// The combinations of values of discrete parameters that constraints exclude, as positions and levels. Nothing
+    /// is claimed about these combinations.
     pub excluded: Vec<Vec<(usize, usize)>>,
-    /// No hole is larger.
+    /// The proved upper bound of the volume. No hole is larger.
     pub upper: f64,
-    /// Why the upper bound is larger than the one that was measured, if it is.
+    /// The reason why the proved upper bound is larger than the measured one, if it is.
     pub note: Option<String>,
-    /// The proofs of the upper bound, one for each projection; none where it is 1.
+    /// The proofs of the upper bound, one for each projection; empty if the upper bound is 1.
     pub proofs: Vec<Proof>,
 }
 
-/// A hole.
+/// A hole that shows the lower bound of a claim.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Witness {
-    /// The discrete parameters that it has values of: positions among the discrete ones, and levels.
+    /// The discrete values of the hole, as positions among the discrete parameters and levels.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters that it is a box of, by their positions among the continuous ones.
+    /// The continuous parameters over which the box extends, as positions among the continuous parameters.
     pub axes: Vec<usize>,
     /// The lower corner of the box, in coordinates.
     pub lower: Vec<f64>,
     /// The upper corner of the box, in coordinates.
     pub upper: Vec<f64>,
-    /// The same as values.
+    /// The same hole as parameter values.
     pub values: KwiseWorst,
 }
 
-/// What nothing can be certified of.
+/// A reason why no certificate can be made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum CertificateFlaw {
-    /// Some values are negative.
+    /// A parameter has negative values (`~`).
     #[error("a certificate knows no negative values (`~`): it counts every test for all it contains")]
     Negatives,
-    /// No measure that can be certified was measured.
+    /// Neither `dispersion` nor `k-wise-dispersion` was measured.
     #[error(
         "a certificate is of the measures `dispersion`, which needs a continuous parameter, and `k-wise-dispersion`; \
          neither was measured"
@@ -126,7 +128,7 @@ pub enum CertificateFlaw {
 
 impl Reason for CertificateFlaw {}
 
-/// A measured hole, on its way to a claim.
+/// A measured hole from which a claim is made.
 struct Measured {
     scope: Scope,
     volume: Bracket,
@@ -136,7 +138,7 @@ struct Measured {
 }
 
 impl Certificate {
-    /// Writes it to a file, whole or not at all.
+    /// Writes the certificate to a file, completely or not at all.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -147,12 +149,12 @@ impl Certificate {
     }
 }
 
-/// [`Coverage::of`], with a certificate of the dispersion and the k-wise dispersion among the measures. Both are
-/// done within the time limit.
+/// Measures coverage as [`Coverage::of`], and makes a certificate of the dispersion and the k-wise dispersion if they
+/// are among the measures. Both steps together keep the time limit.
 ///
 /// # Errors
-/// There are not `k` parameters, or too many combinations of them to count; or neither of the two is among the
-/// measures; or values are negative.
+/// Returns an error if there are not `k` parameters or too many combinations of them to count, if neither of the two
+/// measures is taken, or if a parameter has negative values.
 pub fn certify(
     tests: &TestSet,
     measures: &[Measure],
@@ -200,7 +202,8 @@ pub fn certify(
     Ok((coverage, certificate))
 }
 
-/// What there is to prove, the harder part last, which has all the time that is left.
+/// Returns the measured holes whose bounds are to be proved. The harder one is last: it has all the time that is
+/// left.
 fn measured(tests: &TestSet, holes: Holes) -> Vec<Measured> {
     let whole = holes.dispersion.map(|found| Measured {
         scope: Scope::Continuous,
@@ -245,7 +248,7 @@ fn claim(tests: &TestSet, measured: Measured, rules: &Rules, deadline: Deadline)
     Ok(Claim { measure: measure.name().to_owned(), k, lower: volume.lower, witness, excluded, upper, note, proofs })
 }
 
-/// The combinations of discrete values, of at most k parameters, that constraints exclude.
+/// Returns the combinations of values of at most k discrete parameters that constraints exclude.
 fn excluded(tests: &TestSet, rules: &Rules, k: usize) -> Result<Vec<Vec<(usize, usize)>>, Error> {
     if tests.space.constraints().is_empty() {
         return Ok(Vec::new());

@@ -1,12 +1,13 @@
-//! How probable a failure is over two coordinates of a campaign's tests, what is sure of it, and where.
+//! Estimates the probability of failure over two coordinates of a campaign's tests, with its uncertainty.
 //!
-//! The model of the verdicts (`generators::FailureModel`) is asked on a grid. Where the tests vary more than two
-//! coordinates, each place of the grid stands for eight random Latin hypercubes of sixteen tests in the others, and what is
-//! estimated is the share of these that fail. How much the eight differ is the error of having taken samples, which is in
-//! the deviation.
+//! The model of the verdicts (`generators::FailureModel`) is evaluated on a grid. If the tests vary more than two
+//! coordinates, each place of the grid stands for eight random Latin hypercubes of sixteen tests in the other
+//! coordinates, and the estimate is the share of these tests that fail. The differences between the eight samples are
+//! the sampling error, which is part of the deviation.
 //!
-//! Some tests cannot be built. Which ones, a second model tells of those that could not, and the share that fails is one of
-//! the others. A place of which more than half cannot be built is *invalid*: nothing is said of failures there.
+//! The worlds of some tests cannot be built. A second model estimates which tests these are, and the share of
+//! failures refers to the tests that can be built. A place is *invalid* if more than half of its tests cannot be
+//! built: the estimate says nothing about failures there.
 
 use paracosm_campaign::{Error, Log, Reason, Study, Trial};
 use paracosm_generators::{DiscreteFamily, FailingShare, FailureModel, Request, Strategy};
@@ -14,18 +15,18 @@ use paracosm_oracles::Verdict;
 use paracosm_space::{Point, did_you_mean, nearest};
 use thiserror::Error;
 
-/// The nodes of a grid along both axes, alone and where each stands for many tests.
+/// The numbers of nodes of a grid along both axes: `FINE` if a node is one test, `COARSE` if it is many tests.
 const FINE: [usize; 2] = [61, 46];
 const COARSE: [usize; 2] = [25, 19];
 
-/// For how many samples a place stands where others are varied too, and for how many tests each of them.
+/// The number of samples at a place if tests vary other coordinates too, and the number of tests of a sample.
 const SAMPLES: usize = 8;
 const OTHERS: usize = 16;
 
-/// So large a share of the tests at a place can be built, or it is invalid.
+/// The least share of the tests at a place that can be built: below this share the place is invalid.
 const LEAST_VALID: f64 = 0.5;
 
-/// How sure it has to be on which side of one half a probability is, so that a place is decided.
+/// The least probability with which the share of failures is above, or below, one half at a decided place.
 const SURE: f64 = 0.95;
 
 /// The estimated probability of failure on a grid over two coordinates.
@@ -33,45 +34,44 @@ const SURE: f64 = 0.95;
 pub struct FailureEstimate {
     /// The names of the two coordinates.
     pub names: [String; 2],
-    /// The values of the first coordinate, from its least to its greatest.
+    /// The values of the first coordinate, from the least to the greatest.
     pub x: Vec<f64>,
-    /// The values of the second.
+    /// The values of the second coordinate.
     pub y: Vec<f64>,
-    /// What is known at each place: all of the first coordinate for the first of the second, and so on.
+    /// The estimated share of failing tests at each place. All values of `x` at the first value of `y` come first.
     pub shares: Vec<FailingShare>,
-    /// The estimated share of the tests at each place that can be built, in the same order; the share that fails is one of
-    /// these.
+    /// The estimated share of the tests at each place that can be built. `shares` refers to these tests.
     pub valid: Vec<f64>,
 }
 
 /// The positions of two coordinates among the continuous ones of a study.
 pub type Axes = [usize; 2];
 
-/// Why a map cannot have these axes.
+/// A reason why a failure map cannot have these axes.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum AxesFlaw {
-    /// One is discrete.
+    /// A name is that of a discrete parameter.
     #[error("`{name}` takes single values, expected an interval: axes can be {}", can.join(", "))]
     Discrete {
-        /// Its name.
+        /// The name of the parameter.
         name: String,
         /// The names that axes can have.
         can: Vec<String>,
     },
-    /// The tests do not vary one.
+    /// The tests do not vary a continuous coordinate of this name.
     #[error("the tests vary no `{name}`{}; axes can be {}", did_you_mean(.nearest), can.join(", "))]
     Unknown {
-        /// Its name.
+        /// The name that was not found.
         name: String,
-        /// A name that was perhaps meant.
+        /// A similar name that was perhaps meant.
         nearest: Option<String>,
         /// The names that axes can have.
         can: Vec<String>,
     },
-    /// Both are one.
+    /// Both axes have the same name.
     #[error("both axes are `{name}`, expected two of {}", can.join(", "))]
     Same {
-        /// Its name.
+        /// The name of both axes.
         name: String,
         /// The names that axes can have.
         can: Vec<String>,
@@ -80,10 +80,10 @@ pub enum AxesFlaw {
 
 impl Reason for AxesFlaw {}
 
-/// The positions of the coordinates with these names.
+/// Returns the positions of the continuous coordinates with these names.
 ///
 /// # Errors
-/// A name is none of a continuous coordinate, or both are one.
+/// A name is not that of a continuous coordinate, or both names are the same.
 pub fn axes(study: &Study, names: [&str; 2]) -> Result<Axes, AxesFlaw> {
     let all: Vec<String> = study.space().continuous().map(|coordinate| coordinate.name()).collect();
     let position = |name: &str| {
@@ -107,10 +107,11 @@ pub fn axes(study: &Study, names: [&str; 2]) -> Result<Axes, AxesFlaw> {
 }
 
 impl FailureEstimate {
-    /// The estimate of a campaign over two of its continuous coordinates; `None` where no test failed or none passed.
+    /// Estimates the failure probability of a campaign over two of its continuous coordinates; `None` if no test
+    /// failed, no test passed, no model can be fitted, or every place is invalid.
     ///
     /// # Errors
-    /// A trial is none of the study's space, or its constraints cannot be kept.
+    /// A trial does not fit into the study's space, or its constraints cannot be satisfied.
     pub fn of(log: &Log, axes: Axes) -> Result<Option<Self>, Error> {
         let (study, trials) = (log.study(), log.trials());
         let judged: Vec<&Trial> =
@@ -120,7 +121,7 @@ impl FailureEstimate {
             return Ok(None);
         }
         let tests = judged.iter().map(|trial| study.space().encode(&trial.test)).collect::<Result<Vec<_>, _>>()?;
-        // The sign is the verdict's, whatever a rounded robustness says.
+        // The verdict determines the sign, even if rounding gave the robustness another sign.
         let robustness = judged.iter().map(|trial| {
             let size = log.scales().objective(trial).map_or(1.0, f64::abs);
             if trial.is_failure() { -size } else { size }
@@ -157,13 +158,13 @@ impl FailureEstimate {
         Ok(if estimate.invalid() < 1.0 { Some(estimate) } else { None })
     }
 
-    /// What is known at a node; `None` where it is invalid.
+    /// Returns the estimate at a node; `None` if the node is invalid.
     pub fn at(&self, i: usize, j: usize) -> Option<&FailingShare> {
         let place = j * self.x.len() + i;
         (self.valid[place] >= LEAST_VALID).then_some(&self.shares[place])
     }
 
-    /// What is known at the nodes that are not invalid, with how much of the tests each stands for.
+    /// Returns the estimates at the valid nodes, each with the weight of the tests that the node stands for.
     fn places(&self) -> impl Iterator<Item = (&FailingShare, f64)> {
         let edge = |at: usize, all: usize| if at == 0 || at + 1 == all { 0.5 } else { 1.0 };
         let nodes = (0..self.y.len()).flat_map(|j| (0..self.x.len()).map(move |i| (i, j)));
@@ -173,26 +174,28 @@ impl FailureEstimate {
         })
     }
 
-    /// The probability that a test which can be built fails, over the whole of both coordinates but for what is invalid: the
-    /// integral of the grid's by the trapezoidal rule.
+    /// Returns the probability that a test that can be built fails, over both coordinates without the invalid places.
+    /// It is the integral over the grid by the trapezoidal rule.
     pub fn mean(&self) -> f64 {
         let sum =
             |of: &dyn Fn(&FailingShare) -> f64| self.places().map(|(share, weight)| weight * of(share)).sum::<f64>();
         sum(&|share| share.mean) / sum(&|_| 1.0)
     }
 
-    /// The share of the places, but for the invalid ones, of which it is sure whether more than half fails or less.
+    /// Returns the share of the valid places that are decided. At these surely more, or surely less, than half of the
+    /// tests fail.
     pub fn decided(&self) -> f64 {
         self.places().filter(|(share, _)| decided(share).is_some()).count() as f64 / self.places().count() as f64
     }
 
-    /// The share of the places that are invalid: most of their tests cannot be built.
+    /// Returns the share of the places that are invalid, because most of their tests cannot be built.
     pub fn invalid(&self) -> f64 {
         1.0 - self.places().count() as f64 / self.shares.len() as f64
     }
 
-    /// The estimate as CSV: the coordinates, the probability, its standard deviation, and `fail`, `pass` or
-    /// nothing for where more or less than half fails for sure. Where it says `invalid`, there is no probability.
+    /// Returns the estimate as CSV. The columns are the coordinates, the probability, its standard deviation, and
+    /// `fail` or `pass` if surely more or less than half of the tests fail (empty if undecided). A place marked
+    /// `invalid` has no probability.
     pub fn csv(&self) -> Vec<u8> {
         let mut csv = csv::Writer::from_writer(Vec::new());
         let mut write = |row: [String; 5]| csv.write_record(row).expect("rows of one length fit into memory");
@@ -216,14 +219,14 @@ impl FailureEstimate {
     }
 }
 
-/// Whether more than half fails for sure, or less; `None` where neither is sure.
+/// Checks whether surely more (`Some(true)`) or surely less (`Some(false)`) than half fails; `None` if undecided.
 pub fn decided(share: &FailingShare) -> Option<bool> {
     [(share.above_half >= SURE, true), (share.above_half <= 1.0 - SURE, false)]
         .into_iter()
         .find_map(|(is, what)| is.then_some(what))
 }
 
-/// The tests of the groups with the probability that each of them can be built.
+/// Returns the tests of the groups, each with the probability that its world can be built.
 fn weighed(study: &Study, trials: &[Trial], groups: Vec<Vec<Point>>) -> Result<Vec<Vec<(Point, f64)>>, Error> {
     let built: Vec<&Trial> = trials.iter().filter(|trial| trial.verdict != Verdict::Error).collect();
     let tests = built.iter().map(|trial| study.space().encode(&trial.test)).collect::<Result<Vec<_>, _>>()?;
@@ -237,7 +240,7 @@ fn weighed(study: &Study, trials: &[Trial], groups: Vec<Vec<Point>>) -> Result<V
     Ok(groups.into_iter().map(weigh).collect())
 }
 
-/// What the tests at a place differ by, and of how many samples they are: one where they vary nothing but the axes.
+/// Returns tests with values of the other coordinates, and the number of their samples (1 without other coordinates).
 fn others(study: &Study) -> Result<(Vec<Point>, usize), Error> {
     if study.space().coordinates().count() == 2 {
         return Ok((sample(study, 1, 0)?, 1));
@@ -247,7 +250,7 @@ fn others(study: &Study) -> Result<(Vec<Point>, usize), Error> {
     Ok((samples.into_iter().flat_map(|sample| sample.into_iter().take(size)).collect(), SAMPLES))
 }
 
-/// A random Latin hypercube.
+/// Makes a random Latin hypercube.
 fn sample(study: &Study, size: usize, seed: u64) -> Result<Vec<Point>, Error> {
     let discrete = DiscreteFamily::Random { delta: DiscreteFamily::DELTA };
     let request = Request { seed: Some(seed), discrete, ..Request::new(study.space(), size) };

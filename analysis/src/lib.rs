@@ -1,4 +1,20 @@
-//! A log to knowledge.
+//! Turns the log of a campaign into knowledge, such as coverage, failure modes, explanations, probabilities of failure
+//! and blame. The crate also shrinks failing tests, plans numbers of tests and compares strategies.
+//!
+//! ```
+//! use paracosm_analysis::Coverage;
+//! use paracosm_campaign::TestSet;
+//! use paracosm_coverage::Measure;
+//! use paracosm_generators::{Request, Strategy};
+//! use paracosm_space::Space;
+//!
+//! let space = Space::unit_cube(2);
+//! let points = Strategy::HALTON.build(&Request::new(&space, 100))?.ask(100);
+//! let coverage = Coverage::of(&TestSet::new(space, points), &[Measure::DISPERSION], None, None)?;
+//! let dispersion = coverage.continuous.and_then(|continuous| continuous.bracket(Measure::DISPERSION));
+//! assert!(dispersion.is_some_and(|volume| volume.upper < 0.2));
+//! # Ok::<(), paracosm_campaign::Error>(())
+//! ```
 
 pub mod asked;
 pub mod bench;

@@ -1,6 +1,6 @@
-//! How well the tests so far cover their space, while a campaign runs: what its progress line says.
+//! Keeps the coverage of the tests so far while a campaign runs, for its progress line.
 //!
-//! The numbers are those of [`Coverage::of`](crate::Coverage::of), kept up to date with every test rather than measured anew.
+//! The numbers are those of [`Coverage::of`](crate::Coverage::of). Every test updates them.
 
 use paracosm_campaign::Error;
 use paracosm_coverage::Bracket;
@@ -8,7 +8,7 @@ use paracosm_coverage::empty_boxes::EmptyBoxes;
 use paracosm_coverage::kwise::KwiseCounter;
 use paracosm_space::{Point, Space, SpaceError};
 
-/// Coverage that grows by one test at a time.
+/// The coverage of a set of tests that grows by one test at a time.
 ///
 /// ```
 /// use paracosm_analysis::LiveCoverage;
@@ -22,20 +22,21 @@ use paracosm_space::{Point, Space, SpaceError};
 /// ```
 #[derive(Debug, Clone)]
 pub struct LiveCoverage {
-    /// The holes in the continuous parameters; none where the space has none.
+    /// The holes in the continuous parameters; `None` if the space has no continuous parameters.
     holes: Option<EmptyBoxes>,
-    /// The combinations of discrete values; none where there are none, or too many.
+    /// The combinations of discrete values; `None` if there are no combinations or too many.
     combinations: Option<KwiseCounter>,
 }
 
-/// How many holes are looked after in one or two dimensions. That many take less time than a simulation.
+/// The greatest number of holes that are tracked in one or two dimensions. Their update takes less time than a
+/// simulation.
 const MOST_HOLES: usize = 20_000;
 
 impl LiveCoverage {
-    /// The coverage of no tests, with `k` discrete parameters looked at together: two, where nothing is said.
+    /// Makes the coverage of an empty set of tests. `k` discrete parameters are considered together (default 2).
     ///
     /// # Errors
-    /// No test keeps the space's constraints.
+    /// No test can satisfy the space's constraints.
     pub fn new(space: &Space, k: Option<usize>) -> Result<Self, SpaceError> {
         let dims = space.dims();
         // A hole has 2d parts with 2d faces each.
@@ -45,10 +46,10 @@ impl LiveCoverage {
         Ok(Self { holes: EmptyBoxes::at_most(dims, most).ok(), combinations: KwiseCounter::new(&rules, k).ok() })
     }
 
-    /// Takes one more test.
+    /// Adds a test to the set.
     ///
     /// # Errors
-    /// It is none of the space. Nothing has changed then.
+    /// The test does not belong to the space. If only its discrete values are wrong, the dispersion counts it.
     pub fn add(&mut self, test: &Point) -> Result<(), Error> {
         if let Some(holes) = &mut self.holes {
             holes.add(&test.continuous)?;
@@ -59,14 +60,14 @@ impl LiveCoverage {
         Ok(())
     }
 
-    /// How many of the valid combinations of discrete values are covered, and how many there are; `None` where the
-    /// space has no discrete parameters, or too many combinations of their values to keep count of.
+    /// Returns the number of covered and the number of all valid combinations of discrete values; `None` if the space
+    /// has no discrete parameters, or too many combinations to count.
     pub fn combinations(&self) -> Option<(u64, u64)> {
         self.combinations.as_ref().map(|counter| (counter.covered(), counter.valid()))
     }
 
-    /// The dispersion of the continuous parameters; `None` where the space has none. It is a bracket where there are
-    /// more holes than can be looked after.
+    /// Returns the dispersion of the continuous parameters; `None` if the space has no continuous parameters. The
+    /// result is a bracket if there are more holes than can be tracked.
     pub fn dispersion(&self) -> Option<Bracket> {
         self.holes.as_ref().map(EmptyBoxes::dispersion)
     }

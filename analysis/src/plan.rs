@@ -1,7 +1,8 @@
-//! How many tests a guarantee asks for, before any is run: what `paracosm-cover plan` prints.
+//! Computes before any run how many tests a guarantee needs. `paracosm-cover plan` prints the result.
 //!
-//! A bound that is proved, a probability and a measurement are different things. Every number here says which it is, and
-//! numbers of two halves are only joined into one that claims no more than either.
+//! A proved bound, a probability and a measurement are different kinds of knowledge, and every number here states its
+//! kind. A number for rows and a number for points are only joined into a number that claims no more than either of
+//! them.
 
 use paracosm_campaign::{Error, Reason};
 use paracosm_coverage::dispersion::is_at_most;
@@ -16,23 +17,23 @@ use serde::{Serialize, Serializer};
 use std::time::Duration;
 use thiserror::Error;
 
-/// What a number of tests is good for.
+/// The kind of guarantee that a number of tests gives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Guarantee {
-    /// Proved: no smaller set can do it, whatever its tests.
+    /// It is proved that no smaller set of tests suffices, whatever its tests are.
     NeededByAny,
-    /// Proved of this set.
+    /// It is proved that this set suffices.
     Proved,
-    /// So many random tests do it with this probability or a higher one.
+    /// This number of random tests suffices with the given probability or a higher one.
     Probable,
-    /// Measured: so many tests of this strategy do it, and one fewer does not.
+    /// It was measured that this number of tests of this strategy suffices, and that one test fewer does not.
     Measured,
-    /// Worked out from measured numbers, but not measured as a whole.
+    /// The number is computed from measured numbers, but was not measured as a whole.
     Estimated,
 }
 
 impl Guarantee {
-    /// The guarantee in words, as it is printed.
+    /// Returns the guarantee in the words that are printed.
     pub fn words(self) -> &'static str {
         match self {
             Self::NeededByAny => "needed by any set",
@@ -50,76 +51,78 @@ impl Serialize for Guarantee {
     }
 }
 
-/// A number of tests with what it guarantees.
+/// A number of tests with its guarantee.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Need {
-    /// The tests in question.
+    /// A description of the tests.
     pub of: String,
-    /// The strategy that proposes them, if they are those of one.
+    /// The strategy that proposes the tests, if a strategy does.
     #[serde(skip)]
     pub strategy: Option<Strategy>,
-    /// How many; `None` where they cannot be counted in 64 bits, or were not measured in time.
+    /// The number of tests; `None` if it exceeds 64 bits or could not be measured in time.
     pub tests: Option<u64>,
-    /// So many are not enough: what a measurement knew when its time was up.
+    /// A number of tests that is not enough, known from a measurement that ran out of time.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub over: Option<u64>,
-    /// What is known about that number.
+    /// The kind of guarantee that the number has.
     pub guarantee: Guarantee,
 }
 
-/// How many tests each guarantee of a (k, epsilon)-covering set asks for.
+/// The numbers of tests that each guarantee of a (k, epsilon)-covering set needs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
-    /// How many discrete parameters are to be covered together.
+    /// The number of discrete parameters to cover together; `None` if the space has no discrete parameters.
     pub k: Option<usize>,
-    /// The dispersion that is not to be exceeded for any row.
+    /// The greatest dispersion allowed for any row.
     pub epsilon: f64,
-    /// How improbable a failure of a random set is to be.
+    /// The greatest probability allowed that a random set fails to cover.
     pub delta: f64,
-    /// Rows that cover the discrete parameters k-wise; `None` where the space has none.
+    /// The rows that cover the discrete parameters k-wise; `None` if the space has no discrete parameters.
     pub rows: Option<Vec<Need>>,
-    /// Points that leave no hole above epsilon in the continuous parameters; `None` where the space has none.
+    /// The points that leave no hole above epsilon in the continuous parameters; `None` if the space has none.
     pub points: Option<Vec<Need>>,
-    /// Tests that do both, each row with points of its own; `None` where one half is all.
+    /// The tests that do both, with separate points for each row; `None` if the space is not mixed.
     pub tests: Option<Vec<Need>>,
 }
 
-/// What nothing can be planned for.
+/// A reason why there is no plan.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum PlanFlaw {
-    /// A share is none.
+    /// A number that should be a share is not between 0 and 1.
     #[error("{name} is {found}, expected a number above 0 and below 1")]
     NoShare {
-        /// Which share.
+        /// The name of the number.
         name: &'static str,
-        /// What it is.
+        /// The value of the number.
         found: f64,
     },
-    /// The space is empty.
+    /// The space has no parameters.
     #[error("the space has no parameters, so there is nothing to plan")]
     Empty,
-    /// There are no discrete parameters to cover together.
+    /// `k` is given, but the space has no discrete parameters.
     #[error("--k is for discrete parameters, of which there are none")]
     NoDiscrete,
 }
 
 impl Reason for PlanFlaw {}
 
-/// The strategies that are measured: a longer beginning of each is never worse.
+/// The strategies whose points are measured. For each of them, a longer beginning of its sequence is never worse.
 const MEASURED: [Strategy; 3] = [Strategy::HALTON, Strategy::SOBOL, Strategy::GREEDY];
 
-/// No covering array of more combinations than this is made: it would take minutes, and gigabytes.
+/// The greatest number of combinations for which a covering array is made. More would take minutes and gigabytes.
 const MOST_COMBINATIONS: u128 = 1 << 31;
 
-/// More points than this are not measured.
+/// The greatest number of points that are measured.
 const MOST_MEASURED: usize = 1 << 20;
 
 impl Plan {
-    /// The plan for a space, of whose discrete parameters `demand` may ask for more than all combinations of k values.
-    /// Making a covering array may take half of `limit`, and the measuring what is left of it.
+    /// Plans the tests of a space. `demand` may ask for more than all combinations of k values of the discrete
+    /// parameters. Making a covering array takes at most half of `limit` (all of it if there are no continuous
+    /// parameters); the measurements take at most the rest.
     ///
     /// # Errors
-    /// The space is empty, `k` is not in 1 to the number of parameters, or epsilon or delta not in (0, 1).
+    /// The space is empty, `k` is given without discrete parameters or is not in 1 to their number, or epsilon or
+    /// delta is not in (0, 1).
     pub fn of(
         space: &Space,
         k: Option<usize>,
@@ -156,12 +159,12 @@ impl Plan {
     }
 }
 
-/// How many rows cover discrete parameters k-wise, and groups as they ask for.
+/// Returns how many rows cover the discrete parameters k-wise, and the groups of parameters with their own k.
 fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error> {
     let &CoveringRequest { rules, k, .. } = request;
     let need = |of: &str, tests, guarantee| Need { of: of.into(), strategy: None, tests, over: None, guarantee };
     let countable = |tests| (tests < u64::MAX).then_some(tests);
-    // No row has two combinations of the same parameters.
+    // A row has only one combination of the same parameters.
     let least = u64::try_from(request.lower_bound().map_err(GeneratorError::from)?).ok();
     let array = if request.combinations().map_err(GeneratorError::from)? > MOST_COMBINATIONS {
         None
@@ -172,7 +175,7 @@ fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error
             Err(error) => return Err(GeneratorError::from(error).into()),
         }
     };
-    // One row fewer than are needed by any set is not enough for the array either.
+    // One row fewer than any set needs is not enough for the array either.
     let over = least.filter(|_| array.is_none()).map(|least| least - 1);
     let all = rules.tests().filter(|all| *all < 9e15).map(|all| all as u64);
     let mut needs = vec![
@@ -182,10 +185,10 @@ fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error
     ];
     let has_negatives = request.kinds.iter().any(|kind| kind.negative().is_some());
     if has_negatives || request.groups.iter().any(|(_, strength)| *strength > k) {
-        // The bounds for random rows are about any k parameters, no more.
+        // The bounds for random rows hold for any k parameters only, not for groups or negative values.
         return Ok(needs);
     }
-    // Where constraints entangle too many parameters, nobody knows how probable a combination is.
+    // If constraints connect too many parameters, the probability of a combination cannot be computed.
     if let Some(random) = RandomRows::new(rules, k) {
         if rules.groups() == 0 && rules.levels().iter().all(|&v| v == 2) {
             let of = "random rows, Proposition 3.2";
@@ -196,7 +199,7 @@ fn rows_needed(request: &CoveringRequest, delta: f64) -> Result<Vec<Need>, Error
     Ok(needs)
 }
 
-/// How many points have a dispersion of at most epsilon.
+/// Returns how many points have a dispersion of at most epsilon.
 fn points_needed(dims: usize, epsilon: f64, delta: f64, deadline: Deadline) -> Result<Vec<Need>, Error> {
     let need = |of: &str, tests, guarantee| Need { of: of.to_owned(), strategy: None, tests, over: None, guarantee };
     let proved = |strategy: Strategy, tests| {
@@ -221,15 +224,15 @@ fn points_needed(dims: usize, epsilon: f64, delta: f64, deadline: Deadline) -> R
     Ok(needs)
 }
 
-/// How many points are enough.
+/// A number of points that is enough.
 enum Enough {
-    /// So many, and no fewer.
+    /// The least number of points that is enough.
     Least(u64),
-    /// More than so many.
+    /// More points than this are needed.
     Over(u64),
 }
 
-/// With how many points a strategy begins that have a dispersion of at most epsilon.
+/// Finds the least number of first points of a strategy that have a dispersion of at most epsilon.
 fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) -> Result<Enough, Error> {
     let space = Space::unit_cube(dims);
     let mut generator = strategy.build(&Request::new(&space, MOST_MEASURED))?;
@@ -239,13 +242,13 @@ fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) 
             if deadline.passed() {
                 return Ok(None);
             }
-            // In very many dimensions a few points take long enough to look at the clock again.
+            // In very many dimensions, even a few points take so long that the deadline has to be checked again.
             all.extend(generator.ask((n - all.len()).min(1 + 10_000 / dims)));
         }
         let points = PointSet::new(dims, all[..n].iter().map(|point| &point.continuous))?;
         Ok(is_at_most(&points, epsilon, deadline))
     };
-    // Longer beginnings are never worse: double until one is enough, then halve the distance.
+    // Longer beginnings are never worse: double the length until it is enough, then search between by halving.
     let (mut short, mut long) = (0, 1);
     loop {
         match is_enough(long, generator.as_mut())? {
@@ -265,14 +268,14 @@ fn enough_of(strategy: Strategy, dims: usize, epsilon: f64, deadline: Deadline) 
     Ok(Enough::Least(long as u64))
 }
 
-/// Every row with points of its own: the fewest tests of each guarantee.
+/// Joins rows and points, with separate points for every row, into the fewest tests of each guarantee.
 fn joined(rows: &[Need], points: &[Need]) -> Vec<Need> {
     let fewest = |needs: &[Need], guarantee: Guarantee| {
         let known = needs.iter().filter(|need| need.guarantee == guarantee);
         known.filter(|need| need.tests.is_some()).min_by_key(|need| need.tests).cloned()
     };
-    // Rows get stretches of one Halton sequence, for which its bound is proved wherever they begin; it is not for the
-    // shifted copies that rows get of other sets.
+    // The rows get sections of one Halton sequence, whose bound is proved wherever a section begins. The bounds of
+    // other sets are not proved for the shifted copies that rows get of them.
     let halton: Vec<Need> = points.iter().filter(|need| need.strategy == Some(Strategy::HALTON)).cloned().collect();
     let pair = |of_rows, of_points, guarantee| {
         let points = if of_points == Guarantee::Proved { &halton[..] } else { points };
@@ -289,7 +292,7 @@ fn joined(rows: &[Need], points: &[Need]) -> Vec<Need> {
         pair(NeededByAny, NeededByAny, NeededByAny),
         pair(Proved, Proved, Proved),
         pair(Probable, Proved, Probable),
-        // The points of one row were measured; those of the others are others.
+        // The points of one row were measured; the other rows have other points.
         pair(Probable, Measured, Estimated),
         pair(Proved, Measured, Estimated),
     ];

@@ -1,43 +1,45 @@
-//! What a random family of rows promises: the paper's Proposition 3.2, as the union bound behind it has it.
+//! Computes the guarantee of a random family of rows: the paper's Proposition 3.2, in the form of the union bound
+//! behind it.
 //!
-//! A promise is theory, made before any test is run: so many rows have all combinations of values with such a
-//! probability. What the tests then do have is measured, and is said beside it, never instead of it.
+//! A promise is theory, made before any test is run: this number of rows has all combinations of values with at least
+//! this probability. The measured coverage of the tests is shown beside the promise, never instead of it.
 
 use paracosm_campaign::{Error, Log};
 use paracosm_coverage::theory::rows::RandomRows;
 use paracosm_generators::{DiscreteFamily, GeneratorError, Request, Strategy};
 use serde::Serialize;
 
-/// What the random rows of a set of tests promise.
+/// The guarantee that the random rows of a set of tests give.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Promise {
-    /// How many discrete parameters are covered together.
+    /// The number of discrete parameters that are covered together.
     pub k: usize,
-    /// The probability that was to be the highest with which a valid combination is missing.
+    /// The greatest probability allowed that a valid combination is missing.
     pub delta: f64,
-    /// So many random rows keep to that.
+    /// The number of random rows that keeps this probability.
     pub rows_for_delta: u64,
-    /// So many were drawn, those that repeat an earlier one counted too: as many, or as the number of tests allows.
+    /// The number of rows that were drawn, repeated rows included. It is `rows_for_delta`, or the number of tests if
+    /// that is smaller.
     pub rows: u64,
-    /// All valid combinations are among them with this probability at least; 0 where nothing is guaranteed.
+    /// The least probability that the rows have all valid combinations; 0 if nothing is guaranteed.
     pub guaranteed_probability: f64,
 }
 
 impl Promise {
-    /// What the tests of a campaign promise; `None` where their rows are not random.
+    /// Returns the promise of the tests of a campaign; `None` if their rows are not random.
     ///
     /// # Errors
-    /// As [`Promise::of`], or the tests that the campaign extends cannot be read.
+    /// The errors of [`Promise::of`], or the tests that the campaign extends cannot be read.
     pub fn of_campaign(log: &Log) -> Result<Option<Self>, Error> {
         let (existing, sampling) = (log.existing()?, log.study().sampling());
         Self::of(sampling.strategy, &sampling.request(log.study().space(), &existing), sampling.budget as u64)
     }
 
-    /// What `tests` tests of a request promise; `None` where they have no random rows.
+    /// Returns the promise of `tests` tests of a request; `None` if they have no random rows.
     ///
     /// # Errors
-    /// There are not `k` discrete parameters, the constraints cannot be kept, or they leave nobody to tell how probable
-    /// a combination is.
+    /// There are fewer than `k` discrete parameters, the constraints cannot be satisfied, or the constraints make the
+    /// probability of a combination impossible to compute.
     pub fn of(strategy: Strategy, request: &Request, tests: u64) -> Result<Option<Self>, Error> {
         let parameters = request.space.levels().len();
         let DiscreteFamily::Random { delta } = request.discrete else { return Ok(None) };
@@ -48,12 +50,13 @@ impl Promise {
         let random = RandomRows::new(&request.space.rules()?, k).ok_or(GeneratorError::RandomUnderConstraints)?;
         let rows_for_delta = random.family_size(delta);
         let rows = rows_for_delta.min(tests);
-        // However many rows there are, none of them is certain to have what another may have.
+        // However many rows there are, a combination may still be missing: the probability never reaches 1.
         let guaranteed_probability = (1.0 - random.missed(rows)).clamp(0.0, 1.0_f64.next_down());
         Ok(Some(Self { k, delta, rows_for_delta, rows, guaranteed_probability }))
     }
 
-    /// The promise in words, what was asked for beside it where it is less.
+    /// Returns the promise in words. If there are fewer rows than `delta` needs, the words state the number that it
+    /// needs.
     pub fn words(&self) -> String {
         let Self { k, delta, rows_for_delta, rows, guaranteed_probability } = self;
         let promise = match rounded_down(*guaranteed_probability) {
@@ -67,14 +70,14 @@ impl Promise {
     }
 }
 
-/// A probability as a decimal number that is not above it, with as many digits as tell it from 1; none where it is
-/// next to 0.
+/// Rounds a probability down to a decimal number, with as many digits as distinguish it from 1; `None` if it is next
+/// to 0.
 fn rounded_down(probability: f64) -> Option<String> {
     let rounded = |digits: usize| {
         let unit = 10_u64.pow(digits as u32);
         (digits, unit, (probability * unit as f64).floor() as u64)
     };
-    // At most twice the probability that something is missing may be said to be.
+    // The number may state at most twice the true probability that a combination is missing.
     let tells = |&(_, unit, kept): &(usize, u64, u64)| (unit - kept) as f64 <= 2.0 * (1.0 - probability) * unit as f64;
     let (digits, _, kept) = (4..=15).map(rounded).find(tells).unwrap_or_else(|| rounded(15));
     (kept > 0).then(|| format!("0.{kept:0digits$}").trim_end_matches('0').to_owned())

@@ -1,39 +1,40 @@
-//! A campaign in a few numbers: how many tests ended how, what became of each requirement, and which test was the worst.
+//! Summarises a campaign in a few numbers: the counts of verdicts, the results of each requirement, and the worst
+//! test.
 
 use paracosm_campaign::{Scales, Trial};
 use paracosm_oracles::Verdict;
 
-/// Counts of verdicts and the worst trial so far.
+/// The counts of verdicts and the results of the requirements so far.
 #[derive(Debug, Clone, Default)]
 pub struct Summary {
     counts: [usize; 5],
     requirements: Vec<Judged>,
 }
 
-/// The trial that violates a requirement most, or comes nearest to it.
+/// The worst trial, which violates a requirement most or is nearest to a violation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worst {
-    /// The trial's index.
+    /// The index of the trial.
     pub index: usize,
-    /// The requirement.
+    /// The id of the requirement.
     pub requirement: String,
 }
 
-/// What became of a requirement.
+/// The results of a requirement over the trials so far.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    /// The requirement.
+    /// The id of the requirement.
     pub id: String,
-    /// How many trials violate it.
+    /// The number of trials that violate the requirement.
     pub violated: usize,
-    /// In how many trials nothing broke, but it was left undecided.
+    /// The number of trials that did not break but left the requirement undecided.
     pub undecided: usize,
-    /// The least robustness, in its unit, with the index of the first trial that has it.
+    /// The least robustness, in the requirement's unit, with the index of the first trial that has it.
     pub worst: Option<(f64, usize)>,
 }
 
 impl Summary {
-    /// Takes a trial into account.
+    /// Adds a trial to the summary.
     pub fn add(&mut self, trial: &Trial) {
         self.counts[trial.verdict as usize] += 1;
         for id in trial.requirements().filter(|_| trial.covers()) {
@@ -50,17 +51,17 @@ impl Summary {
         &mut self.requirements[position]
     }
 
-    /// How many tests ended so.
+    /// Returns the number of tests with this verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
         self.counts[verdict as usize]
     }
 
-    /// How many tests there are.
+    /// Returns the number of tests.
     pub fn tests(&self) -> usize {
         self.counts.iter().sum()
     }
 
-    /// The worst trial by these scales: the first among equals.
+    /// Returns the worst trial by these scales; of equally bad trials the first.
     pub fn worst(&self, scales: &Scales) -> Option<Worst> {
         let worst = self.requirements.iter().filter_map(|judged| {
             let (robustness, index) = judged.worst?;
@@ -70,7 +71,7 @@ impl Summary {
         Some(Worst { index, requirement: judged.id.clone() })
     }
 
-    /// What became of each requirement, in the order in which they were first judged.
+    /// Returns the results of each requirement, in the order in which the requirements were first judged.
     pub fn requirements(&self) -> &[Judged] {
         &self.requirements
     }

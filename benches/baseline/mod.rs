@@ -1,9 +1,9 @@
-//! Plain integer arithmetic, by which two machines (or two moods of one) can be compared.
+//! Plain integer arithmetic, to compare two machines, or one machine at two times.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 
-/// Steps of Marsaglia's xorshift (2003): three shifts each, one after the other.
+/// Measures steps of Marsaglia's xorshift (2003): three shifts each, one after the other.
 #[divan::bench]
 fn baseline(bencher: Bencher) {
     const STEPS: u64 = 1_000_000;

@@ -1,21 +1,21 @@
-//! What is derived from the trials of a campaign and written beside them.
+//! Artefacts: results that are derived from the trials of a campaign and written beside them.
 
 use crate::{Error, Folder};
 use serde::Serialize;
 
-/// Something that is known of a campaign, as files of its folder.
+/// A result of a campaign that is written as files of its folder.
 pub trait Artefact {
-    /// The names of its files. No two artefacts have a file of one name.
+    /// Returns the names of the artefact's files. No two artefacts share a file name.
     fn files(&self) -> Vec<&'static str>;
 
-    /// The contents of one of its files.
+    /// Returns the contents of the artefact's file with this name.
     ///
     /// # Errors
     /// A picture cannot be drawn.
     fn contents(&self, file: &str) -> Result<Vec<u8>, Error>;
 }
 
-/// Something that is known of a campaign and written as one JSON file.
+/// A result of a campaign that is written as one JSON file.
 pub trait JsonArtefact: Serialize {
     /// The name of the file.
     const FILE: &'static str;
@@ -31,7 +31,7 @@ impl<T: JsonArtefact> Artefact for T {
     }
 }
 
-/// A value as JSON on lines of its own, as all JSON files of a campaign are written.
+/// Formats a value as indented JSON with a final line break, as in all JSON files of a campaign.
 pub fn json(value: &impl Serialize) -> Vec<u8> {
     let mut text = serde_json::to_vec_pretty(value).expect("what is known of a campaign is always JSON");
     text.push(b'\n');
@@ -42,7 +42,7 @@ impl Folder {
     /// Writes the files of an artefact, each whole or not at all.
     ///
     /// # Errors
-    /// One cannot be drawn or written.
+    /// A file cannot be drawn or written.
     pub fn put(&self, artefact: &dyn Artefact) -> Result<(), Error> {
         artefact.files().into_iter().try_for_each(|file| self.write(file, &artefact.contents(file)?))
     }

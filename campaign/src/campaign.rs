@@ -1,7 +1,8 @@
-//! The loop: ask for tests, run them on all cores, show each trial in order, tell how it went.
+//! Runs a study: it asks for tests, runs them on all cores, shows each trial in order, and reports the results to the
+//! strategy.
 //!
-//! The campaign itself writes and prints nothing: the log, the progress bar and the summary are [observers](Observer). A test
-//! that panics is a trial with the verdict `error`; the campaign goes on.
+//! A campaign itself writes and prints nothing: the log, the progress bar and the summary are [observers](Observer). If
+//! a test panics, its trial has the verdict `error`, and the campaign goes on.
 
 use crate::darkroom::Darkroom;
 use crate::executor::{Desk, from_desk, in_order, pool};
@@ -19,63 +20,64 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::available_parallelism;
 use thiserror::Error;
 
-/// How many tests are asked for at a time, where it does not matter to the strategy: enough to keep many cores busy, few enough to keep in memory.
+/// The number of tests that are asked for at a time if the strategy does not care: enough to keep many cores busy, few
+/// enough to keep in memory.
 const BATCH: usize = 4096;
 
-/// How many tests run in lockstep, where their drivers see: enough for a graphics card to be worth its while, and so few
-/// that their worlds and drivers fit in memory.
+/// The number of tests that run in lockstep if their drivers use cameras: enough to make good use of a graphics card,
+/// and few enough that their worlds and drivers fit in memory.
 const AT_ONCE: NonZeroUsize = NonZeroUsize::new(32).expect("it is more than 0");
 
-/// A study being run.
+/// A study that is being run.
 pub struct Campaign<'a> {
     study: &'a Study,
     jobs: NonZeroUsize,
     at_once: NonZeroUsize,
-    /// What draws for the drivers, if they see.
+    /// The darkroom that draws for the drivers, if they use cameras.
     darkroom: Option<Arc<Darkroom>>,
     /// The tests that count as done.
     extension: Option<(Extension, Vec<Point>)>,
     known: Vec<Trial>,
     stop: Arc<AtomicBool>,
-    /// Workers keep what they have started from one batch of tests to the next.
+    /// Idle workers, which keep the processes that they started from one batch of tests to the next.
     idle: Mutex<Vec<Worker<'a>>>,
 }
 
-/// How a campaign came to its end.
+/// The reason why a campaign ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Finish {
-    /// Its budget is spent.
+    /// The budget is spent.
     Budget,
     /// The strategy has no more tests.
     Exhausted,
-    /// An observer ended it, or a failing test where the study stops at the first.
+    /// An observer ended the campaign, or a test failed in a study that stops at the first failure.
     Stopped,
 }
 
-/// A trial of a log that is not of the campaign that is to be resumed.
+/// A trial of the log does not belong to the campaign that is to be resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("trial {index} of the log is not the test that this study proposes there; was the log edited?")]
 pub struct ForeignTrial {
-    /// Its index.
+    /// The index of the trial.
     pub index: usize,
 }
 
 impl Reason for ForeignTrial {}
 
 impl<'a> Campaign<'a> {
-    /// A campaign on all cores.
+    /// Makes a campaign that runs on all cores.
     ///
     /// # Errors
-    /// The scenario, the driver or the system of the study cannot do what is asked; or the driver sees through cameras, and there is
-    /// nothing to draw with. [`Campaign::check`] asks the strategy.
+    /// The scenario, the driver or the system of the study cannot do what is asked; or the driver uses cameras, and the
+    /// machine has nothing to draw with. [`Campaign::check`] checks the strategy.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
         Self::until(study, Arc::default())
     }
 
-    /// A campaign that ends with [`Error::Interrupted`] once `stop` is set, whatever a test is waiting for.
+    /// Makes a campaign that ends with [`Error::Interrupted`] once `stop` is set, whatever a test is waiting for.
     ///
     /// # Errors
-    /// As [`Campaign::new`].
+    /// The same errors as [`Campaign::new`].
     pub fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let jobs = available_parallelism().unwrap_or(NonZeroUsize::MIN);
         let mut worker = Worker::until(study, Arc::clone(&stop))?;
@@ -87,40 +89,40 @@ impl<'a> Campaign<'a> {
     /// Counts these tests as done, so that the tests of the study complete them.
     ///
     /// # Errors
-    /// They cannot be read.
+    /// The tests cannot be read.
     pub fn extending(mut self, extension: &Extension) -> Result<Self, Error> {
         self.extension = Some((extension.clone(), extension.points(self.study.space())?));
         Ok(self)
     }
 
-    /// Runs tests on this many threads. Results do not depend on it.
+    /// Sets the number of threads. It does not change the results.
     pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
         self.jobs = jobs;
         self
     }
 
-    /// Runs this many tests in lockstep where their drivers see through cameras, so that all that they see is drawn at once;
-    /// without it, 32. Results do not depend on it.
+    /// Sets the number of tests that run in lockstep if their drivers use cameras, so that their images are drawn
+    /// together; the default is 32. It does not change the results.
     pub fn at_once(mut self, tests: NonZeroUsize) -> Self {
         self.at_once = tests;
         self
     }
 
-    /// Takes the first trials as known rather than running them.
+    /// Takes the first trials from `known` instead of running them.
     pub fn resume(mut self, known: Vec<Trial>) -> Self {
         self.known = known;
         self
     }
 
-    /// The flag that ends the campaign with [`Error::Interrupted`] once it is set.
+    /// Returns the flag that ends the campaign with [`Error::Interrupted`] once it is set.
     pub fn stop(&self) -> Arc<AtomicBool> {
         self.stop.clone()
     }
 
-    /// Checks that the strategy can do what is asked of it, beside the tests that the campaign extends.
+    /// Checks that the strategy can do what the study asks, given the tests that the campaign extends.
     ///
     /// # Errors
-    /// It cannot.
+    /// The strategy cannot do it.
     pub fn check(&self) -> Result<(), Error> {
         let existing = self.extension.as_ref().map_or(&[][..], |(_, points)| points);
         Ok(self.study.generator(existing).map(drop)?)
@@ -129,8 +131,8 @@ impl<'a> Campaign<'a> {
     /// Runs the tests that are not known yet. Every observer sees every trial in order.
     ///
     /// # Errors
-    /// An error of an observer, a strategy that cannot do what is asked of it, a known trial that is not of this campaign, or a
-    /// system that did none of its first tests.
+    /// An observer returns an error, the strategy cannot do what the study asks, a known trial does not belong to this
+    /// campaign, or a system gave no result for any of its first tests.
     pub fn run(mut self, observers: &mut [&mut dyn Observer]) -> Result<Finish, Error> {
         let study = self.study;
         let (batch, budget) = (study.sampling().batch_size().unwrap_or(BATCH), study.sampling().budget);
@@ -195,7 +197,7 @@ impl<'a> Campaign<'a> {
     /// Runs the tests that are not known yet, and keeps the trials in memory.
     ///
     /// # Errors
-    /// As [`Campaign::run`].
+    /// The same errors as [`Campaign::run`].
     pub fn into_log(self) -> Result<Log, Error> {
         let (study, mut trials) = (self.study.clone(), self.known.clone());
         let extension = self.extension.as_ref().map(|(extension, _)| extension.clone());
@@ -203,10 +205,10 @@ impl<'a> Campaign<'a> {
         Ok(Log::new(study, Learned::new(), extension, trials))
     }
 
-    /// Runs these tests instead of those that the strategy proposes; the first one gets the index `first`.
+    /// Runs these tests instead of the tests that the strategy proposes; the first one gets the index `first`.
     ///
     /// # Errors
-    /// That of `watch`.
+    /// `watch` returns an error.
     pub fn run_tests(
         &self,
         tests: &[Values],
@@ -233,7 +235,7 @@ impl<'a> Campaign<'a> {
             expected.go_on()?;
             Ok(went_on)
         };
-        // The workers stop at an error. Nobody has to wait for a system when the results are not wanted any more.
+        // The workers stop at an error. Nobody waits for a system when its results are no longer wanted.
         let sink = |trial| {
             let end = match show(trial) {
                 Ok(ControlFlow::Continue(())) => {
@@ -264,13 +266,13 @@ impl<'a> Campaign<'a> {
         }
     }
 
-    /// What draws for the drivers.
+    /// Returns the darkroom that draws for the drivers.
     #[cfg(all(test, feature = "camera"))]
     pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
         self.darkroom.as_ref()
     }
 
-    /// A worker that has nothing to do, or a new one.
+    /// Returns an idle worker, or a new one.
     fn worker(&self) -> Result<Worker<'a>, Error> {
         let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
         idle.map_or_else(|| Worker::beside(self.study, self.stop.clone(), self.darkroom.clone()), Ok)
@@ -285,7 +287,7 @@ impl<'a> Campaign<'a> {
     }
 }
 
-/// A worker at work, which comes back to its campaign.
+/// A worker at work, which returns to its campaign when it is dropped.
 struct Hired<'c, 'a> {
     campaign: &'c Campaign<'a>,
     worker: Option<Worker<'a>>,
@@ -296,7 +298,7 @@ impl<'a> Hired<'_, 'a> {
         self.worker.as_mut().expect("it is at work")
     }
 
-    /// A trial, unless the campaign was told to stop before it had ended.
+    /// Runs a test and returns its trial, unless the campaign was told to stop before the test had ended.
     fn run(&mut self, index: usize, test: &Values) -> Option<Trial> {
         let campaign = self.campaign;
         if campaign.is_stopped() {
@@ -307,7 +309,7 @@ impl<'a> Hired<'_, 'a> {
         (!cut_off).then_some(trial)
     }
 
-    /// The trials of those of these tests that the desk gives out, until the campaign is told to stop.
+    /// Runs the tests that the desk gives out, until the campaign is told to stop.
     fn run_in_lockstep(&mut self, desk: (&Desk<Trial>, usize), tests: (usize, &[Values])) {
         let campaign = self.campaign;
         self.worker().run_in_lockstep(desk, tests, || campaign.is_stopped());
@@ -326,7 +328,7 @@ fn foreign(trial: &Trial) -> Error {
     ForeignTrial { index: trial.index }.into()
 }
 
-/// Shows something to every observer, and says whether one of them wants an end.
+/// Shows something to every observer, and returns a break if an observer wants to end the campaign.
 fn all(
     observers: &mut [&mut dyn Observer],
     mut show: impl FnMut(&mut dyn Observer) -> Result<ControlFlow<()>, Error>,

@@ -1,6 +1,7 @@
-//! Where scenarios come from, by name or by file.
+//! Catalogues: they find scenarios by name or by file.
 //!
-//! A campaign knows no scenario. It is given a catalogue: a list of programs, and readers that make a program of a file.
+//! A campaign knows no scenario by itself. It is given a catalogue: a list of programs, and readers that make programs
+//! from files.
 
 use crate::{Error, Reason};
 use paracosm_engine::Program;
@@ -26,62 +27,62 @@ pub struct Catalogue {
     readers: Vec<Reader>,
 }
 
-/// Makes programs of files.
+/// A reader that makes programs from files.
 #[derive(Debug, Clone, Copy)]
 pub struct Reader {
-    /// The ending of the files that it reads, without the dot.
+    /// The ending of the files that the reader reads, without the dot.
     pub ending: &'static str,
-    /// What the files are, in a few words.
+    /// The kind of the files, in a few words.
     pub about: &'static str,
-    /// Reads a file.
+    /// Reads a file and returns its program.
     pub read: fn(&Path) -> Result<Program, Error>,
 }
 
-/// A name that no scenario has.
+/// The error that no scenario has this name.
 #[derive(Debug, Error, PartialEq)]
 #[error("no scenario is called `{name}`{}; `paracosm-fuzz list` shows them all", did_you_mean(.nearest))]
 pub struct UnknownScenario {
-    /// The name.
+    /// The name that was asked for.
     pub name: String,
-    /// A name that was perhaps meant.
+    /// The name of a scenario that was perhaps meant.
     pub nearest: Option<String>,
 }
 
 impl Reason for UnknownScenario {}
 
 impl Catalogue {
-    /// A catalogue of these programs.
+    /// Makes a catalogue of these programs.
     pub fn of(programs: &[&Program]) -> Self {
         Self { programs: programs.iter().copied().cloned().collect(), readers: Vec::new() }
     }
 
-    /// The same with a further program. A program of the same name gives way.
+    /// Adds a program. It replaces a program of the same name.
     pub fn with(mut self, program: Program) -> Self {
         self.programs.retain(|other| other.name() != program.name());
         self.programs.push(program);
         self
     }
 
-    /// The same with a reader of files.
+    /// Adds a reader of files.
     pub fn reading(mut self, reader: Reader) -> Self {
         self.readers.push(reader);
         self
     }
 
-    /// All programs that have a name, in order.
+    /// Returns all programs that have a name, in order.
     pub fn programs(&self) -> &[Program] {
         &self.programs
     }
 
-    /// The readers of files, in order.
+    /// Returns the readers of files, in order.
     pub fn readers(&self) -> &[Reader] {
         &self.readers
     }
 
-    /// The program of that name, or that a file holds.
+    /// Returns the program with this name, or the program in the file with this path.
     ///
     /// # Errors
-    /// There is none; the error suggests the nearest name. Or a reader cannot make a program of the file.
+    /// No scenario has the name; the error suggests the nearest name. Or a reader cannot make a program from the file.
     pub fn find(&self, name: &str) -> Result<Program, Error> {
         if let Some(program) = self.programs.iter().find(|program| program.name() == name) {
             return Ok(program.clone());

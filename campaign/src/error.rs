@@ -1,27 +1,28 @@
-//! What can go wrong between a study and its log, sorted by what the caller can do about it.
+//! The errors between a study and its log, sorted by what the caller can do about them.
 //!
-//! An [`Error`] is one of four kinds. Each holds a typed [`Reason`], which knows what was found, what was expected, and says
-//! so to people. No part of the software reads the message of an error to decide what to do.
+//! An [`Error`] is one of four kinds. All but the last hold a typed reason (a [`Reason`] or a [`Failure`]), which knows
+//! what was found and what was expected, and says so in words. No part of the software reads the message of an error to
+//! decide what to do.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why something makes no sense: an error type that says it all.
+/// An error type that explains a wrong request or a wrong file completely.
 ///
-/// Every crate has reasons of its own and marks them with this trait; `?` turns each into an [`Error::Use`].
+/// Every crate marks its own reasons with this trait. The operator `?` turns each into an [`Error::Use`].
 pub trait Reason: std::error::Error + Send + Sync + 'static {}
 
 /// Any error of a campaign, an analysis or a report.
 #[derive(Error)]
 pub enum Error {
-    /// What was asked for makes no sense. Ask for something else.
+    /// The request makes no sense. Ask for something else.
     #[error("{0}")]
     Use(Box<dyn Reason>),
-    /// A file holds what it should not hold. Mend the file.
+    /// A file has wrong contents. Correct the file.
     #[error(transparent)]
     File(#[from] BadFile),
-    /// Something beside the study failed: the disk, a process, a graphics adapter. Mend that, and try again.
+    /// Something other than the study failed: the disk, a process, a graphics adapter. Repair it, and try again.
     #[error(transparent)]
     Environment(#[from] Failure),
     /// The work was told to stop.
@@ -29,7 +30,7 @@ pub enum Error {
     Interrupted,
 }
 
-/// As [`Display`](fmt::Display): a `main` that returns this error prints it by `Debug`, to people.
+/// Prints the same text as [`Display`](fmt::Display), because a `main` that returns this error prints it with `Debug`.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
@@ -42,91 +43,91 @@ impl<R: Reason> From<R> for Error {
     }
 }
 
-/// A file whose contents are not what they should be.
+/// A file has wrong contents.
 #[derive(Debug, Error)]
 #[error("{}{}: {reason}", path.display(), line.map(|line| format!(", line {line}")).unwrap_or_default())]
 pub struct BadFile {
     /// The file.
     pub path: PathBuf,
-    /// The line, from 1, if it is one line's fault.
+    /// The line, from 1, if the error is in one line.
     pub line: Option<usize>,
-    /// What was found and what was expected.
+    /// The error in the file: what was found and what was expected.
     pub reason: Box<dyn Reason>,
 }
 
-/// What keeps a file from being a CSV.
+/// The reason why a file is not a CSV file.
 #[derive(Debug, Error)]
 pub enum CsvFlaw {
     /// A line has more or fewer fields than the header.
     #[error("found {found} fields, expected {expected}")]
     Fields {
-        /// How many the line has.
+        /// The number of fields in the line.
         found: u64,
-        /// How many the header has.
+        /// The number of fields in the header.
         expected: u64,
     },
-    /// It is no text.
+    /// The file is not UTF-8 text.
     #[error("found bytes that are no UTF-8")]
     NoText,
-    /// It cannot be read.
+    /// The file cannot be read for another reason.
     #[error(transparent)]
     Other(csv::Error),
 }
 
 impl Reason for CsvFlaw {}
 
-/// Something beside the study that failed.
+/// Something other than the study failed.
 #[derive(Debug, Error)]
 pub enum Failure {
-    /// A file or a folder that cannot be read or written.
+    /// A file or a folder cannot be read or written.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {
-        /// What was tried: `read`, `write`, `create`, `lock`.
+        /// The operation that failed: `read`, `write`, `create`, `lock`.
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
-    /// A file or a folder that is gone while it is in use.
+    /// A file or a folder was removed while it was in use.
     #[error("{} was removed while the campaign ran", path.display())]
     Removed {
         /// The file or folder.
         path: PathBuf,
     },
-    /// A picture that cannot be drawn.
+    /// A picture cannot be drawn.
     #[error("cannot draw {}: {source}", path.display())]
     Drawing {
-        /// The file that it was for.
+        /// The file of the picture.
         path: PathBuf,
-        /// What the plotter said.
+        /// The error of the plotter.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// Threads that cannot be started.
+    /// Threads cannot be started.
     #[error("cannot start {threads} threads: {source}")]
     Threads {
-        /// How many.
+        /// The number of threads.
         threads: usize,
-        /// What the system said.
+        /// The error of the operating system.
         source: rayon::ThreadPoolBuildError,
     },
-    /// A system, a driver or a graphics adapter that cannot be had.
+    /// A system, a driver or a graphics adapter is not available.
     #[error("{0}")]
     Unavailable(Box<dyn Reason>),
-    /// A system or a driver that did none of its first tests.
+    /// A system or a driver gave no result for any of its first tests.
     #[error("each of the first {tests} tests ended in an error, so the campaign was given up; test {test}: {problem}")]
     Unanswered {
-        /// How many tests there were.
+        /// The number of tests.
         tests: usize,
-        /// The first test that says what is wrong.
+        /// The index of the first test that states a reason.
         test: usize,
-        /// What it says.
+        /// The problem of that test.
         problem: crate::Problem,
     },
 }
 
 impl Error {
-    /// The reason of this kind, if that is why something makes no sense.
+    /// Returns the reason if this is an [`Error::Use`] whose reason has the type `R`.
     pub fn reason<R: Reason>(&self) -> Option<&R> {
         match self {
             Self::Use(reason) => (&**reason as &dyn std::error::Error).downcast_ref(),
@@ -134,18 +135,18 @@ impl Error {
         }
     }
 
-    /// An operation on a file that failed.
+    /// Makes the error of a file operation that failed.
     pub fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         move |source| Failure::Io { action, path, source }.into()
     }
 
-    /// Contents of a file that are not what they should be.
+    /// Makes the error of a file with wrong contents.
     pub fn in_file(path: &Path, line: impl Into<Option<usize>>, reason: impl Reason) -> Self {
         BadFile { path: path.to_owned(), line: line.into(), reason: Box::new(reason) }.into()
     }
 
-    /// A CSV file that is none.
+    /// Makes the error of a file that is not a valid CSV file.
     pub fn in_csv(path: &Path, error: csv::Error) -> Self {
         let line = error.position().map(|position| position.line() as usize);
         let flaw = match error.kind() {
@@ -158,13 +159,13 @@ impl Error {
         Self::in_file(path, line, flaw)
     }
 
-    /// Something that cannot be had.
+    /// Makes the error of something that is not available.
     pub fn unavailable(reason: impl Reason) -> Self {
         Failure::Unavailable(Box::new(reason)).into()
     }
 }
 
-/// Errors of the crates below that say all there is to say.
+/// The errors of lower crates that explain themselves completely.
 mod below {
     use super::Reason;
 

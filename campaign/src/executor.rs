@@ -1,9 +1,9 @@
-//! Work on all cores, results in order.
+//! Runs work on all cores and delivers the results in order.
 //!
-//! Workers take the next index as soon as they are free, so that what is finished is nearly a prefix; results
-//! wait for the ones before them and reach the sink in the order of their indices, whatever the number of
-//! workers. The first error of the sink stops the work, and so does a worker that gives up: then the sink still sees
-//! what was finished before.
+//! Workers take the next index as soon as they are free, so that finished work is nearly a prefix of all work. Results
+//! wait for the results before them, and reach the sink in the order of their indices, whatever the number of workers.
+//! The first error of the sink stops the work. A worker that gives up stops it as well, but then the sink still gets
+//! the results before that index.
 
 use crate::Failure;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -12,19 +12,19 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Sender};
 
-/// The name that worker threads begin with, by which a panic of a test can be told from a panic of the program.
+/// The prefix of the names of worker threads; it tells a panic of a test from a panic of the program.
 pub const WORKER: &str = "paracosm-worker";
 
-/// Threads for this many workers.
+/// Makes a pool with this number of threads.
 ///
 /// # Errors
-/// The system has no more threads.
+/// The system cannot start the threads.
 pub fn pool(workers: usize) -> Result<ThreadPool, Failure> {
     let builder = ThreadPoolBuilder::new().num_threads(workers).thread_name(|i| format!("{WORKER}-{i}"));
     builder.build().map_err(|source| Failure::Threads { threads: workers, source })
 }
 
-/// What is left to do, for one of those who do it.
+/// A desk gives out the remaining work to a worker, and takes its results.
 pub struct Desk<'a, T> {
     next: &'a AtomicUsize,
     end: usize,
@@ -33,18 +33,18 @@ pub struct Desk<'a, T> {
 }
 
 impl<T> Desk<'_, T> {
-    /// The next index, until there is none or nobody wants it any more.
+    /// Returns the next index; `None` if there is none or nobody wants results any more.
     pub fn next(&self) -> Option<usize> {
         let index = || self.next.fetch_add(1, Ordering::Relaxed);
         (!self.is_closed()).then(index).filter(|index| *index < self.end)
     }
 
-    /// Whether nobody wants results any more.
+    /// Returns `true` if nobody wants results any more.
     pub fn is_closed(&self) -> bool {
         self.closed.load(Ordering::Relaxed)
     }
 
-    /// Takes the result of an index, or that there is none, which closes the desk.
+    /// Takes the result of an index. `None` means that the worker gave up, and closes the desk.
     pub fn hand_in(&self, index: usize, result: Option<T>) {
         let gives_up = result.is_none();
         if self.results.send((index, result)).is_err() || gives_up {
@@ -53,17 +53,17 @@ impl<T> Desk<'_, T> {
     }
 }
 
-/// Does work on one thread, whatever threads it would take elsewhere.
+/// Does work on a single thread, even if the work itself would use more threads.
 ///
 /// # Errors
-/// The system has no more threads.
+/// The system cannot start the thread.
 pub fn alone<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Failure> {
     let single = pool(1)?;
-    // A worker that waited for another pool itself would take up the work of its neighbour meanwhile.
+    // A worker thread that waited for another pool would itself begin other work in the meantime.
     Ok(std::thread::scope(|scope| scope.spawn(|| single.install(work)).join()).expect("the work does not panic"))
 }
 
-/// Calls `work` for every index on the threads of the pool, each with a worker of its own, and `sink` with the
+/// Calls `work` for every index on the threads of the pool, each thread with a worker of its own. Calls `sink` with the
 /// results in order, up to the first index at which a worker gave up.
 pub fn in_order<W, T: Send, E>(
     pool: &ThreadPool,
@@ -81,8 +81,8 @@ pub fn in_order<W, T: Send, E>(
     from_desk(pool, indices, one_by_one, sink)
 }
 
-/// [`in_order`] for those who do several things at a time: calls `work` once on every thread of the pool, which takes what
-/// it does from the desk and hands in what comes of it.
+/// Works like [`in_order`], for workers that do several things at a time. It calls `work` once on every thread of the
+/// pool; `work` takes indices from the desk and hands in their results.
 pub fn from_desk<T: Send, E>(
     pool: &ThreadPool,
     indices: Range<usize>,

@@ -1,36 +1,36 @@
-//! What all answers of a system have in common, and what becomes of a campaign to which a system, or a driver in a process of its
-//! own, gives no answer.
+//! Checks that all answers of a system judge the same requirements, and gives up a campaign whose system, or whose
+//! driver in a process of its own, does not answer.
 //!
-//! Which requirements a system judges itself by is known by its first answer. Trials are checked against it in the order
-//! of their indices, so that it does not matter who was answered first.
+//! The first answer of a system says by which requirements it judges itself. Trials are checked against it in the order
+//! of their indices, so that the order of the answers does not matter.
 
 use crate::{Failure, Problem, ProblemKind, Study, Subject, Trial};
 
-/// After how many tests, all of them in error, a system is given up: it may take its time to fail.
+/// The number of tests, all of them in error, after which a system is given up, because failing may take long.
 const GIVEN_UP: usize = 50;
-/// After how many, where one formula fits none of their traces and will fit no other. A signal that they merely lack is no such
-/// reason: some tests may have it, and so it takes [`GIVEN_UP`] of them.
+/// The number of tests after which a system is given up if one formula fits none of their traces, and so will fit no
+/// other. A signal that is merely missing does not count: other tests may have it, so that it takes [`GIVEN_UP`] tests.
 const MISFITS: usize = 3;
 
-/// What trials have said so far.
+/// The checks of a campaign's trials, with the facts learned so far.
 #[derive(Debug, Clone)]
 pub struct Expected {
-    /// Whether a process of others answers; of all others nothing is expected.
+    /// True if an external process answers; other studies are not checked.
     is_external: bool,
-    /// The first trial that was answered, and its requirements.
+    /// The index of the first trial that was answered, and its requirements.
     first: Option<(usize, Vec<String>)>,
-    /// How many trials in error came before it, and the first that says why.
+    /// The number of trials in error before it, and the first of them that states a reason.
     failed: usize,
     why: Option<(usize, Problem)>,
-    /// How many of them have a trace that a formula does not fit, and the first.
+    /// The number of these trials whose trace does not fit a formula, and the first of them.
     misfits: usize,
     misfit: Option<(usize, Problem)>,
-    /// Whether they are the fault of several formulas.
+    /// True if several formulas do not fit.
     vary: bool,
 }
 
 impl Expected {
-    /// What is to be expected after these trials of a study.
+    /// Makes the checks of a study, after these trials.
     pub fn of(study: &Study, trials: &[Trial]) -> Self {
         let is_external = match study.subject() {
             Subject::Scenario(simulation) => simulation.driver().is_external(),
@@ -42,7 +42,7 @@ impl Expected {
         expected
     }
 
-    /// The trial, or one in error where its requirements are not those that were judged before.
+    /// Returns the trial; or a trial in error if its requirements differ from those of the first answer.
     pub fn check(&mut self, trial: Trial) -> Trial {
         self.learn(&trial);
         let found = requirements(&trial);
@@ -59,10 +59,10 @@ impl Expected {
         }
     }
 
-    /// Checks that it makes sense to go on.
+    /// Checks that it makes sense to continue.
     ///
     /// # Errors
-    /// The system or the driver did none of so many tests.
+    /// The system or the driver gave no result for any of the first tests.
     pub fn go_on(&self) -> Result<(), Failure> {
         let fits_none = self.misfits >= MISFITS && !self.vary;
         let why = self.misfit.as_ref().filter(|_| fits_none).or(self.why.as_ref());
@@ -94,7 +94,7 @@ impl Expected {
     }
 }
 
-/// The ids in alphabetical order: in which order they are answered says nothing.
+/// Returns the ids of the requirements in alphabetical order, because the order of the answer has no meaning.
 fn requirements(trial: &Trial) -> Vec<String> {
     let mut names: Vec<String> = trial.requirements().map(str::to_owned).collect();
     names.sort_unstable();

@@ -1,11 +1,13 @@
-//! Tests that a campaign counts as done, and so runs only the tests that they lack.
+//! Tests that a campaign counts as done, so that it runs only the tests that are missing.
 //!
-//! The campaign names them by their number and their hash, which is that of the CSV they would be written as: how the
-//! file they came from is formatted, and what else is in it, changes nothing. The folder of the campaign keeps that CSV
-//! as `extended.csv`, so that the campaign can be measured when the file is gone. A replay needs neither.
+//! The campaign names the tests by their number and their hash. The hash is that of the CSV that the tests would be
+//! written as, so that the format of the original file and other contents of it do not matter. The campaign's folder
+//! keeps this CSV as `extended.csv`, so that the campaign can be measured when the original file is gone. A replay
+//! needs neither file.
 
 use crate::test_set::read_values;
 use crate::{Error, Reason, Study};
+use paracosm_space::plural;
 use paracosm_space::{Point, Space, Values};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -13,42 +15,42 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 use xxhash_rust::xxh3::xxh3_128;
 
-/// Tests that are there already.
+/// Tests that a campaign counts as done.
 #[derive(Debug, Clone)]
 pub struct Extension {
     record: ExtensionRecord,
     tests: Kept,
 }
 
-/// Where the tests are.
+/// The place of the tests.
 #[derive(Debug, Clone)]
 enum Kept {
     Here(Vec<Values>),
     In(PathBuf),
 }
 
-/// What is written down of tests that are there already.
+/// The record of the tests that a campaign counts as done.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExtensionRecord {
-    /// The file that they were read from.
+    /// The file from which the tests were read.
     pub name: String,
-    /// How many there are.
+    /// The number of tests.
     pub tests: usize,
     /// The hash of the tests: XXH3, 128 bits, of `extended.csv`.
     pub hash: String,
 }
 
-/// A file that does not hold the tests that a campaign extends.
+/// A file does not hold the tests that a campaign extends.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "found {} tests of hash {}, expected the {} of hash {} that the campaign extends",
-    found.tests, found.hash, expected.tests, expected.hash
+    "the campaign extends {} with hash {}; found {} with hash {}",
+    plural(expected.tests, "test"), expected.hash, plural(found.tests, "test"), found.hash
 )]
 pub struct OtherTests {
-    /// The tests of the file.
+    /// The record of the tests in the file.
     pub found: ExtensionRecord,
-    /// The tests that the campaign extends.
+    /// The record of the tests that the campaign extends.
     pub expected: ExtensionRecord,
 }
 
@@ -70,28 +72,28 @@ impl Extension {
         Self { record, tests: Kept::Here(values) }
     }
 
-    /// The tests of this record, which a campaign keeps in a file. They are read when they are needed.
+    /// Returns the tests of this record, which a campaign keeps in a file. They are read when they are needed.
     pub fn kept(record: ExtensionRecord, path: PathBuf) -> Self {
         Self { record, tests: Kept::In(path) }
     }
 
-    /// What is written down of them.
+    /// Returns the record of the tests.
     pub fn record(&self) -> &ExtensionRecord {
         &self.record
     }
 
-    /// The tests as points.
+    /// Returns the tests as points.
     ///
     /// # Errors
-    /// Their file cannot be read, or holds other tests.
+    /// The file of the tests cannot be read, or holds other tests.
     pub fn points(&self, space: &Space) -> Result<Vec<Point>, Error> {
         self.values(space)?.iter().map(|test| Ok(space.encode(test)?)).collect()
     }
 
-    /// The tests as `extended.csv` has them.
+    /// Returns the tests in the format of `extended.csv`.
     ///
     /// # Errors
-    /// As [`points`](Self::points).
+    /// The same errors as [`points`](Self::points).
     pub fn csv(&self, space: &Space) -> Result<Vec<u8>, Error> {
         Ok(csv(space, &self.values(space)?))
     }
@@ -110,7 +112,7 @@ impl Extension {
     }
 }
 
-/// Tests as CSV, a column for every coordinate.
+/// Writes tests as CSV, with a column for every coordinate.
 fn csv(space: &Space, tests: &[Values]) -> Vec<u8> {
     let mut csv = csv::Writer::from_writer(Vec::new());
     let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");

@@ -12,7 +12,7 @@ use thiserror::Error;
 pub struct Exists {
     /// The file.
     pub path: PathBuf,
-    /// What was to be written, with its article.
+    /// The thing that was to be written, with its article.
     pub what: &'static str,
 }
 
@@ -21,15 +21,15 @@ impl Reason for Exists {}
 /// Checks that a file does not exist yet.
 ///
 /// # Errors
-/// It exists; `what` names what was to be written, with its article.
+/// The file exists; `what` names the thing that was to be written, with its article.
 pub fn is_new(path: &Path, what: &'static str) -> Result<(), Exists> {
     if path.exists() { Err(Exists { path: path.to_owned(), what }) } else { Ok(()) }
 }
 
-/// Writes a file so that it is never seen half-written, not even after a crash.
+/// Writes a file in such a way that nobody ever sees it half-written, not even after a crash.
 ///
 /// # Errors
-/// It cannot be written: the disk is full, say.
+/// The file cannot be written, for example because the disk is full.
 pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
     let mut part = path.as_os_str().to_owned();
     part.push(".part");
@@ -41,7 +41,7 @@ pub fn write_whole(path: &Path, contents: &[u8]) -> Result<(), Error> {
         fs::rename(&part, path)
     };
     write().map_err(|source| {
-        // What is left of it is of no use to anybody; that it cannot be removed either changes nothing.
+        // The partial file is of no use. If it cannot be removed either, nothing else can be done.
         let _ = fs::remove_file(&part);
         Error::io("write", path)(source)
     })

@@ -1,9 +1,10 @@
-//! The folder of a campaign, open for appending: `campaign.json` says which tests are run, `trials.jsonl` what became of them.
+//! The folder of a campaign, open for appending: `campaign.json` describes the tests, and `trials.jsonl` holds their
+//! results.
 //!
-//! Nothing is lost and nothing is overwritten: the study is written whole or not at all, every trial is handed
-//! to the system as one line as soon as those before it are there, and a folder that holds anything of ours is
-//! not begun anew. A line without its end is what a kill leaves behind; it is dropped when the campaign is
-//! resumed, and its test run again.
+//! Nothing is lost and nothing is overwritten. The study is written whole or not at all. Every trial is written to the
+//! file as one line as soon as the trials before it are written. A folder that holds files of a campaign is not begun
+//! anew. A process that is killed may leave a line without its end; when the campaign is resumed, this line is dropped
+//! and its test runs again.
 
 use crate::files::write_whole;
 use crate::json::differing_key;
@@ -19,9 +20,9 @@ use thiserror::Error;
 
 pub(crate) const STUDY: &str = "campaign.json";
 pub(crate) const TRIALS: &str = "trials.jsonl";
-/// The tests that the study counts as done.
+/// The file of the tests that the study counts as done.
 pub(crate) const EXTENDED: &str = "extended.csv";
-/// The files of artefacts, which are derived from the trials at the end of a campaign, or later.
+/// The files of artefacts, which are derived from the trials at the end of a campaign or later.
 pub const DERIVED: [&str; 13] = [
     "trials.csv",
     "coverage.json",
@@ -45,16 +46,16 @@ pub struct Folder {
     log: File,
 }
 
-/// Why a campaign cannot be begun or continued in a folder.
+/// The reason why a campaign cannot be begun or continued in a folder.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FolderFlaw {
-    /// It is a file.
+    /// The path is that of a file.
     #[error("{} is a file, expected a folder to write to", path.display())]
     File {
         /// The file.
         path: PathBuf,
     },
-    /// It holds a campaign.
+    /// The folder already holds a campaign.
     #[error(
         "{} holds a campaign already ({name}): continue it with --resume, or write elsewhere with --out", path.display()
     )]
@@ -64,7 +65,7 @@ pub enum FolderFlaw {
         /// A file of the campaign.
         name: &'static str,
     },
-    /// It holds a part of a campaign.
+    /// The folder holds files of a campaign, but no study.
     #[error("{} has {name} but no {STUDY}, so it cannot be continued", path.display())]
     NoStudy {
         /// The folder.
@@ -72,19 +73,19 @@ pub enum FolderFlaw {
         /// A file of the campaign.
         name: &'static str,
     },
-    /// It holds another campaign.
+    /// The folder holds another campaign.
     #[error("{} holds a different campaign: its `{key}` is {there}, this command's is {here}", path.display())]
     OtherStudy {
         /// The folder.
         path: PathBuf,
-        /// The entry of campaign.json in which they differ.
+        /// The entry of campaign.json in which the two campaigns differ.
         key: String,
         /// The entry in the folder.
         there: String,
         /// The entry of the study.
         here: String,
     },
-    /// Another process writes to it.
+    /// Another process writes to the folder.
     #[error("another process is writing to {}", path.display())]
     InUse {
         /// The log.
@@ -92,13 +93,13 @@ pub enum FolderFlaw {
     },
 }
 
-/// A name that only a campaign's own files have.
+/// A name that is reserved for a campaign's own files.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{} has the name of a campaign's own file, which {what} must not replace", path.display())]
 pub struct NotYours {
     /// The file.
     pub path: PathBuf,
-    /// What was to be written, with its article.
+    /// The thing that was to be written, with its article.
     pub what: &'static str,
 }
 
@@ -106,7 +107,7 @@ impl Reason for FolderFlaw {}
 impl Reason for NotYours {}
 
 impl Folder {
-    /// Begins a campaign in a folder that is made if need be.
+    /// Begins a campaign in a folder, and makes the folder if it does not exist.
     ///
     /// # Errors
     /// The folder cannot be written, or holds a campaign.
@@ -123,10 +124,11 @@ impl Folder {
         Self::open(path)
     }
 
-    /// Continues the campaign of this study in its folder, or begins it if there is none yet; with the trials that are there.
+    /// Continues the campaign of this study in its folder, and returns the trials that are there. Begins the campaign
+    /// if there is none yet.
     ///
     /// # Errors
-    /// The folder holds another campaign, or a log that is broken before its end.
+    /// The folder holds another campaign, or a log that is broken before its last line.
     pub fn resume(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<(Self, Vec<Trial>), Error> {
         if !path.join(STUDY).exists() {
             if let Some(name) = present(path, &[]) {
@@ -158,7 +160,7 @@ impl Folder {
         }
     }
 
-    /// Where it is.
+    /// Returns the path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -171,13 +173,13 @@ impl Folder {
         write_study(&self.path, study, learned, extension)
     }
 
-    /// Writes a trial down.
+    /// Appends a trial to the log.
     ///
     /// # Errors
     /// The log cannot be written: the disk is full, say.
     pub fn append(&mut self, trial: &Trial) -> Result<(), Error> {
         let file = self.path.join(TRIALS);
-        // A folder that was removed takes the log with it, though writing goes on without a complaint.
+        // A removed folder takes the log with it, but writing to the open file still succeeds.
         if !file.exists() {
             return Err(Failure::Removed { path: file }.into());
         }
@@ -194,13 +196,14 @@ impl Folder {
         write_whole(&self.path.join(name), contents)
     }
 
-    /// Whether a file of that name in a campaign's folder is the campaign's own, not to be written by anybody else.
+    /// Returns `true` if a file with this name in a campaign's folder belongs to the campaign, so that nobody else may
+    /// write it.
     pub fn owns(name: &OsStr) -> bool {
         [STUDY, TRIALS, EXTENDED].into_iter().chain(DERIVED).any(|ours| ours == name)
     }
 }
 
-/// A file of a campaign that is there: one of these, or one that follows from them.
+/// Returns the name of a file of a campaign that exists: one of `first`, the log, or a file derived from the log.
 fn present(path: &Path, first: &[&'static str]) -> Option<&'static str> {
     let mut ours = first.iter().copied().chain([TRIALS, EXTENDED]).chain(DERIVED);
     ours.find(|name| path.join(name).exists())
@@ -210,7 +213,7 @@ fn write_study(path: &Path, study: &Study, learned: &Learned, extension: Option<
     write_whole(&path.join(STUDY), StudyFile::new(study, learned, extension).text().as_bytes())
 }
 
-/// Keeps the tests that the study counts as done, if they are not kept yet.
+/// Writes the tests that the study counts as done to the folder, if they are not there yet.
 fn keep_extended(path: &Path, study: &Study, extension: Option<&Extension>) -> Result<(), Error> {
     let file = path.join(EXTENDED);
     match extension {
@@ -227,7 +230,8 @@ fn same_study(path: &Path, study: &Study, extension: Option<&Extension>) -> Resu
     let there = there.map_err(|flaw| Error::in_file(&file, flaw.line(), flaw))?;
     let here = StudyFile::new(study, &Learned::new(), extension);
     let [there, here] = [there, here].map(|study| serde_json::to_value(study).expect("a study is always JSON"));
-    // The same tests may be read from another file, and a campaign that learns on its way stays the same one.
+    // The same tests may come from another file, and a campaign that learns scales on its way remains the same
+    // campaign.
     let [tests_there, tests_here] = [&there, &here].map(|study| {
         let mut study = study.clone();
         if let Some(extends) = study.get_mut("extends") {

@@ -1,9 +1,10 @@
-//! JSON: numbers that serde has no form for, infinities as "inf" and "-inf"; and where two files differ.
+//! JSON helpers: writes infinities, which JSON does not have, as "inf" and "-inf", and finds the first difference of
+//! two files.
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A number of a log, or none: infinities are words, NaN is null.
+/// A number of a log, or none. JSON has infinities as words and NaN as null.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number(pub Option<f64>);
 
@@ -30,7 +31,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// The first entry in which two objects differ.
+/// Returns the first key in which two objects differ, if they differ.
 pub fn differing_key<'v>(there: &'v serde_json::Value, here: &'v serde_json::Value) -> Option<&'v str> {
     let keys = there.as_object().into_iter().chain(here.as_object()).flatten().map(|(key, _)| key.as_str());
     keys.into_iter().find(|key| there.get(key) != here.get(key))

@@ -1,14 +1,15 @@
-//! Asks the formulas that were given with a study of the trace of a test.
+//! Judges the trace of a test by the formulas that were given with a study.
 
 use crate::study::StatedRequirement;
 use crate::{Problem, ProblemKind, Trial};
 use paracosm_engine::{Judgement, Violation};
 use paracosm_oracles::{EvaluationError, Trace, Truth, Verdict};
 
-/// Judges a trial by the requirements that were given with its study, beside those that it was judged by already.
+/// Judges a trial by the requirements that were given with its study, in addition to those by which it was judged
+/// before.
 ///
-/// A formula that cannot be evaluated ends the trial with an error. An error that every trace would have goes before an error
-/// of this trace.
+/// A formula that cannot be evaluated ends the trial with an error. If there are several errors, an error that every
+/// trace would have takes precedence over an error of this trace alone.
 pub fn judge<'r>(trial: &mut Trial, requirements: impl Iterator<Item = &'r StatedRequirement>, trace: &Trace) {
     if trial.problem.is_some() {
         return;
@@ -42,7 +43,7 @@ pub fn judge<'r>(trial: &mut Trial, requirements: impl Iterator<Item = &'r State
     }
 }
 
-/// Why a formula says nothing of a trace.
+/// Returns the problem of a formula that cannot judge a trace.
 fn unasked(id: &str, error: &EvaluationError) -> Problem {
     let requirement = id.to_owned();
     match error {

@@ -1,7 +1,18 @@
-//! A study to a log.
+//! Runs campaigns: it turns a study into a log of tests and their results.
 //!
-//! A [`Study`] says what is tested; [`Campaign::run`] runs its tests and shows every [`Trial`] to its [observers](Observer); a
-//! [`Folder`] keeps them, and a [`Log`] is what was kept. A campaign knows no scenario: it is given a [`Catalogue`].
+//! A [`Study`] describes what is tested. [`Campaign::run`] runs the tests of a study and shows every [`Trial`] to its
+//! [observers](Observer). A [`Folder`] stores the trials, and a [`Log`] holds the trials that were read from a folder
+//! or kept in memory. A campaign gets its scenarios from a [`Catalogue`]; it knows none by itself.
+//!
+//! ```
+//! use paracosm_campaign::{Campaign, Catalogue, Study};
+//!
+//! let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+//! let study = Study::of(catalogue.find("pedestrian-crossing")?).budget(4).build()?;
+//! let log = Campaign::new(&study)?.into_log()?;
+//! assert_eq!(log.trials().len(), 4);
+//! # Ok::<(), paracosm_campaign::Error>(())
+//! ```
 
 mod artefact;
 mod black_box;
@@ -60,7 +71,7 @@ pub use trace_file::{read_trace, write_trace};
 pub use trial::{Metric, Problem, ProblemKind, Trial};
 pub use worker::Worker;
 
-/// Everything that can be wrong with what a user asks for: the types behind [`Error::Use`] and [`BadFile`].
+/// The types of all errors in a user's request: the reasons behind [`Error::Use`] and [`BadFile`].
 pub mod reasons {
     pub use crate::black_box::{AnswerFlaw, NoSystem, NotStarted, TimeoutFlaw};
     pub use crate::campaign::ForeignTrial;

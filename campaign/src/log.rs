@@ -1,4 +1,4 @@
-//! The log of a campaign: its study, and what became of each test.
+//! The log of a campaign: its study, and the result of each test.
 
 use crate::folder::{EXTENDED, STUDY, TRIALS};
 use crate::scales::{Learned, Scales};
@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// A campaign that was run, or a part of one: all that analyses need.
+/// A campaign that was run, completely or in part: the input of all analyses.
 #[derive(Debug, Clone)]
 pub struct Log {
     study: Study,
@@ -20,7 +20,7 @@ pub struct Log {
     trials: Vec<Trial>,
 }
 
-/// The folder of a campaign where a space was named as well.
+/// The path is the folder of a campaign, but a space was given as well.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{} is the folder of a campaign, which has its own space: leave --space out", path.display())]
 pub struct HasSpace {
@@ -31,18 +31,19 @@ pub struct HasSpace {
 impl Reason for HasSpace {}
 
 impl Log {
-    /// The log of these trials of a study. Scales that the campaign has not learned yet are learned from them.
+    /// Makes the log of these trials of a study. Scales that the campaign has not learned yet are learned from the
+    /// trials.
     pub fn new(study: Study, learned: Learned, extension: Option<Extension>, trials: Vec<Trial>) -> Self {
         let mut scales = Scales::of(&study, learned);
         scales.learn(&trials);
         Self { study, scales, extension, trials }
     }
 
-    /// Reads the folder of a campaign: its study and the trials that are there.
+    /// Reads the folder of a campaign: its study and its trials.
     ///
     /// # Errors
-    /// There is none, or one of its files is broken. If the catalogue does not have its scenario, only a test that is run says
-    /// so.
+    /// The folder holds no campaign, or one of its files is broken. If the catalogue does not have the scenario, the
+    /// error comes only when a test is run.
     pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Self, Error> {
         let file = path.join(STUDY);
         let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
@@ -54,44 +55,44 @@ impl Log {
         Ok(Self::new(study, learned, extension, trials))
     }
 
-    /// What was tested.
+    /// Returns the study of the campaign.
     pub fn study(&self) -> &Study {
         &self.study
     }
 
-    /// How much robustness is a lot.
+    /// Returns the scales of the requirements.
     pub fn scales(&self) -> &Scales {
         &self.scales
     }
 
-    /// The tests that count as done.
+    /// Returns the tests that count as done.
     pub fn extension(&self) -> Option<&Extension> {
         self.extension.as_ref()
     }
 
-    /// The trials, in the order of their indices from 0 on.
+    /// Returns the trials, in the order of their indices from 0 on.
     pub fn trials(&self) -> &[Trial] {
         &self.trials
     }
 
-    /// The same campaign with other trials.
+    /// Returns the same campaign with other trials.
     pub fn with_trials(&self, trials: Vec<Trial>) -> Self {
         Self { trials, ..self.clone() }
     }
 
-    /// The tests that count as done, as points.
+    /// Returns the tests that count as done, as points.
     ///
     /// # Errors
-    /// Their file cannot be read, or holds other tests.
+    /// The file of the tests cannot be read, or holds other tests.
     pub fn existing(&self) -> Result<Vec<Point>, Error> {
         self.extension.as_ref().map_or(Ok(Vec::new()), |extension| extension.points(self.study.space()))
     }
 
-    /// The tests that say anything of the place where they are: not those with the verdict `error` or `invalid`. Tests that
-    /// count as done come first.
+    /// Returns the tests that cover a place of the space: all except those with the verdict `error` or `invalid`. Tests
+    /// that count as done come first.
     ///
     /// # Errors
-    /// A test is not of the space, or those that are done cannot be read.
+    /// A test does not belong to the space, or the tests that count as done cannot be read.
     pub fn test_set(&self) -> Result<TestSet, Error> {
         let space = self.study.space();
         let mut points = self.existing()?;
@@ -102,10 +103,10 @@ impl Log {
     }
 }
 
-/// Reads tests of a space from a CSV, or those of the campaign in a folder.
+/// Reads tests of a space from a CSV file, or the tests of the campaign in a folder.
 ///
 /// # Errors
-/// The file cannot be read, or does not hold tests of the space; or a space is named for a folder.
+/// The file cannot be read, or does not hold tests of the space; or a space is given for a folder.
 pub fn read_tests(path: &Path, space: Option<Space>) -> Result<TestSet, Error> {
     match (path.is_dir(), space) {
         (false, space) => TestSet::read(path, space),

@@ -1,11 +1,11 @@
-//! Whoever watches a campaign: a log, a progress bar, an early stop.
+//! Observers watch a campaign: a log, a progress bar, an early stop.
 
 use crate::scales::Learned;
 use crate::{Error, Trial};
 use std::ops::ControlFlow;
 
-/// Watches a campaign. It sees every trial, in the order of their indices whatever the number of threads, and may end the
-/// campaign, but changes nothing about its tests.
+/// Watches a campaign. An observer sees every trial in the order of the indices, whatever the number of threads. It may
+/// end the campaign, but changes nothing about its tests.
 ///
 /// A closure that takes a `&Trial` is an observer that sees new trials.
 pub trait Observer {
@@ -23,7 +23,7 @@ pub trait Observer {
     /// An error of the observer ends the campaign.
     fn trial(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error>;
 
-    /// Sees a trial that was run before the campaign was resumed. These come first.
+    /// Sees a trial that was run before the campaign was resumed. These trials come before the new ones.
     ///
     /// # Errors
     /// An error of the observer ends the campaign.
@@ -31,7 +31,7 @@ pub trait Observer {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Sees that the campaign has run its last test. Whatever is derived from the trials comes next.
+    /// Sees that the campaign has run its last test. The results that are derived from the trials come next.
     ///
     /// # Errors
     /// An error of the observer ends the work.
@@ -39,7 +39,7 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Sees the scales of requirements that state none as soon as the campaign has learned them.
+    /// Sees the learned scales of requirements that state no scale, as soon as the campaign has learned them.
     ///
     /// # Errors
     /// An error of the observer ends the campaign.

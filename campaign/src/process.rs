@@ -1,7 +1,7 @@
-//! A process of somebody else's, and what becomes of it.
+//! Runs an external process, and finds out how it ended.
 //!
-//! It leads a process group of its own, which is ended as a whole: a shell takes its children with it. The last of what it
-//! complains of is kept, for whoever has to say why it ended.
+//! The process leads a process group of its own, which is ended as a whole, so that the children of a shell end with
+//! it. The last output of the process on its standard error is kept, for the message that says why the process ended.
 
 use crate::Reason;
 use std::collections::VecDeque;
@@ -12,16 +12,16 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// How many of its last words are kept, in bytes.
+/// The number of bytes of the process's last words that are kept.
 const LAST_WORDS: usize = 400;
 
-/// How long what a process said before it ended may take to arrive.
+/// The longest time that the last output of a process may take to arrive after the process ended.
 pub const ARRIVAL: Duration = Duration::from_secs(1);
 
-/// How long a process may take to end when it is asked nothing more.
+/// The longest time that a process may take to end by itself after its standard input is closed.
 const FAREWELL: Duration = Duration::from_millis(500);
 
-/// A process with its standard streams in hand.
+/// A process with its standard streams.
 pub struct Process {
     child: Child,
     complaints: Arc<Mutex<VecDeque<u8>>>,
@@ -29,7 +29,7 @@ pub struct Process {
 }
 
 impl Process {
-    /// Starts the command of these words, of which there is at least one, with these additions to its environment.
+    /// Starts the command of these words, of which there is at least one, with additional variables in its environment.
     pub fn start(words: &[String], environment: &[(&str, String)]) -> io::Result<Self> {
         let mut command = Command::new(&words[0]);
         command.args(&words[1..]).envs(environment.iter().map(|(name, value)| (name, value)));
@@ -43,34 +43,36 @@ impl Process {
         Ok(process)
     }
 
-    /// Its standard input, if nobody has taken it yet.
+    /// Returns the standard input of the process, if nobody has taken it yet.
     pub fn stdin(&mut self) -> Option<ChildStdin> {
         self.child.stdin.take()
     }
 
-    /// Its standard output, if nobody has taken it yet.
+    /// Returns the standard output of the process, if nobody has taken it yet.
     pub fn stdout(&mut self) -> Option<ChildStdout> {
         self.child.stdout.take()
     }
 
-    /// Keeps the last of what is read here among its last words.
+    /// Keeps the end of a stream among the last words of the process.
     pub fn keep_last_of(&mut self, stream: impl Read + Send + 'static) {
         let kept = self.complaints.clone();
         self.listeners.push(thread::spawn(move || keep_last(stream, &kept)));
     }
 
-    /// How it ended, if it has.
+    /// Returns the exit status of the process, if it has ended.
     pub fn status(&mut self) -> Option<ExitStatus> {
         self.child.try_wait().ok().flatten()
     }
 
-    /// How it ended, if it does so within a moment: it closes its streams before it is known to have ended.
+    /// Returns the exit status of the process, if it ends within a moment. A process closes its streams before its end
+    /// is known.
     pub fn ended(&mut self) -> Option<ExitStatus> {
         wait_until(ARRIVAL, || self.status().is_some());
         self.status()
     }
 
-    /// What happened to it, with its last words. It is ended if it has not ended yet.
+    /// Returns a description of what happened to the process, with its last words. Ends the process if it has not ended
+    /// yet.
     pub fn post_mortem(&mut self, how: String) -> String {
         self.end();
         wait_until(ARRIVAL, || self.listeners.iter().all(JoinHandle::is_finished));
@@ -82,9 +84,9 @@ impl Process {
         }
     }
 
-    /// Ends it and all that it started, at once.
+    /// Ends the process and everything that it started, at once.
     pub fn end(&mut self) {
-        // Those that have ended already cannot be ended.
+        // Processes that have ended already cannot be ended.
         #[cfg(unix)]
         let _ = rustix::process::kill_process_group(
             rustix::process::Pid::from_child(&self.child),
@@ -95,7 +97,7 @@ impl Process {
     }
 }
 
-/// A process that is not needed any more may end by itself, now that it is asked nothing more, before it is ended.
+/// Closes the standard input of a process that is no longer needed, gives it a moment to end by itself, then ends it.
 impl Drop for Process {
     fn drop(&mut self) {
         drop(self.child.stdin.take());
@@ -104,7 +106,7 @@ impl Drop for Process {
     }
 }
 
-/// Waits until something is so, but no longer than that; whether it is.
+/// Waits until a condition holds, but no longer than `longest`; returns `true` if the condition holds.
 fn wait_until(longest: Duration, mut so: impl FnMut() -> bool) -> bool {
     let begun = Instant::now();
     while !so() {
@@ -126,23 +128,23 @@ fn keep_last(mut stream: impl Read, kept: &Mutex<VecDeque<u8>>) {
     }
 }
 
-/// What keeps a text from being a command.
+/// The reason why a text is not a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum CommandFlaw {
-    /// A quote that is opened and not closed.
+    /// A quote is opened and not closed.
     #[error("a quote is not closed")]
     OpenQuote,
-    /// No word, or an empty one.
+    /// The command has no word, or an empty first word.
     #[error("found no program, expected the command that starts it")]
     NoProgram,
 }
 
 impl Reason for CommandFlaw {}
 
-/// The words of a command as a shell splits them.
+/// Splits a command into words as a shell does.
 ///
 /// # Errors
-/// The text is no command.
+/// The text is not a command.
 pub fn words(command: &str) -> Result<Vec<String>, CommandFlaw> {
     let words = shell_words::split(command).map_err(|_| CommandFlaw::OpenQuote)?;
     if words.first().is_none_or(String::is_empty) {

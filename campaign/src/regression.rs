@@ -1,8 +1,8 @@
-//! Regression files: one test with all that is needed to run it again, and what is to become of it.
+//! Regression files: one test with everything that is needed to run it again, and its expected result.
 //!
-//! A campaign's folder is large and of one version of the software; what is worth keeping of it is a few failing tests.
-//! Such a file is made when a test fails and says so. Who mends what failed edits `expect` to `"pass"`, and the file
-//! watches that it stays mended.
+//! A campaign's folder is large and belongs to one version of the software; usually only a few failing tests are worth
+//! keeping. A regression file is made from a failing test, and says that the test fails. When the failure is repaired,
+//! change `expect` to `"pass"`; from then on the file checks that the failure stays repaired.
 
 use crate::files::{is_new, write_whole};
 use crate::study_file::StudyFile;
@@ -14,57 +14,57 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// One test with what is expected of it.
+/// A test with its expected result.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Regression {
-    /// What the test shows, in a sentence.
+    /// The description of the test, in a sentence.
     pub about: String,
-    /// How it is to end.
+    /// The expected result.
     pub expect: Expectation,
-    /// What it violated when it was written down.
+    /// The ids of the requirements that the test violated when the file was written.
     pub violates: Vec<String>,
     /// The values of the open parameters.
     pub test: Values,
-    /// The fingerprint of the trace that it had then; without one traces are not compared.
+    /// The fingerprint of the trace when the file was written; without it, traces are not compared.
     pub trace_hash: Option<String>,
     study: StudyFile,
 }
 
-/// How a test is to end.
+/// The expected result of a test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Expectation {
-    /// It violates what it violated when it was written down.
+    /// The test violates all requirements that it violated when the file was written.
     Fail,
-    /// It violates nothing.
+    /// The test violates nothing.
     Pass,
 }
 
-/// What became of a regression test when it was run again.
+/// The result of a regression test that was run again.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Replayed {
-    /// How it was to end.
+    /// The expected result.
     pub expect: Expectation,
-    /// Whether it did.
+    /// True if the result was the expected one.
     pub as_expected: bool,
-    /// Whether the trace was the very same; `None` where that is not to be expected: the test is to pass now, was written
-    /// down by another version of the software, or without a trace.
+    /// True if the trace was exactly the same; `None` if that cannot be expected, because the test should now pass, or
+    /// was written by another version of the software, or without a trace.
     pub same_trace: Option<bool>,
-    /// The test with what became of it.
+    /// The test with its new result.
     pub trial: Trial,
 }
 
-/// What is wrong with a regression file.
+/// The error in a regression file.
 #[derive(Debug, Error)]
 pub enum RegressionFlaw {
-    /// It is none.
+    /// The file is not a regression file.
     #[error("no regression test: {0}")]
     Json(serde_json::Error),
-    /// Its test is none of its study.
+    /// The test does not belong to the study of the file.
     #[error("`test`: {0}")]
     Test(SpaceError),
-    /// It is about a requirement that its study does not have.
+    /// The file names a requirement that its study does not have.
     #[error("`violates`: no requirement is called `{id}`")]
     NoRequirement {
         /// The id.
@@ -72,7 +72,7 @@ pub enum RegressionFlaw {
     },
 }
 
-/// A name that no regression file can have.
+/// The name cannot be that of a regression file.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}: expected the name of a regression file, as regressions/NAME.json", path.display())]
 pub struct NoRegressionName {
@@ -84,7 +84,7 @@ impl Reason for RegressionFlaw {}
 impl Reason for NoRegressionName {}
 
 impl Regression {
-    /// The test of a failing trial, expected to fail.
+    /// Makes the regression test of a failing trial, which is expected to fail.
     pub fn new(about: String, study: &Study, trial: &Trial) -> Self {
         let violates = trial.violated().map(str::to_owned).collect();
         let study = StudyFile { study: study.of_one_test(), learned: Default::default(), extends: None };
@@ -92,10 +92,10 @@ impl Regression {
         Self { about, expect: Expectation::Fail, violates, test, trace_hash, study }
     }
 
-    /// Reads a file.
+    /// Reads a regression file.
     ///
     /// # Errors
-    /// It cannot be read, is no such file, or its test is none of its study.
+    /// The file cannot be read, is not a regression file, or its test does not belong to its study.
     pub fn read(path: &Path, catalogue: &Catalogue) -> Result<Self, Error> {
         let text = fs::read_to_string(path).map_err(Error::io("read", path))?;
         let mut read: Self = serde_json::from_str(&text)
@@ -104,7 +104,7 @@ impl Regression {
         read.study.study = read.study.study.with_program_of(catalogue);
         let study = read.study();
         study.space().encode(&read.test).map_err(|error| wrong(RegressionFlaw::Test(error)))?;
-        // The requirements of a system that answers with robustness are only known when it answers.
+        // The requirements of a system that answers with robustness are known only from its answer.
         let judges_itself = !study.requirements().iter().any(|requirement| requirement.formula.is_some());
         let stated = |id: &&String| judges_itself || study.requirement(id).is_some();
         match read.violates.iter().find(|id| !stated(id)) {
@@ -113,10 +113,10 @@ impl Regression {
         }
     }
 
-    /// Writes a file that does not exist yet, in a folder that is made if need be.
+    /// Writes a file that does not exist yet, and makes its folder if necessary.
     ///
     /// # Errors
-    /// It exists or cannot be written.
+    /// The file exists or cannot be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
         Self::check_path(path)?;
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
@@ -127,10 +127,10 @@ impl Regression {
         write_whole(path, text.as_bytes())
     }
 
-    /// Checks that a regression file may be written there.
+    /// Checks that a regression file may be written at a path.
     ///
     /// # Errors
-    /// There is a file, or the name is that of a campaign's own.
+    /// The file exists, or its name is reserved for a campaign's own files.
     pub fn check_path(path: &Path) -> Result<(), Error> {
         if path.file_name().is_none_or(Folder::owns) {
             return Err(NoRegressionName { path: path.to_owned() }.into());
@@ -138,15 +138,15 @@ impl Regression {
         Ok(is_new(path, "a regression file")?)
     }
 
-    /// The study that it is a test of.
+    /// Returns the study that the test belongs to.
     pub fn study(&self) -> &Study {
         &self.study.study
     }
 
-    /// Runs it again.
+    /// Runs the test again.
     ///
     /// # Errors
-    /// Its study cannot be run.
+    /// The study cannot be run.
     pub fn run(&self) -> Result<Replayed, Error> {
         let mut ran = None;
         Campaign::new(self.study())?.run_tests(std::slice::from_ref(&self.test), 0, |trial| {

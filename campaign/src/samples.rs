@@ -1,15 +1,17 @@
-//! What keeps a list of samples from being a trace, whether a system answered with it or it stands in a file.
+//! The errors in a list of samples that should be a trace, whether a system answered with it or it stands in a file.
 
 use crate::Reason;
+use paracosm_space::plural;
 use thiserror::Error;
 
-/// What keeps samples from being a trace: times in seconds, evenly spaced from 0 on, and a number for every signal at each.
+/// The reason why samples are not a trace. A trace has times in seconds, evenly spaced from 0 on, and a number for
+/// every signal at each time.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum TraceFlaw {
     /// There are no times.
     #[error("found {}, expected `time` among them", found(.signals))]
     NoTime {
-        /// What there is.
+        /// The signals that were found.
         signals: Vec<String>,
     },
     /// There is nothing but times.
@@ -18,46 +20,46 @@ pub enum TraceFlaw {
     /// Two signals have one name.
     #[error("two signals are called `{signal}`")]
     Twice {
-        /// The name.
+        /// The name of the two signals.
         signal: String,
     },
     /// There are too few samples to tell the sample period.
-    #[error("found {samples} samples, expected two at least")]
+    #[error("found {}, expected at least 2", plural(*samples, "sample"))]
     TooShort {
-        /// How many there are.
+        /// The number of samples.
         samples: usize,
     },
     /// A signal has more or fewer samples than there are times.
-    #[error("`{signal}` has {found} samples, expected {expected} as `time` has")]
+    #[error("`{signal}` has {}, expected {expected}, as many as `time`", plural(*found, "sample"))]
     Length {
-        /// The signal.
+        /// The name of the signal.
         signal: String,
-        /// How many samples it has.
+        /// The number of samples of the signal.
         found: usize,
-        /// How many times there are.
+        /// The number of times.
         expected: usize,
     },
-    /// A sample is no number.
+    /// A sample is not a number.
     #[error("`{signal}` is `{found}` at sample {sample}, expected a number")]
     NoNumber {
-        /// The signal.
+        /// The name of the signal.
         signal: String,
-        /// What stands there.
+        /// The text that was found.
         found: String,
-        /// Which sample, from 0.
+        /// The index of the sample, from 0.
         sample: usize,
     },
-    /// A sample is no finite number.
+    /// A sample is not finite.
     #[error(
         "`{signal}` has no finite value (NaN, infinity or null) at sample {sample}{}",
         time.map(|time| format!(", {time} s")).unwrap_or_default()
     )]
     NoValue {
-        /// The signal.
+        /// The name of the signal.
         signal: String,
-        /// Which sample, from 0.
+        /// The index of the sample, from 0.
         sample: usize,
-        /// Its time, if that is known.
+        /// The time of the sample, if it is known.
         time: Option<f64>,
     },
     /// The first time is not 0.
@@ -66,24 +68,24 @@ pub enum TraceFlaw {
         /// The first time.
         at: f64,
     },
-    /// A time is not later than the one before it.
+    /// A time is not later than the time before it.
     #[error("`time` goes from {from} to {to} at sample {sample}, expected it to rise")]
     Falls {
-        /// The time before.
+        /// The time of the sample before.
         from: f64,
-        /// The time.
+        /// The time of the sample.
         to: f64,
-        /// Which sample, from 0.
+        /// The index of the sample, from 0.
         sample: usize,
     },
-    /// Two times are further apart than others.
+    /// The distance between two times differs from the sample period.
     #[error("the samples are not evenly spaced: sample {sample} is at {found} s, expected {expected} s")]
     Uneven {
-        /// Which sample, from 0.
+        /// The index of the sample, from 0.
         sample: usize,
-        /// Its time.
+        /// The time of the sample.
         found: f64,
-        /// The time that even samples have there.
+        /// The time that the sample should have.
         expected: f64,
     },
 }

@@ -1,20 +1,20 @@
-//! How much robustness is a lot, for searches.
+//! Scales of requirements: they tell a search how much robustness is large.
 //!
-//! A requirement of a scenario states its scale. A formula given on the command line, or a requirement that a system judges
-//! itself by, states none: it may be in thousands of revolutions or in fractions of a metre. Its scale is the largest
-//! robustness among the first tests that decide it, and stays: a search sees differences wherever these differ, and far
-//! beyond.
+//! A requirement of a scenario states its scale. A formula on the command line, or a requirement that a system judges
+//! itself by, states no scale: its robustness may be in thousands of revolutions or in fractions of a metre. Its scale
+//! is the largest robustness among the first tests that decide it, and never changes. A search therefore sees
+//! differences wherever the values of those tests differ, and far beyond.
 //!
-//! What a campaign has learned is written down with its study, so that whatever compares robustness later (which test is
-//! the worst, how far those of a failure map are from failing) means the same by it.
+//! The scales that a campaign has learned are stored with its study. All later comparisons of robustness (the worst
+//! test, the distance of a test from failure in a failure map) then use the same scales.
 
 use crate::{Study, Trial};
 use std::collections::BTreeMap;
 
-/// Where a robustness says no more to a search, in multiples of its scale.
+/// The greatest robustness that a search distinguishes, in multiples of its scale.
 const MOST: f64 = 10.0;
 
-/// Scales that a campaign has learned, in the units of the requirements, by their ids.
+/// The scales that a campaign has learned, in the units of the requirements, by their ids.
 pub type Learned = BTreeMap<String, f64>;
 
 /// The scales of all requirements of a study.
@@ -25,13 +25,13 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// The scales that a study states, and those that its campaign has learned.
+    /// Joins the scales that a study states and those that its campaign has learned.
     pub fn of(study: &Study, learned: Learned) -> Self {
         let stated = study.requirements().iter().filter_map(|stated| Some((stated.id.clone(), stated.scale?)));
         Self { stated: stated.collect(), learned }
     }
 
-    /// The scales that are learned.
+    /// Returns the scales that were learned.
     pub fn learned(&self) -> &Learned {
         &self.learned
     }
@@ -54,27 +54,27 @@ impl Scales {
         self.stated.get(id).or_else(|| self.learned.get(id)).copied()
     }
 
-    /// A robustness of this requirement in multiples of its scale; 1 where that is not known, for it was never decided
-    /// other than by 0 or an infinity.
+    /// Returns a robustness of this requirement in multiples of its scale. The scale is 1 if it is not known because
+    /// every robustness so far was 0 or infinite.
     pub fn normalised(&self, id: &str, robustness: f64) -> f64 {
         robustness / self.known(id).unwrap_or(1.0)
     }
 
-    /// The robustness of a requirement in multiples of its scale, clipped to [-10, 10]. `None` where the trial broke or it
-    /// was not decided.
+    /// Returns the robustness of a requirement in multiples of its scale, clipped to [-10, 10]; `None` if the trial has
+    /// no result or did not decide the requirement.
     pub fn clipped(&self, trial: &Trial, id: &str) -> Option<f64> {
         let robustness = trial.robustness(id).filter(|_| trial.covers())?;
         Some(self.normalised(id, robustness).clamp(-MOST, MOST))
     }
 
-    /// The objective of a search where nothing competes: the robustness of the worst of all requirements, in multiples of its
-    /// scale and clipped to [-10, 10]. `None` where the trial broke or nothing was decided.
+    /// Returns the objective of a single search: the robustness of the worst of all requirements, in multiples of its
+    /// scale and clipped to [-10, 10]; `None` if the trial has no result or decided nothing.
     pub fn objective(&self, trial: &Trial) -> Option<f64> {
         trial.requirements().filter_map(|id| self.clipped(trial, id)).min_by(f64::total_cmp)
     }
 
-    /// The requirement that a trial comes nearest to violating, or violates most: its id and its robustness in
-    /// multiples of its scale. `None` where the trial broke or nothing was decided.
+    /// Returns the requirement that a trial comes nearest to violating, or violates most: its id, and its robustness in
+    /// multiples of its scale; `None` if the trial has no result or decided nothing.
     pub fn worst<'t>(&self, trial: &'t Trial) -> Option<(&'t str, f64)> {
         let worth = |id: &'t str| Some((id, self.normalised(id, trial.robustness(id)?)));
         trial.requirements().filter(|_| trial.covers()).filter_map(worth).min_by(|a, b| a.1.total_cmp(&b.1))

@@ -1,4 +1,4 @@
-//! Spaces as files: SPACE.toml, or a model file of PICT.
+//! Reads spaces from files: SPACE.toml, or a model file of PICT.
 
 use crate::{Error, Reason};
 use paracosm_space::demand::Demand;
@@ -9,47 +9,48 @@ use std::fs;
 use std::path::Path;
 use thiserror::Error;
 
-/// The endings by which a file is known as a model of PICT; any other is taken for TOML.
+/// The endings of the names of PICT models; all other files are read as TOML.
 const PICT: [&str; 3] = ["pict", "txt", "model"];
 
-/// What a file says of a space.
+/// The contents of the file of a space.
 #[derive(Debug, Clone)]
 pub struct SpaceFile {
-    /// The parameters.
+    /// The space with its parameters.
     pub space: Space,
-    /// What a model asks for beside all combinations of k values.
+    /// The combinations that a PICT model requires in addition to all combinations of k values.
     pub demand: Demand,
-    /// What a reader should know of how the file was understood, a sentence each.
+    /// Notes on how the file was understood, a sentence each.
     pub notes: Vec<String>,
 }
 
-/// What is wrong with the file of a space.
+/// The error in the file of a space.
 #[derive(Debug, Error)]
 pub enum SpaceFileFlaw {
-    /// It is no text.
+    /// The file is not UTF-8 text.
     #[error("found bytes that are no UTF-8, expected a text in UTF-8")]
     NoText,
-    /// It is no model of PICT.
+    /// The file is not a valid PICT model.
     #[error("column {}: {}", .0.column, .0.flaw)]
     Pict(PictError),
-    /// It is no space.
+    /// The file does not describe a valid space.
     #[error("{}{}", .0.at().map(|at| format!("column {}: ", at.column)).unwrap_or_default(), .0)]
     Space(SpaceError),
 }
 
 impl Reason for SpaceFileFlaw {}
 
-/// Whether a file is a model of PICT by its name.
+/// Returns `true` if the name of a file is that of a PICT model.
 pub fn is_model(path: &Path) -> bool {
     let ending = path.extension().and_then(OsStr::to_str);
     ending.is_some_and(|ending| PICT.contains(&ending.to_lowercase().as_str()))
 }
 
 impl SpaceFile {
-    /// Reads a model of PICT, if the file is called so, or a SPACE.toml.
+    /// Reads a PICT model if the name of the file is that of a model, otherwise a SPACE.toml.
     ///
     /// # Errors
-    /// The file cannot be read, or is none; the error says in which line and column. Or no test keeps its constraints.
+    /// The file cannot be read or is not valid, or no test satisfies its constraints. The error names the line, and the
+    /// column if it is known.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = String::from_utf8(fs::read(path).map_err(Error::io("read", path))?);
         let text = text.map_err(|error| {
@@ -75,7 +76,7 @@ impl SpaceFile {
     }
 }
 
-/// Checks that some test keeps all constraints; the first of them stand written in the file, each from a line on.
+/// Checks that some test satisfies all constraints. `written` holds the line and the text of the first constraints.
 fn check(path: &Path, space: &Space, written: &[(usize, String)]) -> Result<(), Error> {
     let located = |(index, text): (usize, String)| match written.get(index) {
         Some((line, statement)) => (index, format!("{}:{line}: {statement}", path.display())),

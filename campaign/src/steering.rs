@@ -1,9 +1,9 @@
-//! What a campaign asks for tests: one search, driven by the worst of all requirements; or, where a strategy is after a
-//! failure and there are several requirements to violate, one search for each and a bandit between them.
+//! Chooses a campaign's tests: it runs one search, driven by the worst of all requirements. If the strategy seeks a
+//! failure and there are several requirements, it runs one search for each and lets a bandit choose between them.
 //!
-//! Which requirements there are follows from the study or, of a system that answers with robustness, from its first
-//! answer. So everything follows from the study and the trials in their order, and a resumed campaign goes on as it
-//! would have.
+//! The requirements are those of the study or, if a system answers with robustness, those of its first answer. All
+//! choices therefore depend only on the study and on the trials in their order, and a resumed campaign continues as it
+//! would have without the interruption.
 
 use crate::scales::{Learned, Scales};
 use crate::{Study, Trial};
@@ -17,7 +17,7 @@ pub struct Steering<'a> {
     existing: Vec<Point>,
     search: Steered,
     scales: Scales,
-    /// The tests that were told before any requirement was known: all came to nothing.
+    /// The tests whose results were reported before any requirement was known; none of them has a result.
     before: Vec<Point>,
 }
 
@@ -27,20 +27,20 @@ enum Steered {
 }
 
 impl<'a> Steering<'a> {
-    /// The source of the tests of a study, which complete the existing ones.
+    /// Makes the source of the tests of a study. The tests complete the `existing` ones.
     ///
     /// # Errors
-    /// As [`Study::generator`].
+    /// The same errors as [`Study::generator`].
     pub fn new(study: &'a Study, existing: Vec<Point>) -> Result<Self, GeneratorError> {
         let generator = study.generator(&existing)?;
         Self::with(study, generator, existing)
     }
 
-    /// The source of the tests of a study that another generator of its strategy proposes. Searches for single requirements are
-    /// the study's.
+    /// Makes the source of the tests of a study that another generator of its strategy proposes. Searches for single
+    /// requirements still use the study's own generator.
     ///
     /// # Errors
-    /// As [`Study::generator`].
+    /// The same errors as [`Study::generator`].
     pub fn with(study: &'a Study, generator: Box<dyn Generator>, existing: Vec<Point>) -> Result<Self, GeneratorError> {
         let (search, scales) = (Steered::One(generator), Scales::of(study, Learned::new()));
         let mut steering = Self { study, existing, search, scales, before: Vec::new() };
@@ -49,7 +49,7 @@ impl<'a> Steering<'a> {
         Ok(steering)
     }
 
-    /// The next tests, at most `n`; none once there are no more.
+    /// Returns the next tests, at most `n`; no tests if the strategy is exhausted.
     pub fn ask(&mut self, n: usize) -> Vec<Point> {
         match &mut self.search {
             Steered::One(search) => search.ask(n),
@@ -57,10 +57,10 @@ impl<'a> Steering<'a> {
         }
     }
 
-    /// What became of tests that were asked for.
+    /// Reports the results of tests that were asked for.
     ///
     /// # Errors
-    /// As [`Study::generator`].
+    /// The same errors as [`Study::generator`].
     pub fn tell(&mut self, tests: &[Point], trials: &[Trial]) -> Result<(), GeneratorError> {
         self.scales.learn(trials);
         if let (Steered::One(_), Some(first)) = (&self.search, trials.iter().find(|trial| trial.covers())) {
@@ -83,12 +83,12 @@ impl<'a> Steering<'a> {
         Ok(())
     }
 
-    /// The scales by which the searches are told.
+    /// Returns the scales by which the searches measure robustness.
     pub fn scales(&self) -> &Scales {
         &self.scales
     }
 
-    /// Begins a search for each of these requirements, if that makes sense.
+    /// Begins a search for each of these requirements, if there are several and the strategy seeks a failure.
     fn know<'i>(&mut self, ids: impl Iterator<Item = &'i str>) -> Result<(), GeneratorError> {
         let ids: Vec<String> = ids.map(str::to_owned).collect();
         if ids.len() < 2 || !self.study.sampling().strategy.seeks_a_failure() {

@@ -1,4 +1,4 @@
-//! A study as `campaign.json` has it, with what its campaign learned and which tests it extends.
+//! The file `campaign.json`: a study, the scales that its campaign learned, and the tests that it extends.
 
 use crate::study::{Maker, Odd, Sampling, StatedRequirement, Study, Subject};
 use crate::{Catalogue, Extension, ExtensionRecord, Learned, Reason};
@@ -14,9 +14,9 @@ const FORMAT: u32 = 1;
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(try_from = "Entries", into = "Entries")]
 pub struct StudyFile {
-    /// The study. One that was read knows no program yet: [`Study::with_program_of`] looks for it.
+    /// The study. After reading it has no program yet; [`Study::with_program_of`] finds the program.
     pub study: Study,
-    /// The scales that its campaign has learned.
+    /// The scales that the campaign has learned.
     pub learned: Learned,
     /// The tests that count as done.
     pub extends: Option<ExtensionRecord>,
@@ -56,21 +56,21 @@ struct Entries {
     extends: Option<ExtensionRecord>,
 }
 
-/// What keeps a file from holding a study that this software understands.
+/// The reason why a file does not hold a study that this software understands.
 #[derive(Debug, Error)]
 pub enum FormatFlaw {
-    /// It is of another version.
+    /// The file has the format of another version.
     #[error("found format {found}, expected {FORMAT}: the campaign is of another version, {version}")]
     Format {
-        /// The format.
+        /// The number of the format.
         found: u32,
-        /// The version of the software.
+        /// The version of the software that wrote the file.
         version: String,
     },
-    /// It names a strategy, a family or an aim that there is not.
+    /// The file names a strategy, a family or an aim that does not exist.
     #[error(transparent)]
     Sampling(#[from] GeneratorError),
-    /// It is no study, or not even JSON.
+    /// The file is not JSON, or its JSON is not a study.
     #[error("{0}")]
     Json(serde_json::Error),
 }
@@ -78,7 +78,7 @@ pub enum FormatFlaw {
 impl Reason for FormatFlaw {}
 
 impl FormatFlaw {
-    /// The line, from 1, at which JSON is broken.
+    /// Returns the line, from 1, of an error in the JSON.
     pub fn line(&self) -> Option<usize> {
         match self {
             Self::Json(error) => Some(error.line()),
@@ -88,23 +88,23 @@ impl FormatFlaw {
 }
 
 impl StudyFile {
-    /// A study, with what its campaign has learned and the tests that it extends.
+    /// Joins a study, the scales that its campaign has learned, and the tests that it extends.
     pub fn new(study: &Study, learned: &Learned, extension: Option<&Extension>) -> Self {
         let extends = extension.map(|extension| extension.record().clone());
         Self { study: study.clone(), learned: learned.clone(), extends }
     }
 
-    /// Reads a file's text, and looks for the program of its scenario.
+    /// Reads the text of a file, and looks for the program of its scenario.
     ///
     /// # Errors
-    /// It is no study, or of another version.
+    /// The text is not a study, or is of another version.
     pub fn parse(text: &str, catalogue: &Catalogue) -> Result<Self, FormatFlaw> {
         let entries: Entries = serde_json::from_str(text).map_err(FormatFlaw::Json)?;
         let file = Self::try_from(entries)?;
         Ok(Self { study: file.study.with_program_of(catalogue), ..file })
     }
 
-    /// The file's text.
+    /// Returns the text of the file.
     pub fn text(&self) -> String {
         let mut text = serde_json::to_string_pretty(self).expect("a study is always JSON");
         text.push('\n');
@@ -120,7 +120,8 @@ impl TryFrom<Entries> for StudyFile {
         if format != FORMAT {
             return Err(FormatFlaw::Format { found: format, version });
         }
-        // The sequence had a name of its own, with a seed or without, until it was found to be the seeded `halton`.
+        // This sequence had the name `halton-shifted`, with or without a seed, until it was found to be the seeded
+        // `halton`.
         let (strategy, seed) = match entries.strategy.as_str() {
             "halton-shifted" => (Strategy::HALTON, Some(entries.seed.unwrap_or(0))),
             name => (name.parse()?, entries.seed),

@@ -1,50 +1,51 @@
-//! Tests from a file: a CSV with a header, its columns named as the parameters of a space.
+//! Reads tests from a CSV file whose header names the parameters of a space.
 
 use crate::{Error, Reason};
 use paracosm_space::demand::Demand;
+use paracosm_space::plural;
 use paracosm_space::{Coordinate, Parameter, ParameterError, Point, Space, SpaceError, Value, Values, nearest};
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// More numbers than this, some gigabytes of tests, are refused rather than kept in memory.
+/// The most numbers (some gigabytes of tests) that are kept in memory; larger sets are refused.
 const MOST_NUMBERS: usize = 50_000_000;
 
-/// Tests with the space that they are points of.
+/// A set of tests, with the space that they are points of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TestSet {
-    /// Their space.
+    /// The space of the tests.
     pub space: Space,
-    /// Their coordinates.
+    /// The coordinates of the tests.
     pub points: Vec<Point>,
-    /// How many discrete parameters at a time they were made to cover, if that was said.
+    /// The number of discrete parameters that the tests were made to cover together, if it is known.
     pub k: Option<usize>,
-    /// What is asked of them beside all combinations of k values. Which values are negative matters to the combinations
-    /// of discrete values; to the continuous parameters all tests count.
+    /// The combinations that the tests should cover in addition to all combinations of k values. Negative values matter
+    /// only to the combinations of discrete values; all tests count for the continuous parameters.
     pub demand: Demand,
 }
 
-/// More tests than fit in memory.
+/// The tests do not fit in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("{tests} tests of {parameters} parameters are more than fit in memory: at most {MOST_NUMBERS} numbers")]
+#[error("{} of {} do not fit in memory: at most {MOST_NUMBERS} numbers", plural(*tests, "test"), plural(*parameters, "parameter"))]
 pub struct TooManyTests {
-    /// How many tests.
+    /// The number of tests.
     pub tests: usize,
-    /// Of how many parameters.
+    /// The number of parameters.
     pub parameters: usize,
 }
 
-/// What is wrong with the header of a file of tests.
+/// The error in the header of a file of tests.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum HeaderFlaw {
-    /// There is none.
+    /// The file has no header.
     #[error("the file is empty, expected a header with the names of the columns")]
     Empty,
-    /// Numbers stand in its place.
+    /// Numbers stand in place of the header.
     #[error("found numbers, expected a header with the names of the columns")]
     Numbers,
-    /// The columns are separated otherwise.
+    /// The columns are separated by semicolons.
     #[error("the columns seem to be separated by `;`, expected `,`")]
     Semicolons,
     /// A column is missing.
@@ -52,48 +53,48 @@ pub enum HeaderFlaw {
     NoColumn {
         /// The name of the coordinate.
         name: String,
-        /// A column that is perhaps meant.
+        /// The name of a column that was perhaps meant.
         nearest: Option<String>,
     },
 }
 
-/// What is wrong with a test of a file.
+/// The error in a test of a file.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CellFlaw {
-    /// Nothing stands there.
+    /// The cell is empty.
     #[error(
         "found an empty cell, expected a value{}",
         if *is_mixed { "; tests to complete may be begun only where no parameter is continuous" } else { "" }
     )]
     Open {
-        /// Whether some parameters are continuous and others discrete.
+        /// True if some parameters are continuous and others discrete.
         is_mixed: bool,
     },
-    /// A word stands where a number is expected.
+    /// The cell holds a word, but a number is expected.
     #[error("found `{found}`, expected a number")]
     NoNumber {
-        /// What stands there.
+        /// The value that was found.
         found: Value,
     },
-    /// Another value than the one at which a parameter is fixed.
+    /// The value differs from the value at which the parameter is fixed.
     #[error("found {found}, but `{name}` is fixed at {value}; --open {name} lets it vary")]
     Fixed {
-        /// What stands there.
+        /// The value that was found.
         found: Value,
-        /// The parameter.
+        /// The name of the parameter.
         name: String,
-        /// Its value.
+        /// The fixed value.
         value: Value,
     },
     /// The parameter does not take the value.
     #[error(transparent)]
     Parameter(ParameterError),
-    /// The values are no test of the space.
+    /// The values are not a test of the space.
     #[error(transparent)]
     Space(SpaceError),
 }
 
-/// What is wrong with a test of a file, and in which column.
+/// An error in a test of a file, with its column.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "{}{flaw}{}",
@@ -101,15 +102,15 @@ pub enum CellFlaw {
     if *is_made_up { "; name the space of the tests with --space SPACE.toml" } else { "" }
 )]
 pub struct WrongCell {
-    /// The column, if it is one column's fault.
+    /// The name of the column, if the error is that of one column.
     pub column: Option<String>,
-    /// What is wrong.
+    /// The error in the test.
     pub flaw: CellFlaw,
-    /// Whether no space was named, so that the columns were taken for coordinates.
+    /// True if no space was given, so that the columns were read as coordinates.
     pub is_made_up: bool,
 }
 
-/// A folder where a file of tests is expected.
+/// The path is a folder, but a file of tests is expected.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "{} is a folder, expected a CSV; a campaign has its tests in {}", path.display(), path.join("trials.csv").display()
@@ -125,15 +126,15 @@ impl Reason for WrongCell {}
 impl Reason for IsFolder {}
 
 impl TestSet {
-    /// Tests of which nothing more is known.
+    /// Makes a set of tests without further information.
     pub fn new(space: Space, points: Vec<Point>) -> Self {
         Self { space, points, k: None, demand: Demand::default() }
     }
 
-    /// Checks that so many tests of so many parameters can be kept in memory.
+    /// Checks that this number of tests, with this number of parameters, fits in memory.
     ///
     /// # Errors
-    /// They are more than 50 million numbers.
+    /// The tests are more than 50 million numbers.
     pub fn check_size(tests: usize, parameters: usize) -> Result<(), TooManyTests> {
         if parameters.saturating_mul(tests) <= MOST_NUMBERS {
             return Ok(());
@@ -143,8 +144,8 @@ impl TestSet {
 
     /// Reads the tests in a file.
     ///
-    /// Without a space the columns are coordinates in `[0,1]`, all continuous; with one, columns that are no parameters of it
-    /// are passed over, and so are tests of a campaign that broke or could not be.
+    /// Without a space, all columns are continuous coordinates in `[0,1]`. With a space, columns that are not
+    /// parameters of the space are ignored, and so are tests of a campaign with the verdict `error` or `invalid`.
     ///
     /// # Errors
     /// The file cannot be read, or does not hold tests of the space: the error says in which line and why.
@@ -157,11 +158,11 @@ impl TestSet {
         Ok(Self::new(file.space, points))
     }
 
-    /// Reads tests of a space without continuous parameters that may say nothing yet of some of the others: an empty
-    /// cell is no level. Each comes with its line.
+    /// Reads tests of a space without continuous parameters, in which some levels may be open: an empty cell is `None`.
+    /// Each test comes with its line.
     ///
     /// # Errors
-    /// As [`TestSet::read`].
+    /// The same errors as [`TestSet::read`].
     pub fn read_partial(path: &Path, space: &Space) -> Result<Vec<(usize, PartialRow)>, Error> {
         let mut file = TestsFile::open(path, Some(space.clone()))?;
         let mut rows = Vec::new();
@@ -171,7 +172,7 @@ impl TestSet {
                 if is_open(text, coordinate.parameter) {
                     return Ok(None);
                 }
-                // What a constant of this choice would take, a coordinate of a signal does.
+                // A cell of a signal is a coordinate, and takes the same values as a constant parameter of this choice.
                 let constant = Parameter { signal: None, ..coordinate.parameter.clone() };
                 let value = value(text, &constant);
                 constant.check(&value).map_err(|error| file.wrong(line, CellFlaw::Parameter(error), None))?;
@@ -187,25 +188,26 @@ impl TestSet {
 /// A test of discrete parameters that may leave some levels open.
 pub type PartialRow = Vec<Option<usize>>;
 
-/// Whether a cell says nothing of a parameter: it is empty, and the parameter does not take the empty word.
+/// Returns `true` if a cell leaves a parameter open: the cell is empty, and the empty word is not a level of the
+/// parameter.
 fn is_open(text: &str, parameter: &Parameter) -> bool {
     let takes_it = || parameter.levels().is_some_and(|levels| levels.contains(&Value::Word(String::new())));
     text.trim().is_empty() && !takes_it()
 }
 
-/// The value that a cell means to a parameter: the level that is written so, with its spaces or without them, else what the
-/// text is by itself.
+/// Returns the value of a cell for a parameter: the level with exactly this text, with or without its spaces; if there
+/// is none, the value that the text has by itself.
 fn value(text: &str, parameter: &Parameter) -> Value {
     let levels = parameter.levels().unwrap_or_default();
     let written = |text: &str| levels.iter().find(|level| level.to_string() == text);
     written(text).or_else(|| written(text.trim())).cloned().unwrap_or_else(|| Value::parse(text))
 }
 
-/// Reads the values of tests of a space. Where a column is called as one of the fixed parameters, which are none of the
-/// space, its values have to be the fixed ones.
+/// Reads the values of tests of a space. If a column has the name of a fixed parameter (which is not part of the
+/// space), its values must be the fixed ones.
 ///
 /// # Errors
-/// As [`TestSet::read`], or a column differs from what is fixed.
+/// The same errors as [`TestSet::read`], or a column differs from a fixed value.
 pub fn read_values(path: &Path, space: &Space, fixed: &Values) -> Result<Vec<Values>, Error> {
     if path.is_dir() {
         return Err(IsFolder { path: path.to_owned() }.into());
@@ -226,17 +228,17 @@ pub fn read_values(path: &Path, space: &Space, fixed: &Values) -> Result<Vec<Val
     Ok(tests)
 }
 
-/// A CSV of tests, past its header.
+/// A CSV file of tests whose header has been read.
 struct TestsFile<'p> {
     path: &'p Path,
     reader: csv::Reader<BufReader<File>>,
     header: csv::StringRecord,
     space: Space,
-    /// In which column each coordinate stands.
+    /// The index of the column of each coordinate.
     columns: Vec<usize>,
-    /// In which column the verdicts of a campaign stand.
+    /// The index of the column of a campaign's verdicts.
     verdict: Option<usize>,
-    /// Whether the space follows from the columns.
+    /// True if the space was made from the columns.
     is_made_up: bool,
 }
 
@@ -263,8 +265,8 @@ impl<'p> TestsFile<'p> {
         Ok(Self { path, reader, header, space, columns, verdict, is_made_up })
     }
 
-    /// The next line, with its number; `known` tests came before. Tests of a campaign that ended in an error, or whose world
-    /// could not be built, cover nothing and are passed over.
+    /// Returns the next record with its line; `known` is the number of tests that were read before. Skips tests of a
+    /// campaign that ended in an error or whose world could not be built, because they cover nothing.
     fn next(&mut self, known: usize) -> Result<Option<(Option<usize>, csv::StringRecord)>, Error> {
         let mut record = csv::StringRecord::new();
         loop {
@@ -282,7 +284,7 @@ impl<'p> TestsFile<'p> {
         Ok(Some((line, record)))
     }
 
-    /// The test in a line.
+    /// Returns the test in a record.
     fn test(&self, line: Option<usize>, record: &csv::StringRecord) -> Result<(Values, Point), Error> {
         let mut test = Values::default();
         let mut columns = self.columns.iter();
@@ -306,7 +308,7 @@ impl<'p> TestsFile<'p> {
         Ok((test, point))
     }
 
-    /// The columns that are called as these, with the name and the value, or as one of a list of values.
+    /// Returns the columns of these values, each with the name and the value, or with one value of a list.
     fn columns_of<'v>(&self, values: &'v Values) -> Vec<(usize, &'v str, &'v Value)> {
         let mut columns = Vec::new();
         for (name, value) in values.iter() {
@@ -324,7 +326,7 @@ impl<'p> TestsFile<'p> {
     }
 }
 
-/// The unit cube whose axes are called as the columns.
+/// Returns the unit cube whose axes have the names of the columns.
 fn of_columns(path: &Path, header: &csv::StringRecord) -> Result<Space, Error> {
     let mut axes = Space::unit_cube(header.len()).parameters().to_vec();
     for (axis, name) in axes.iter_mut().zip(header) {
@@ -333,7 +335,7 @@ fn of_columns(path: &Path, header: &csv::StringRecord) -> Result<Space, Error> {
     Space::new(axes).map_err(|error| Error::in_file(path, 1, error))
 }
 
-/// In which column each coordinate stands.
+/// Returns the index of the column of each coordinate.
 fn columns(path: &Path, space: &Space, header: &csv::StringRecord) -> Result<Vec<usize>, Error> {
     let column = |name: &str| {
         header.iter().position(|column| column == name).ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! A trace as a file: written to look at and to plot, read to be judged.
+//! Traces as files: writes traces to look at and to plot, and reads traces to judge them.
 
 use crate::Error;
 use crate::files::write_whole;
@@ -8,7 +8,7 @@ use paracosm_oracles::Trace;
 use std::io::Read;
 use std::path::Path;
 
-/// By how much of the sample period a time may be off.
+/// The greatest deviation of a time, as a share of the sample period.
 const TOLERANCE: f64 = 0.01;
 
 /// Writes a trace as CSV: a column `time` in seconds, then one for each signal.
@@ -29,12 +29,13 @@ pub fn write_trace(path: &Path, trace: &Trace) -> Result<(), Error> {
     write_whole(path, &csv.into_inner().expect("memory does not fail to flush"))
 }
 
-/// Reads a trace from CSV as [`write_trace`] writes it: a column `time` in seconds, evenly spaced from 0 on, and one for
-/// each signal, with numbers, `true` and `false`. After each sample `goes_on` has a look at what has been read; where it
-/// wants no more the trace is left as one that was cut short, and otherwise it is complete.
+/// Reads a trace from CSV, in the format of [`write_trace`]: a column `time` in seconds, evenly spaced from 0 on, and a
+/// column for each signal, with numbers, `true` and `false`. After each sample from the second on, `goes_on` gets the
+/// trace so far. If it returns `false`, the trace is returned as one that was cut short; otherwise it is complete.
 ///
 /// # Errors
-/// That of `goes_on`; or the source, called `path`, is no such table: the error says in which line and why.
+/// `goes_on` returns an error; or the source, called `path`, is not a valid table: the error says in which line and
+/// why.
 pub fn read_trace(
     path: &Path,
     source: impl Read,
@@ -62,10 +63,10 @@ pub fn read_trace(
 
 /// A trace that is being read.
 struct Table {
-    /// Which column has the times, and which signals the others have.
+    /// The index of the column of times, and the signals of the other columns.
     time: usize,
     signals: Vec<String>,
-    /// The last time, and the first sample as long as the sample period is not known.
+    /// The last time, and the first sample until the sample period is known.
     last: f64,
     first: Option<Vec<f64>>,
     trace: Option<Trace>,
@@ -119,7 +120,7 @@ impl Table {
     }
 }
 
-/// What a cell says; nothing where it is no number.
+/// Returns the number in a cell; `None` if the cell has no number.
 fn number(cell: &str) -> Option<f64> {
     match cell {
         "true" => Some(1.0),

@@ -1,34 +1,34 @@
-//! The lines of `trials.jsonl`, a trial each.
+//! Reads `trials.jsonl`, which has one trial per line.
 
 use crate::{Error, Reason, Trial};
 use std::path::Path;
 use thiserror::Error;
 
-/// What is wrong with a line of a log.
+/// The error in a line of a log.
 #[derive(Debug, Error)]
 pub enum LogFlaw {
-    /// It is no text.
+    /// The file is not UTF-8 text.
     #[error("found bytes that are no UTF-8, expected a trial as JSON")]
     NoText,
-    /// It ends as lines of another system do.
+    /// The line ends with a carriage return, as on another operating system.
     #[error("found a carriage return at the end of the line, expected none")]
     CarriageReturn,
-    /// It is no trial.
+    /// The line is not a trial.
     #[error("no trial: {0}")]
     NoTrial(serde_json::Error),
-    /// A trial is missing before it.
+    /// The index of the trial is not the number of its line.
     #[error("found trial {found}, expected trial {expected}")]
     Index {
         /// The index of the trial.
         found: usize,
-        /// Its place in the log.
+        /// The index that the line should have.
         expected: usize,
     },
 }
 
 impl Reason for LogFlaw {}
 
-/// The trials of a log, and how many bytes they take: a last line without its end is none.
+/// Returns the trials of a log, and the number of bytes that they take. A last line without its end is ignored.
 pub(crate) fn parse_trials(file: &Path, bytes: &[u8]) -> Result<(Vec<Trial>, usize), Error> {
     let whole = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1);
     let text = std::str::from_utf8(&bytes[..whole]).map_err(|error| {

@@ -1,6 +1,6 @@
-//! Whoever runs tests: a scenario with a driver, or a process of a system that others wrote.
+//! Workers: they run tests on a scenario with a driver, or on an external process.
 //!
-//! The one place where a test becomes a trial, whatever it is run on.
+//! This is the only place where a test becomes a trial, whatever it runs on.
 
 use crate::black_box::{Answer, Connection};
 use crate::darkroom::Darkroom;
@@ -19,29 +19,29 @@ use paracosm_space::Values;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// Runs the tests of a study, one at a time; or many in lockstep.
+/// Runs the tests of a study, one at a time or many in lockstep.
 pub struct Worker<'a> {
     study: &'a Study,
     bench: Bench<'a>,
 }
 
-/// What the tests are run on.
+/// The simulator or the external system that runs the tests.
 enum Bench<'a> {
     Simulator(Box<Simulator<'a>>),
     System(Connection),
 }
 
 impl<'a> Worker<'a> {
-    /// A worker for the tests of a study.
+    /// Makes a worker for the tests of a study.
     ///
     /// # Errors
-    /// The study was read from a file, and its scenario, driver, command or a formula does not exist or is none; or its
-    /// driver cannot be started, or sees through cameras and there is nothing to draw with.
+    /// The study was read from a file, and its scenario, driver, command or a formula does not exist or is invalid; or
+    /// its driver cannot be started, or uses cameras and the machine has nothing to draw with.
     pub fn new(study: &'a Study) -> Result<Self, Error> {
         Self::until(study, Arc::default())
     }
 
-    /// A worker that does not wait for a system or a driver any more once `stop` is set.
+    /// Makes a worker that no longer waits for a system or a driver once `stop` is set.
     pub fn until(study: &'a Study, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let mut worker = Self::beside(study, stop, None)?;
         if let Bench::Simulator(simulator) = &mut worker.bench {
@@ -50,7 +50,8 @@ impl<'a> Worker<'a> {
         Ok(worker)
     }
 
-    /// A worker like one that there is, with the darkroom of that one. If its driver cannot be had, its first test says so.
+    /// Makes a further worker, which shares the darkroom of another one. If no driver can be made, the first test
+    /// reports it.
     pub fn beside(study: &'a Study, stop: Arc<AtomicBool>, darkroom: Option<Arc<Darkroom>>) -> Result<Self, Error> {
         let bench = match study.subject() {
             Subject::Scenario(simulation) => Bench::Simulator(Box::new(Simulator::new(simulation, stop, darkroom)?)),
@@ -59,12 +60,12 @@ impl<'a> Worker<'a> {
         Ok(Self { study, bench })
     }
 
-    /// What it runs tests of.
+    /// Returns the study whose tests the worker runs.
     pub fn study(&self) -> &'a Study {
         self.study
     }
 
-    /// Starts the system, if it tests one; without it, that is done when it is needed.
+    /// Starts the system, if the study tests a system; otherwise the first test starts it.
     ///
     /// # Errors
     /// The system cannot be started.
@@ -75,7 +76,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Runs a test: what a campaign does with each, and a replay with one.
+    /// Runs a test, as a campaign does with each test, and a replay with one test.
     pub fn run(&mut self, index: usize, test: &Values) -> (Trial, Option<Trace>) {
         let Self { study, bench } = self;
         match bench {
@@ -87,12 +88,13 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// [`run`](Self::run), with a look at the run of a scenario whenever the driver is asked, and at the end.
+    /// Runs a test as [`run`](Self::run) does. `see` gets the run of a scenario whenever the driver is asked, and at
+    /// the end.
     pub fn watch(&mut self, index: usize, test: &Values, see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
         self.film(index, test, None, see)
     }
 
-    /// [`watch`](Self::watch), while these cameras film the run of a scenario.
+    /// Runs a test as [`watch`](Self::watch) does, while these cameras film the run of a scenario.
     pub fn film(
         &mut self,
         index: usize,
@@ -110,17 +112,17 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Runs a test of a log again, with a look at the run of a scenario whenever the driver is asked, and at the end. The trial is
-    /// the one that the campaign would have had.
+    /// Runs a test of a log again. `see` gets the run of a scenario whenever the driver is asked, and at the end. The
+    /// trial is the same as the campaign would have made.
     pub fn replay(&mut self, log: &Log, logged: &Trial, see: impl FnMut(&Run)) -> (Trial, Option<Trace>) {
         let (trial, trace) = self.watch(logged.index, &logged.test, see);
         (Expected::of(self.study, &log.trials()[..logged.index]).check(trial), trace)
     }
 
-    /// The cameras that its driver sees through: none where it sees nothing.
+    /// Returns the cameras of the driver; no cameras if the driver uses none.
     ///
     /// # Errors
-    /// There is no driver to be had.
+    /// No driver can be made.
     #[cfg(feature = "camera")]
     pub fn eyes(&mut self) -> Result<Cameras, Error> {
         match &mut self.bench {
@@ -129,7 +131,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// What draws for its drivers, if they see.
+    /// Returns the darkroom that draws for the drivers, if they use cameras.
     pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
         match &self.bench {
             Bench::Simulator(simulator) => simulator.darkroom(),
@@ -137,7 +139,7 @@ impl<'a> Worker<'a> {
         }
     }
 
-    /// Runs those of these tests of a scenario that the desk gives out, so many at a time, until `stopped`. The first has
+    /// Runs the tests of a scenario that the desk gives out, `at_once` at a time, until `stopped`. The first test has
     /// the index `first`.
     pub fn run_in_lockstep(
         &mut self,
@@ -152,7 +154,7 @@ impl<'a> Worker<'a> {
     }
 }
 
-/// The trial of a test that was simulated, or broke; by the formulas of the study as well.
+/// Returns the trial of a test that was simulated or broke, judged by the formulas of the study as well.
 fn judged(study: &Study, index: usize, test: &Values, outcome: Result<Outcome, Problem>) -> (Trial, Option<Trace>) {
     match outcome {
         Err(problem) => (Trial::broken(index, test.clone(), problem), None),
@@ -164,7 +166,7 @@ fn judged(study: &Study, index: usize, test: &Values, outcome: Result<Outcome, P
     }
 }
 
-/// The trial of a test that a system was asked.
+/// Returns the trial of a test that a system was asked to do.
 fn asked(connection: &mut Connection, study: &Study, index: usize, test: &Values) -> (Trial, Option<Trace>) {
     let has_specs = study.given().next().is_some();
     let wrong = |message: &str| Err(Problem::new(ProblemKind::Answer, message));

@@ -1,4 +1,4 @@
-//! What a measure knows when it stops: a certified interval, and the clock that may stop it.
+//! The result of a measure that may be stopped early (a certified interval), and the deadline that may stop it.
 
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,29 +6,29 @@ use std::time::{Duration, Instant};
 
 /// A certified interval around an exact value: `lower <= exact <= upper`.
 ///
-/// `lower == upper` says that the value was computed to the end, and is exact but for the rounding of that computation: a
-/// product of differences for a volume, a distance for a radius.
+/// `lower == upper` means that the value was computed to the end. It is exact but for the rounding of that
+/// computation: a product of differences for a volume, a distance for a radius.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Bracket {
-    /// The largest value that was witnessed.
+    /// The lower bound: the largest value that was found.
     pub lower: f64,
-    /// The smallest value that was proved not to be exceeded.
+    /// The upper bound: the smallest value of which the measure proved that the exact value does not exceed it.
     pub upper: f64,
 }
 
 impl Bracket {
-    /// The bracket of a value that is known exactly.
+    /// Makes the bracket of a value that is known exactly.
     pub fn exact(value: f64) -> Self {
         Self { lower: value, upper: value }
     }
 
-    /// Whether the value was computed to the end.
+    /// Returns `true` if the value was computed to the end.
     pub fn is_exact(&self) -> bool {
         self.lower == self.upper
     }
 }
 
-/// When an anytime algorithm has to come back with what it has.
+/// The moment at which a search must stop and return the best result that it has.
 #[derive(Debug, Clone, Copy)]
 pub struct Deadline {
     at: Option<Instant>,
@@ -36,38 +36,39 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// No limit: the algorithm runs to the end.
+    /// Makes a deadline without a limit: the search runs to the end.
     pub const fn never() -> Self {
         Self { at: None, called: None }
     }
 
-    /// The moment `limit` from now; never, where that lies beyond what the clock can say.
+    /// Makes a deadline `limit` from now. The deadline is unlimited if the clock cannot represent that moment.
     pub fn after(limit: Duration) -> Self {
         Self { at: Instant::now().checked_add(limit), called: None }
     }
 
-    /// The same moment, or that at which somebody sets the flag, if it comes first.
+    /// Adds a flag to the deadline: it passes at the same moment as before, or as soon as `called` is set.
     pub const fn or_when(self, called: &'static AtomicBool) -> Self {
         Self { called: Some(called), ..self }
     }
 
-    /// The moment at which a share of what time is left has gone by.
+    /// Returns an earlier deadline, at which `share` of the remaining time has gone by. Without a time limit it stays
+    /// unlimited.
     pub fn part(self, share: f64) -> Self {
         Self { at: self.left().map(|left| Instant::now() + left.mul_f64(share)), ..self }
     }
 
-    /// The time that is left if nobody sets the flag; none where there is no limit.
+    /// The remaining time if nobody sets the flag; `None` without a time limit.
     pub(crate) fn left(self) -> Option<Duration> {
         self.at.map(|at| at.saturating_duration_since(Instant::now()))
     }
 
-    /// Whether the moment has come.
+    /// Returns `true` if the deadline has passed.
     pub fn passed(&self) -> bool {
         self.called.is_some_and(|flag| flag.load(Ordering::Relaxed)) || self.at.is_some_and(|at| Instant::now() >= at)
     }
 }
 
-/// A deadline for a search whose steps are short: reading the clock takes as long as looking at some hundred numbers.
+/// A deadline for a search with short steps: reading the clock takes as long as looking at some hundred numbers.
 #[derive(Debug)]
 pub(crate) struct Watch {
     deadline: Deadline,
@@ -75,14 +76,14 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// How many numbers are looked at before the clock is.
+    /// The number of numbers that are looked at between two looks at the clock.
     const WORK_BETWEEN_LOOKS: usize = 1 << 14;
 
     pub(crate) fn new(deadline: Deadline) -> Self {
         Self { deadline, work: 0 }
     }
 
-    /// Counts `work` more numbers; whether the deadline has been seen to pass. Once it has, it always has.
+    /// Counts `work` more numbers. Returns `true` if the deadline was seen to pass, now or before.
     pub(crate) fn passed_after(&mut self, work: usize) -> bool {
         self.work = self.work.saturating_add(work);
         if self.work < Self::WORK_BETWEEN_LOOKS {

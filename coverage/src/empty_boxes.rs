@@ -1,29 +1,29 @@
-//! Dispersion, point by point: all maximal empty boxes of a growing set, and so always the largest.
+//! Keeps all maximal empty boxes of a set that grows point by point, and so always knows the dispersion.
 //!
-//! An empty box is maximal if none of its faces can move outward: each lies in a wall of the cube or is
+//! An empty box is maximal if none of its faces can move outward: each face lies in a wall of the cube or is
 //! *supported* by a point in the relative interior of the face (Naamad, Lee, Hsu, On the maximum empty rectangle
-//! problem, Discrete Appl. Math. 8, 1984). A new point concerns just the maximal boxes that hold it strictly inside.
-//! Each of these is cut away on either side of the point along every axis. That leaves `2d` parts, and the maximal
-//! empty boxes of the larger set are the boxes left alone and the parts that are maximal:
+//! problem, Discrete Appl. Math. 8, 1984). A new point changes only the maximal boxes that hold it strictly inside.
+//! Each of these boxes is cut on either side of the point along every axis, which leaves `2d` parts. The maximal
+//! empty boxes of the larger set are the boxes that were not cut and the parts that are maximal:
 //!
-//! * A maximal box of the larger set that is not one of the smaller lies in one that held the point, so in one
-//!   of its parts, so it is that part.
-//! * A part is maximal if its faces are supported. The face that moved lies at the point; the opposite one
-//!   lost nothing. Any other face kept its support unless that was cut away with the rest, which takes a
-//!   single comparison: no box is compared with another.
-//! * No maximal part comes from two boxes. They would share all faces but those that moved, and so either one
-//!   would hold the other, or the point would lie on a face of the box that it was said to be inside.
+//! * A new maximal box lies in a maximal box that held the point, so in one of the parts of that box, so it is that
+//!   part.
+//! * A part is maximal if its faces are supported. The face that moved lies at the point; the opposite face lost
+//!   nothing. Any other face kept its support unless the support was cut away. To find that out takes a single
+//!   comparison: no box is compared with another.
+//! * No maximal part comes from two boxes. The two boxes would share all faces but those that moved. Then either one
+//!   of them would hold the other, or the point would lie on a face of a box that holds it strictly inside.
 //!
-//! A face remembers one point that supports it. Where coordinates tie there may be others in the same plane: they are
-//! found in the ring of the points that share this coordinate. All of this compares coordinates and computes nothing,
-//! so ties, duplicates and points on faces are treated exactly.
+//! A face remembers one point that supports it. If coordinates tie, other points may lie in the same plane. They are
+//! found in the ring of the points that share this coordinate. The method only compares coordinates and computes
+//! nothing, so that ties, duplicates and points on faces are treated exactly.
 //!
-//! The boxes that hold a point are found by looking at all of them, an array for each end of each axis, blocks
-//! at a time: for the tens of thousands of boxes this is made for, that costs less than a tree would to look after.
+//! To find the boxes that hold a point, all boxes are looked at in blocks, with an array for each end of each axis.
+//! For tens of thousands of boxes that costs less than a tree.
 //!
-//! Of `n` random points there are `O(n (log n)^(d-1))` maximal boxes, with a factor that grows with `d` (in the
-//! worst case `O(n^d)`: Backer, Keil, The mono- and bichromatic empty rectangle and square problems in all
-//! dimensions, LATIN 2010). Of the first points of the Halton sequence there are
+//! `n` random points have `O(n (log n)^(d-1))` maximal boxes, with a factor that grows with `d` (in the worst case
+//! `O(n^d)`: Backer, Keil, The mono- and bichromatic empty rectangle and square problems in all dimensions, LATIN
+//! 2010). The first `n` points of the Halton sequence have so many:
 //!
 //! | n   | d = 2 | d = 3   | d = 4     | d = 5   |
 //! | --- | ----- | ------- | --------- | ------- |
@@ -31,17 +31,17 @@
 //! | 100 | 1,000 | 10,200  |           | 940,000 |
 //! | 500 | 6,700 | 108,000 | 1,900,000 |         |
 //!
-//! and a box takes `24 d + 8` bytes. Up to about four dimensions that is a bargain. Beyond, [`EmptyBoxes::at_most`]
-//! keeps the larger boxes alone, and the bracket says whether that was enough.
+//! A box takes `24 d + 8` bytes. Up to about four dimensions that is little. In more dimensions, use
+//! [`EmptyBoxes::at_most`]: it keeps only the larger boxes, and the bracket shows whether that was enough.
 
 use crate::dispersion::LargestEmptyBox;
 use crate::{Bracket, PointSetError};
 use std::collections::{BTreeMap, btree_map::Entry};
 
-/// The face lies in a wall of the cube.
+/// Marks a face that lies in a wall of the cube.
 const WALL: u32 = u32::MAX;
 
-/// How many boxes are looked at together.
+/// The number of boxes that are looked at together.
 const BLOCK: usize = 128;
 
 /// The maximal empty boxes of a set of points in the unit cube that grows by one point at a time.
@@ -62,22 +62,23 @@ pub struct EmptyBoxes {
     dims: usize,
     /// The coordinates of the points, one point after the other.
     points: Vec<f64>,
-    /// For each coordinate of each point the next point that has the same; the last has the first.
+    /// For each coordinate of each point, the next point with the same coordinate; the last of them leads to the
+    /// first.
     rings: Vec<u32>,
-    /// For each axis a point of each ring, by the bits of the coordinate.
+    /// For each axis, a point of each ring, by the bits of the coordinate.
     alike: Vec<BTreeMap<u64, u32>>,
-    /// The ends of the boxes by axis: the lower, then the upper.
+    /// The ends of the boxes by axis: first the lower ends, then the upper ends.
     ends: Vec<[Vec<f64>; 2]>,
     volumes: Vec<f64>,
     /// For each box, axis by axis, the points that support its lower and its upper face.
     supports: Vec<u32>,
-    /// How many boxes are kept, and the volume of the largest that was not.
+    /// The greatest number of boxes to keep, and the volume of the largest box that was forgotten.
     most: usize,
     forgotten: f64,
     largest: LargestEmptyBox,
 }
 
-/// One of the maximal empty boxes, in place.
+/// A view of one of the maximal empty boxes.
 #[derive(Debug, Clone, Copy)]
 pub struct EmptyBox<'a> {
     boxes: &'a EmptyBoxes,
@@ -85,20 +86,20 @@ pub struct EmptyBox<'a> {
 }
 
 impl EmptyBox<'_> {
-    /// Its lower and its upper end along `axis`.
+    /// Returns the lower and the upper end of the box along `axis`.
     pub fn side(&self, axis: usize) -> (f64, f64) {
         let [lower, upper] = &self.boxes.ends[axis];
         (lower[self.at], upper[self.at])
     }
 
-    /// Its volume, as a share of the cube's.
+    /// Returns the volume of the box, as a share of the volume of the cube.
     pub fn volume(&self) -> f64 {
         self.boxes.volumes[self.at]
     }
 }
 
 impl EmptyBoxes {
-    /// The boxes of a set without points: the cube.
+    /// Makes the boxes of a set without points: the whole cube.
     ///
     /// # Errors
     /// `dims` is 0.
@@ -106,10 +107,10 @@ impl EmptyBoxes {
         Self::at_most(dims, usize::MAX)
     }
 
-    /// The same with a bound on memory: where there are more than `most` boxes, the smaller are forgotten.
+    /// Makes the boxes of a set without points, and keeps at most `most` boxes: the smaller boxes are forgotten.
     ///
-    /// The largest box is then known for certain as long as it is larger than any that was forgotten: boxes
-    /// only ever shrink.
+    /// The largest box is known for certain as long as it is larger than any box that was forgotten, because boxes
+    /// only shrink.
     ///
     /// # Errors
     /// `dims` is 0.
@@ -131,10 +132,10 @@ impl EmptyBoxes {
         })
     }
 
-    /// Takes one more point.
+    /// Adds a point.
     ///
     /// # Errors
-    /// It has another number of coordinates, or one is not in `[0,1]`. Nothing has changed then.
+    /// The point has another number of coordinates, or a coordinate is not in `[0,1]`. The boxes are then unchanged.
     pub fn add(&mut self, point: &[f64]) -> Result<(), PointSetError> {
         let index = self.points.len() / self.dims;
         if point.len() != self.dims {
@@ -158,10 +159,10 @@ impl EmptyBoxes {
             }
         }
         if self.volumes.len() == split.len() {
-            // The maximal boxes that these parts lie in have been forgotten: non-maximal ones are better than none.
+            // The maximal boxes around these parts have been forgotten: non-maximal boxes are better than none.
             self.push_parts(split[0], point, index, true);
         }
-        // From the back, so that what takes a box's place is never one that has to go.
+        // From the back, so that the box that takes a removed box's place is never one that must be removed.
         for &at in split.iter().rev() {
             self.remove(at);
         }
@@ -172,12 +173,13 @@ impl EmptyBoxes {
         Ok(())
     }
 
-    /// A largest empty box.
+    /// Returns a largest empty box.
     pub fn largest(&self) -> &LargestEmptyBox {
         &self.largest
     }
 
-    /// The dispersion of the points: exact, unless a box had to be forgotten that was larger than all that are left.
+    /// Returns the dispersion of the points. It is exact unless a box was forgotten that is larger than all boxes
+    /// that are left.
     pub fn dispersion(&self) -> Bracket {
         let lower = self.largest.volume();
         if self.forgotten <= lower {
@@ -188,13 +190,13 @@ impl EmptyBoxes {
         Bracket { lower, upper: upper.min(1.0) }
     }
 
-    /// The number of boxes. There is always at least one.
+    /// Returns the number of boxes, which is at least 1.
     #[expect(clippy::len_without_is_empty, reason = "never empty")]
     pub fn len(&self) -> usize {
         self.volumes.len()
     }
 
-    /// The boxes larger than `volume`.
+    /// Iterates over the boxes larger than `volume`.
     pub fn larger_than(&self, volume: f64) -> impl Iterator<Item = EmptyBox<'_>> {
         let found = self.volumes.iter().enumerate().filter(move |(_, other)| **other > volume);
         found.map(|(at, _)| EmptyBox { boxes: self, at })
@@ -205,10 +207,10 @@ impl EmptyBoxes {
         LargestEmptyBox { lower: end(0), upper: end(1) }
     }
 
-    /// Enters the point that will have this index into the rings of those that share a coordinate with it.
+    /// Enters the point that will have this index into the rings of the points that share a coordinate with it.
     fn join_rings(&mut self, point: &[f64], index: u32) {
         for (axis, x) in point.iter().enumerate() {
-            // Adding 0 makes -0 the 0 that it is equal to.
+            // Adding 0 turns -0 into 0.
             let next = match self.alike[axis].entry((x + 0.0).to_bits()) {
                 Entry::Occupied(alike) => {
                     std::mem::replace(&mut self.rings[*alike.get() as usize * self.dims + axis], index)
@@ -237,7 +239,7 @@ impl EmptyBoxes {
         found
     }
 
-    /// Appends the parts that the point at `index` leaves of a box: those that are maximal or all.
+    /// Appends the parts of a box that the point at `index` leaves: all parts if `all`, otherwise the maximal parts.
     fn push_parts(&mut self, at: usize, point: &[f64], index: u32, all: bool) {
         let dims = self.dims;
         let mut part = self.get(at);
@@ -264,8 +266,8 @@ impl EmptyBoxes {
         }
     }
 
-    /// Whether all faces of a part are supported after its side along `axis` was cut. Supports that were cut away
-    /// are replaced.
+    /// Checks that all faces of a part are supported after its side along `axis` was cut. Replaces supports that were
+    /// cut away.
     fn keep_supports(&mut self, start: usize, axis: usize, part: &LargestEmptyBox) -> bool {
         let dims = self.dims;
         for face in (0..2 * dims).filter(|face| face / 2 != axis) {
@@ -310,7 +312,7 @@ impl EmptyBoxes {
         self.supports.truncate(faces * last);
     }
 
-    /// Forgets the smaller half of the boxes that lie at `from` and after, which are more than `most`.
+    /// Forgets the smaller half of the boxes at `from` and after, which are more than `most`.
     fn forget_smaller(&mut self, from: usize) {
         let mut volumes = self.volumes[from..].to_vec();
         let (_, &mut middle, _) = volumes.select_nth_unstable_by(self.most / 2, |a, b| b.total_cmp(a));
@@ -323,7 +325,7 @@ impl EmptyBoxes {
     }
 
     fn find_largest(&mut self) {
-        // Several maxima side by side: a single one would wait for itself at every step.
+        // Several maxima side by side: a single maximum would have to wait for itself at every step.
         let mut largest = [0.0; 16];
         for volumes in self.volumes.chunks(largest.len()) {
             for (largest, volume) in largest.iter_mut().zip(volumes) {

@@ -1,4 +1,5 @@
-//! The extreme discrepancy: how far the share of points in an axis-parallel box is from the box's volume, at worst.
+//! The extreme discrepancy: the largest difference between the share of points in an axis-parallel box and its
+//! volume.
 
 use crate::measure::{Compare, Computation, Descriptor, Measure};
 use crate::star::{Sides, largest_difference};
@@ -18,15 +19,15 @@ impl Measure {
     });
 }
 
-/// The search takes milliseconds for so many combinations of coordinates.
+/// The largest number of combinations of coordinates for which the search takes milliseconds.
 const QUICK: f64 = 4e6;
 
-/// The extreme discrepancy: the largest of `vol (a,b) - #{a < x < b} / n` and `#{a <= x <= b} / n - vol [a,b]`
-/// over all axis-parallel boxes in the unit cube (Niederreiter, Random Number Generation and Quasi-Monte Carlo
-/// Methods, 1992, section 2.1).
+/// Computes the extreme discrepancy of a set of points. It is the largest of `vol (a,b) - #{a < x < b} / n` and `#{a
+/// <= x <= b} / n - vol [a,b]` over all axis-parallel boxes in the unit cube (Niederreiter, Random Number Generation
+/// and Quasi-Monte Carlo Methods, 1992, section 2.1).
 ///
-/// Exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. A set without points leaves the whole
-/// cube uncovered: 1.
+/// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. The
+/// discrepancy of a set without points is 1, because the whole cube is uncovered.
 pub fn extreme_discrepancy(points: &PointSet, deadline: Deadline) -> Bracket {
     if points.is_empty() {
         return Bracket::exact(1.0);

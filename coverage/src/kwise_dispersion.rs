@@ -1,14 +1,15 @@
-//! K-wise dispersion: the largest hole that any k parameters show, discrete and continuous ones together.
+//! K-wise dispersion: the largest hole that any k parameters show, discrete and continuous parameters together.
 //!
-//! It joins both halves of the paper's notion of coverage in one number. Every choice of k parameters, and every
-//! combination of values of the discrete ones among them, selects tests; projected on the continuous ones among the k
-//! they have a dispersion; the largest of these is the k-wise dispersion. Where none of the k is continuous it is 0 if
-//! a test has the values and 1 if not. A failure that depends on at most k parameters and takes up more than this share
-//! of their values has been hit.
+//! This number joins both halves of the paper's notion of coverage. Each choice of k parameters, with each
+//! combination of values of the discrete ones among them, selects tests. The selected tests, projected on the
+//! continuous parameters among the k, have a dispersion. The k-wise dispersion is the largest of these dispersions.
+//! If none of the k parameters is continuous, the dispersion is 0 if a test has the values and 1 if no test has them.
+//! If a failure depends on at most k parameters and takes up more than this share of their values, a test has hit it.
 //!
-//! Projections have few dimensions, so that the number stays exact where the dispersion of the whole space is out of
-//! reach. Projections are looked at in blocks; within a block each is searched only for holes larger than the largest
-//! of the blocks before, so that most are done as soon as they are begun, and the result does not depend on threads.
+//! Projections have few dimensions, so that the number stays exact even if the dispersion of the whole space is out
+//! of reach. Projections are searched in blocks. Within a block each is searched only for holes larger than the
+//! largest hole of the earlier blocks. Most searches then end as soon as they begin, and the result does not depend
+//! on threads.
 
 use crate::dispersion::{LargestEmptyBox, larger_than};
 use crate::kwise::{KwiseCoverage, KwiseError, advance, kwise_coverage, tuple};
@@ -33,24 +34,25 @@ impl Measure {
     });
 }
 
-/// How many projections make a block.
+/// The number of projections in a block.
 const BLOCK: usize = 64;
 
-/// The k-wise dispersion of a set of tests, with where it is.
+/// The k-wise dispersion of a set of tests, with the place of the largest hole.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KwiseDispersion {
     /// The largest dispersion.
     pub volume: Bracket,
-    /// The values of the discrete parameters among the k: positions among the discrete ones, and levels.
+    /// The discrete parameters among the k with their values: positions among the discrete parameters, and levels.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters among the k, by their position among the continuous ones.
+    /// The continuous parameters among the k, by their positions among the continuous parameters.
     pub axes: Vec<usize>,
-    /// The largest empty box over those axes; `None` where there is none among the k.
+    /// The largest empty box over these axes; `None` if none of the k parameters is continuous.
     pub witness: Option<LargestEmptyBox>,
 }
 
 impl KwiseDispersion {
-    /// That of tests without continuous parameters: nothing but whether they cover all combinations.
+    /// Makes the k-wise dispersion of tests without continuous parameters: 0 if they cover all combinations,
+    /// otherwise 1.
     pub fn of_coverage(counted: KwiseCoverage) -> Self {
         let (volume, fixed) = match counted.missing.into_iter().next() {
             Some(missing) => (1.0, missing),
@@ -60,59 +62,60 @@ impl KwiseDispersion {
     }
 }
 
-/// A choice of some of the parameters, with values for the discrete ones: the tests with those values, seen along the
-/// continuous ones.
+/// A choice of parameters with values for the discrete ones. It selects the tests with these values, and looks at
+/// them along the chosen continuous parameters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Projection {
-    /// The discrete parameters with their values: positions among the discrete ones, and levels.
+    /// The discrete parameters with their values: positions among the discrete parameters, and levels.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters, by their position among the continuous ones.
+    /// The continuous parameters, by their positions among the continuous parameters.
     pub axes: Vec<usize>,
 }
 
 impl Projection {
-    /// Whether a test has the values.
+    /// Returns `true` if a test has the values of the projection.
     ///
     /// # Panics
-    /// The test has fewer discrete coordinates.
+    /// The test has too few discrete coordinates.
     pub fn selects(&self, test: &Point) -> bool {
         self.fixed.iter().all(|&(parameter, level)| test.discrete[parameter] == level)
     }
 
-    /// The coordinates of a test along the axes.
+    /// Returns the coordinates of a test along the axes of the projection.
     ///
     /// # Panics
-    /// The test has fewer continuous coordinates.
+    /// The test has too few continuous coordinates.
     pub fn of(&self, test: &Point) -> Vec<f64> {
         self.axes.iter().map(|&axis| test.continuous[axis]).collect()
     }
 
-    /// Tests as points over the axes, of which there must be some.
+    /// The tests as points over the axes. The projection must have an axis.
     pub(crate) fn points<'a>(&self, tests: impl Iterator<Item = &'a Point>) -> PointSet {
         PointSet::new(self.axes.len(), tests.map(|test| self.of(test))).expect("the tests are of the unit cube")
     }
 }
 
-/// All choices of `k` parameters out of `dims` continuous ones and the discrete ones of `rules`, each with all valid
-/// combinations of values: in lexicographic order, the continuous parameters first.
+/// Iterates over all choices of `k` parameters out of `dims` continuous ones and the discrete ones of `rules`, each
+/// with all valid combinations of values. The order is lexicographic, with the continuous parameters first.
 ///
 /// # Errors
-/// `k` is 0 or more than there are parameters, or a discrete parameter has no level.
+/// `k` is 0 or more than the number of parameters, or a discrete parameter has no level.
 pub fn projections(dims: usize, rules: &Rules, k: usize) -> Result<impl Iterator<Item = Projection>, KwiseError> {
     let all = Projections::new(dims, rules.levels(), k)?;
     Ok(all.filter(|projection| rules.is_valid(&projection.fixed)))
 }
 
-/// The largest dispersion over all choices of `k` parameters out of `dims` continuous ones and the discrete ones of
-/// `rules`, and over all valid combinations of their values.
+/// Computes the largest dispersion over all choices of `k` parameters out of `dims` continuous ones and the discrete
+/// ones of `rules`, and over all valid combinations of their values.
 ///
-/// Exact, unless `deadline` cuts it short: then the upper end is 1 if some projection was not even begun.
+/// The result is exact unless `deadline` cuts the search short. Its upper bound is then 1 if some projection was not
+/// even begun.
 ///
 /// # Errors
-/// `k` is 0 or more than there are parameters, or a discrete parameter has no level.
+/// `k` is 0 or more than the number of parameters, or a discrete parameter has no level.
 ///
 /// # Panics
-/// A test is none of this space.
+/// A test does not belong to this space.
 pub fn kwise_dispersion(
     dims: usize,
     rules: &Rules,
@@ -127,7 +130,7 @@ pub fn kwise_dispersion(
         return Ok(KwiseDispersion::of_coverage(counted));
     }
     let found = worst_of(projections(dims, rules, k)?, tests, deadline);
-    // None, where the deadline came before anything: the least that can be said.
+    // `None` if the deadline passed before any projection was searched: then 0 is the only known lower bound.
     let mut worst = match found.worst {
         Some(worst) => worst,
         None => {
@@ -139,11 +142,12 @@ pub fn kwise_dispersion(
     Ok(worst)
 }
 
-/// The largest dispersion that the tests with the same discrete values show, over all such values that some test has:
-/// the smallest epsilon for which they are (k, epsilon)-covering, if they cover k-wise. 1 where there is no test.
+/// Computes the largest dispersion among tests with the same discrete values, over all discrete values that some test
+/// has. It is the smallest epsilon for which the tests are (k, epsilon)-covering, if they cover k-wise. It is 1 if
+/// there is no test.
 ///
 /// # Panics
-/// There is no continuous parameter, or a test is none of the space.
+/// There is no continuous parameter, or a test does not belong to the space.
 pub fn row_dispersion(dims: usize, tests: &[Point], deadline: Deadline) -> Bracket {
     if tests.is_empty() {
         return Bracket::exact(1.0);
@@ -158,9 +162,9 @@ pub fn row_dispersion(dims: usize, tests: &[Point], deadline: Deadline) -> Brack
 
 /// The worst of many projections.
 struct Worst {
-    /// One with the largest hole; none where there was no time to look at any.
+    /// The projection with the largest hole; `None` if there was no time to look at any.
     worst: Option<KwiseDispersion>,
-    /// No hole is larger.
+    /// The upper bound: no hole is larger.
     upper: f64,
 }
 
@@ -188,7 +192,7 @@ fn worst_of(mut projections: impl Iterator<Item = Projection>, tests: &[Point], 
     Worst { worst, upper }
 }
 
-/// The largest hole of a projection; `None` where it is proved to be no larger than `above`.
+/// The largest hole of a projection; `None` if the search proves that it is no larger than `above`.
 fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline) -> Option<KwiseDispersion> {
     if deadline.passed() {
         let Projection { fixed, axes } = projection;
@@ -205,15 +209,15 @@ fn hole(projection: Projection, tests: &[Point], above: f64, deadline: Deadline)
     Some(KwiseDispersion { volume, fixed, axes, witness })
 }
 
-/// All choices of parameters in lexicographic order, the continuous ones first, each with all values.
+/// All choices of parameters in lexicographic order, the continuous parameters first, each with all values.
 struct Projections<'a> {
     dims: usize,
-    /// The number of values of each parameter; a continuous one is not given any, which is one way.
+    /// The number of values of each parameter. It is 1 for a continuous parameter, which is not given any value.
     ways: Vec<usize>,
     levels: &'a [usize],
-    /// The parameters of the next choice; none after the last.
+    /// The parameters of the next choice; `None` after the last choice.
     set: Option<Vec<usize>>,
-    /// The number of the next combination of their values.
+    /// The number of the next combination of values.
     next: usize,
 }
 

@@ -1,16 +1,16 @@
-//! The discrepancies that have a closed form.
+//! Computes the discrepancies that have a closed form.
 //!
-//! Centered, wraparound, mixture and L2-star discrepancy look different in the literature, but are one thing:
-//! the worst error of the mean over the points as an estimate of the integral, over the unit ball of a space
-//! of functions whose reproducing kernel is a product `K(x, y) = prod_j k(x_j, y_j)`. Its square is
+//! Centered, wraparound, mixture and L2-star discrepancy look different in the literature, but share one definition:
+//! the worst error of the mean over the points as an estimate of the integral, over the unit ball of a space of
+//! functions whose reproducing kernel is a product `K(x, y) = prod_j k(x_j, y_j)`. The square of this error is
 //!
 //! ```text
 //! (int int k)^d  -  2/n sum_i prod_j int k(x_ij, .)  +  1/n^2 sum_i sum_l prod_j k(x_ij, x_lj)
 //! ```
 //!
-//! (Hickernell, A generalized discrepancy and quadrature error bound, Math. Comp. 67, 1998), so that a measure
-//! is its one-dimensional kernel and the kernel's integrals, and nothing else. All take O(n^2 d) time and are
-//! `None` for a set without points, whose mean does not exist, or where the deadline passes first.
+//! (Hickernell, A generalized discrepancy and quadrature error bound, Math. Comp. 67, 1998). A measure is therefore
+//! defined by its one-dimensional kernel and the kernel's integrals. All take O(n^2 d) time. They return `None` for a
+//! set without points, whose mean does not exist, or if the deadline passes first.
 
 use crate::bracket::Watch;
 use crate::measure::{Compare, Computation, Descriptor, Measure};
@@ -20,7 +20,7 @@ use rayon::prelude::*;
 impl Measure {
     /// The L2-star discrepancy.
     pub const L2_STAR: Self = Self::of(&Descriptor {
-        name: "l2_star",
+        name: "l2-star",
         key: "l2_star",
         label: "L2-star",
         title: "L2-star discrepancy",
@@ -32,7 +32,7 @@ impl Measure {
 }
 
 impl Measure {
-    /// The centered discrepancy, squared.
+    /// The square of the centered discrepancy.
     pub const CENTERED: Self = Self::of(&Descriptor {
         name: "centered",
         key: "centered",
@@ -46,7 +46,7 @@ impl Measure {
 }
 
 impl Measure {
-    /// The wraparound discrepancy, squared.
+    /// The square of the wraparound discrepancy.
     pub const WRAPAROUND: Self = Self::of(&Descriptor {
         name: "wraparound",
         key: "wraparound",
@@ -60,7 +60,7 @@ impl Measure {
 }
 
 impl Measure {
-    /// The mixture discrepancy, squared.
+    /// The square of the mixture discrepancy.
     pub const MIXTURE: Self = Self::of(&Descriptor {
         name: "mixture",
         key: "mixture",
@@ -73,21 +73,21 @@ impl Measure {
     });
 }
 
-/// The squared centered L2 discrepancy, by boxes between each point and its nearest corner of the cube;
-/// `scipy.stats.qmc.discrepancy(method="CD")`. Source: Hickernell 1998, as above.
+/// Computes the squared centered L2 discrepancy, over boxes between each point and its nearest corner of the cube, as
+/// `scipy.stats.qmc.discrepancy(method="CD")`. Source: Hickernell 1998, see the module's documentation.
 pub fn centered(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let single = |x: f64| {
         let z = (x - 0.5).abs();
         1.0 + 0.5 * z - 0.5 * z * z
     };
-    // 1 + (|x - 1/2| + |y - 1/2| - |x - y|) / 2: on the same side of 1/2 the distance of the nearer, else nothing.
+    // 1 + (|x - 1/2| + |y - 1/2| - |x - y|) / 2: on the same side of 1/2 the nearer point's distance from it, else 0.
     let prepare = |x: f64| ((0.5 - x).max(0.0), 1.0 + (x - 0.5).max(0.0));
     let pair = |x: Prepared, y: Prepared| least(x.0, y.0) + least(x.1, y.1);
     squared(points, deadline, 13.0 / 12.0, single, prepare, pair)
 }
 
-/// The squared wraparound L2 discrepancy, by boxes that may leave the cube on one side and come back on the
-/// other; `scipy.stats.qmc.discrepancy(method="WD")`. Source: Hickernell, Lattice rules: how well do they
+/// Computes the squared wraparound L2 discrepancy, over boxes that may leave the cube on one side and come back on
+/// the other, as `scipy.stats.qmc.discrepancy(method="WD")`. Source: Hickernell, Lattice rules: how well do they
 /// measure up?, 1998.
 pub fn wraparound(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let pair = |x: Prepared, y: Prepared| {
@@ -97,9 +97,9 @@ pub fn wraparound(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared(points, deadline, 4.0 / 3.0, |_| 4.0 / 3.0, |x| (x, 0.0), pair)
 }
 
-/// The squared mixture L2 discrepancy, which mends what the other two are blind to;
-/// `scipy.stats.qmc.discrepancy(method="MD")`. Source: Zhou, Fang, Ning, Mixture discrepancy for quasi-random
-/// point sets, J. Complexity 29, 2013.
+/// Computes the squared mixture L2 discrepancy, which avoids weaknesses of the other two, as
+/// `scipy.stats.qmc.discrepancy(method="MD")`. Source: Zhou, Fang, Ning, Mixture discrepancy for quasi-random point
+/// sets, J. Complexity 29, 2013.
 pub fn mixture(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let single = |x: f64| {
         let z = (x - 0.5).abs();
@@ -114,25 +114,27 @@ pub fn mixture(points: &PointSet, deadline: Deadline) -> Option<f64> {
     squared(points, deadline, 19.0 / 12.0, single, prepare, pair)
 }
 
-/// The L2-star discrepancy (the root, not the square): the root mean square, over all boxes anchored at 0, of
-/// volume less share of points; `scipy.stats.qmc.discrepancy(method="L2-star")`. Source: Warnock,
-/// Computational investigations of low-discrepancy point sets, 1972.
+/// Computes the L2-star discrepancy (the root, not the square): the root mean square, over all boxes anchored at 0,
+/// of the difference between volume and share of points, as `scipy.stats.qmc.discrepancy(method="L2-star")`. Source:
+/// Warnock, Computational investigations of low-discrepancy point sets, 1972.
 pub fn l2_star(points: &PointSet, deadline: Deadline) -> Option<f64> {
     let (single, prepare) = (|x: f64| 0.5 * (1.0 - x * x), |x: f64| (1.0 - x, 0.0));
     let squared = squared(points, deadline, 1.0 / 3.0, single, prepare, |x, y| least(x.0, y.0));
-    // The terms cancel: of a very good set rounding may leave less than nothing.
+    // The terms cancel: for a very good set, rounding may leave a negative number.
     squared.map(|square| square.max(0.0).sqrt())
 }
 
-/// Points are compared in groups of this many, whose products fit in the registers.
+/// The number of points in a group. Their products fit in the registers.
 const LANES: usize = 8;
-/// Groups of points of which a task compares each with all before it: work enough to be worth a task.
+/// The number of groups in a task. A task compares each of its points with all earlier points, which is enough work
+/// for a task.
 const GROUPS_PER_TASK: usize = 4;
 
-/// What a kernel has to know of a coordinate, up to two numbers: they are computed once per point, not per pair.
+/// The values that a kernel needs of a coordinate, at most two numbers. They are computed once per point, not per
+/// pair.
 type Prepared = (f64, f64);
 
-/// The points, prepared, in groups: per group and axis the first numbers of its points, then the second.
+/// The prepared points in groups: per group and axis the first numbers of its points, then the second numbers.
 struct Groups {
     dims: usize,
     firsts: Vec<[f64; LANES]>,
@@ -153,7 +155,7 @@ impl Groups {
         groups
     }
 
-    /// The kernel's values for a point with each of a group.
+    /// The kernel's values for a point with each point of a group.
     #[inline(always)]
     fn products(&self, point: usize, group: usize, pair: impl Fn(Prepared, Prepared) -> f64) -> [f64; LANES] {
         let of = |group: usize| group * self.dims..(group + 1) * self.dims;
@@ -171,8 +173,8 @@ impl Groups {
     }
 }
 
-/// The squared worst-case error for a kernel with its integrals: `single` over one argument, `whole` over both.
-/// The kernel is `pair` of what `prepare` makes of its arguments.
+/// The squared worst-case error for a kernel with its integrals: `single` over one argument, `whole` over both. The
+/// kernel is `pair`, applied to the prepared arguments.
 ///
 /// Sums are taken in fixed groups and in their order: the result does not depend on the number of threads.
 fn squared(
@@ -189,7 +191,7 @@ fn squared(
     let whole: f64 = std::iter::repeat_n(whole, points.dims()).product();
     let singles: f64 = points.iter().map(|x| x.iter().map(|&x| single(x)).product::<f64>()).sum();
     let groups = Groups::new(points, prepare);
-    // The last tasks have the most to do, and are the first to be begun.
+    // The last tasks have the most work, and are begun first.
     let tasks = points.len().div_ceil(LANES * GROUPS_PER_TASK);
     let pairs = |task: usize| {
         let mut watch = Watch::new(deadline);
@@ -217,7 +219,7 @@ fn squared(
     Some(whole - 2.0 * singles / n + pairs / (n * n))
 }
 
-/// The smaller number; unlike `f64::min` it is one instruction, having no NaN to care for.
+/// The smaller number. Unlike `f64::min` it is one instruction, because it does not care for NaN.
 #[inline(always)]
 fn least(x: f64, y: f64) -> f64 {
     if x < y { x } else { y }

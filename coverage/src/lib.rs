@@ -1,11 +1,12 @@
-//! How well a set of tests covers a parameter space.
+//! Measures how well a set of tests covers a parameter space.
 //!
-//! Tests are points of a [`Space`](paracosm_space::Space), and this crate says how much of the space they have looked at: the
-//! discrete half by [`kwise`] coverage, the continuous half by [`dispersion`] (the largest box that no test has entered: the
-//! paper's measure), by [`fill`] (the largest ball) and by discrepancy ([`star`], [`extreme`], [`l2`]), and both halves
-//! together by [`kwise_dispersion`]. Each is described as a [`Measure`]. [`empty_boxes`] keeps the holes up to date as tests arrive one by one, and [`proof`]
-//! proves that there are no larger ones. [`theory`] holds the bounds that are known without looking at any point. Where tests
-//! failed, [`suspects`] says which combinations of discrete values are behind the failures.
+//! Tests are points of a [`Space`](paracosm_space::Space). This crate measures how much of the space they have
+//! reached. [`kwise`] coverage measures the discrete parameters. [`dispersion`] (the largest box that no test has
+//! entered: the paper's measure), [`fill`] (the largest ball) and the discrepancies ([`star`], [`extreme`], [`l2`])
+//! measure the continuous parameters. [`kwise_dispersion`] measures both together. Each of these is described as a
+//! [`Measure`]. [`empty_boxes`] keeps the holes up to date while tests arrive one by one, and [`proof`] proves that
+//! no hole is larger. [`theory`] holds bounds that follow without any points. If tests failed, [`suspects`] says
+//! which combinations of discrete values may be the cause.
 //!
 //! ```
 //! use paracosm_coverage::{Deadline, PointSet, dispersion::dispersion};
@@ -40,7 +41,7 @@ pub use bracket::{Bracket, Deadline};
 pub use measure::{Measure, UnknownMeasure};
 pub use points::{PointSet, PointSetError};
 
-/// The measures, in the order in which they are shown.
+/// All measures, in the order in which they are shown.
 const MEASURES: &[Measure] = &[
     Measure::DISPERSION,
     Measure::STAR,

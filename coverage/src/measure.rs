@@ -1,7 +1,7 @@
-//! A measure is a descriptor: its names, what it says, when it is taken, and how it is computed.
+//! Describes each measure by a descriptor: its names, its meaning, when it is taken, and how it is computed.
 //!
-//! Reports, tables, figures, comparisons and help read the descriptors. A measure is described in the file that computes it,
-//! and named in the list of the crate.
+//! Reports, tables, figures, comparisons and help read the descriptors. The file that computes a measure describes
+//! it, and `MEASURES` in the crate's `lib.rs` lists all measures.
 
 use crate::witness::{Dispersion, Fill};
 use crate::{Bracket, Deadline, PointSet};
@@ -10,11 +10,12 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// A measure of how well tests cover their space: a handle to its [`Descriptor`]. Measures of the same name are equal.
+/// A measure of how well tests cover their space: a handle to its [`Descriptor`]. Two measures with the same name are
+/// equal.
 #[derive(Clone, Copy)]
 pub struct Measure(&'static Descriptor);
 
-/// All that the software knows of a measure.
+/// The description of a measure: its names, its meaning, when it is taken, and how it is computed.
 #[derive(Debug)]
 pub struct Descriptor {
     /// The name by which users ask for the measure. No two measures have the same name.
@@ -27,82 +28,84 @@ pub struct Descriptor {
     pub title: &'static str,
     /// The meaning of the measure, in one line.
     pub about: &'static str,
-    /// When the measure is taken among others: a measure of a lower pace is taken first, and leaves the rest of its time to
-    /// the others.
+    /// The rank of the measure when several are taken: a measure with a lower pace is taken first, and leaves the
+    /// rest of its time to the others.
     pub pace: u8,
-    /// When a comparison of strategies takes the measure.
+    /// The condition under which a comparison of strategies takes the measure.
     pub compare: Compare,
-    /// How the measure is computed.
+    /// The method that computes the measure.
     pub method: Computation,
 }
 
-/// When a comparison of strategies takes a measure.
+/// The condition under which a comparison of strategies takes a measure.
 #[derive(Debug, Clone, Copy)]
 pub enum Compare {
-    /// Always.
+    /// The comparison always takes the measure.
     Always,
-    /// Where it is quick for sets of so many dimensions and points, or where it is named.
+    /// The comparison takes the measure if the user names it, or if it is quick for the given numbers of dimensions
+    /// and points.
     WhereQuick(fn(usize, usize) -> bool),
-    /// Where it is named.
+    /// The comparison takes the measure only if the user names it.
     WhereNamed,
-    /// Where sets have more than k dimensions.
+    /// The comparison takes the measure if the sets of points have more than k dimensions.
     BeyondK,
-    /// Never: it says nothing about points of the cube.
+    /// The comparison never takes the measure, because it says nothing about points of the cube.
     Never,
 }
 
-/// How a measure is computed.
+/// The way in which a measure is computed.
 #[derive(Debug, Clone, Copy)]
 pub enum Computation {
-    /// A number in closed form; none without points, or where the deadline passes first.
+    /// A number in closed form; `None` if there are no points or the deadline passes first.
     Number(fn(&PointSet, Deadline) -> Option<f64>),
     /// A number that is exact unless the deadline cuts the search short.
     Bracket(fn(&PointSet, Deadline) -> Bracket),
-    /// The largest empty box, while the bracket of its volume is watched.
+    /// The largest empty box. A callback receives the bracket of its volume while it narrows.
     Hole(fn(&PointSet, Deadline, &mut dyn FnMut(Bracket)) -> Dispersion),
-    /// The largest empty ball; none without points.
+    /// The largest empty ball; `None` if there are no points.
     Ball(fn(&PointSet, Deadline) -> Option<Fill>),
-    /// The combinations of discrete values that tests contain.
+    /// The combinations of discrete values that the tests contain.
     Combinations,
-    /// The largest hole that any k parameters show, discrete and continuous ones.
+    /// The largest hole that any k parameters show, discrete and continuous parameters together.
     KwiseHole,
 }
 
-/// What a measure of the continuous half found.
+/// The result of a measure of the continuous parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Finding {
-    /// A number; none without points, or where the deadline passed first.
+    /// A number; `None` if there were no points or the deadline passed first.
     Number(Option<f64>),
-    /// A number that is exact, or between two bounds.
+    /// A number that is exact or lies between two bounds.
     Bracket(Bracket),
     /// The largest empty box.
     Hole(Dispersion),
-    /// The largest empty ball; none without points.
+    /// The largest empty ball; `None` if there were no points.
     Ball(Option<Fill>),
 }
 
 impl Measure {
-    /// The measure of a descriptor.
+    /// Makes the measure of a descriptor.
     pub const fn of(descriptor: &'static Descriptor) -> Self {
         Self(descriptor)
     }
 
-    /// Every measure, in the order in which they are shown.
+    /// Iterates over all measures, in the order in which they are shown.
     pub fn all() -> impl Iterator<Item = Self> {
         crate::MEASURES.iter().copied()
     }
 
-    /// The name by which it is asked for.
+    /// Returns the name by which users ask for the measure.
     pub fn name(self) -> &'static str {
         self.0.name
     }
 
-    /// All that is known of it.
+    /// Returns the descriptor of the measure.
     pub fn descriptor(self) -> &'static Descriptor {
         self.0
     }
 
-    /// What it says of points; none if it is not about the continuous half alone. `watch` sees the bracket close.
+    /// Measures `points`; returns `None` if the measure is not about the continuous parameters alone. `watch`
+    /// receives the bracket while it narrows.
     pub fn take(self, points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Option<Finding> {
         match self.0.method {
             Computation::Number(number) => Some(Finding::Number(number(points, deadline))),
@@ -113,7 +116,7 @@ impl Measure {
         }
     }
 
-    /// Whether it is about the continuous half alone.
+    /// Returns `true` if the measure is about the continuous parameters alone.
     pub fn is_of_points(self) -> bool {
         !matches!(self.0.method, Computation::Combinations | Computation::KwiseHole)
     }
@@ -139,13 +142,13 @@ impl fmt::Display for Measure {
     }
 }
 
-/// A name that no measure has.
+/// An error: no measure has the given name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("no measure is called `{name}`{}; there are {}", did_you_mean(.nearest), names().join(", "))]
 pub struct UnknownMeasure {
-    /// The name.
+    /// The name that no measure has.
     pub name: String,
-    /// A name that was perhaps meant.
+    /// The name of a measure that was perhaps meant.
     pub nearest: Option<&'static str>,
 }
 
@@ -158,6 +161,6 @@ impl FromStr for Measure {
 
     fn from_str(name: &str) -> Result<Self, UnknownMeasure> {
         let unknown = || UnknownMeasure { name: name.to_owned(), nearest: nearest(name, names()) };
-        Self::all().find(|measure| measure.name() == name).ok_or_else(unknown)
+        Self::all().find(|measure| [measure.0.name, measure.0.key].contains(&name)).ok_or_else(unknown)
     }
 }

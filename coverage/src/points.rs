@@ -1,44 +1,44 @@
-//! A set of points in the unit cube, the form in which the continuous measures take their tests.
+//! A set of points in the unit cube: the input of all measures of the continuous parameters.
 
 use thiserror::Error;
 
-/// Points of `[0,1]^d`, one after the other in one allocation.
+/// A set of points in `[0,1]^d`, stored one after the other in one allocation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointSet {
     dims: usize,
     coordinates: Vec<f64>,
 }
 
-/// Why a list of numbers is no set of points in the unit cube.
+/// The reason why a list of numbers is not a set of points in the unit cube.
 #[derive(Debug, Error, PartialEq)]
 pub enum PointSetError {
-    /// There is no dimension to measure in.
+    /// The number of coordinates is 0.
     #[error("points need at least one coordinate, found none")]
     NoDimension,
-    /// A point with too many or too few coordinates.
+    /// A point has too many or too few coordinates.
     #[error("point {index} has {found} coordinates, expected {expected}")]
     Ragged {
-        /// The point's position, from 0.
+        /// The position of the point, from 0.
         index: usize,
-        /// How many coordinates it has.
+        /// The number of coordinates of the point.
         found: usize,
-        /// How many the first point has.
+        /// The number of coordinates that was expected.
         expected: usize,
     },
-    /// A coordinate that is not in `[0,1]`; NaN is not.
+    /// A coordinate is not in `[0,1]`, or is NaN.
     #[error("point {index}, coordinate {axis}: found {value}, expected a number in [0, 1]")]
     OutsideCube {
-        /// The point's position, from 0.
+        /// The position of the point, from 0.
         index: usize,
-        /// The coordinate's position, from 0.
+        /// The position of the coordinate, from 0.
         axis: usize,
-        /// The number found.
+        /// The value of the coordinate.
         value: f64,
     },
 }
 
 impl PointSet {
-    /// A set of points with `dims` coordinates each.
+    /// Makes a set of points with `dims` coordinates each.
     ///
     /// # Errors
     /// `dims` is 0, a point has another number of coordinates, or a coordinate is not in `[0,1]`.
@@ -60,27 +60,27 @@ impl PointSet {
         Ok(Self { dims, coordinates })
     }
 
-    /// The number of coordinates of each point.
+    /// Returns the number of coordinates of each point.
     pub fn dims(&self) -> usize {
         self.dims
     }
 
-    /// The number of points.
+    /// Returns the number of points.
     pub fn len(&self) -> usize {
         self.coordinates.len() / self.dims
     }
 
-    /// Whether there is no point.
+    /// Returns `true` if the set has no point.
     pub fn is_empty(&self) -> bool {
         self.coordinates.is_empty()
     }
 
-    /// The points in order.
+    /// Iterates over the points in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[f64]> + Clone {
         self.coordinates.chunks_exact(self.dims)
     }
 
-    /// The point at `index`.
+    /// Returns the point at `index`.
     ///
     /// # Panics
     /// `index` is not below [`PointSet::len`].

@@ -1,20 +1,22 @@
-//! Proofs of upper bounds on dispersion that can be checked without trusting the search that found them.
+//! Proofs of upper bounds on dispersion, which can be checked without trusting the search that found them.
 //!
-//! That no empty box is larger than a volume is shown by a tree of boxes. An empty box inside the box at hand avoids the
-//! pivot, a test strictly inside, on one of its sides, and so lies in what is left of the box when one of its `2d`
-//! ends moves to the pivot. A box that is small enough is a leaf. The tree follows from its pivots, listed in the order in
-//! which the boxes are come by, and from these rules:
+//! A tree of boxes proves that no empty box is larger than a given volume. A box of the tree has a pivot: a test
+//! strictly inside the box. An empty box inside the box must avoid the pivot on one of its sides, and so lies in one
+//! of the `2d` parts that are left when one end of the box moves to the pivot. A box that is small enough is a leaf.
+//! The tree follows from its pivots, listed in the order in which the boxes are visited, and from these rules:
 //!
-//! * The cuts of a box are made in the order of the axes, on each axis first the lower end, then the upper end. Whoever
-//!   makes a cut may suppose that the empty box does not lie in what the cuts before left: that it reaches beyond the
-//!   pivot at their ends. An end that is to reach beyond a point can no longer be cut there, nor further in.
-//! * Boxes are looked at depth-first, what the last cut left before what the others left.
-//! * Small enough, and without a pivot, is what has at most `1 - MARGIN` times the volume of the bound, where
-//!   [`MARGIN`] is far more than what rounding adds to a product of differences.
+//! * The cuts of a box are made in the order of the axes, on each axis first the lower end, then the upper end. A cut
+//!   may assume that the empty box lies in none of the parts that the earlier cuts left: that at those ends it
+//!   reaches beyond the pivot. An end that must reach beyond a point can no longer be cut at that point, nor further
+//!   inside.
+//! * The boxes are visited depth-first, the part that the last cut left first.
+//! * A box is small enough, and has no pivot, if its volume is at most `1 - MARGIN` times the bound. [`MARGIN`] is
+//!   far more than what rounding adds to a product of differences.
 //!
-//! One claim is about many projections: choices of parameters, with values of the discrete ones among them, which select
-//! tests. Where none of the parameters is continuous, a box has no sides, its volume is that of a product without factors,
-//! 1, and any selected test is a pivot that leaves nothing of it: the same rules hold.
+//! A claim is about many projections. A projection is a choice of parameters, with values of the discrete parameters
+//! among them, and selects the tests that have these values. If none of its parameters is continuous, a box has no
+//! sides and its volume is the empty product, 1. Any selected test is then a pivot that leaves no part, so that the
+//! same rules hold.
 
 use crate::bracket::Watch;
 use crate::dispersion::trail;
@@ -27,69 +29,69 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// By how much, as a share, a bound is larger than the volumes that need no pivot.
+/// The share by which a bound is larger than the volume of a box that needs no pivot.
 pub const MARGIN: f64 = 1e-12;
 
-/// How many bounds are tried where the one that is known asks for too much, or is not known to be the least.
+/// The largest number of bounds to try if the known bound takes too many pivots, or may not be the least possible.
 const ATTEMPTS: usize = 10;
 
-/// A bound this close to what could not be proved, as a share, is not improved further.
+/// A bound that exceeds the largest unproved bound by at most this share is not improved further.
 const ENOUGH: f64 = 1e-3;
 
-/// Which projections of the space a claim is about.
+/// The projections of the space that a claim is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
-    /// All continuous parameters at once, whatever the discrete ones: the claim of
+    /// All continuous parameters at once, for all values of the discrete parameters: the claim of
     /// [`dispersion`](crate::dispersion::dispersion).
     Continuous,
-    /// Every choice of this many parameters, with all values of the discrete ones: the claim of
+    /// Every choice of the given number of parameters, with all values of the discrete ones: the claim of
     /// [`kwise_dispersion`](crate::kwise_dispersion::kwise_dispersion).
     Every(usize),
 }
 
-/// What a proof may take.
+/// The limits of the search for a proof.
 #[derive(Debug, Clone, Copy)]
 pub struct Budget {
-    /// How many pivots, over all projections.
+    /// The greatest number of pivots, over all projections.
     pub pivots: usize,
-    /// Until when the proof has to be found.
+    /// The deadline of the search.
     pub deadline: Deadline,
 }
 
-/// The proof for one projection.
+/// The proof of a bound for one projection.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Proof {
-    /// The values of the discrete parameters among those of the projection: positions among the discrete ones, and
+    /// The discrete parameters of the projection with their values: positions among the discrete parameters, and
     /// levels.
     pub fixed: Vec<(usize, usize)>,
-    /// The continuous parameters, by their position among the continuous ones.
+    /// The continuous parameters of the projection, by their positions among the continuous parameters.
     pub axes: Vec<usize>,
-    /// The pivots, as positions of tests.
+    /// The pivots of the tree, as positions of tests.
     pub pivots: Vec<usize>,
 }
 
 /// An upper bound with its proofs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proved {
-    /// No empty box of any projection has a larger volume.
+    /// The upper bound: no empty box of any projection has a larger volume.
     pub upper: f64,
-    /// A proof for each projection in lexicographic order, the continuous parameters first; none where the bound is 1,
-    /// which nothing exceeds.
+    /// A proof for each projection, in lexicographic order with the continuous parameters first. The list is empty if
+    /// the bound is 1, because no volume exceeds 1.
     pub proofs: Vec<Proof>,
 }
 
-/// Proves that no empty box is larger than the upper end of a bracket of the largest volume; where the budget does not
-/// allow for that, a weaker bound; and where the bracket is not exact, a stronger one if it finds one. The bound of an
-/// exact bracket is above the volume by a few times [`MARGIN`].
+/// Proves an upper bound on the largest volume of an empty box. The bound is the upper bound of the bracket `volume`,
+/// a weaker bound if the budget is too small, or a stronger one if the bracket is not exact and a stronger one is
+/// found. The bound of an exact bracket is above the volume by a few times [`MARGIN`].
 ///
-/// `rules` are of the discrete parameters, `dims` is the number of continuous ones. The
-/// result does not depend on the number of threads as long as the deadline does not cut it short.
+/// `rules` are the rules of the discrete parameters, and `dims` is the number of continuous parameters. The result
+/// does not depend on the number of threads unless the deadline cuts the search short.
 ///
 /// # Errors
-/// There are not as many parameters as the scope wants, or a discrete parameter has no level.
+/// There are fewer parameters than the scope needs, or a discrete parameter has no level.
 ///
 /// # Panics
-/// A test is none of this space.
+/// A test does not belong to this space.
 pub fn prove(
     dims: usize,
     rules: &Rules,
@@ -101,14 +103,14 @@ pub fn prove(
     let projections: Vec<Projection> = match scope {
         Scope::Continuous if dims == 0 => return Err(KwiseError::Strength { k: 0, parameters: 0 }),
         Scope::Continuous => vec![Projection { fixed: Vec::new(), axes: (0..dims).collect() }],
-        // Each needs a pivot.
+        // Each projection needs a pivot.
         Scope::Every(k) => projections(dims, rules, k)?.take(budget.pivots.saturating_add(1)).collect(),
     };
     let mut proved = Proved { upper: 1.0, proofs: Vec::new() };
     if projections.len() > budget.pivots {
         return Ok(proved);
     }
-    // Nothing below this can be proved: along an axis, n tests leave a gap of 1 / (n + 1).
+    // No bound below this can be proved: along an axis, n tests leave a gap of 1 / (n + 1).
     let gap = |projection: &Projection| !projection.axes.is_empty();
     let least = if projections.iter().any(gap) { 1.0 / (tests.len() + 1) as f64 } else { 0.0 };
     let mut beyond = volume.lower.max(least);
@@ -120,7 +122,7 @@ pub fn prove(
         if goal >= 1.0 || budget.deadline.passed() {
             break;
         }
-        // The bound that is known is worth half of the time.
+        // The first attempt, at the known bound, may take half of the time.
         let deadline = budget.deadline.part(if attempt == 0 { 0.5 } else { 0.3 });
         match all(&projections, tests, goal, Budget { deadline, ..budget }) {
             Some(proofs) => proved = Proved { upper: goal, proofs },
@@ -134,7 +136,7 @@ pub fn prove(
     Ok(proved)
 }
 
-/// Proofs for all projections, within the budget.
+/// Finds the proofs for all projections, within the budget.
 fn all(projections: &[Projection], tests: &[Point], upper: f64, budget: Budget) -> Option<Vec<Proof>> {
     let taken = AtomicUsize::new(0);
     let one = |projection: &Projection| {

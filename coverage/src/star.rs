@@ -1,10 +1,10 @@
-//! The star discrepancy: how far the share of points in a box anchored at 0 is from the box's volume, at worst.
+//! The star discrepancy: the largest difference between the share of points in a box anchored at 0 and its volume.
 //!
-//! The two differences, of open and of closed boxes, are searched by branch and bound over cells of boxes
-//! (`search`). A cell knows the points that are in all of its boxes and in none; what the undecided ones allow is
-//! bounded by a choice per side that dynamic programming solves (`cell`). A first good value comes from local
-//! search (`ascent`). Boxes are described by their free sides (`sides`), so that the same serves the extreme
-//! discrepancy, whose boxes have twice as many.
+//! Branch and bound over cells of boxes finds the two differences, for open and for closed boxes (`search`). A cell
+//! knows which points are in all of its boxes, and which are in none. The effect of the undecided points is bounded
+//! by a choice for each side, which dynamic programming solves (`cell`). A local search gives a first good value
+//! (`ascent`). Boxes are described by their free sides (`sides`). The same code therefore computes the extreme
+//! discrepancy, whose boxes have twice as many free sides.
 
 mod ascent;
 mod cell;
@@ -30,11 +30,12 @@ impl Measure {
     });
 }
 
-/// The star discrepancy: the largest of `vol [0,y) - #{x < y} / n` and `#{x <= y} / n - vol [0,y)` over all `y`
-/// in the unit cube (Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, 1992, section 2.1).
+/// Computes the star discrepancy of a set of points. It is the largest of `vol [0,y) - #{x < y} / n` and `#{x <= y} /
+/// n - vol [0,y)` over all `y` in the unit cube (Niederreiter, Random Number Generation and Quasi-Monte Carlo
+/// Methods, 1992, section 2.1).
 ///
-/// Exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. A set without points leaves the whole
-/// cube uncovered: 1.
+/// The result is exact, in any dimension, unless `deadline` or memory (some 200 MiB) cuts the search short. The
+/// discrepancy of a set without points is 1, because the whole cube is uncovered.
 pub fn star_discrepancy(points: &PointSet, deadline: Deadline) -> Bracket {
     if points.is_empty() {
         return Bracket::exact(1.0);

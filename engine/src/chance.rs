@@ -1,45 +1,45 @@
-//! Where the noise of sensors comes from.
+//! The random numbers for the noise of sensors.
 
 use nalgebra::Vector2;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Up to this mean a Poisson number is drawn at a stroke: e to its minus is far from underflow.
+/// The greatest mean that the Poisson algorithm handles in one round. Up to it, `exp(-mean)` is far from underflow.
 const POISSON_AT_ONCE: f64 = 30.0;
-/// The greatest mean of a Poisson number.
+/// The greatest mean of a Poisson number. A greater mean is reduced to it.
 const POISSON_MOST: f64 = 1e6;
 
-/// The chance of one reading.
+/// The source of the random numbers of one reading.
 #[derive(Debug, Clone)]
 pub struct Chance {
     random: Pcg64,
-    /// The second of a pair of normal numbers, of which the first has been given.
+    /// The second number of a pair of normal numbers whose first number has been returned.
     spare: Option<f64>,
 }
 
 impl Chance {
-    /// That of a reading: the seed of the rig, the name of the sensor, and the number of the reading.
+    /// Makes the source of a reading from the rig's seed, the sensor's name and the number of the reading.
     pub fn of(seed: u64, name: &str, number: u64) -> Self {
         let key = mixed(mixed(mixed(seed) ^ hashed(name)) ^ number);
         Self { random: Pcg64::seed_from_u64(key), spare: None }
     }
 
-    /// A number from 0 to 1, without 1, all equally likely.
+    /// Returns a uniform random number in [0, 1).
     pub fn unit(&mut self) -> f64 {
         self.random.random()
     }
 
-    /// Whether something of this probability happens.
+    /// Returns `true` with this probability.
     pub fn happens(&mut self, probability: f64) -> bool {
         self.unit() < probability
     }
 
-    /// A number between two, all equally likely.
+    /// Returns a uniform random number from `low` to `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// A normal number with mean 0 and standard deviation 1.
+    /// Returns a normal random number with mean 0 and standard deviation 1.
     pub fn normal(&mut self) -> f64 {
         self.spare.take().unwrap_or_else(|| {
             let pair = gaussian(&mut self.random);
@@ -48,13 +48,13 @@ impl Chance {
         })
     }
 
-    /// An exponential number with this mean.
+    /// Returns an exponential random number with this mean.
     pub fn exponential(&mut self, mean: f64) -> f64 {
         -mean * libm::log(1.0 - self.unit())
     }
 
-    /// How often something happens that happens so often in the mean, a million times at most, and at any time
-    /// (by multiplying, Knuth 1969).
+    /// Returns a Poisson random number with this mean (by multiplying uniform numbers, Knuth 1969). A mean above a
+    /// million counts as a million.
     pub fn poisson(&mut self, mean: f64) -> usize {
         let mut count = 0;
         let mut left = mean.min(POISSON_MOST);
@@ -71,7 +71,7 @@ impl Chance {
     }
 }
 
-/// A number for a text (FNV-1a; Fowler, Noll and Vo).
+/// Returns the hash of a text (FNV-1a; Fowler, Noll and Vo).
 pub(crate) fn hashed(text: &str) -> u64 {
     text.bytes()
         .fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
@@ -85,7 +85,7 @@ pub(crate) fn mixed(number: u64) -> u64 {
     z ^ z >> 31
 }
 
-/// Two independent standard normal numbers (Box and Muller 1958), from libm so that they are the same everywhere.
+/// Returns two independent standard normal numbers (Box and Muller 1958), from libm: the same on every machine.
 pub(crate) fn gaussian(random: &mut Pcg64) -> Vector2<f64> {
     // 1 - u is in (0, 1], where the logarithm is finite.
     let radius = libm::sqrt(-2.0 * libm::log(1.0 - random.random::<f64>()));

@@ -1,26 +1,26 @@
-//! How the car under test touches something.
+//! Contacts of the ego vehicle with other objects.
 
 use crate::object::Class;
 use std::fmt;
 
-/// How the car under test touched something.
+/// A contact of the ego vehicle with another object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// The name of the object.
+    /// The name of the object that the ego vehicle touched.
     pub with: String,
-    /// What it is taken for.
+    /// The class of the object.
     pub class: Class,
-    /// The side of the car.
+    /// The side of the ego vehicle that touched the object.
     pub face: Face,
-    /// What the car was doing.
+    /// The motion of the ego vehicle at the contact.
     pub motion: ContactMotion,
-    /// How fast the car was, in m/s.
+    /// The speed of the ego vehicle, in m/s.
     pub speed: f64,
-    /// How fast the object was, in m/s.
+    /// The speed of the object, in m/s.
     pub other_speed: f64,
 }
 
-/// A side of the car's body.
+/// A side of the ego vehicle's body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Face {
     /// The front.
@@ -34,7 +34,7 @@ pub enum Face {
 }
 
 impl Face {
-    /// All sides.
+    /// All sides of the body.
     pub const ALL: [Self; 4] = [Self::Front, Self::Left, Self::Right, Self::Rear];
 }
 
@@ -49,19 +49,19 @@ impl fmt::Display for Face {
     }
 }
 
-/// What a car does at a contact.
+/// The motion of the ego vehicle at a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ContactMotion {
-    /// It drives and does not brake.
+    /// The car drives and does not brake.
     Driving,
-    /// It brakes by more than 0.5 m/s².
+    /// The car brakes by more than 0.5 m/s².
     Braking,
-    /// It is slower than 0.1 m/s.
+    /// The car is slower than 0.1 m/s.
     Standing,
 }
 
 impl ContactMotion {
-    /// All there are.
+    /// All kinds of motion.
     pub const ALL: [Self; 3] = [Self::Driving, Self::Braking, Self::Standing];
 }
 

@@ -1,4 +1,4 @@
-//! Mistakes of a program, found while it builds its world.
+//! Mistakes of a scenario program that are found while the program builds its world.
 
 use crate::road::RoadError;
 use crate::stream::GraphFlaw;
@@ -9,80 +9,80 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use thiserror::Error;
 
-/// Mistakes found while the program ran, shared with the handles that it got.
+/// The mistakes that were found while the program ran. The handles that the program got share this list.
 pub(crate) type Flaws = Rc<RefCell<Vec<WorldFlaw>>>;
 
-/// Why a world cannot be built.
+/// The reason why a world cannot be built.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[non_exhaustive]
 pub enum WorldFlaw {
-    /// An object cannot be as it is described.
+    /// The description of an object is not valid.
     #[error("{object} {flaw}")]
     Object {
-        /// The object, by its name in the world.
+        /// The name of the object in the world.
         object: String,
-        /// What is wrong with it.
+        /// The mistake in the description of the object.
         flaw: ObjectFlaw,
     },
-    /// The roads cannot be as they are described.
+    /// The description of the roads is not valid.
     #[error(transparent)]
     Road(#[from] RoadError),
-    /// The streams have no meaning.
+    /// The streams of the world cannot be evaluated.
     #[error(transparent)]
     Streams(#[from] GraphFlaw),
     /// A stream has two definitions.
     #[error("the stream `{stream}` is defined twice")]
     DefinedTwice {
-        /// The stream.
+        /// The name of the stream.
         stream: String,
     },
-    /// A parameter has a value of another type.
+    /// A parameter has a value of a wrong type.
     #[error("parameter `{parameter}` has the value {value}, which is of another type")]
     OtherType {
-        /// The parameter.
+        /// The name of the parameter.
         parameter: String,
-        /// The value.
+        /// The value that was found.
         value: Value,
     },
-    /// A parameter cannot vary in this way.
+    /// A parameter cannot vary over time with this shape.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// A parameter varies over time, and the world needs one value of it.
+    /// A parameter varies over time, but the world needs a single value of it.
     #[error("parameter `{parameter}` varies over time, but the world is built with one value of it")]
     Varies {
-        /// The parameter.
+        /// The name of the parameter.
         parameter: String,
     },
-    /// A parameter that does not vary has several values.
+    /// A parameter that does not vary over time has several values.
     #[error("parameter `{parameter}` has the values {value}, but does not vary over time")]
     DoesNotVary {
-        /// The parameter.
+        /// The name of the parameter.
         parameter: String,
-        /// The values.
+        /// The values that were found.
         value: Value,
     },
-    /// A parameter that varies has too many or too few values.
+    /// A parameter that varies over time has too many or too few values.
     #[error("parameter `{parameter}` has {found} values, expected {expected} of a {shape}")]
     Coordinates {
-        /// The parameter.
+        /// The name of the parameter.
         parameter: String,
-        /// The number of values.
+        /// The number of values that were found.
         found: usize,
-        /// The number of values that the shape takes.
+        /// The number of values that the shape needs.
         expected: usize,
-        /// The shape.
+        /// The shape of the parameter's signal.
         shape: Shape,
     },
-    /// The share of the roadside that is taken is no share.
+    /// The share of the roadside that is filled with objects is not a number from 0 to 1.
     #[error("the roadside is {fullness} full, expected 0 to 1")]
     Roadside {
-        /// The share.
+        /// The share that was given.
         fullness: f64,
     },
-    /// The friction of the roads is said twice.
+    /// The program sets the friction of the roads twice.
     #[error("the friction of the roads is said twice")]
     FrictionTwice,
-    /// There are two environments.
+    /// The program places two environments.
     #[error("there are two environments, expected one at most")]
     EnvironmentTwice,
     /// The program refuses the test by [`Scenario::refuse`](crate::Scenario::refuse).
@@ -91,41 +91,41 @@ pub enum WorldFlaw {
         /// The reason that the program gives.
         why: String,
     },
-    /// A car of the traffic changes lanes in no time.
+    /// The duration of a lane change of a traffic car is not a finite number above 0.
     #[error("{traffic}: car {car} changes lanes within {seconds} s, expected a finite number above 0")]
     LaneChange {
-        /// The traffic, by its name in the world.
+        /// The name of the traffic in the world.
         traffic: String,
         /// The index of the car.
         car: usize,
-        /// The time, in seconds.
+        /// The duration of the lane change, in seconds.
         seconds: f64,
     },
-    /// The traffic does not have this car.
+    /// The traffic has no car with this index.
     #[error("{traffic}: there is no car {car}, cars are counted from 0 and there are {count}")]
     NoCar {
-        /// The traffic, by its name in the world.
+        /// The name of the traffic in the world.
         traffic: String,
-        /// The index that was asked for.
+        /// The index that the program asked for.
         car: usize,
-        /// The number of cars.
+        /// The number of cars in the traffic.
         count: usize,
     },
-    /// There are several cars under test or none, or several road networks or none.
+    /// The world does not have exactly one ego vehicle and exactly one road network.
     #[error("{cars} cars under test on {roads} roads, expected one on one")]
     Cars {
-        /// The number of cars under test.
+        /// The number of ego vehicles.
         cars: usize,
         /// The number of road networks.
         roads: usize,
     },
-    /// The duration of a run is no positive number.
+    /// The duration of a run is not a positive number.
     #[error("a run takes {seconds} s, expected a positive number")]
     Duration {
-        /// The duration, in seconds.
+        /// The duration of the run, in seconds.
         seconds: f64,
     },
-    /// The duration of a tick is no positive number, or longer than the run.
+    /// The duration of a tick is not a positive number, or a tick is longer than the run.
     #[error("a tick takes {tick} s, expected a positive number up to the run's {run}")]
     Tick {
         /// The duration of a tick, in seconds.
@@ -136,103 +136,103 @@ pub enum WorldFlaw {
     /// A run has too many ticks.
     #[error("a run has {ticks:.0} ticks, expected at most {most:.0}")]
     Ticks {
-        /// The number of ticks.
+        /// The number of ticks of the run.
         ticks: f64,
-        /// The greatest number of ticks.
+        /// The greatest number of ticks that a run may have.
         most: f64,
     },
-    /// Two requirements have one name.
+    /// Two requirements have the same name.
     #[error("requirement `{id}` is stated twice")]
     RequirementTwice {
-        /// The name.
+        /// The name of the requirements.
         id: String,
     },
-    /// Two streams of requirements have one name.
+    /// Two streams that requirements refer to have the same name.
     #[error("two streams that requirements speak of are called `{stream}`: tell them apart by `named`")]
     SameName {
-        /// The name.
+        /// The name of the streams.
         stream: String,
     },
-    /// A stream of a requirement has the name of an output.
+    /// A stream of a requirement has the name of an output of an object.
     #[error("a stream is called `{stream}`, which is the name of an object's output")]
     NameOfOutput {
-        /// The name.
+        /// The name of the stream.
         stream: String,
     },
 }
 
-/// Why an object cannot be.
+/// The reason why an object cannot be built.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ObjectFlaw {
-    /// Its body has a measure that is no length.
+    /// The length, width or height of a body is not a finite number above 0.
     #[error("is {length} m long, {width} m wide and {height} m tall, expected finite lengths above 0")]
     Measures {
-        /// In metres.
+        /// The length, in metres.
         length: f64,
-        /// In metres.
+        /// The width, in metres.
         width: f64,
-        /// In metres.
+        /// The height, in metres.
         height: f64,
     },
-    /// Its body begins at a place that is none.
+    /// The pose at which a body starts is not finite.
     #[error("stands at ({x}, {y}) and faces {heading}, expected numbers")]
     Pose {
-        /// In metres.
+        /// The x coordinate, in metres.
         x: f64,
-        /// In metres.
+        /// The y coordinate, in metres.
         y: f64,
-        /// In radians.
+        /// The heading, in radians.
         heading: f64,
     },
-    /// The physics moves it, and it has no body or several.
+    /// An object that the physics moves has no body or several bodies.
     #[error("is physical and has {found} bodies, expected 1")]
     Bodies {
-        /// The number of bodies.
+        /// The number of bodies of the object.
         found: usize,
     },
-    /// Its mass is none.
+    /// The mass of the object is not a finite number above 0.
     #[error("weighs {mass} kg, expected a finite number above 0")]
     Mass {
-        /// In kg.
+        /// The mass, in kg.
         mass: f64,
     },
-    /// Its path has a piece that is none.
+    /// A piece of the object's path has a length that is not a number from 0 on.
     #[error("has a {line} that has a piece {piece} m long, expected a number from 0 on")]
     Piece {
-        /// `path` or `way`.
+        /// The word for the path: `path` or `way`.
         line: &'static str,
         /// The length of the piece, in metres.
         piece: f64,
     },
-    /// It starts outside of its path.
+    /// The object starts before the beginning or beyond the end of its path.
     #[error("starts {start} m along a {line} of {length} m")]
     Start {
-        /// `path` or `way`.
+        /// The word for the path: `path` or `way`.
         line: &'static str,
-        /// In metres along it.
+        /// The start of the object, in metres along the path.
         start: f64,
         /// The length of the path, in metres.
         length: f64,
     },
-    /// It starts at a speed that it cannot have.
+    /// The speed at which the object starts is out of range.
     #[error("has the speed {speed} m/s, expected 0 to {most}")]
     Speed {
-        /// In m/s.
+        /// The speed, in m/s.
         speed: f64,
         /// The greatest speed, in m/s.
         most: f64,
     },
-    /// The vehicle cannot be.
+    /// The description of the vehicle is not valid.
     #[error("cannot be built: {0}")]
     Vehicle(#[from] VehicleFlaw),
     /// The traffic cannot begin.
     #[error("cannot begin: {0}")]
     Traffic(#[from] TrafficError),
-    /// The object reports a mistake of its own by [`ObjectDraft::refuse`](crate::ObjectDraft::refuse).
+    /// The object reports its own mistake by [`ObjectDraft::refuse`](crate::ObjectDraft::refuse).
     #[error("{why}")]
     Refused {
-        /// The words of the object, which go on from its name.
+        /// The message of the object, which continues a sentence that begins with the object's name.
         why: String,
     },
 }

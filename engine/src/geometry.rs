@@ -1,4 +1,4 @@
-//! Where things are: poses in the ground plane, and lines across it.
+//! Poses and directions in the ground plane, and lines across a road.
 
 use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
@@ -6,9 +6,9 @@ use std::f64::consts::{PI, TAU};
 /// A position with a heading.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pose {
-    /// Metres; x along the road, y to its left.
+    /// The position in metres: x along the road, y to the left of the road.
     pub position: Vector2<f64>,
-    /// Radians, counter-clockwise from x.
+    /// The heading in radians, counter-clockwise from x.
     pub heading: f64,
 }
 
@@ -25,35 +25,35 @@ impl Pose {
         Vector2::new(-forward.y, forward.x)
     }
 
-    /// A point of the plane as seen from here: x ahead, y to the left.
+    /// Returns a point of the plane as seen from this pose, in metres: x ahead, y to the left.
     pub fn to_local(&self, point: Vector2<f64>) -> Vector2<f64> {
         let ahead = self.forward();
         let offset = point - self.position;
         Vector2::new(ahead.dot(&offset), ahead.perp(&offset))
     }
 
-    /// A pose of the plane as seen from here.
+    /// Returns a pose of the plane as seen from this pose.
     pub fn relative(&self, pose: &Pose) -> Pose {
         Pose { position: self.to_local(pose.position), heading: wrapped(pose.heading - self.heading) }
     }
 
-    /// A direction of the plane as seen from here.
+    /// Returns a direction of the plane as seen from this pose: x ahead, y to the left.
     pub fn turn_to_local(&self, direction: Vector2<f64>) -> Vector2<f64> {
         let ahead = self.forward();
         Vector2::new(ahead.dot(&direction), ahead.perp(&direction))
     }
 
-    /// A direction as seen from here, in the plane.
+    /// Returns a direction that is given as seen from this pose as a direction of the plane.
     pub(crate) fn turn_to_plane(&self, local: Vector2<f64>) -> Vector2<f64> {
         self.forward() * local.x + self.left() * local.y
     }
 
-    /// Whether it is one: neither infinite nor NaN.
+    /// Returns `true` if position and heading are finite: neither infinite nor NaN.
     pub(crate) fn is_finite(&self) -> bool {
         self.position.iter().all(|metres| metres.is_finite()) && self.heading.is_finite()
     }
 
-    /// The pose in the plane of what has the pose `local` as seen from here.
+    /// Returns the pose in the plane of an object whose pose as seen from this pose is `local`.
     pub(crate) fn then(&self, local: &Pose) -> Pose {
         let (sin, cos) = libm::sincos(self.heading);
         let (x, y) = (local.position.x, local.position.y);
@@ -71,22 +71,22 @@ pub struct Line {
 }
 
 impl Line {
-    /// How far the line lies ahead of a position, in metres; negative behind it.
+    /// Returns how far the line lies ahead of a position, in metres; negative if the line lies behind it.
     pub fn ahead_of(&self, position: Vector2<f64>) -> f64 {
         (self.point - position).dot(&self.direction)
     }
 }
 
-/// A side of a road, seen along it.
+/// A side of a road, seen in the direction of the road.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// Where y is positive: beside the lanes of the opposite direction.
+    /// The left side, where y is positive: beside the lanes of the opposite direction.
     Left,
-    /// Where y is negative: beside lane 1.
+    /// The right side, where y is negative: beside lane 1.
     Right,
 }
 
-/// The angle in (-π, π] that points the same way.
+/// Returns the angle in (-π, π] that points in the same direction.
 pub(crate) fn wrapped(angle: f64) -> f64 {
     angle - (((angle + PI) / TAU).ceil() - 1.0) * TAU
 }

@@ -1,9 +1,9 @@
-//! Worlds as programs, and one simulated run of such a world.
+//! Worlds as programs, and simulated runs of such worlds.
 //!
-//! A [`Program`] is a function that builds a world in a [`Scenario`]: it declares parameters, places a road, a
-//! car and pedestrians, binds their inputs to [`stream`]s and states requirements. Run with no test it yields
-//! its parameters ([`Program::declare`]); run with one it yields a [`Run`], a state machine that alternates
-//! with the system under test, a [`driver::Driver`], until it is done and leaves an [`Outcome`].
+//! A [`Program`] is a function that builds a world in a [`Scenario`]. It declares parameters, places a road, a car and
+//! pedestrians, binds their inputs to [`stream`]s and states requirements. Without a test the program yields its
+//! parameters ([`Program::declare`]). With a test it yields a [`Run`]: a state machine that alternates with the system
+//! under test, a [`driver::Driver`], until it is over and leaves an [`Outcome`].
 //!
 //! ```
 //! use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario};

@@ -1,9 +1,9 @@
-//! Monitors: the requirements that drives are usually held to, ready to be stated.
+//! Monitors: usual requirements of drives, ready to be stated.
 //!
-//! A [`Monitor`] is a statement about streams with an id, a text, a unit and a scale; [`Scenario::monitor`] states it, and
-//! what that returns lets the program say otherwise. The paper's `CollisionMonitor` and `DistanceMonitor` are
-//! [`Monitor::no_collision`] and [`Monitor::progress`], its dynamic check for inactivity is [`Monitor::activity`]. A
-//! monitor over anything else is made of the statement itself:
+//! A [`Monitor`] is a statement about streams with an id, a text, a unit and a scale. [`Scenario::monitor`] states it
+//! and returns a draft, with which the program can change text, unit and scale. The paper's `CollisionMonitor` and
+//! `DistanceMonitor` are [`Monitor::no_collision`] and [`Monitor::progress`], its dynamic check for inactivity is
+//! [`Monitor::activity`]. [`Monitor::new`] makes a monitor of any other statement:
 //!
 //! ```
 //! use paracosm_engine::{AutonomousVehicle, Monitor, Program, RoadSegment, Scenario, never};
@@ -21,7 +21,7 @@
 use crate::scenario::Car;
 use crate::scenario::{RequirementDraft, Scenario, Temporal, always, eventually, never};
 
-/// A requirement that is not stated yet.
+/// A requirement that a program can state with [`Scenario::monitor`].
 #[derive(Debug, Clone)]
 pub struct Monitor {
     id: String,
@@ -32,7 +32,8 @@ pub struct Monitor {
 }
 
 impl Monitor {
-    /// A statement about every run: its id, the unit of its robustness, and how much of it is a lot.
+    /// Makes a monitor of a statement about every run, with its id, the unit of its robustness, and its scale: the
+    /// robustness that counts as large.
     pub fn new(id: &str, statement: Temporal, unit: &'static str, scale: f64) -> Self {
         Self { id: id.to_owned(), statement, text: None, unit, scale }
     }
@@ -41,76 +42,76 @@ impl Monitor {
         Self { text: Some(text), ..self }
     }
 
-    /// The car touches nothing. Its robustness is the least clearance in metres, or minus the braking distance that was
-    /// missing: [`Car::clearance`].
+    /// Requires that the car touches nothing. The robustness is the least clearance in metres, or minus the missing
+    /// braking distance: [`Car::clearance`].
     pub fn no_collision(car: &Car) -> Self {
         let text = "The car touches nobody: metres of clearance, or minus the braking distance that was missing.";
         Self::new("no-collision", never(car.collides()), "m", 5.0).text(text.to_owned())
     }
 
-    /// The car comes at least so many metres far, so that standing still for ever is no pass.
+    /// Requires that the car travels at least so many metres. A car that stands still for ever does not pass.
     pub fn progress(car: &Car, metres: f64) -> Self {
         let text = format!("The car comes at least {metres} m far, so that standing still for ever is no pass.");
         Self::new("progress", eventually(car.travelled().at_least(metres)), "m", 0.5 * metres).text(text)
     }
 
-    /// The car reaches the end of the way that it is to go, to within so many metres. It never does where it is just to go
-    /// straight on.
+    /// Requires that the car comes to within so many metres of the end of its way. A car without a route, which just
+    /// goes straight on, never does.
     pub fn route_completion(car: &Car, metres: f64) -> Self {
         let text = format!("The car comes to within {metres} m of the end of its way.");
         Self::new("route-completion", eventually(car.remaining().at_most(metres)), "m", 50.0).text(text)
     }
 
-    /// The car does not stand still for so many seconds.
+    /// Requires that the car never stands still for so many seconds.
     pub fn activity(car: &Car, seconds: f64) -> Self {
         let text = format!("The car does not stand still for {seconds} s.");
         Self::new("activity", never(car.standing_time().at_least(seconds)), "s", seconds).text(text)
     }
 
-    /// The car keeps at least so many metres away from everything.
+    /// Requires that the car keeps at least so many metres away from everything.
     pub fn clearance(car: &Car, metres: f64) -> Self {
         let text = format!("The car keeps at least {metres} m away from everything.");
         Self::new("clearance", always(car.clearance().at_least(metres)), "m", metres.max(1.0)).text(text)
     }
 
-    /// The car never drives faster than so many m/s.
+    /// Requires that the car never drives faster than so many m/s.
     pub fn speed_limit(car: &Car, limit: f64) -> Self {
         let text = format!("The car never drives faster than {limit} m/s.");
         Self::new("speed-limit", always(car.speed().at_most(limit)), "m/s", 5.0).text(text)
     }
 
-    /// The time to collision with anything is never below so many seconds.
+    /// Requires that the time to collision with anything is never below so many seconds.
     pub fn time_to_collision(car: &Car, seconds: f64) -> Self {
         let text = format!("The time to collision is never below {seconds} s.");
         Self::new("time-to-collision", always(car.time_to_collision().at_least(seconds)), "s", 2.0).text(text)
     }
 
-    /// The time headway to the body straight ahead is never below so many seconds.
+    /// Requires that the time headway to the body straight ahead is never below so many seconds.
     pub fn headway(car: &Car, seconds: f64) -> Self {
         let text = format!("The time headway is never below {seconds} s.");
         Self::new("headway", always(car.headway().at_least(seconds)), "s", 2.0).text(text)
     }
 
-    /// The whole car stays in a lane that leads its way: metres that are left beside it.
+    /// Requires that the whole car stays in a lane of its way. The robustness is the least room beside it, in metres.
     pub fn lane_keeping(car: &Car) -> Self {
         let text = "The whole car stays in its lane: metres that are left beside it.";
         Self::new("lane-keeping", always(car.lane_margin().at_least(0.0)), "m", 1.0).text(text.to_owned())
     }
 
-    /// The car's middle stays within so many metres of the way that it is to go.
+    /// Requires that the car's middle stays within so many metres of the way that it is to go.
     pub fn on_its_way(car: &Car, metres: f64) -> Self {
         let text = format!("The car stays within {metres} m of its way.");
         Self::new("on-its-way", always(car.way_offset().abs().at_most(metres)), "m", 1.0).text(text)
     }
 
-    /// The acceleration of the car along its heading never changes faster than so many m/s³, either way.
+    /// Requires that the acceleration of the car along its heading never changes faster than so many m/s³, up or down.
     pub fn jerk(car: &Car, limit: f64) -> Self {
         let text = format!("The car's acceleration never changes faster than {limit} m/s³.");
         Self::new("jerk", always(car.jerk().abs().at_most(limit)), "m/s³", limit).text(text)
     }
 
-    /// The car is never in an intersection at a place where another with the right of way will be within so many seconds,
-    /// or is.
+    /// Requires that no road user with the right of way is, or within so many seconds will be, at the car's place in an
+    /// intersection.
     pub fn right_of_way(car: &Car, seconds: f64) -> Self {
         let text = format!("The car is in nobody's way who has the right of way and is there within {seconds} s.");
         Self::new("right-of-way", always(car.right_of_way().at_least(seconds)), "s", 2.0).text(text)
@@ -118,7 +119,7 @@ impl Monitor {
 }
 
 impl Scenario {
-    /// States what a monitor asks of every run. What it returns says other texts, units and scales.
+    /// States a monitor as a requirement of every run. The returned draft can change its text, unit and scale.
     pub fn monitor(&mut self, monitor: Monitor) -> RequirementDraft {
         let Monitor { id, statement, text, unit, scale } = monitor;
         let draft = self.require(&id, statement).unit(unit).scale(scale);

@@ -1,97 +1,96 @@
-//! What passes between a run and the system under test.
+//! The data that pass between a run and the system under test.
 
 use crate::geometry::Pose;
 use crate::object::{Class, Outline};
 use crate::vehicle::Vehicle;
 use nalgebra::Vector2;
 
-/// What a driver is told before a run begins.
+/// The facts that a driver is told before a run begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Briefing {
-    /// The speed in m/s that it is to keep where nothing is in the way.
+    /// The speed in m/s that the driver is to keep if nothing is in the way.
     pub cruise_speed: f64,
-    /// The car that it drives.
+    /// The car that the driver drives.
     pub vehicle: Vehicle,
 }
 
-/// Another body, as it truly is; what a driver makes of it is the driver's own perception.
+/// Another body, as it truly is. A driver may make its own perception of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Other {
-    /// Which of the bodies it is, from 0 on: by this it is known again.
+    /// The number of the body, from 0 on, which is the same during the whole run.
     pub id: usize,
-    /// What it is taken for.
+    /// The class of the body.
     pub class: Class,
-    /// Its middle as seen from the car's middle, in metres: x ahead, y to the left.
+    /// The position of the body's middle as seen from the car's middle, in metres: x ahead, y to the left.
     pub position: Vector2<f64>,
-    /// Its velocity over the ground in the same directions, in m/s.
+    /// The body's velocity over the ground in the same directions, in m/s.
     pub velocity: Vector2<f64>,
-    /// Where it points, in radians counter-clockwise from the car's heading.
+    /// The direction in which the body points, in radians counter-clockwise from the car's heading.
     pub heading: f64,
-    /// What it covers of the ground.
+    /// The outline of the body on the ground.
     pub outline: Outline,
 }
 
 impl Other {
-    /// The halves, in metres, of the box along the car's axes that encloses it.
+    /// Returns half the extent, in metres, of the box along the car's axes that encloses the body.
     pub fn half_extent(&self) -> Vector2<f64> {
         self.outline.enclosing(self.heading)
     }
 }
 
-/// What there is to see at one moment.
+/// The observation of a driver at one moment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Observation {
-    /// Seconds since the run began.
+    /// The seconds since the run began.
     pub time: f64,
     /// The car's speed in m/s.
     pub speed: f64,
-    /// The way the car has covered, in metres.
+    /// The distance that the car has covered, in metres.
     pub travelled: f64,
-    /// Where the car is as seen from where it began: what perfect odometry tells.
+    /// The pose of the car as seen from its start, as perfect odometry would tell it.
     pub odometry: Pose,
-    /// The way that it is to go.
+    /// The way that the car is to go.
     pub way: Way,
-    /// The other bodies in the order of their ids: those that are in the world, without what stands on the
-    /// [`Roadside`](crate::Roadside).
+    /// The other bodies in the world, in the order of their ids, without bodies on the [`Roadside`](crate::Roadside).
     pub others: Vec<Other>,
 }
 
 /// The way that a car is to go, as seen from the car's middle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Way {
-    /// How far the car is to the left of it, in metres.
+    /// The distance of the car to the left of the way, in metres.
     pub offset: f64,
-    /// By how much the car points to the left of it, in radians.
+    /// The angle by which the car points to the left of the way, in radians.
     pub heading: f64,
-    /// What lies ahead on it, every [`Way::SPACING`] metres, the nearest first.
+    /// Points of the way ahead, every [`Way::SPACING`] metres, the nearest first.
     pub ahead: [Ahead; 16],
 }
 
 /// A point of the way ahead.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ahead {
-    /// Where it is as seen from the car's middle, in metres: x ahead, y to the left.
+    /// The position of the point as seen from the car's middle, in metres: x ahead, y to the left.
     pub position: Vector2<f64>,
-    /// How the way bends there, in 1/m, positive to the left.
+    /// The curvature of the way at the point, in 1/m, positive to the left.
     pub curvature: f64,
 }
 
 impl Way {
-    /// Metres along the way from one point ahead to the next.
+    /// The distance in metres along the way from one point ahead to the next.
     pub const SPACING: f64 = 2.5;
 
-    /// The point of the way that is nearest to this many metres ahead along it.
+    /// Returns the point of the way that is nearest to this many metres ahead along the way.
     pub fn at(&self, metres: f64) -> &Ahead {
         let index = (metres / Self::SPACING).round() as usize;
         &self.ahead[index.clamp(1, self.ahead.len()) - 1]
     }
 }
 
-/// What a driver does until it is asked again.
+/// The control that a driver gives until it is asked again.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Control {
-    /// From -1, full brakes, to 1, full power.
+    /// The throttle, from -1 (full brakes) to 1 (full power).
     pub throttle: f64,
-    /// From -1, the wheels turned to the right as far as they go, to 1, to the left.
+    /// The steering, from -1 (wheels fully to the right) to 1 (wheels fully to the left).
     pub steering: f64,
 }

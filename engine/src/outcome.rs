@@ -1,4 +1,4 @@
-//! What a run leaves behind: how it ended, what became of each requirement, and what was measured.
+//! The result of a run: how it ended, how each requirement was judged, and what was measured.
 
 use crate::contact::Contact;
 use crate::driver::Fault;
@@ -7,37 +7,37 @@ use crate::upset::Upset;
 use paracosm_oracles::{Formula, Semantics, Trace, Verdict};
 use thiserror::Error;
 
-/// What became of a test, and why.
+/// The result of a test, with its reasons.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// How it ended.
+    /// The ending of the test.
     pub ending: Ending,
-    /// What became of each requirement, in their order; none where nothing could be judged.
+    /// The judgement of each requirement, in their order. Empty if nothing could be judged.
     pub judgements: Vec<Judgement>,
-    /// What was measured; `None` where there was no run.
+    /// The measurements of the run; `None` if there was no run.
     pub measured: Option<Measurements>,
-    /// The record of the run; `None` where there was none.
+    /// The record of the run; `None` if there was no run.
     pub trace: Option<Trace>,
 }
 
 impl Outcome {
-    /// A test that came to nothing.
+    /// Makes the outcome of a test without a run that could be judged.
     pub fn broken(ending: impl Into<Ending>) -> Self {
         Self { ending: ending.into(), judgements: Vec::new(), measured: None, trace: None }
     }
 
-    /// What became of it, in a word.
+    /// Returns the verdict of the test.
     pub fn verdict(&self) -> Verdict {
         self.ending.verdict()
     }
 
-    /// The robustness of a requirement in its unit; `None` where it was not decided.
+    /// Returns the robustness of a requirement in its unit; `None` if the requirement was not decided.
     pub fn robustness(&self, requirement: &str) -> Option<f64> {
         self.judgements.iter().find(|judgement| judgement.requirement == requirement)?.robustness
     }
 }
 
-/// How a test ended.
+/// The ending of a test.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ending {
     /// Every requirement holds.
@@ -46,14 +46,14 @@ pub enum Ending {
     Fail,
     /// The situation that the test is about never came about, or a requirement stayed undecided.
     Inconclusive,
-    /// Its world cannot be built.
+    /// The world of the test cannot be built.
     Invalid(Invalid),
     /// The run broke.
     Error(Breakdown),
 }
 
 impl Ending {
-    /// The same in a word.
+    /// Returns the verdict that belongs to the ending.
     pub fn verdict(&self) -> Verdict {
         match self {
             Self::Pass => Verdict::Pass,
@@ -64,7 +64,7 @@ impl Ending {
         }
     }
 
-    /// Why there was no run, or no whole one, in words.
+    /// Returns the reason in words why there was no run or no complete run; `None` if the run was complete.
     pub fn message(&self) -> Option<String> {
         match self {
             Self::Pass | Self::Fail | Self::Inconclusive => None,
@@ -86,83 +86,83 @@ impl From<Breakdown> for Ending {
     }
 }
 
-/// Why the world of a test cannot be built.
+/// The reason why the world of a test cannot be built.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Invalid {
-    /// The program refuses these values.
+    /// The program refuses the values of the test.
     #[error(transparent)]
     World(ProgramError),
     /// Two bodies are in the same place.
     #[error("{first} and {second} overlap at the start")]
     Overlap {
-        /// What the one is called.
+        /// The name of the first body.
         first: String,
-        /// What the other is called.
+        /// The name of the second body.
         second: String,
     },
 }
 
-/// Why a run broke.
+/// The reason why a run broke.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Breakdown {
     /// The program cannot be run on such a test at all.
     #[error(transparent)]
     Program(ProgramError),
-    /// The world came to a state that is none.
+    /// The world reached an impossible state.
     #[error("{cause} at {time:.3} s")]
     World {
-        /// What is wrong.
+        /// The cause.
         cause: Upset,
-        /// When, in seconds since the run began.
+        /// The time of the breakdown, in seconds since the run began.
         time: f64,
     },
     /// The driver cannot go on.
     #[error("the driver gave up at {time:.3} s: {fault}")]
     Driver {
-        /// Why.
+        /// The fault of the driver.
         fault: Fault,
-        /// When, in seconds since the run began.
+        /// The time of the fault, in seconds since the run began.
         time: f64,
     },
 }
 
-/// What became of a requirement.
+/// The result of a requirement in a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judgement {
     /// The id of the requirement.
     pub requirement: String,
-    /// Its robustness in its unit; `None` where the run ended before it was decided.
+    /// The robustness in the requirement's unit; `None` if the run ended before the requirement was decided.
     pub robustness: Option<f64>,
-    /// Why it is violated, if it is and that is known.
+    /// The cause of the violation, if the requirement is violated and the cause is known.
     pub violation: Option<Violation>,
 }
 
 impl Judgement {
-    /// A requirement that was judged so, without a reason.
+    /// Makes a judgement with this robustness and without a violation.
     pub fn new(requirement: impl Into<String>, robustness: Option<f64>) -> Self {
         Self { requirement: requirement.into(), robustness, violation: None }
     }
 }
 
-/// Why and when a violated requirement came to be worth what it is.
+/// The cause of a violated requirement's robustness: its time, place and part of the formula.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Violation {
     /// The critical time in seconds, at which the robustness depends on `part`.
     pub time: f64,
-    /// How far the car under test had come by then, in metres; `None` where there is no car.
+    /// The distance that the car under test had covered by then, in metres; `None` if there is no car.
     pub travelled: Option<f64>,
-    /// How fast it was then, in m/s; `None` where there is no car.
+    /// The speed of the car at that time, in m/s; `None` if there is no car.
     pub speed: Option<f64>,
     /// The sub-formula on which the robustness depends, as text.
     pub part: String,
 }
 
-/// How many ticks a critical time may be away from a sample at which it is, as both are rounded.
+/// The number of ticks by which a critical time may differ from a sample's time and still count as equal to it.
 const SAME_TICK: f64 = 1e-6;
 
 impl Violation {
-    /// Why a formula is worth what it is on a trace. Between two samples, `travelled` and `speed` are on the straight line, as
-    /// the formula takes them in dense time. `None` where the formula does not fit the trace.
+    /// Explains the robustness of a formula on a trace. Between two samples, `travelled` and `speed` are interpolated
+    /// linearly, as the formula does in dense time. `None` if the formula does not fit the trace.
     pub fn of(formula: &Formula, semantics: Semantics, trace: &Trace) -> Option<Self> {
         let cause = formula.explain_in(semantics, trace).ok().flatten()?;
         let ticks = cause.time / trace.dt();
@@ -179,13 +179,13 @@ impl Violation {
     }
 }
 
-/// What is measured of a run beside its requirements.
+/// The measurements of a run in addition to its requirements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurements {
-    /// How far the car under test came, in metres.
+    /// The distance that the car under test covered, in metres.
     pub travelled: f64,
-    /// What it touched, which ended the run.
+    /// The contact that ended the run, if there was a contact.
     pub contact: Option<Contact>,
-    /// Whether the premise of the scenario came about; false where it has none.
+    /// True if the premise of the scenario occurred; false if the scenario has no premise.
     pub triggered: bool,
 }

@@ -1,4 +1,4 @@
-//! A scenario as the function that it is, and what it declares when it is run without a test.
+//! Scenarios as functions, and the declaration that such a function makes when it is run without a test.
 
 use crate::flaw::WorldFlaw;
 use crate::scenario::Scenario;
@@ -44,51 +44,51 @@ impl fmt::Debug for Build {
     }
 }
 
-/// What a program asks for and asks of its runs.
+/// The parameters that a program asks for, and its requirements of runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Declaration {
-    /// Its parameters in the order in which it asks for them.
+    /// The parameters in the order in which the program asks for them.
     pub parameters: Vec<Declared>,
-    /// Its requirements.
+    /// The requirements that the program states.
     pub requirements: Vec<Requirement>,
-    /// How long a run takes unless a contact ends it, in seconds.
+    /// The duration of a run in seconds, unless a contact ends it.
     pub duration: f64,
-    /// How long a tick is, in seconds.
+    /// The duration of a tick in seconds.
     pub dt: f64,
 }
 
 impl Declaration {
-    /// The test in which every parameter has its nominal value.
+    /// Returns the test in which every parameter has its nominal value.
     pub fn nominal(&self) -> Values {
         self.parameters.iter().map(|declared| (declared.parameter.name.clone(), declared.nominal())).collect()
     }
 }
 
-/// Why a program cannot be run.
+/// The reason why a program cannot be run.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum ProgramError {
-    /// Its parameters form no space.
+    /// The program's parameters form no space.
     #[error("scenario `{program}`: {source}")]
     Parameters {
-        /// The scenario.
+        /// The name of the scenario.
         program: String,
-        /// What is wrong with them.
+        /// The error in the parameters.
         source: SpaceError,
     },
-    /// Its world cannot be built.
+    /// The program's world cannot be built.
     #[error("scenario `{program}`: {}", joined(.flaws))]
     World {
-        /// The scenario.
+        /// The name of the scenario.
         program: String,
-        /// What is wrong with it.
+        /// The flaws of the world.
         flaws: Vec<WorldFlaw>,
     },
-    /// It asks for other parameters with a test than without.
+    /// With a test, the program asks for other parameters than the test gives.
     #[error("scenario `{program}` asked for other parameters than it was given: {}", names.join(", "))]
     OtherParameters {
-        /// The scenario.
+        /// The name of the scenario.
         program: String,
-        /// The parameters that are on one side only.
+        /// The parameters that only the program or only the test has.
         names: Vec<String>,
     },
 }
@@ -101,12 +101,12 @@ fn joined(flaws: &[WorldFlaw]) -> String {
 const MOST_TICKS: f64 = 1e7;
 
 impl Program {
-    /// The scenario of this name that a function builds; what it is about is said in one line.
+    /// Makes the scenario with this name that a function builds. `about` describes it in one line.
     pub const fn new(name: &'static str, about: &'static str, build: fn(&mut Scenario)) -> Self {
         Self { name: Cow::Borrowed(name), about: Cow::Borrowed(about), build: Build::Function(build) }
     }
 
-    /// The same of a function that holds something: what a file says, or an interpreter.
+    /// Makes a scenario from a closure, which may hold data such as the contents of a file, or an interpreter.
     pub fn of(
         name: impl Into<String>,
         about: impl Into<String>,
@@ -116,17 +116,17 @@ impl Program {
         Self { name, about, build: Build::Shared(Arc::new(build)) }
     }
 
-    /// The name by which it is called.
+    /// Returns the name of the scenario.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What it is about, in one line.
+    /// Returns the description of the scenario in one line.
     pub fn about(&self) -> &str {
         &self.about
     }
 
-    /// Builds its world in a scenario: what a program does that goes on where another one ends.
+    /// Builds the program's world in a scenario. A program that extends another calls this first.
     pub fn build(&self, scenario: &mut Scenario) {
         match &self.build {
             Build::Function(build) => build(scenario),
@@ -134,7 +134,7 @@ impl Program {
         }
     }
 
-    /// Runs the program without a test: what parameters and requirements it has.
+    /// Runs the program without a test and returns its parameters and requirements.
     ///
     /// # Errors
     /// The parameters form no space, or the world cannot be built with nominal values.
@@ -150,12 +150,12 @@ impl Program {
     /// Checks that the program can build its world for this test.
     ///
     /// # Errors
-    /// It cannot.
+    /// The program cannot build its world, or it asks for other parameters than the test gives.
     pub fn check<'a>(&self, test: impl Into<Test<'a>>) -> Result<(), ProgramError> {
         self.built(Some(test.into())).map(|_| ())
     }
 
-    /// The graph of its streams with nominal values, in the DOT language of Graphviz.
+    /// Returns the graph of the program's streams with nominal values, in the DOT language of Graphviz.
     ///
     /// # Errors
     /// The world cannot be built with nominal values.
@@ -163,7 +163,7 @@ impl Program {
         Ok(self.built(None)?.dot(self.name()))
     }
 
-    /// Runs the program, with a test or without, and checks what it built.
+    /// Runs the program, with a test or without, and checks the world that it built.
     pub(crate) fn built(&self, test: Option<Test>) -> Result<Scenario, ProgramError> {
         let mut scenario = Scenario::new(test.as_ref());
         self.build(&mut scenario);
@@ -173,7 +173,7 @@ impl Program {
         scenario.lay_out();
         let mut flaws = Vec::new();
         for flaw in scenario.flaws.take() {
-            // The same mistake on every line that uses the same value is one mistake.
+            // A mistake that comes up on several lines with the same value counts once.
             if !flaws.contains(&flaw) {
                 flaws.push(flaw);
             }

@@ -1,4 +1,4 @@
-//! What can be wrong with a world while it is simulated.
+//! The errors of a world during its simulation.
 
 use crate::geometry::Pose;
 use crate::object::InputError;
@@ -6,53 +6,53 @@ use crate::vehicle::VehicleState;
 use nalgebra::Vector2;
 use thiserror::Error;
 
-/// What can be wrong with a world at one moment.
+/// The reason why a world cannot go on at some moment.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Upset {
-    /// A signal is NaN. No comparison with NaN holds, so that it would satisfy every `never`.
+    /// A signal is NaN. No comparison with NaN holds, so it would satisfy every `never`.
     #[error("the signal `{signal}` has no value")]
     NoValue {
-        /// The signal.
+        /// The name of the signal.
         signal: String,
     },
     /// A condition is out of its range.
     #[error("the {what} is {value}, expected {expected}")]
     Condition {
-        /// Which one.
+        /// The name of the condition.
         what: &'static str,
-        /// What it is.
+        /// The value of the condition.
         value: f64,
-        /// What it can be, in words.
+        /// The possible values, in words.
         expected: &'static str,
     },
     /// A control is out of its range.
     #[error("the driver's {what} is {value}, expected -1 to 1")]
     Control {
-        /// Which one.
+        /// The name of the control: throttle or steering.
         what: &'static str,
-        /// What it is.
+        /// The value of the control.
         value: f64,
     },
-    /// An object cannot go on with what its inputs say.
+    /// An object cannot go on with the values of its inputs.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The car under test is nowhere.
+    /// The state of the car under test is not finite.
     #[error("the state of the car is no number: {0:?}")]
     Car(Box<VehicleState>),
-    /// An object is nowhere.
+    /// The pose of an object is not finite.
     #[error("the place of {object} is no number: {pose:?}")]
     Place {
-        /// The object.
+        /// The name of the object.
         object: String,
-        /// Where it would be.
+        /// The pose that the object would have.
         pose: Pose,
     },
-    /// An object moves in no direction.
+    /// The velocity of an object is not finite.
     #[error("the velocity of {object} is no number: {velocity:?}")]
     Velocity {
-        /// The object.
+        /// The name of the object.
         object: String,
-        /// How it would move.
+        /// The velocity that the object would have.
         velocity: Vector2<f64>,
     },
 }

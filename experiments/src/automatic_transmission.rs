@@ -1,5 +1,6 @@
-//! After how many simulations each strategy falsifies the automatic transmission: five requirements of the benchmark, 30
-//! seeds each, in batches as campaigns have them, and one at a time. A run without a failure counts as all that it may take.
+//! Counts after how many simulations each strategy falsifies the automatic transmission. The study takes five
+//! requirements of the benchmark and 30 seeds, with tests in batches as in campaigns, and one at a time. A run without
+//! a failure counts as its whole budget.
 
 use crate::system::{InputFlaw, inputs};
 use crate::transmission::{SAMPLES_PER_SECOND, run as simulate};
@@ -11,16 +12,16 @@ use paracosm::space::{Point, Space};
 use rayon::prelude::*;
 use std::path::Path;
 
-/// The space of the tests, the same file that the command line is given.
+/// The space of the tests, from the same file that is given to the command line.
 const SPACE: &str = include_str!("../systems/automatic-transmission.toml");
 
-/// How many simulations a run may take.
+/// The greatest number of simulations in a run.
 const BUDGET: usize = 300;
 const SEEDS: u64 = 30;
-/// How many tests an adaptive strategy is asked for at a time: as in a campaign, and as few as can be.
+/// The numbers of tests that an adaptive strategy is asked for at a time: as many as in a campaign, and one.
 const BATCHES: [usize; 2] = [16, 1];
 
-/// The requirements by their names in the benchmark.
+/// The requirements, with their names in the benchmark.
 const REQUIREMENTS: [(&str, &str); 5] = [
     ("AT1", "always[0,20] (speed < 120)"),
     ("AT2", "always[0,10] (rpm < 4750)"),
@@ -29,7 +30,7 @@ const REQUIREMENTS: [(&str, &str); 5] = [
     ("AT6c", "always[0,30] (rpm < 3000) implies always[0,20] (speed < 65)"),
 ];
 
-/// Where tests come from: `random-corners` is the control.
+/// The strategies that are compared; `random-corners` is the control.
 const STRATEGIES: [Strategy; 11] = [
     Strategy::RANDOM,
     Strategy::HALTON,
@@ -44,7 +45,8 @@ const STRATEGIES: [Strategy; 11] = [
     Strategy::AUTO,
 ];
 
-/// The simulations that a run took, of one strategy for one requirement.
+/// The number of simulations until the first failure in each run of a strategy on a requirement; `None` without a
+/// failure.
 type Runs = Vec<Option<usize>>;
 
 /// Runs the study and writes it to a folder.
@@ -81,7 +83,8 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     write(&out.join("simulations.csv"), &table)
 }
 
-/// Every strategy in batches as in a campaign; those that the size of a batch makes a difference to with the others as well.
+/// Returns the pairs of batch size and strategy. Every strategy runs in batches as in a campaign; adaptive strategies,
+/// for which the batch size matters, run with the other batch size as well.
 fn ways() -> impl Iterator<Item = (usize, Strategy)> {
     let matters = |batch: usize, strategy: Strategy| batch == BATCHES[0] || strategy.is_adaptive();
     BATCHES.into_iter().flat_map(move |batch| {
@@ -89,7 +92,7 @@ fn ways() -> impl Iterator<Item = (usize, Strategy)> {
     })
 }
 
-/// Mean and median, and in how many runs there was a failure.
+/// Returns a line with the mean, the median, and the number of runs with a failure.
 fn line(name: &str, batch: usize, runs: &[Option<usize>]) -> String {
     let found = runs.iter().flatten().count();
     let mut counts: Vec<usize> = runs.iter().map(|run| run.unwrap_or(BUDGET)).collect();
@@ -99,7 +102,7 @@ fn line(name: &str, batch: usize, runs: &[Option<usize>]) -> String {
     format!("  {name:<16}{batch:>8}{mean:>8.1}{median:>8.1}{:>8}\n", format!("{found}/{}", counts.len()))
 }
 
-/// After how many simulations the first one fails, if any does within the budget.
+/// Returns after how many simulations the first test fails; `None` if no test fails within the budget.
 fn first_failure(
     space: &Space,
     formula: &Formula,

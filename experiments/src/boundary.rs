@@ -1,9 +1,10 @@
-//! How well a small campaign knows where tests fail: the pedestrian study in three parameters, by `boundary` and by
-//! sampling.
+//! Measures how well a small campaign knows where tests fail, in the pedestrian study with three parameters. It
+//! compares `boundary` with sampling.
 //!
-//! A map of 20,000 random tests, which no campaign has a part in, is held against what a campaign says of every place: by
-//! the verdict of the nearest test, or by the Gaussian-process model of its verdicts. The share of it that is told right is
-//! the accuracy; what saying "passes" of every place would have is printed beside it.
+//! A map of 20,000 random tests, none of which belongs to a campaign, is the reference. At every test of the map, the
+//! campaign's prediction is compared with the verdict. A prediction is the verdict of the nearest test, or the answer
+//! of a Gaussian-process model of the campaign's verdicts. The accuracy is the share of the map that is predicted
+//! right. The accuracy of predicting "passes" everywhere is printed for comparison.
 
 use crate::{Done, print, scenario, write};
 use indicatif::ProgressBar;
@@ -16,10 +17,10 @@ use std::path::Path;
 const SIZES: [usize; 5] = [25, 50, 100, 200, 400];
 const SEEDS: u64 = 10;
 const STRATEGIES: [Strategy; 3] = [Strategy::BOUNDARY, Strategy::HALTON, Strategy::RANDOM];
-/// The tests of the map, and the seed they come from.
+/// The number of tests of the map, and their seed.
 const MAP: usize = 20_000;
 const MAP_SEED: u64 = 1_000_000;
-/// How sure a model is where it counts as sure.
+/// The probability from which on the model counts as sure.
 const SURE: f64 = 0.95;
 
 /// Tests with their robustness.
@@ -29,7 +30,7 @@ struct Tests {
     robustness: Vec<f64>,
 }
 
-/// How much of the map a campaign tells right.
+/// The share of the map that a campaign predicts right, by each kind of prediction.
 struct Sample {
     strategy: Strategy,
     seed: u64,
@@ -39,7 +40,8 @@ struct Sample {
     model: f64,
     /// The mean squared difference of probability and outcome (Brier 1950).
     brier: f64,
-    /// The share of the map of which the model is 95 % sure, and how much of that it tells right.
+    /// The share of the map where the model is at least 95 % sure, and the share of that part that the model predicts
+    /// right.
     sure: f64,
     sure_right: f64,
 }
@@ -117,7 +119,7 @@ fn write_samples(path: &Path, samples: &[Sample]) -> Done {
     write(path, text)
 }
 
-/// Medians, with the worst and the best of the seeds.
+/// Returns a table of medians, with the worst and the best value over the seeds.
 fn table(samples: &[Sample]) -> String {
     let mut text = format!(
         "{:<10}{:>6}{:>10}{:>24}{:>24}{:>8}{:>8}{:>8}\n",

@@ -1,8 +1,9 @@
-//! The scenario `pedestrian-crossing` at 30 km/h, with what comes before and after cut off, since every image costs time: a
-//! test begins a little before the first of the walkers sets out, and ends when the walker has crossed.
+//! The scenario `pedestrian-crossing` at 30 km/h in a short form, because every image costs time. A test begins a
+//! little before the first walker sets out, and ends when the walker has crossed.
 //!
-//! At 30 km/h a car that does not brake hits those who walk at 1 m/s and set out 33 to 55 m ahead of it, so that there is
-//! something to learn; and they are tall enough in a small image where it has to brake for them.
+//! At 30 km/h, a car that does not brake hits the walkers of 1 m/s that set out when the car is 33 to 55 m away, so
+//! that there is something to learn. At the distance at which the car has to brake, a walker is tall enough to be seen
+//! in a small image.
 
 use paracosm::engine::{
     AutonomousVehicle, Environment, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never,
@@ -11,17 +12,17 @@ use paracosm::engine::{
 /// A pedestrian crosses the road in front of the car.
 pub const PROGRAM: Program = Program::new("crossing", "a pedestrian crosses the road, and the test ends", build);
 
-/// Where the walker crosses, and how far before it the car begins: metres.
+/// The place where the walker crosses, and how far before it the car begins, in metres.
 const CROSSING: f64 = 100.0;
 const AHEAD: f64 = 70.0;
-/// The car's speed at first, in m/s.
+/// The initial speed of the car, in m/s.
 const SPEED: f64 = 30.0 / 3.6;
-/// A test lasts until a car that goes on is this many metres past, and as long as the walker takes for this many more; but not
-/// longer than so many seconds.
+/// The duration of a test: until a car that does not brake is `PAST` metres beyond the crossing, plus the time in which
+/// the walker walks `CROSSED` metres; at most `LONGEST` seconds.
 const PAST: f64 = 13.0;
 const CROSSED: f64 = 8.5;
 const LONGEST: f64 = 25.0;
-/// Who comes no nearer than this many metres has not met the walker at all.
+/// A car that does not come nearer than this to the crossing, in metres, has not met the walker and makes no progress.
 const MET: f64 = 30.0;
 
 fn build(s: &mut Scenario) {

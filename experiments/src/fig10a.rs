@@ -1,8 +1,9 @@
-//! The paper's Figure 10a: a network that was taught to follow a slow leader in broad daylight, over fog and light.
+//! The paper's Figure 10a: a network that was taught to follow a slow leader in broad daylight drives in fog and at
+//! other light.
 //!
-//! The paper's shade is the distance that the car covers in 15 s, and a cross a collision; here a cross is a test that
-//! violates any requirement, and the table says which. The leader is slow and steady, so that what differs between tests is
-//! what the network sees.
+//! In the paper, the shade is the distance that the car covers in 15 s, and a cross is a collision. Here a cross is a
+//! test that violates any requirement, and the table says which requirement. The leader is slow and steady, so that the
+//! tests differ only in what the network sees.
 
 use crate::cloning::exam::{self, EXAMINED};
 use crate::cloning::{FOLLOW, trials};
@@ -13,7 +14,7 @@ use paracosm::report::{FailureMap, Picture, Tints};
 use paracosm::space::Value;
 use std::path::Path;
 
-/// How many tests over fog and light.
+/// The number of tests over fog and light.
 const TESTS: usize = 200;
 /// The speed of the leader in m/s.
 const LEADER: f64 = 6.0;
@@ -61,7 +62,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     print(&text)
 }
 
-/// A part of the tests: its name, and whether a fog and a light belong to it.
+/// A part of the tests: the name of the part, and a function that says whether a fog and a light belong to it.
 type Region = (&'static str, fn(f64, f64) -> bool);
 
 const REGIONS: [Region; 5] = [
@@ -76,7 +77,7 @@ fn number(trial: &Trial, name: &str) -> f64 {
     trial.test.get(name).and_then(Value::number).expect("the study varies it")
 }
 
-/// Metres.
+/// Returns the distance that the car covered, in metres.
 fn travelled(trial: &Trial) -> f64 {
     trial.measured.as_ref().map_or(f64::NAN, |measured| measured.travelled)
 }

@@ -1,8 +1,8 @@
-//! The paper's Figure 10b: round a loop of T-intersections, always right, in more and more fog.
+//! The paper's Figure 10b: driving round a loop of T-intersections with right turns only, in more and more fog.
 //!
-//! A network that was taught without fog drives until it runs into something, or for 200 s; beside that stands when it failed
-//! otherwise, by leaving its way or by standing still, since who does either need not run into anything. Below is how it
-//! steers in low, medium and high fog.
+//! A network that was taught without fog drives until it runs into something, or for 200 s. The upper chart also shows
+//! when the network left its way or stood still for too long, because it may do either without a collision. The lower
+//! chart shows how the network steers in low, medium and high fog.
 
 use crate::cloning::LOOP;
 use crate::{Done, print, scenario, write};
@@ -16,43 +16,44 @@ use std::path::Path;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// So many tests, from no fog to the thickest.
+/// The number of tests, from no fog to the thickest fog.
 const TESTS: usize = 21;
 /// Seconds after which a test is over.
 const TIME_OUT: f64 = 200.0;
-/// The fogs whose steering is shown.
+/// The fogs for which the steering is shown.
 const SHOWN: [(&str, f64); 4] = [("no fog", 0.0), ("low, 0.2", 0.2), ("medium, 0.35", 0.35), ("high, 0.8", 0.8)];
-/// How many seconds of it.
+/// The number of seconds for which the steering is shown.
 const SECONDS: f64 = 20.0;
-/// The speed in m/s.
+/// The speed of the car in m/s.
 const SPEED: f64 = 8.0;
-/// Ticks from one line of the table of steering to the next.
+/// The number of ticks between two lines of the table of steering.
 const STRIDE: usize = 10;
-/// Metres that the car may be off its way, as the scenario has it.
+/// The distance in metres that the car may be off its way, as in the scenario.
 const OFF: f64 = 2.0;
-/// Seconds that it may stand still, as the scenario has it.
+/// The seconds that the car may stand still, as in the scenario.
 const STANDING: f64 = 10.0;
 
-/// What became of a test in fog.
+/// The result of a test in fog.
 struct Drive {
     fog: f64,
     verdict: Verdict,
-    /// Seconds until it ran into something, left its way, or had stood still for too long; the time-out if it never did.
+    /// Seconds until the car ran into something; below, until it left its way, and until it had stood still for too
+    /// long. The value is the time-out if the event never occurred.
     collision: f64,
     departure: f64,
     standstill: f64,
     travelled: f64,
-    /// Time, steering and speed.
+    /// The time, the steering and the speed.
     steering: Vec<[f64; 3]>,
 }
 
-/// A test that nobody drove.
+/// The reason why a test has no result.
 #[derive(Debug, Error)]
 enum Undriven {
-    /// There is nobody to run it.
+    /// No worker could be made to run the test.
     #[error(transparent)]
     Worker(Arc<paracosm::Error>),
-    /// It came to nothing.
+    /// The test ended without a trace.
     #[error("{}", .0.as_ref().map_or("", |problem| &problem.message))]
     Test(Option<Problem>),
 }

@@ -1,7 +1,8 @@
-//! The paper's Figure 10c: what the network that follows a red leader has learnt to follow.
+//! The paper's Figure 10c: what a network that was taught to follow a red leader follows.
 //!
-//! Behind a red leader it drives three times: alone with it, with another red car that comes the other way, and with the
-//! leader painted white. The paper's network braked for the one that came, and ran into the white one.
+//! The network drives in three cases: behind a red leader alone, behind a red leader while another red car comes the
+//! other way, and behind a white leader. The paper's network braked for the oncoming car, and ran into the white
+//! leader.
 
 use crate::cloning::FOLLOW;
 use crate::{Done, print, write};
@@ -19,7 +20,7 @@ const PROGRAM: Program = Program::new("fig10c", "a leader of either colour, with
 const RED: Colour = [190, 25, 30];
 const WHITE: Colour = [235, 235, 235];
 
-/// Metres between the bumpers at first.
+/// The initial distance between the bumpers, in metres.
 const GAP: f64 = 25.0;
 
 fn build(s: &mut Scenario) {
@@ -42,14 +43,14 @@ fn build(s: &mut Scenario) {
     s.monitor(Monitor::no_collision(&car));
 }
 
-/// What the figure shows: a name, the leader's colour, and who comes.
+/// The cases in the figure: the name, the leader's colour, and the oncoming car.
 const CASES: [(&str, &str, &str); 3] = [
     ("red leader", "red", "nobody"),
     ("red leader and a red car coming", "red", "red car"),
     ("white leader", "white", "nobody"),
 ];
 
-/// The speeds of the leader in m/s, of which the figure shows one.
+/// The speeds of the leader in m/s, and the speed that the figure shows.
 const SPEEDS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 12.0];
 const SHOWN: f64 = 8.0;
 

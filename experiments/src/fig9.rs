@@ -1,8 +1,8 @@
-//! The paper's Figure 9 without a network: the pedestrian study sampled at random and by the Halton sequence.
+//! The paper's Figure 9 without a network: the pedestrian study, sampled at random and by the Halton sequence.
 //!
-//! The paper shows one random sample and the Halton points beside each other and says that the latter are more
-//! spread out, most of all when there are few. Here the driver is `aeb`, and there is time for a map of 10,000 tests and for
-//! 30 random samples.
+//! The paper shows one random sample beside the Halton points, and says that the Halton points are more spread out,
+//! above all if they are few. Here the driver is `aeb`, which is fast enough for a map of 10,000 tests and for 30
+//! random samples.
 
 use crate::sampling::{Comparison, marks, reference_map};
 use crate::{Done, scenario};
@@ -11,7 +11,7 @@ use std::path::Path;
 
 const SIZES: [usize; 3] = [25, 100, 500];
 const SEEDS: u64 = 30;
-/// The map has this many tests on each side.
+/// The number of tests on each side of the map.
 const SIDE: usize = 100;
 
 /// Runs the study and writes it to a folder.

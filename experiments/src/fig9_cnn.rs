@@ -1,9 +1,10 @@
-//! The paper's Figure 9: a network that was taught to stop for pedestrians who walk at 1 m/s meets faster and slower ones.
+//! The paper's Figure 9: a network that was taught to stop for pedestrians of 1 m/s meets faster and slower
+//! pedestrians.
 //!
-//! It is the study of [`fig9`](crate::fig9) with the network at the wheel, at 30 km/h and in shorter tests
-//! ([`crossing`](crate::crossing)). Its reference map takes long all the same, is made by a command of its own, and comes with
-//! the software. Beside it are those of drivers that do not see by a camera, so that what the network cannot do is told from what
-//! nobody can.
+//! This is the study of [`fig9`](crate::fig9) with the network as the driver, at 30 km/h and with shorter tests
+//! ([`crossing`](crate::crossing)). Its reference map still takes long, so that another command makes the map, which
+//! comes with the software. That command also makes the maps of drivers without cameras, which show what no driver can
+//! do.
 
 use crate::cloning::STOP;
 use crate::recovery::Mark;
@@ -16,9 +17,9 @@ use std::path::Path;
 
 const SIZES: [usize; 3] = [25, 50, 100];
 const SEEDS: u64 = 8;
-/// The map has this many tests on each side.
+/// The number of tests on each side of the map.
 const SIDE: usize = 50;
-/// Whose maps are made beside the network's: who taught it, an emergency brake, and who never brakes.
+/// The other drivers with maps: the expert who taught the network, an emergency brake, and a driver that never brakes.
 const OTHERS: [&str; 3] = ["expert", "aeb", "cruise"];
 const MAP: &str = include_str!("../data/fig9-cnn-reference.csv");
 
@@ -26,7 +27,7 @@ fn study() -> Result<Study, paracosm::Error> {
     STOP.drives(Study::of(crossing::PROGRAM)).build()
 }
 
-/// Makes the reference map and those of other drivers, and writes them to a folder.
+/// Makes the reference map and the maps of the other drivers, and writes them to a folder.
 pub fn reference(out: &Path, bar: &ProgressBar) -> Done {
     bar.set_length((SIDE * SIDE * (1 + OTHERS.len())) as u64);
     let map = reference_map(&study()?, SIDE, out, bar)?;
@@ -61,7 +62,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     comparison.run(out, "fig9-cnn", bar)
 }
 
-/// The reference map that comes with the software, in the unit square.
+/// Returns the reference map that comes with the software, in the unit square.
 fn shipped(study: &Study) -> Result<Vec<Mark>, Box<dyn std::error::Error + Send + Sync>> {
     let mut csv = csv::Reader::from_reader(MAP.as_bytes());
     let names = csv.headers()?.clone();

@@ -1,7 +1,7 @@
-//! The studies of the paper and ours, each by name.
+//! Runs the studies of the paper and our own, each by its name.
 //!
-//! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints what it found. The system
-//! that one of them is about can be tested from the command line, too.
+//! A study writes its figures as SVG and PNG and every number behind them as CSV, and prints its findings. One of the
+//! studies tests a system, which can also be tested from the command line.
 
 mod automatic_transmission;
 mod boundary;
@@ -39,12 +39,12 @@ use std::process::ExitCode;
 
 type Done = Result<(), Box<dyn Error + Send + Sync>>;
 
-/// A study of a scenario that comes with the software.
+/// Begins a study of a scenario that comes with the software.
 fn scenario(name: &str) -> Result<StudyBuilder, paracosm::Error> {
     Ok(paracosm::Study::of(paracosm::catalogue().find(name)?))
 }
 
-/// Runs the tests of a study. The bar moves by one for each.
+/// Runs the tests of a study. The bar advances by one for each test.
 fn logged(study: &paracosm::Study, bar: &ProgressBar) -> Result<Log, paracosm::Error> {
     let mut trials = Vec::new();
     let mut note = |trial: &Trial| {
@@ -59,7 +59,7 @@ fn logged(study: &paracosm::Study, bar: &ProgressBar) -> Result<Log, paracosm::E
 struct Study {
     name: &'static str,
     about: &'static str,
-    /// On a machine with two cores.
+    /// The time that the study takes on a machine with two cores.
     time: &'static str,
     run: fn(&Path, &ProgressBar) -> Done,
 }
@@ -168,9 +168,9 @@ const STUDIES: &[Study] = &[
     after_help = "Example:\n  cargo run --release -p paracosm-experiments -- fig9"
 )]
 struct Arguments {
-    /// The study; `list`; or `system`, to be a system that answers tests on standard input
+    /// The name of the study; `list` lists all; `system` answers tests from standard input, as a system under test
     name: String,
-    /// Of `system`, which one: `automatic-transmission`
+    /// The system that `system` runs: `automatic-transmission`
     system: Option<String>,
     /// Where to write [default: experiments/out/NAME]
     #[arg(long, value_name = "DIR")]
@@ -183,7 +183,7 @@ struct Arguments {
 fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(()) => ExitCode::SUCCESS,
-        // Somebody closed the pipe that we print to, as `head` does: no reason to complain.
+        // The reader closed the pipe that we print to, as `head` does. This is not an error.
         Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
             ExitCode::SUCCESS
         }

@@ -1,21 +1,21 @@
-//! How well failures are told from where tests are: by the nearest test of a sample, held against a dense map, and
-//! by what simple explanations there are, held against the tests themselves.
+//! Measures how well places tell which tests fail: by the nearest test of a sample, compared with a dense map, and by
+//! simple explanations, compared with the tests themselves.
 
-/// A test in the unit square with whether it failed.
+/// A test: its place in the unit square, and whether it failed.
 pub type Mark = ([f64; 2], bool);
 
-/// How the nearest test's verdict agrees with the map's.
+/// The agreement of predictions by the nearest test with the verdicts of a map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recovery {
-    /// Share of the map that is told right.
+    /// The share of the map that is predicted right.
     pub accuracy: f64,
-    /// Share of the map's failures that are told.
+    /// The share of the map's failures that are predicted.
     pub recall: f64,
-    /// Share of the told failures that are some.
+    /// The share of the predicted failures that are failures.
     pub precision: f64,
 }
 
-/// Predicts every place of the map by the nearest test of the sample, in the unit square.
+/// Predicts every place of the map by the nearest test of the sample, and compares the predictions with the map.
 pub fn recovery(sample: &[Mark], map: &[Mark]) -> Recovery {
     let (mut right, mut told, mut failures, mut hits) = (0, 0, 0, 0);
     for (place, fails) in map {
@@ -29,49 +29,51 @@ pub fn recovery(sample: &[Mark], map: &[Mark]) -> Recovery {
     Recovery { accuracy: share(right, map.len()), recall: share(hits, failures), precision: share(hits, told) }
 }
 
-/// Whether the test nearest to a place failed; the first of equals.
+/// Returns whether the test nearest to a place failed. Among tests at the same distance the first counts.
 fn nearest<'a>(sample: impl IntoIterator<Item = &'a Mark>, place: &[f64; 2]) -> bool {
     let distance = |at: &[f64; 2]| (at[0] - place[0]) * (at[0] - place[0]) + (at[1] - place[1]) * (at[1] - place[1]);
     let nearest = sample.into_iter().min_by(|a, b| distance(&a.0).total_cmp(&distance(&b.0)));
     nearest.is_some_and(|(_, fails)| *fails)
 }
 
-/// The share of tests that fail.
+/// Returns the share of tests that fail.
 pub fn failing(tests: &[Mark]) -> f64 {
     tests.iter().filter(|test| test.1).count() as f64 / tests.len() as f64
 }
 
-/// The share of tests that the nearest other one tells right.
+/// Returns the share of tests whose verdict is that of the nearest other test.
 pub fn nearest_neighbour(tests: &[Mark]) -> f64 {
     let told = |i: usize| nearest(tests[..i].iter().chain(&tests[i + 1..]), &tests[i].0) == tests[i].1;
     (0..tests.len()).filter(|i| told(*i)).count() as f64 / tests.len() as f64
 }
 
-/// The largest share of tests that a straight line tells right, failing ones on one side of it.
+/// Returns the largest share of tests that a straight line predicts right, with failing tests on one side of the line.
 ///
-/// A best line can be moved until it passes through two tests, or as close beside them as one likes: for every test
-/// the others are sorted by their direction, and a line turns about it.
+/// A best line can be moved until it passes through two tests, or as close beside them as one likes. So for every test,
+/// the other tests are sorted by their direction, and a line is turned about the test.
 pub fn straight_line(tests: &[Mark]) -> f64 {
     let failures = tests.iter().filter(|test| test.1).count();
     let mut best = failures.max(tests.len() - failures);
     for (pivot, (about, _)) in tests.iter().enumerate() {
-        // The line's direction goes half a turn; which side is which does not matter, as either may be the failing.
+        // The line turns by half a turn. Either side may be the failing side, so that the line's orientation does not
+        // matter.
         let others = tests.iter().enumerate().filter(|(i, _)| *i != pivot).map(|(_, test)| test);
         let mut events: Vec<(f64, bool, bool)> = others
             .map(|(at, fails)| {
                 let (x, y) = (at[0] - about[0], at[1] - about[1]);
                 let upper = y > 0.0 || (y == 0.0 && x >= 0.0);
-                // A number that grows with the angle of the direction, brought to the upper half-plane.
+                // This number grows with the angle of the direction after the direction is brought to the upper
+                // half-plane.
                 let (x, y) = if upper { (x, y) } else { (-x, -y) };
                 (-x / (x.abs() + y.abs()).max(f64::MIN_POSITIVE), upper, *fails)
             })
             .collect();
         events.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // Failing tests on the left of the line that points along x, plus passing ones on its right.
+        // `right` counts failing tests on the left of the line that points along x, plus passing tests on its right.
         let mut right = events.iter().filter(|(_, upper, fails)| upper == fails).count();
         for (i, (angle, upper, fails)) in events.iter().enumerate() {
             right = if upper == fails { right - 1 } else { right + 1 };
-            // Tests in one direction change sides at once; the pivot itself can be put on either side.
+            // All tests in one direction change sides at once. The pivot itself can be put on either side.
             if events.get(i + 1).is_none_or(|next| next.0 - angle > 1e-12) {
                 best = best.max(right + 1).max(tests.len() - right);
             }
@@ -92,7 +94,7 @@ mod tests {
         };
         assert_eq!(line(|x, y| x + 2.0 * y > 13.0), 1.0);
         assert_eq!(line(|_, _| false), 1.0);
-        // A band of 20 of 100 in the middle: the best is to call all passing.
+        // A band of 20 of 100 tests in the middle fails. The best is to call all tests passing.
         assert_eq!(line(|_, y| (4.0..6.0).contains(&y)), 0.8);
     }
 

@@ -1,5 +1,5 @@
-//! Which strategy covers a space most evenly: every one of them in two, three and five dimensions, with 32 to 512 points
-//! and 30 seeds, against the paper's choice, Halton. `paracosm-cover compare` does the same for any other choice.
+//! Compares how evenly ten strategies cover a space, in two, three and five dimensions, with 32 to 512 points and 30
+//! seeds, against the paper's choice, Halton. `paracosm-cover compare` makes the same comparison for any other choice.
 
 use crate::{Done, print};
 use indicatif::ProgressBar;
@@ -10,7 +10,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use std::thread::available_parallelism;
 
-/// All but `lhs-centred`, which is nearly `lhs`.
+/// The strategies: all except `lhs-centred`, which is nearly the same as `lhs`.
 const STRATEGIES: [Strategy; 10] = [
     Strategy::RANDOM,
     Strategy::LHS,

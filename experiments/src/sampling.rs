@@ -1,8 +1,8 @@
-//! Random sampling held against the Halton sequence on a study of two parameters: what the paper's Figure 9 shows.
+//! Compares random sampling with the Halton sequence on a study of two parameters, as the paper's Figure 9 does.
 //!
-//! Each sample has its dispersion and star discrepancy, and a reference map, which neither sampler has a part in, tells what
-//! it lets one know: how much of the map is right if one believes the nearest test. Random has many seeds, and the one that
-//! is drawn is neither a lucky nor an unlucky one.
+//! The study measures the dispersion and the star discrepancy of each sample. A reference map, which is independent of
+//! both samplers, shows how much a sample tells: the share of the map that is right if every place is given the verdict
+//! of the nearest test. Random sampling has many seeds; the seed in the picture is a typical one.
 
 use crate::recovery::{Mark, Recovery, failing, nearest_neighbour, recovery, straight_line};
 use crate::{Done, logged, print, write};
@@ -17,10 +17,10 @@ use paracosm::space::{Point, Values};
 use paracosm::{Campaign, Error, Log, Sampling, Study, Trial};
 use std::path::Path;
 
-/// The strategies that are compared, in the order of the rows.
+/// The strategies in the comparison, in the order of the picture's rows.
 const STRATEGIES: [Strategy; 2] = [Strategy::RANDOM, Strategy::HALTON];
 
-/// One sample of one strategy.
+/// A sample of a strategy, with its measures.
 struct Panel {
     strategy: Strategy,
     seed: Option<u64>,
@@ -30,20 +30,20 @@ struct Panel {
     recovery: Recovery,
 }
 
-/// Both strategies at some sizes.
+/// A comparison of both strategies at several sizes.
 pub struct Comparison<'a> {
-    /// What is sampled: a study of two continuous parameters, the first of which is a speed.
+    /// The study that is sampled. It has two continuous parameters, and the first one is a speed.
     pub study: &'a Study,
-    /// Tests in a sample, in rising order.
+    /// The numbers of tests in a sample, in ascending order.
     pub sizes: &'a [usize],
-    /// How many random samples.
+    /// The number of random samples.
     pub seeds: u64,
-    /// The reference map.
+    /// The reference map, in the unit square.
     pub map: &'a [Mark],
 }
 
 impl Comparison<'_> {
-    /// How many tests it takes.
+    /// Returns the number of tests in the whole comparison.
     pub fn tests(&self) -> usize {
         self.most() * (self.seeds as usize + 1)
     }
@@ -52,7 +52,7 @@ impl Comparison<'_> {
         *self.sizes.last().expect("there is a size")
     }
 
-    /// Runs it, draws the picture of this name, writes all numbers to the folder and prints the summary.
+    /// Runs the comparison, draws the picture of this name, writes all numbers to the folder and prints the summary.
     pub fn run(&self, out: &Path, name: &str, bar: &ProgressBar) -> Done {
         let panels = self.panels(bar)?;
         bar.finish_and_clear();
@@ -80,7 +80,7 @@ impl Comparison<'_> {
             let strategy = if seed.is_none() { Strategy::HALTON } else { Strategy::RANDOM };
             let sampling = Sampling { strategy, seed, budget: self.most(), ..self.study.sampling().clone() };
             let log = logged(&self.study.sampled(sampling)?, bar)?;
-            // Both are sequences: the smaller samples are the beginning of the largest.
+            // Both strategies are sequences, so that the smaller samples are the beginnings of the largest.
             for &size in self.sizes {
                 let sample = log.with_trials(log.trials()[..size].to_vec());
                 panels.push(panel(sample, strategy, seed, self.map)?);
@@ -89,7 +89,7 @@ impl Comparison<'_> {
         Ok(panels)
     }
 
-    /// The seed whose smallest sample has the median dispersion, the upper one of two.
+    /// Returns the seed whose smallest sample has the median dispersion; of two medians, the upper one.
     fn typical_seed(&self, panels: &[Panel]) -> Option<u64> {
         let smallest = panels.iter().filter(|panel| panel.seed.is_some() && panel.log.trials().len() == self.sizes[0]);
         let mut smallest: Vec<&Panel> = smallest.collect();
@@ -97,7 +97,7 @@ impl Comparison<'_> {
         smallest[smallest.len() / 2].seed
     }
 
-    /// Median and quartiles over the seeds: one row for each strategy at each size.
+    /// Returns the medians and quartiles over the seeds, in one row for each strategy at each size.
     fn summary(&self, panels: &[Panel]) -> Vec<Vec<String>> {
         let of = |name: &str| [name.to_owned(), format!("{name}_lower_quartile"), format!("{name}_upper_quartile")];
         let measures = MEASURED.iter().flat_map(|(name, _)| of(name));
@@ -118,7 +118,7 @@ impl Comparison<'_> {
         rows
     }
 
-    /// The summary for people: measure by measure, random beside Halton.
+    /// Returns the summary as plain text for people: measure by measure, with random beside Halton.
     fn table(&self, rows: &[Vec<String>]) -> String {
         let mut text =
             format!("{:<18}{:>6}{:>16}{:>20}{:>10}\n", "measure", "tests", "random, median", "quartiles", "halton");
@@ -135,7 +135,7 @@ impl Comparison<'_> {
     }
 }
 
-/// Runs the tests in the middle of every cell of a grid with so many on each side, in rows of equal distance.
+/// Runs the tests in the middle of every cell of a grid with `side` cells on each side, row by row.
 pub fn grid(study: &Study, side: usize, bar: &ProgressBar) -> Result<Vec<Trial>, Error> {
     let middle = |i: usize| (i as f64 + 0.5) / side as f64;
     let cells = (0..side * side).map(|i| vec![middle(i % side), middle(i / side)]);
@@ -150,7 +150,7 @@ pub fn grid(study: &Study, side: usize, bar: &ProgressBar) -> Result<Vec<Trial>,
     Ok(trials)
 }
 
-/// Runs the tests of a grid, draws them and writes them as `reference-map`.
+/// Runs the tests of a grid, and writes them as a picture and a table with the name `reference-map`.
 pub fn reference_map(study: &Study, side: usize, out: &Path, bar: &ProgressBar) -> Result<Vec<Trial>, Failure> {
     let trials = grid(study, side, bar)?;
     let mut map = failure_map(&Log::new(study.clone(), Learned::new(), None, trials.clone()));
@@ -163,7 +163,7 @@ pub fn reference_map(study: &Study, side: usize, out: &Path, bar: &ProgressBar) 
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// Where the tests are in the unit square, and whether they fail.
+/// Returns the place of each test in the unit square, and whether the test fails.
 pub fn marks(study: &Study, trials: &[Trial]) -> Result<Vec<Mark>, Error> {
     let mark = |trial: &Trial| {
         let point = study.space().encode(&trial.test)?.continuous;
@@ -213,7 +213,7 @@ fn draw(out: &Path, name: &str, picture: &Picture) -> Done {
     write(&out.join(format!("{name}.png")), picture.png()?)
 }
 
-/// Writes a table, of which the first row is the header.
+/// Writes a table, whose first row is the header.
 pub fn write_csv(path: &Path, rows: &[Vec<String>]) -> Done {
     let mut csv = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| csv.write_record(row))?;
@@ -222,7 +222,7 @@ pub fn write_csv(path: &Path, rows: &[Vec<String>]) -> Done {
 
 type Measured = fn(&Panel) -> f64;
 
-/// What is measured of each sample, with its name. A sample without failures has no precision: NaN.
+/// The measures of a sample, with their names. The precision is NaN if no test of the map is predicted to fail.
 const MEASURED: [(&str, Measured); 6] = [
     ("failures", |panel| panel.failures() as f64),
     ("dispersion", |panel| panel.dispersion),
@@ -232,7 +232,7 @@ const MEASURED: [(&str, Measured); 6] = [
     ("map_precision", |panel| panel.recovery.precision),
 ];
 
-/// One row a sample.
+/// Writes a table with one row for each sample.
 fn write_panels(path: &Path, panels: &[Panel]) -> Done {
     let header = ["strategy", "seed", "tests"].into_iter().chain(MEASURED.map(|(name, _)| name));
     let row = |panel: &Panel| {
@@ -244,8 +244,8 @@ fn write_panels(path: &Path, panels: &[Panel]) -> Done {
     write_csv(path, &rows)
 }
 
-/// What can be said of the shape of the failing region: how often tests fail in each quarter of the walking
-/// speeds, and how much a straight line or the nearest neighbour explains. Of the dense map and of the Halton tests.
+/// Returns measures of the shape of the failing region, for the reference map and the Halton tests: the share of
+/// failing tests in each quarter of the walking speeds, and how much a straight line or the nearest neighbour explains.
 fn shape(map: &[Mark], halton: &[Mark]) -> Vec<Vec<String>> {
     let quarter = |marks: &[Mark], i: usize| {
         let within = marks.iter().filter(|mark| (mark.0[0] * 4.0).floor() as usize == i);
@@ -269,7 +269,7 @@ fn shape(map: &[Mark], halton: &[Mark]) -> Vec<Vec<String>> {
     rows
 }
 
-/// Every mark of the figure.
+/// Writes a table of all marks of the figure.
 fn write_tests(path: &Path, study: &Study, figure: &[&Panel]) -> Done {
     let header = ["strategy", "tests", "index"].map(str::to_owned).into_iter().chain(header(study));
     let mut rows: Vec<Vec<String>> = vec![header.collect()];
@@ -282,7 +282,7 @@ fn write_tests(path: &Path, study: &Study, figure: &[&Panel]) -> Done {
     write_csv(path, &rows)
 }
 
-/// Tests with what became of them.
+/// Writes a table of tests with their verdicts.
 fn write_trials(path: &Path, study: &Study, trials: &[Trial]) -> Done {
     let rows: Vec<Vec<String>> =
         [header(study).collect()].into_iter().chain(trials.iter().map(|trial| row(trial).collect())).collect();

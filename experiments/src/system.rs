@@ -1,5 +1,5 @@
-//! The automatic transmission as a system of its own, which `paracosm-fuzz --system` tests like any other: a test as a line
-//! of JSON in, the trace of its run as a line of JSON out.
+//! The automatic transmission as a separate system that `paracosm-fuzz --system` can test: it reads a test as a line of
+//! JSON, and answers with the trace of the run as a line of JSON.
 
 use crate::transmission::{SAMPLES_PER_SECOND, Sample, run};
 use crate::{Done, print};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use std::io::{self, BufRead};
 use thiserror::Error;
 
-/// The name by which it is asked for.
+/// The name of the system on the command line.
 pub const NAME: &str = "automatic-transmission";
 
 #[derive(Deserialize)]
@@ -38,10 +38,10 @@ enum Outcome {
     Error(InputFlaw),
 }
 
-/// A test that the system cannot run.
+/// The reason why the system cannot run a test.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InputFlaw {
-    /// An input is missing.
+    /// The test lacks an input.
     #[error("the test has no `{name}`")]
     Missing { name: &'static str },
     /// An input is neither a number nor a list of numbers.
@@ -53,7 +53,7 @@ fn in_words<S: Serializer>(flaw: &InputFlaw, serializer: S) -> Result<S::Ok, S::
     serializer.collect_str(flaw)
 }
 
-/// Answers until there are no more questions.
+/// Answers questions until the standard input ends.
 pub fn serve() -> Done {
     for line in io::stdin().lock().lines() {
         print(&(answer(&line?)? + "\n"))?;
@@ -61,10 +61,10 @@ pub fn serve() -> Done {
     Ok(())
 }
 
-/// The answer to a question.
+/// Returns the answer to a question.
 ///
 /// # Errors
-/// It is no question, so that there is no index to answer with.
+/// Returns an error if the line is not a question, so that there is no index to answer with.
 pub fn answer(line: &str) -> Result<String, serde_json::Error> {
     let Question { index, test } = serde_json::from_str(line)?;
     let outcome = match inputs(&test) {
@@ -74,10 +74,10 @@ pub fn answer(line: &str) -> Result<String, serde_json::Error> {
     serde_json::to_string(&Answer { index, outcome })
 }
 
-/// The throttle and the brake of a test.
+/// Returns the throttle and the brake of a test.
 ///
 /// # Errors
-/// One of them is missing, or has no number or one that is none.
+/// Returns an error if an input is missing, is empty, or has a value that is not a finite number.
 pub fn inputs(test: &Values) -> Result<[Vec<f64>; 2], InputFlaw> {
     let signal = |name: &'static str| {
         let value = test.get(name).ok_or(InputFlaw::Missing { name })?;

@@ -1,8 +1,8 @@
-//! The automatic transmission benchmark: a car with a four-speed automatic, its inputs throttle and brake.
+//! The automatic transmission benchmark: a car with four automatic gears, whose inputs are throttle and brake.
 //!
 //! Hoxha, Abbas and Fainekos, "Benchmarks for temporal logic requirements for automotive systems", ARCH 2014, took the
-//! model from the Simulink example "Modeling an Automatic Transmission Controller"; it is the benchmark AT of the
-//! falsification tools' yearly comparison (ARCH-COMP). These are its equations, written anew:
+//! model from the Simulink example "Modeling an Automatic Transmission Controller". It is the benchmark AT of the
+//! yearly comparison of falsification tools (ARCH-COMP). This module implements the following equations anew:
 //!
 //! | what | equation |
 //! | --- | --- |
@@ -12,25 +12,28 @@
 //! | vehicle | `I_v dω_w/dt = T_w - (T_0 + c v² + T_brake)`, `v = r ω_w`; it does not roll backwards |
 //! | shifts | up where `v > U_g(θ)`, down where `v < D_g(θ)`, each when that has been so for 0.08 s |
 //!
-//! Inertias, gears, final drive, wheel radius, road load and the delay are those of the example, in SI units. What
-//! differs from it:
+//! Inertias, gears, final drive, wheel radius, road load and the delay are those of the example, in SI units. The
+//! differences from the example are these:
 //!
-//! - The tables are smooth functions of ours: the engine's torque `T_e` (a parabola over the speed at full throttle, less
-//!   of it at part throttle and the higher the speed the less, and a governor that holds the idle speed), the converter's
-//!   capacity `1/K²` and torque ratio `R`, the shift speeds `U_g` and `D_g` (a smooth step over the throttle between
-//!   the ends of the table). The example's engine has no governor and falls to 600 rpm.
-//! - The engine's greatest torque is not the table's, but such that full throttle is a little above 120 mph after 20 s, as
-//!   published results on the benchmark have it: that `speed < 120` is violated by hardly anything else.
-//! - Beyond a speed ratio of 1 the converter turns the engine; the example's tables end at 0.94.
-//! - Classical Runge-Kutta with a fixed step of 0.02 s, between two of which the gear may change; Simulink chooses its
-//!   steps itself. Nothing but the four operations is used, so that results are the same on every machine.
+//! - Our own smooth functions replace the tables. The engine's torque `T_e` is a parabola over the speed at full
+//!   throttle; at part throttle it is less, and the less the higher the speed is; a governor holds the idle speed.
+//!   Smooth functions also replace the converter's capacity `1/K²` and torque ratio `R`, and the shift speeds `U_g` and
+//!   `D_g` (a smooth step over the throttle between the ends of the table). The example's engine has no governor and
+//!   falls to 600 rpm.
+//! - The engine's greatest torque is not that of the table. It is chosen so that full throttle leads to a little above
+//!   120 mph after 20 s, in agreement with published results on the benchmark: hardly anything but full throttle
+//!   violates `speed < 120`.
+//! - Above a speed ratio of 1 the converter turns the engine. The example's tables end at 0.94.
+//! - The integration is by classical Runge-Kutta with a fixed step of 0.02 s, and the gear may change between two
+//!   steps. Simulink chooses its steps itself. Only the four basic operations are used, so that results are the same on
+//!   every machine.
 
-/// How many samples of the outputs there are in a second.
+/// The number of samples of the outputs in a second.
 pub const SAMPLES_PER_SECOND: f64 = 10.0;
 
 const STEPS_PER_SAMPLE: usize = 5;
 const STEP: f64 = 1.0 / SAMPLES_PER_SECOND / STEPS_PER_SAMPLE as f64;
-/// In a test, which takes 30 s.
+/// The number of steps in a test, which takes 30 s.
 const STEPS: usize = 1500;
 
 /// Radians per second in a revolution per minute.
@@ -42,48 +45,49 @@ const POUND_FOOT: f64 = 1.355_817_948;
 
 const GEARS: [f64; 4] = [2.393, 1.450, 1.000, 0.677];
 const FINAL_DRIVE: f64 = 3.23;
-/// In metres: a foot.
+/// The radius of a wheel in metres: one foot.
 const WHEEL_RADIUS: f64 = 0.3048;
-/// In kg m²; the example has 0.021991 lb ft per rpm/s.
+/// The engine's moment of inertia in kg m²; the example has 0.021991 lb ft per rpm/s.
 const ENGINE_INERTIA: f64 = 0.021_991_488 * POUND_FOOT / RPM;
-/// In kg m²; the example has 12.094151 lb ft per rpm/s, which is that of a car of 1,685 kg.
+/// The vehicle's inertia at the wheels in kg m²; the example has 12.094151 lb ft per rpm/s, which belongs to a car of
+/// 1,685 kg.
 const VEHICLE_INERTIA: f64 = 12.094_151 * POUND_FOOT / RPM;
 const ROLLING: f64 = 40.0 * POUND_FOOT;
-/// In N m per (m/s)².
+/// The drag, in N m per (m/s)².
 const DRAG: f64 = 0.02 * POUND_FOOT / (MPH * MPH);
 
 const SLOWEST: f64 = 600.0 * RPM;
 const FASTEST: f64 = 6000.0 * RPM;
 const IDLE: f64 = 1000.0 * RPM;
 
-/// At full throttle, in N m, and the speed at which that is so.
+/// The greatest torque at full throttle in N m, and the engine speed with this torque.
 const MOST_TORQUE: f64 = 445.0;
 const MOST_TORQUE_AT: f64 = 4000.0 * RPM;
-/// How far from there there would be none.
+/// The distance from that engine speed at which the torque would be zero.
 const TORQUE_WIDTH: f64 = 5200.0 * RPM;
 
-/// The converter's capacity at standstill: K is 137 rpm per root of a pound-foot, as in the example.
+/// The converter's capacity at standstill. K is 137 rpm per square root of a pound-foot, as in the example.
 const CAPACITY: f64 = POUND_FOOT / (137.0 * RPM * 137.0 * RPM);
 
-/// How long it takes to change gear, in steps.
+/// The number of steps that a change of gear takes.
 const SHIFT_DELAY: u32 = 4;
 
-/// What a sample of a run is.
+/// A sample of the outputs of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// In miles per hour.
+    /// The speed of the car, in miles per hour.
     pub speed: f64,
-    /// Of the engine, in revolutions per minute.
+    /// The speed of the engine, in revolutions per minute.
     pub rpm: f64,
-    /// From 1 to 4.
+    /// The gear, from 1 to 4.
     pub gear: usize,
 }
 
-/// Runs a test: throttle in percent and brake torque in pound-feet, each constant over as many equal parts of the run as
-/// there are values.
+/// Runs a test with throttle in percent and brake torque in pound-feet. Each input is constant over equal parts of the
+/// run, one part for each of its values.
 ///
 /// # Panics
-/// One of them has no value.
+/// Panics if an input has no value.
 pub fn run(throttle: &[f64], brake: &[f64]) -> Vec<Sample> {
     let mut car = Car { engine: IDLE, wheel: 0.0, gear: 0, wish: 0, waited: 0 };
     let mut samples = vec![car.sample()];
@@ -97,15 +101,15 @@ pub fn run(throttle: &[f64], brake: &[f64]) -> Vec<Sample> {
     samples
 }
 
-/// The state.
+/// The state of the car.
 struct Car {
-    /// In rad/s.
+    /// The speed of the engine, in rad/s.
     engine: f64,
-    /// In rad/s.
+    /// The speed of the wheels, in rad/s.
     wheel: f64,
-    /// From 0.
+    /// The gear, counted from 0.
     gear: usize,
-    /// The gear that the shift logic asks for, and for how many steps it has.
+    /// The gear that the shift logic asks for; below, the number of steps for which it has asked.
     wish: usize,
     waited: u32,
 }
@@ -116,7 +120,7 @@ impl Car {
         Sample { speed, rpm: self.engine / RPM, gear: self.gear + 1 }
     }
 
-    /// A step with throttle from 0 to 1 and brake in N m.
+    /// Advances the car by a step with throttle from 0 to 1 and brake in N m.
     fn advance(&mut self, throttle: f64, brake: f64) {
         self.shift(throttle);
         let ratio = GEARS[self.gear] * FINAL_DRIVE;
@@ -147,7 +151,7 @@ impl Car {
     }
 }
 
-/// The accelerations of engine and wheels, in rad/s².
+/// Returns the accelerations of the engine and of the wheels, in rad/s².
 fn slope(engine: f64, wheel: f64, ratio: f64, throttle: f64, brake: f64) -> [f64; 2] {
     let engine = engine.max(SLOWEST);
     let speed_ratio = wheel.max(0.0) * ratio / engine;
@@ -156,43 +160,45 @@ fn slope(engine: f64, wheel: f64, ratio: f64, throttle: f64, brake: f64) -> [f64
     let speed = wheel * WHEEL_RADIUS;
     let load = ROLLING + DRAG * speed * speed + brake;
     let wheel_torque = turbine * ratio - load;
-    // What resists does not push.
+    // Resistance does not push the car backwards.
     let wheel_torque = if wheel <= 0.0 { wheel_torque.max(0.0) } else { wheel_torque };
     [(engine_torque(throttle, engine) - impeller) / ENGINE_INERTIA, wheel_torque / VEHICLE_INERTIA]
 }
 
-/// In N m.
+/// Returns the torque of the engine, in N m.
 fn engine_torque(throttle: f64, engine: f64) -> f64 {
     let off = (engine - MOST_TORQUE_AT) / TORQUE_WIDTH;
     let open = MOST_TORQUE * (1.0 - off * off);
-    // The governor gives what the converter takes at standstill and less by 1 N m for each rad/s, down to the drag.
+    // At idle speed the governor gives the torque that the converter takes at standstill; it gives 1 N m less for each
+    // rad/s above idle speed, down to the engine's drag.
     let governor = CAPACITY * IDLE * IDLE - (engine - IDLE);
     let closed = governor.clamp(-20.0 - 0.1 * engine, 120.0);
-    // The faster the engine the more throttle it takes for the same share of air.
+    // The faster the engine, the more throttle is necessary for the same share of air.
     let choke = 0.35 * engine / MOST_TORQUE_AT;
     let air = throttle / (throttle + choke * (1.0 - throttle));
     closed + (open - closed) * if throttle > 0.0 { air } else { 0.0 }
 }
 
-/// The converter's capacity as a share of that at standstill; negative where the turbine is the faster.
+/// Returns the converter's capacity as a share of its capacity at standstill; negative if the turbine is faster than
+/// the engine.
 fn capacity(speed_ratio: f64) -> f64 {
     let square = speed_ratio * speed_ratio;
     (1.0 - square * square * speed_ratio).max(-1.0)
 }
 
-/// By how much the converter multiplies torque: 2.23 at standstill, 1 from the coupling point on.
+/// Returns the factor by which the converter multiplies torque: 2.23 at standstill, 1 from the coupling point on.
 fn torque_ratio(speed_ratio: f64) -> f64 {
     1.0 + 1.23 * (1.0 - speed_ratio / 0.86).max(0.0)
 }
 
-/// Above which speed in mph a gear, from 0, gives way to the next.
+/// Returns the speed in mph above which a gear, counted from 0, gives way to the next gear.
 fn up_speed(gear: usize, throttle: f64) -> f64 {
     const AT_CLOSED: [f64; 3] = [10.0, 30.0, 50.0];
     const MORE_AT_OPEN: [f64; 3] = [30.0, 40.0, 50.0];
     AT_CLOSED[gear] + MORE_AT_OPEN[gear] * smooth_step((throttle - 0.25) / 0.65)
 }
 
-/// Below which speed in mph a gear, from 1, gives way to the one before.
+/// Returns the speed in mph below which a gear, counted from 0, gives way to the gear before.
 fn down_speed(gear: usize, throttle: f64) -> f64 {
     const AT_CLOSED: [f64; 3] = [5.0, 20.0, 35.0];
     const MORE_AT_OPEN: [f64; 3] = [25.0, 30.0, 45.0];
@@ -240,7 +246,7 @@ mod tests {
 
     #[test]
     fn the_steps_come_to_what_many_small_ones_do() {
-        // In first gear, where nothing but the integration decides: two seconds by Euler's method.
+        // In first gear, two seconds of the integration are compared with Euler's method.
         let (mut engine, mut wheel) = (IDLE, 0.0);
         for _ in 0..200_000 {
             let slope = slope(engine, wheel, GEARS[0] * FINAL_DRIVE, 1.0, 0.0);

@@ -1,4 +1,4 @@
-//! The automatic transmission, tested from outside as the system that it is.
+//! Tests the automatic transmission from outside, as a separate system.
 
 use paracosm::campaign::BlackBox;
 use paracosm::generators::Strategy;
@@ -13,7 +13,7 @@ fn experiments(arguments: &[&str], input: &str) -> Output {
     let mut command = Command::new(PROGRAM);
     let command = command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut process = command.spawn().unwrap();
-    // One that has ended already does not read.
+    // A system that has ended already does not read its input, so that writing may fail.
     let _ = process.stdin.take().unwrap().write_all(input.as_bytes());
     process.wait_with_output().unwrap()
 }

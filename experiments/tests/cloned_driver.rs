@@ -1,4 +1,4 @@
-//! What the figures of cloned drivers show, as their numbers have it.
+//! Checks what the figures of cloned drivers show, by the numbers in their tables.
 
 /// Fog, light, metres and whether the test passed.
 fn tests() -> Vec<(f64, f64, f64, bool)> {
@@ -31,7 +31,7 @@ fn the_cloned_driver_gets_less_far_and_fails_more_in_fog_than_where_it_was_train
     assert!(fog > clear + 0.2, "{clear} fail in clear air, {fog} in fog");
 }
 
-/// How many tests of an examination each driver passes: the network, the expert, and who never brakes.
+/// How many tests of an examination each driver passes: the network, the expert, and the driver that never brakes.
 fn passed(table: &str) -> [usize; 3] {
     ["cnn", "expert", "cruise"].map(|driver| {
         let rows: Vec<&str> = table.lines().filter(|line| line.split(',').any(|cell| cell == driver)).collect();
@@ -71,7 +71,7 @@ fn column(table: &str, name: &str) -> Vec<f64> {
 fn covering_the_leader_changes_the_throttle_far_more_than_its_share_of_the_image() {
     let table = include_str!("../data/saliency.csv");
     let (places, throttle) = (column(table, "share_of_places"), column(table, "share_of_throttle"));
-    // Red, white, nobody.
+    // The rows are: red leader, white leader, no leader.
     assert!(throttle[0] > 5.0 * places[0] && throttle[1] > 5.0 * places[1], "{throttle:?} of {places:?}");
     assert!(throttle[2] < throttle[1], "{throttle:?}");
 }

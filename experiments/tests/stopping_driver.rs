@@ -1,4 +1,4 @@
-//! What Figure 9 with a network shows, as its numbers have it.
+//! Checks what Figure 9 with a network shows, by the numbers in its tables.
 
 use std::ops::Range;
 
@@ -36,7 +36,8 @@ fn what_the_cloned_driver_cannot_do_others_can() {
     let count = |column: usize| others.iter().filter(|row| row[column] == "true").count();
     let network = (2500.0 * failing(|_, _| true)).round() as usize;
     let [expert, cruise] = [2, 4].map(count);
-    // Who taught it is better than it, and it is far better than who never brakes.
+    // The expert who taught the network is better than it, and the network is far better than a driver that never
+    // brakes.
     assert!(others.len() == 2500 && expert < network && 3 * network < cruise, "{expert}, {network}, {cruise}");
 }
 

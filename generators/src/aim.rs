@@ -1,23 +1,24 @@
-//! What `greedy` is to make small.
+//! The measures that the strategy `greedy` can make small.
 
 use crate::GeneratorError;
 use paracosm_space::nearest;
 use std::str::FromStr;
 
-/// What greedy tests are to make small.
+/// The measure that greedy tests make small.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aim {
-    /// The largest empty box over all continuous parameters, for every row of the discrete family on its own.
+    /// The largest empty box over all continuous parameters, for each row of the discrete family separately.
     Dispersion,
-    /// The largest dispersion that any k parameters show, discrete and continuous ones: there are no rows then.
+    /// The largest dispersion that any k parameters show, discrete and continuous ones; no family of rows is used
+    /// then.
     KwiseDispersion,
 }
 
 impl Aim {
-    /// Everything that can be aimed at.
+    /// All measures that `greedy` can aim at.
     pub const ALL: [Self; 2] = [Self::Dispersion, Self::KwiseDispersion];
 
-    /// The name of the measure.
+    /// Returns the name of the measure.
     pub fn name(self) -> &'static str {
         match self {
             Self::Dispersion => "dispersion",

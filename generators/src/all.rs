@@ -1,22 +1,22 @@
-//! The one list of strategies, in the order in which they are shown.
+//! The list of all strategies, in the order in which they are shown.
 
 use crate::{GeneratorError, Strategy, adaptive, sequence};
 use paracosm_space::nearest;
 use std::str::FromStr;
 
-/// The purpose of some tests.
+/// The purpose of a set of tests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
-    /// To cover the space.
+    /// The tests cover the space.
     Cover,
-    /// To cover the space beside tests that exist.
+    /// The tests cover the space together with tests that exist.
     Complete,
-    /// To find a failure with few tests.
+    /// The tests find a failure with few tests.
     FirstFailure,
 }
 
 impl Strategy {
-    /// The strategy for a purpose, if nobody names one.
+    /// Returns the default strategy for a purpose.
     pub const fn usual(purpose: Purpose) -> Self {
         match purpose {
             Purpose::Cover => Self::HALTON,
@@ -25,7 +25,7 @@ impl Strategy {
         }
     }
 
-    /// All strategies that come with the software.
+    /// Iterates over all strategies that come with the software.
     pub fn all() -> impl Iterator<Item = Self> {
         sequence::ALL.iter().chain(&[Self::GREEDY]).chain(adaptive::ALL).copied()
     }

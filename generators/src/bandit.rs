@@ -1,27 +1,28 @@
-//! One search for each requirement, and who of them may propose the next tests.
+//! Runs one search for each requirement, and decides which search proposes the next tests.
 //!
-//! The worst of several robustness values hides all others: where one requirement is always nearly violated and never
-//! is, a search for the worst sees nothing of the one that can be. So every requirement gets a search of its own, which
-//! is told how all tests went; and in the manner of Zhang, Hasuo and Arcaini ("Multi-armed bandits for Boolean
-//! connectives in hybrid system falsification", CAV 2019) a bandit shares the tests out between them, UCB1 (Auer,
-//! Cesa-Bianchi and Fischer 2002). As there, what a turn is worth does not depend on scales: it is the share of the way
-//! from the greatest robustness to a violation that lies behind the requirement. Other than there it is worth nothing if it
-//! has brought nothing new, so that a search that has come to rest gives way.
+//! The worst of several robustness values hides all others. If one requirement is always nearly violated but never
+//! violated, a search for the worst value never sees another requirement that can be violated. So every requirement
+//! gets its own search, which is told the results of all tests. A bandit, UCB1 (Auer, Cesa-Bianchi and Fischer 2002),
+//! divides the tests among the searches, after Zhang, Hasuo and Arcaini ("Multi-armed bandits for Boolean connectives
+//! in hybrid system falsification", CAV 2019). As in their work, the worth of a turn does not depend on scales: it is
+//! the share of the way from the greatest robustness to a violation that the requirement has covered. Unlike in their
+//! work, a turn is worth nothing if it has brought nothing new, so that a search that no longer improves gives way.
 
 use crate::Generator;
 use paracosm_space::Point;
 
-/// What is added to the mean worth of an arm that had few turns, in multiples of what UCB1 adds.
+/// The bonus for an arm that had few turns, as a multiple of the bonus of UCB1.
 const CURIOSITY: f64 = 0.2;
 
-/// A turn has brought something new if it has made the range of robustness longer by more than this share.
+/// A turn has brought something new if it lowered the least robustness by more than this share of the range.
 const NEW: f64 = 0.01;
 
-/// Searches that compete for tests. What it proposes follows from what its searches propose and from what it is told.
+/// A set of searches that compete for tests. Its proposals follow from the proposals of the searches and from the
+/// results.
 pub struct Bandit {
     arms: Vec<Arm>,
     turns: usize,
-    /// Whose turn it is.
+    /// The index of the search whose turn it is.
     active: usize,
 }
 
@@ -34,15 +35,15 @@ struct Arm {
 }
 
 impl Bandit {
-    /// Lets these searches compete, of which there is at least one.
+    /// Makes a bandit of these searches. There must be at least one.
     pub fn new(searches: Vec<Box<dyn Generator>>) -> Self {
         let arm = |search| Arm { search, turns: 0, worth: 0.0, range: None };
         Self { arms: searches.into_iter().map(arm).collect(), turns: 0, active: 0 }
     }
 
-    /// The next tests, at most `n`, all of one search.
+    /// Returns the next tests, at most `n`, all of one search.
     ///
-    /// There may be fewer, and there are none once there is nothing more to propose.
+    /// There may be fewer than `n`. There are none once the search has nothing more to propose.
     pub fn ask(&mut self, n: usize) -> Vec<Point> {
         let urge = |arm: &Arm| {
             let turns = arm.turns.max(1) as f64;
@@ -54,13 +55,13 @@ impl Bandit {
         self.arms[self.active].search.ask(n)
     }
 
-    /// How tests went, those that were asked for last or others: for each the robustness of every requirement in the
-    /// order of the searches, `None` where nothing is known.
+    /// Tells the results of tests, which need not be the tests of the last request. For each test, `robustness` has
+    /// the robustness of every requirement in the order of the searches; `None` if it is unknown.
     pub fn tell(&mut self, tests: &[Point], robustness: &[Vec<Option<f64>>]) {
         for (index, arm) in self.arms.iter_mut().enumerate() {
             let told: Vec<Option<f64>> = robustness.iter().map(|all| all.get(index).copied().flatten()).collect();
             let worth = arm.learn(&told);
-            // All begin with the same tests, which count as a turn of each.
+            // All searches begin with the same tests, which count as a turn of each search.
             if index == self.active || self.turns == 0 {
                 arm.worth += worth;
                 arm.turns += 1;
@@ -72,7 +73,7 @@ impl Bandit {
 }
 
 impl Arm {
-    /// Takes tests into the range of robustness; what they are worth as a turn.
+    /// Takes tests into the range of robustness, and returns their worth as a turn.
     fn learn(&mut self, told: &[Option<f64>]) -> f64 {
         let before = self.range;
         for robustness in told.iter().flatten().filter(|robustness| robustness.is_finite()) {

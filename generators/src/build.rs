@@ -1,4 +1,4 @@
-//! How a generator of a strategy is built: what is asked for is checked here, once for all strategies.
+//! Builds the generator of a strategy, and checks the request once for all strategies.
 
 use crate::deal::Deal;
 use crate::family::Family;
@@ -12,16 +12,17 @@ use crate::{Generator, GeneratorError, Request, Strategy};
 use paracosm_space::{Point, Space};
 
 impl Strategy {
-    /// A generator of this strategy.
+    /// Builds a generator of this strategy.
     ///
-    /// In a space with discrete parameters it is exhausted after the budget, or without continuous ones after
-    /// all rows of the family. In a continuous space a sequence goes on. An adaptive strategy goes on in every space, in
-    /// one without continuous parameters until every row that the constraints allow has been tested; the family's rows
-    /// are those that it begins with.
+    /// In a space with discrete parameters the generator ends after the budget, or without continuous parameters
+    /// after all rows of the family. In a continuous space a sequence goes on. An adaptive strategy goes on in every
+    /// space; without continuous parameters it ends when every row that the constraints allow has been tested. It
+    /// begins with the rows of the family.
     ///
     /// # Errors
-    /// The space is empty, the budget 0, `k` or `delta` out of range, the family too large, an existing test none of
-    /// the space, or the strategy cannot give that many points, in that many dimensions, skip, extend, or aim.
+    /// The space is empty, the budget is 0, `k` or `delta` is out of range, the family is too large, or an existing
+    /// test does not belong to the space. Or the strategy cannot serve the request: the number of points or
+    /// dimensions, the skip, the existing tests, or the aim.
     pub fn build(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
         let &Request { space, budget, seed, skip, k, aim, existing, .. } = request;
         if space.parameters().is_empty() {
@@ -53,7 +54,7 @@ impl Strategy {
         }
         let family = Family::new(&rules, request)?;
         if dims == 0 {
-            // Once each: repeating a row would be the same test again.
+            // Each row once: a repeated row would be the same test again.
             return Ok(Box::new(Mixed::discrete(family.without(existing))));
         }
         if !self.dims().contains(&dims) {
@@ -84,7 +85,7 @@ impl Strategy {
     fn cannot_cover(self, dims: usize) -> GeneratorError {
         let (least, most) = self.dims().into_inner();
         let made_for = if least == most { format!("exactly {most}") } else { format!("at most {most}") };
-        // Whatever has such a limit, an alternative is needed in few dimensions, in many, or in very many.
+        // A strategy with such a limit needs an alternative in few, in many, or in very many dimensions.
         let instead = match dims {
             ..10 => Self::KRONECKER,
             10..=MOST_SOBOL_DIMS => Self::SOBOL_OWEN,
@@ -99,7 +100,7 @@ impl Strategy {
     }
 }
 
-/// Checks that tests are of the space.
+/// Checks that tests belong to the space.
 fn check_existing(space: &Space, existing: &[Point]) -> Result<(), GeneratorError> {
     let (dims, levels) = (space.dims(), space.levels());
     let belongs = |test: &Point| {

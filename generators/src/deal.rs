@@ -1,18 +1,18 @@
-//! Which test belongs to which discrete row, and to which point of the sequence.
+//! Decides which discrete row, and which point of the sequence, each test gets.
 //!
-//! The paper's (k, ε)-coverage asks of *every* row that its own continuous points leave no hole larger than ε.
-//! Dealing out one sequence round-robin breaks that: every m-th index of a Halton sequence shares digits where m
-//! shares a factor with a base, and so fills only part of the cube (6 rows, 500 tests: dispersion 0.67 in the
-//! worst row). A contiguous stretch of a sequence is about as even as its beginning (0.060). Hence row r owns the
-//! block of indices `[r * block, (r + 1) * block)`, and only the order of the tests goes round the rows, so that
-//! a campaign stopped early has looked at all of them.
+//! The paper's (k, ε)-coverage demands of *every* row that its own continuous points leave no hole larger than ε. To
+//! deal out one sequence round-robin breaks that: every m-th index of a Halton sequence shares digits if m shares a
+//! factor with a base, and so fills only part of the cube (6 rows, 500 tests: dispersion 0.67 in the worst row). A
+//! contiguous stretch of a sequence is about as even as its beginning (0.060). Hence row r owns the block of indices
+//! `[r * block, (r + 1) * block)`. Only the order of the tests goes round the rows, so that a campaign that is
+//! stopped early has visited all rows.
 
-/// Which test belongs to which row, and to which index of the sequence.
+/// The assignment of tests to rows and to indices of the sequence.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Deal {
     /// The number of rows.
     pub(crate) rows: u64,
-    /// How many indices a row owns: as many as the fullest row is dealt tests.
+    /// The number of indices that a row owns: the number of tests of the row with the most tests.
     pub(crate) block: u64,
     /// The number of tests.
     pub(crate) budget: u64,
@@ -23,12 +23,12 @@ impl Deal {
         Self { rows, block: budget.div_ceil(rows), budget }
     }
 
-    /// How many indices the rows that get a test own together.
+    /// The number of indices that the rows with at least one test own together.
     pub(crate) fn indices(&self) -> u64 {
         self.rows.min(self.budget).saturating_mul(self.block)
     }
 
-    /// How many tests a row is dealt.
+    /// The number of tests of a row.
     pub(crate) fn tests_of(&self, row: u64) -> u64 {
         self.budget / self.rows + u64::from(row < self.budget % self.rows)
     }

@@ -1,20 +1,20 @@
-//! How the discrete parameters are covered: the families of rows by name.
+//! The families of rows that cover the discrete parameters, by name.
 
 use crate::GeneratorError;
 use paracosm_space::nearest;
 use std::str::FromStr;
 
-/// How the discrete parameters are covered.
+/// The method that covers the discrete parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum DiscreteFamily {
-    /// A covering array by IPOG: all valid combinations of values of any k parameters are among its rows, which are few.
+    /// A covering array by IPOG: a small set of rows with all valid combinations of values of any k parameters.
     #[default]
     Ipog,
-    /// As many uniformly random rows as Proposition 3.2 of the paper asks for: all combinations of values of any
-    /// k parameters are among them with probability at least `1 - delta`. Under constraints rows are drawn from those
-    /// that keep them, and there are as many as the union bound asks for with every combination's own probability.
+    /// Uniformly random rows, as many as Proposition 3.2 of the paper asks for. With probability at least `1 - delta`
+    /// they contain all combinations of values of any k parameters. Under constraints, rows are drawn from the rows
+    /// that satisfy them, and their number is that of the union bound with every combination's own probability.
     Random {
-        /// The probability, between 0 and 1, that one is missing.
+        /// The probability, between 0 and 1, that a combination is missing.
         delta: f64,
     },
     /// Every valid combination of all parameters, the last one changing fastest.
@@ -24,10 +24,10 @@ pub enum DiscreteFamily {
 impl DiscreteFamily {
     const NAMES: [&'static str; 3] = ["ipog", "random", "cross"];
 
-    /// The probability with which a random family may miss a combination, where nothing is said.
+    /// The default probability that a random family misses a combination.
     pub const DELTA: f64 = 0.05;
 
-    /// The name by which users ask for it.
+    /// Returns the name by which users ask for the family.
     pub fn name(self) -> &'static str {
         match self {
             Self::Ipog => Self::NAMES[0],
@@ -36,10 +36,10 @@ impl DiscreteFamily {
         }
     }
 
-    /// The same family with this probability that it misses a combination, if one is given.
+    /// Returns the same family with another probability that it misses a combination; unchanged if `delta` is `None`.
     ///
     /// # Errors
-    /// One is given, and the family is not random or it is no probability between 0 and 1.
+    /// A `delta` is given, but the family is not random, or `delta` is not a probability between 0 and 1.
     pub fn with_delta(self, delta: Option<f64>) -> Result<Self, GeneratorError> {
         match (self, delta) {
             (family, None) => Ok(family),

@@ -1,171 +1,172 @@
-//! Why a generator cannot be built; every message says what was found and what would have been right.
+//! Errors of building a generator; each message says what was found and what was expected.
 
 use crate::covering::CoveringError;
+use paracosm_space::plural;
 use paracosm_space::{SpaceError, did_you_mean};
 use thiserror::Error;
 
-/// Why a generator cannot be built.
+/// The reason why a generator cannot be built.
 #[derive(Debug, PartialEq, Error)]
 pub enum GeneratorError {
-    /// No strategy has that name.
+    /// No strategy has the given name.
     #[error("no strategy is called `{name}`{}", did_you_mean(.nearest))]
     UnknownStrategy {
-        /// The name.
+        /// The name that no strategy has.
         name: String,
-        /// A name that was perhaps meant.
+        /// The name of a strategy that was perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// No discrete family has that name.
+    /// No discrete family has the given name.
     #[error("no discrete family is called `{name}`{}; there are ipog, random and cross", did_you_mean(.nearest))]
     UnknownFamily {
-        /// The name.
+        /// The name that no family has.
         name: String,
-        /// A name that was perhaps meant.
+        /// The name of a family that was perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// There is nothing to vary.
+    /// The space has no parameter.
     #[error("the space has no parameters; a generator needs at least one")]
     EmptySpace,
-    /// No test is wanted.
+    /// The budget is 0.
     #[error("the budget is 0 tests; a budget must be at least 1")]
     NoBudget,
-    /// A start index for a strategy that has no order.
+    /// A start index was given for a strategy that has no order.
     #[error("`{strategy}` is no sequence and cannot skip; the sequences are {sequences}")]
     NoSequence {
-        /// The strategy's name.
+        /// The name of the strategy.
         strategy: &'static str,
-        /// The names of those that can.
+        /// The names of the strategies that can skip.
         sequences: String,
     },
-    /// A number of continuous coordinates that the strategy is not made for.
+    /// The strategy is not made for this number of continuous coordinates.
     #[error("`{strategy}` is made for {made_for} continuous coordinates; the space has {dims}; use {instead}")]
     Dimensions {
-        /// The strategy's name.
+        /// The name of the strategy.
         strategy: &'static str,
-        /// How many it is made for, in words.
+        /// The number of coordinates that the strategy is made for, in words.
         made_for: String,
-        /// How many there are.
+        /// The number of coordinates of the space.
         dims: usize,
-        /// A strategy that is made for as many.
+        /// A strategy that is made for this number of coordinates.
         instead: &'static str,
     },
-    /// Indices that a double no longer tells apart.
+    /// An index is so large that a double cannot tell it from others.
     #[error("`{strategy}` has indices below {len}; asked for index {last}; ask for fewer or skip fewer")]
     IndexLimit {
-        /// The strategy's name.
+        /// The name of the strategy.
         strategy: &'static str,
-        /// How many points it has.
+        /// The number of points of the strategy.
         len: u64,
-        /// The last index asked for.
+        /// The last index that the request needs.
         last: u64,
     },
-    /// A Latin hypercube that does not fit in memory, where it is kept whole.
+    /// A Latin hypercube, which is kept in memory as a whole, does not fit.
     #[error(
-        "a Latin hypercube is kept in memory, at most 10,000,000 coordinates; asked for {points} points in {dims} \
-         dimensions; use halton"
+        "a Latin hypercube of {points} points in {dims} dimensions has more than 10,000,000 coordinates, the most that \
+         are kept in memory; use halton"
     )]
     LhsLimit {
-        /// How many points were asked for.
+        /// The number of points that the request needs.
         points: u64,
-        /// In how many dimensions.
+        /// The number of dimensions.
         dims: usize,
     },
-    /// A dispersion that cannot be reached or need not be.
+    /// The epsilon is not above 0 and below 1.
     #[error("epsilon is {0}; the volume of an empty box must be above 0 and below 1")]
     Epsilon(f64),
-    /// A set made for its size, where the size is to be found.
+    /// An epsilon leaves the number of tests open, but the strategy makes a set for a given number.
     #[error(
         "`{strategy}` makes its set for a number of tests, but epsilon asks for as many as it takes; use halton or greedy"
     )]
     Sized {
-        /// The strategy's name.
+        /// The name of the strategy.
         strategy: &'static str,
     },
-    /// Rows without large holes, from a strategy that goes where tests fail.
+    /// An epsilon asks for rows without large holes, but the strategy goes where tests fail.
     #[error(
         "`{strategy}` goes where tests fail and leaves holes elsewhere; epsilon asks for none: use halton or greedy"
     )]
     NoEpsilon {
-        /// The strategy's name.
+        /// The name of the strategy.
         strategy: &'static str,
     },
-    /// A strategy that does not look at what is there.
+    /// The strategy does not look at existing tests.
     #[error("`{strategy}` does not look at existing tests and cannot extend them; use greedy")]
     NoExtension {
-        /// The strategy's name.
+        /// The name of the strategy.
         strategy: &'static str,
     },
-    /// A measure for a strategy that does not look at any.
+    /// An aim was given for a strategy that does not aim at a measure.
     #[error("`{strategy}` aims at no measure; greedy does")]
     NoAim {
-        /// The strategy's name.
+        /// The name of the strategy.
         strategy: &'static str,
     },
-    /// No measure that can be aimed at has that name.
+    /// No measure that `greedy` can aim at has the given name.
     #[error("greedy cannot aim at `{name}`{}; it can at dispersion and k-wise-dispersion", did_you_mean(.nearest))]
     UnknownAim {
-        /// The name.
+        /// The name that no such measure has.
         name: String,
-        /// A name that was perhaps meant.
+        /// The name of a measure that was perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// An existing test of another space.
+    /// An existing test does not belong to the space.
     #[error("existing test {index} is none of the space")]
     Foreign {
-        /// The test's position, from 0.
+        /// The position of the test, from 0.
         index: usize,
     },
-    /// More choices of k parameters than greedy can look after.
+    /// There are more choices of k parameters than `greedy` can handle.
     #[error("there are more than {most} choices of {k} parameters with their values; use a smaller k")]
     Views {
-        /// The strength.
+        /// The strength k.
         k: usize,
-        /// How many there may be.
+        /// The greatest number of choices that `greedy` handles.
         most: usize,
     },
-    /// A strength that the space cannot have, where all parameters count.
-    #[error("k is {k}, but the space has {parameters} parameters; k must be from 1 to their number")]
+    /// The strength is out of range for a request in which all parameters count.
+    #[error("k is {k}, but the space has {}; expected k from 1 to that number", plural(*parameters, "parameter"))]
     AllStrength {
-        /// The strength.
+        /// The strength k.
         k: usize,
         /// The number of parameters.
         parameters: usize,
     },
-    /// A strength that the space cannot have.
+    /// The strength is out of range for the discrete parameters.
     #[error("k is {k}, but the space has {parameters} discrete parameters; k must be from 1 to their number")]
     Strength {
-        /// The strength.
+        /// The strength k.
         k: usize,
         /// The number of discrete parameters.
         parameters: usize,
     },
-    /// Random rows where nobody knows how probable a combination is.
+    /// Constraints make it impossible to compute the probability of a combination in random rows.
     #[error(
         "the constraints join too many parameters to tell how probable a combination is, and a random family would \
          promise nothing; use ipog"
     )]
     RandomUnderConstraints,
-    /// A covering array that cannot be.
+    /// A covering array cannot be constructed.
     #[error(transparent)]
     Covering(#[from] CoveringError),
-    /// Constraints that no test keeps.
+    /// The constraints of the space contradict each other, or cannot be decided.
     #[error(transparent)]
     Space(#[from] SpaceError),
-    /// A probability of failure that is none.
+    /// The delta is not a probability above 0 and below 1.
     #[error("delta is {0}; a probability of failure must be above 0 and below 1")]
     Delta(f64),
-    /// A probability of failure for a family that cannot fail.
+    /// A delta was given for a family that misses no combination.
     #[error("delta is the probability that random rows miss a combination; `{family}` misses none, use random")]
     NoDelta {
-        /// The family's name.
+        /// The name of the family.
         family: &'static str,
     },
-    /// A family too large to run.
+    /// The family has too many rows to run.
     #[error("the discrete family has {rows} rows, more than 10,000,000; {advice}")]
     FamilyTooLarge {
-        /// How many rows, in words.
+        /// The number of rows, in words.
         rows: String,
-        /// What gives fewer.
+        /// Advice on how to get fewer rows.
         advice: &'static str,
     },
 }

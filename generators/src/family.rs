@@ -1,7 +1,7 @@
-//! The discrete half of a test set: rows of level indices that cover the combinations of any k parameters.
+//! The discrete part of a set of tests: rows of level indices that cover the combinations of any k parameters.
 //!
-//! Rows of random families and of all combinations are computed when they are asked for, so that they cost nothing;
-//! those of a covering array are a list.
+//! Rows of random families and of all combinations are computed when they are asked for, so that they take no memory.
+//! The rows of a covering array are a list.
 
 use crate::covering::{CoveringRequest, covering_array};
 use crate::seeded::{Purpose, seeded};
@@ -12,17 +12,17 @@ use paracosm_space::rules::{Rules, UniformTests};
 use rand::Rng;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// Beyond it a family is a mistake rather than a plan.
+/// The greatest number of rows: a larger family is a mistake rather than a plan.
 const MOST_ROWS: u64 = 10_000_000;
 
-/// Of so many possible rows at most each has a bit that says whether it is there.
+/// The greatest number of possible rows for which each row gets a bit that says whether it is there.
 const MOST_BITS: u64 = 1 << 28;
 
 impl Request<'_> {
-    /// How many discrete parameters the rows cover together: `k`, or all of them where fewer are discrete.
+    /// Returns the number of discrete parameters that the rows cover together: `k`, or all if fewer are discrete.
     ///
     /// # Errors
-    /// `k` is given, and is 0, more than there are parameters of both kinds, or about none, for none is discrete.
+    /// `k` is 0 or more than the number of all parameters, or it is given for a space without discrete parameters.
     pub fn discrete_strength(&self) -> Result<usize, GeneratorError> {
         let discrete = self.space.levels().len();
         let parameters = discrete + self.space.dims();
@@ -42,18 +42,18 @@ pub(crate) struct Family {
     rows: Source,
 }
 
-/// Where the rows come from.
+/// The source of the rows.
 enum Source {
-    /// Random ones of this seed.
+    /// Random rows of this seed.
     Random { tests: UniformTests, seed: u64 },
-    /// All combinations, in order.
+    /// All combinations of levels, in order.
     Cross,
-    /// These.
+    /// The rows of this list.
     Listed(Vec<Vec<usize>>),
 }
 
 impl Family {
-    /// The family that a request asks for.
+    /// Makes the family that a request asks for.
     pub(crate) fn new(rules: &Rules, request: &Request) -> Result<Self, GeneratorError> {
         let levels = rules.levels();
         let parameters = levels.len();
@@ -86,7 +86,7 @@ impl Family {
                 })?;
                 Ok(Self::listed(levels, array.rows))
             }
-            // The product of no levels is the one empty row.
+            // Without levels the product is the one empty row.
             _ => match combinations(levels) {
                 None => too_large("over 10^19".to_owned(), "use the family ipog"),
                 Some(len) if len > MOST_ROWS => too_large(len.to_string(), "use the family ipog"),
@@ -120,12 +120,12 @@ impl Family {
         }
     }
 
-    /// The family without the rows that repeat an earlier one, or one of the tests that are there already.
+    /// The family without rows that repeat an earlier row or an existing test.
     pub(crate) fn without(self, existing: &[Point]) -> Self {
         let existing = existing.iter().map(|test| test.discrete.clone());
         let rows = (0..self.len).map(|index| self.row(index));
         let rows = match combinations(&self.levels) {
-            // Millions of rows that are drawn from fewer: a bit for each is at hand where a hash table is not.
+            // For millions of rows drawn from fewer, a bit for each fits in memory where a hash table does not.
             Some(all) if all <= MOST_BITS => {
                 let mut seen = vec![0_u64; all.div_ceil(64) as usize];
                 let mut is_new = |row: &Vec<usize>| {
@@ -148,7 +148,8 @@ impl Family {
         Self::listed(&self.levels, rows)
     }
 
-    /// The continuous points that each row has among tests, by the row's number: of rows that are alike, the first.
+    /// The continuous points that each row has among tests, by the row's number. If rows are equal, the first has the
+    /// points.
     pub(crate) fn points_of_rows(&self, tests: &[Point]) -> HashMap<u64, Vec<Vec<f64>>> {
         let mut by_row: HashMap<&[usize], Vec<Vec<f64>>> = HashMap::new();
         for test in tests {
@@ -161,17 +162,17 @@ impl Family {
     }
 }
 
-/// How many rows there are of parameters with so many levels; none where they cannot be counted in 64 bits.
+/// The number of rows of parameters with these numbers of levels; `None` if it does not fit in 64 bits.
 fn combinations(levels: &[usize]) -> Option<u64> {
     levels.iter().try_fold(1, |rows: u64, &levels| rows.checked_mul(levels as u64))
 }
 
-/// The number whose digits are a row, as [`digits`] takes it apart.
+/// The number whose digits are the row: the inverse of [`digits`].
 fn number(row: &[usize], levels: &[usize]) -> u64 {
     row.iter().zip(levels).fold(0, |number, (&level, &levels)| number * levels as u64 + level as u64)
 }
 
-/// `index` as a number whose digits, the last one changing fastest, have these many values.
+/// The digits of `index`, the last changing fastest. Each digit has as many values as `levels` says.
 fn digits(mut index: u64, levels: &[usize]) -> Vec<usize> {
     let mut row = vec![0; levels.len()];
     for (digit, &levels) in row.iter_mut().zip(levels).rev() {

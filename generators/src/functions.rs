@@ -1,7 +1,7 @@
-//! Functions with a known set of failures, on which strategies are tried where a simulation would only cost time.
+//! Functions with a known set of failures, which test strategies without the cost of a simulation.
 //!
-//! Each stands for one thing that makes failures hard to find. Where the failure lies is up to a seed, so that no strategy
-//! is good at one place by luck; values below 0 are failures.
+//! Each function stands for one thing that makes failures hard to find. The seed decides where the failure lies, so
+//! that no strategy is good at one place by luck. Values below 0 are failures.
 
 use crate::{Request, Strategy};
 use paracosm_space::{Domain, Parameter, Point, Space, Value};
@@ -12,17 +12,17 @@ const BALL: f64 = 0.1801;
 /// A function with a known set of failures.
 #[derive(Debug, Clone, Copy)]
 pub struct Function {
-    /// The name by which it is asked for.
+    /// The name by which users ask for the function.
     pub name: &'static str,
-    /// What it stands for, in a few words.
+    /// The difficulty that the function stands for, in a few words.
     pub about: &'static str,
     dims: usize,
-    /// Words of so many levels.
+    /// The number of levels of each discrete parameter, whose values are words.
     words: &'static [usize],
     robustness: fn(&Point, &Point) -> Option<f64>,
 }
 
-/// A function whose failure lies somewhere.
+/// A function whose failure has a place.
 #[derive(Debug, Clone)]
 pub struct Placed {
     function: Function,
@@ -40,7 +40,7 @@ const fn function(
 }
 
 impl Function {
-    /// All of them.
+    /// All functions of this module.
     pub const ALL: [Self; 10] = [
         function("corner5", "within 0.05 of one of 32 corners", 5, &[], corner),
         function("ball5", "a ball of volume 0.001", 5, &[], |x, hidden| Some(distance(x, hidden) - BALL)),
@@ -66,7 +66,7 @@ impl Function {
         ),
     ];
 
-    /// The space of its tests.
+    /// Returns the space of the function's tests.
     pub fn space(&self) -> Space {
         let word = |(i, &levels): (usize, &usize)| {
             let levels = (0..levels).map(|level| Value::Word(format!("w{level}"))).collect();
@@ -77,10 +77,11 @@ impl Function {
         Space::new(parameters).expect("the parameters have names of their own")
     }
 
-    /// The function with its failure where this seed puts it: away from the border, so that its volume is what it is.
+    /// Returns the function with its failure at the place that the seed decides. The place is away from the border,
+    /// so that the whole failure lies in the cube.
     pub fn placed(&self, seed: u64) -> Placed {
         let space = self.space();
-        // Far from the seeds of the strategies, or a random test would be it.
+        // Far from the seeds of the strategies: otherwise a random test would hit the place itself.
         let request = Request { seed: Some(seed.wrapping_add(1_000_000)), ..Request::new(&space, 300) };
         let test = Strategy::RANDOM.build(&request).map(|mut random| random.ask(1).remove(0));
         let mut hidden = test.expect("every space has a random test");
@@ -94,7 +95,7 @@ impl Function {
 }
 
 impl Placed {
-    /// The robustness of a test: below 0 where it fails, `None` where it ends in an error.
+    /// Returns the robustness of a test: below 0 if it fails, `None` if it ends in an error.
     pub fn robustness(&self, test: &Point) -> Option<f64> {
         (self.function.robustness)(test, &self.hidden)
     }
@@ -125,7 +126,7 @@ fn errors(x: &Point, hidden: &Point) -> Option<f64> {
     (!away).then(|| distance(x, hidden) - BALL)
 }
 
-/// The failure is about a thousandth of the plane; it is where it is, whatever the seed.
+/// The failure is about a thousandth of the plane. Its place does not depend on the seed.
 fn valley(x: &Point, _: &Point) -> Option<f64> {
     let (a, b) = (4.0 * x.continuous[0] - 2.0, 4.0 * x.continuous[1] - 1.0);
     let (bend, ahead) = (b - a * a, 1.0 - a);

@@ -1,10 +1,11 @@
-//! Points joined with discrete values that every test draws for itself: what strategies are when they are held against each
-//! other by chance.
+//! Joins points with discrete values that are drawn for each test separately, so that strategies can be compared by
+//! their points alone.
 //!
-//! Over a family of rows a strategy is two things at once, a way to place points and a family. What it finds then says as
-//! much of the rows: a covering array of any two parameters has most combinations of three of them in no row, and whatever
-//! fails only with one of those is out of reach, however the points are placed. Rows that are drawn uniformly, one for each
-//! test, take no side. Random points with such rows are what a uniform distribution over all valid tests gives.
+//! Over a family of rows a strategy is two things at once: a way to place points, and a family. Its results then
+//! depend on the rows as well. A covering array of any two parameters misses most combinations of three parameters,
+//! and a failure that needs one of them is out of reach, however the points are placed. Rows that are drawn
+//! uniformly, one for each test, favour no strategy. Random points with such rows are a uniform distribution over all
+//! valid tests.
 
 use crate::seeded::{Purpose, seeded};
 use crate::{Generator, GeneratorError, Request, Strategy};
@@ -19,15 +20,15 @@ struct Independent {
     rows: Rows,
 }
 
-/// In a space without continuous parameters, random rows none of which comes twice.
+/// Random rows without repetitions, for a space without continuous parameters.
 struct Once {
     rows: Rows,
     seen: BTreeSet<Vec<usize>>,
-    /// How many keep the constraints.
+    /// The number of rows that satisfy the constraints.
     valid: f64,
 }
 
-/// Random rows among those that keep the constraints.
+/// Random rows among those that satisfy the constraints.
 struct Rows {
     tests: UniformTests,
     seed: u64,
@@ -35,18 +36,19 @@ struct Rows {
 }
 
 impl Strategy {
-    /// A generator of this strategy whose tests draw their discrete values uniformly among the valid ones, each for itself,
-    /// rather than take the rows of a family in turn. Without continuous parameters no test comes twice, and it ends when
-    /// all have come. Strategies that choose values of both kinds together do that here too.
+    /// Builds a generator of this strategy whose tests draw their discrete values uniformly among the valid ones,
+    /// each test separately, instead of taking the rows of a family in turn. Without continuous parameters no test
+    /// comes twice, and the generator ends when all tests have come. Strategies that choose all values together do so
+    /// here too.
     ///
     /// # Errors
-    /// As [`Strategy::build`], and where constraints are too entangled for random rows.
+    /// As [`Strategy::build`]; also if the constraints join too many parameters for random rows.
     pub fn build_independent(self, request: &Request) -> Result<Box<dyn Generator>, GeneratorError> {
         let levels = request.space.levels();
         if levels.is_empty() || !self.has_rows(request) {
             return self.build(request);
         }
-        // What is wrong with the request is found here, and the one row is not used.
+        // This finds what is wrong with the request. The one row is not used.
         let row = [vec![0; levels.len()]];
         let points = self.build(&Request { rows: Some(&row), ..*request })?;
         let rules = request.space.rules()?;

@@ -1,14 +1,14 @@
-//! Strategies that propose tests.
+//! Builds the strategies that propose tests.
 //!
-//! A [`Generator`] is asked for tests and told how they went; a [`Strategy`] is one by name. What it proposes
-//! follows section 3.2 of the paper (Majumdar et al., arXiv 1902.01084): a family of rows covers the discrete
-//! parameters k-wise, and every row gets a set of points of its own that leaves no large hole in the continuous
-//! ones.
+//! A [`Generator`] proposes tests and is told their results; a [`Strategy`] is the name of a method that a generator
+//! uses. The proposals follow section 3.2 of the paper (Majumdar et al., arXiv 1902.01084). A family of rows covers
+//! the discrete parameters k-wise. Every row gets its own set of points, which leaves no large hole in the continuous
+//! parameters.
 //!
-//! The same request always gives the same tests, on every machine: all chance comes from the seed. Adaptive strategies
-//! also go by what they are told, in which order, and how many tests they are asked for at a time. Those with a model
-//! (`bayes boundary auto`) repeat their tests to the last bit on processors of one kind only, and those by argmin
-//! (`anneal`) where the mathematical library of the system is the same.
+//! The same request always gives the same tests, on every machine: all chance comes from the seed. The tests of
+//! adaptive strategies also depend on the results, their order, and the number of tests in each request. Strategies
+//! with a model (`bayes boundary auto`) repeat their tests to the last bit only on the same kind of processor.
+//! Strategies that use argmin (`anneal`) repeat them only if the mathematical library of the system is the same.
 //!
 //! ```
 //! use paracosm_space::Space;
@@ -53,17 +53,18 @@ pub use strategy::{BuildOwn, Descriptor, Look, MarkShape, Method, Strategy};
 
 use paracosm_space::Point;
 
-/// A source of tests that may learn from how they went.
+/// A source of tests that may learn from their results.
 pub trait Generator: Send {
-    /// The next tests, at most `n`.
+    /// Returns the next tests, at most `n`.
     ///
-    /// There may be fewer, and there are none once the strategy has nothing more to propose. Continuous
+    /// There may be fewer than `n`. There are none once the strategy has nothing more to propose. Continuous
     /// coordinates are in `[0,1)`.
     fn ask(&mut self, n: usize) -> Vec<Point>;
 
-    /// How tests went: one robustness for each, below 0 where a requirement was violated, `None` where the test
-    /// ended in an error.
+    /// Tells the results of tests, a robustness for each test. It is below 0 if a requirement was violated, and
+    /// `None` if the test ended in an error.
     ///
-    /// Open-loop strategies ignore it; adaptive ones go by it, whatever it is. A test may stay untold.
+    /// Open-loop strategies ignore the results. Adaptive strategies use every result, whatever it is. A test may
+    /// remain without a result.
     fn tell(&mut self, _tests: &[Point], _robustness: &[Option<f64>]) {}
 }

@@ -1,6 +1,6 @@
 //! The open-loop generator: the discrete rows joined with the continuous points.
 //!
-//! A test is computed from its number alone, by way of [`Deal`]; all there is to remember is which comes next.
+//! A test is computed from its number alone, by [`Deal`]. The generator only remembers the number of the next test.
 
 use crate::{Generator, deal::Deal, family::Family, sequence::Sequence};
 use paracosm_space::Point;
@@ -8,27 +8,28 @@ use paracosm_space::Point;
 /// The tests of a family and a sequence.
 pub(crate) struct Mixed {
     family: Family,
-    /// None in a space without continuous parameters.
+    /// The sequence of points; `None` in a space without continuous parameters.
     sequence: Option<Box<dyn Sequence>>,
     deal: Deal,
-    /// The sequence's index that counts as 0.
+    /// The index of the sequence's first point.
     first: u64,
     /// The next test.
     next: u64,
-    /// One past the last test.
+    /// The number after that of the last test.
     end: u64,
 }
 
 impl Mixed {
-    /// Every row with its own block of the sequence, from index `first` on.
+    /// Gives every row its own block of the sequence, from index `first` on.
     ///
-    /// With a single row the sequence goes on beyond the budget, as far as it reaches; blocks cannot grow.
+    /// With a single row the sequence goes on beyond the budget, as far as it reaches. With several rows the blocks
+    /// cannot grow.
     pub(crate) fn new(family: Family, sequence: Box<dyn Sequence>, deal: Deal, first: u64) -> Self {
         let end = if deal.rows == 1 { sequence.len() - first } else { deal.budget };
         Self { family, sequence: Some(sequence), deal, first, next: 0, end }
     }
 
-    /// The rows alone, if there are any.
+    /// Makes a generator of the rows alone, if there are any.
     pub(crate) fn discrete(family: Family) -> Self {
         let end = family.len();
         Self { deal: Deal::new(end.max(1), end), family, sequence: None, first: 0, next: 0, end }

@@ -1,10 +1,10 @@
-//! What a generator is built for: the space, the budget, the seed, and what is asked of the tests.
+//! The request for a generator: the space, the budget, the seed, and the demands on the tests.
 
 use crate::{Aim, DiscreteFamily};
 use paracosm_coverage::Deadline;
 use paracosm_space::{Point, Space};
 
-/// What a generator is built for.
+/// A request for a generator.
 ///
 /// ```
 /// # use paracosm_space::Space;
@@ -16,41 +16,41 @@ use paracosm_space::{Point, Space};
 pub struct Request<'a> {
     /// The parameters to vary.
     pub space: &'a Space,
-    /// How many tests are wanted, at least 1. Sets that depend on their size are made for it. With an epsilon it is the
-    /// most there may be; `usize::MAX` is as many as it takes.
+    /// The number of tests, at least 1. Sets that depend on their size are made for this number. With an epsilon it
+    /// is the greatest number of tests; `usize::MAX` sets no limit.
     pub budget: usize,
-    /// The source of all chance. None is the plain set where a strategy has one (`halton sobol kronecker
-    /// hammersley fibonacci`) and seed 0 in all else, such as the copies of a plain set for further rows.
+    /// The source of all chance. `None` gives the plain set if the strategy has one (`halton sobol kronecker
+    /// hammersley fibonacci`), and seed 0 for everything else, such as the copies of a plain set for further rows.
     pub seed: Option<u64>,
-    /// The index of a sequence's first point, from 0. None is 0, but 1 for `halton`: point 0
-    /// of Halton is the corner of the cube.
+    /// The index of a sequence's first point, from 0. `None` means 0, but 1 for `halton`, because point 0 of Halton
+    /// is the corner of the cube.
     pub skip: Option<u64>,
-    /// How discrete parameters are covered.
+    /// The method that covers the discrete parameters.
     pub discrete: DiscreteFamily,
-    /// How many parameters are covered together: the discrete ones by a family of rows, all of them by `greedy` where
-    /// it aims at k-wise dispersion. None is 2, or as many as there are; of fewer discrete ones than k all combinations
-    /// are covered.
+    /// The number of parameters that are covered together. A family of rows covers the discrete parameters; `greedy`
+    /// covers all parameters if it aims at k-wise dispersion. `None` means 2, or the number of parameters if there
+    /// are fewer. If there are fewer discrete parameters than k, all their combinations are covered.
     pub k: Option<usize>,
-    /// Go on until the points of every row of the discrete family leave no empty box above this volume, with as few
-    /// tests as that takes; where the budget is too small, spread the tests so that the largest empty box of any row is
-    /// as small as can be. None is equal shares of the budget.
+    /// The volume of the largest empty box that the points of any row of the discrete family may leave. Tests are
+    /// added until this is reached, as few as possible. If the budget is too small, the tests are divided so that the
+    /// largest empty box of any row is as small as possible. `None` gives every row an equal share of the budget.
     pub epsilon: Option<f64>,
-    /// When the search for tests that reach epsilon ends, whatever it has found.
+    /// The deadline of the search for tests that reach epsilon; the search then ends with what it has found.
     pub deadline: Deadline,
-    /// What `greedy` is to make small. None is the dispersion in a continuous space, and the k-wise dispersion where
-    /// there are discrete parameters too.
+    /// The measure that `greedy` makes small. `None` means the dispersion in a continuous space, and the k-wise
+    /// dispersion if there are discrete parameters.
     pub aim: Option<Aim>,
-    /// Tests that are there already, which new ones complete.
+    /// Existing tests, which the new tests complete.
     pub existing: &'a [Point],
-    /// Groups of discrete parameters of which the family `ipog` covers more than k together: positions among the
-    /// discrete parameters, and how many.
+    /// Groups of discrete parameters of which the family `ipog` covers more than k together: the positions among the
+    /// discrete parameters, and the strength.
     pub groups: &'a [(Vec<usize>, usize)],
-    /// Rows to use instead of the family's.
+    /// The rows to use instead of the family's rows.
     pub rows: Option<&'a [Vec<usize>]>,
 }
 
 impl<'a> Request<'a> {
-    /// `budget` tests of `space`, and the default for all else.
+    /// Makes a request for `budget` tests of `space`, with the default for everything else.
     pub fn new(space: &'a Space, budget: usize) -> Self {
         Self {
             space,

@@ -1,13 +1,13 @@
-//! Random numbers from one seed for several purposes.
+//! Makes independent random numbers for several purposes from one seed.
 //!
-//! Rows, points and shifts of one generator must be independent of each other although the user gives a single
-//! seed. Hence every purpose, and every row within it, has its own generator, seeded with a hash of all three.
-//! Handing out neighbouring seeds or PCG's own streams would be simpler, but those are affinely related.
+//! Rows, points and shifts of one generator must be independent of each other, although the user gives a single seed.
+//! Hence every purpose, and every number within it, has its own generator, seeded with a hash of all three.
+//! Neighbouring seeds, or PCG's own streams, would be simpler, but they are affinely related.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-/// What the random numbers are for. The numbers are part of the seed: never renumber.
+/// The purpose of random numbers. Never renumber the variants: their numbers are part of the seed.
 #[derive(Clone, Copy)]
 pub(crate) enum Purpose {
     /// Uniformly random points.
@@ -24,13 +24,13 @@ pub(crate) enum Purpose {
     Greedy = 5,
     /// The order of the corners with which adaptive strategies begin.
     Corners = 6,
-    /// What an adaptive strategy leaves to chance.
+    /// The random decisions of an adaptive strategy.
     Search = 7,
-    /// Draws of what a model is not sure of.
+    /// Draws from a model about values that it is not sure of.
     Draws = 8,
 }
 
-/// The generator for one purpose and, within it, one `number`.
+/// Makes the generator of random numbers for one purpose and one `number` within it.
 pub(crate) fn seeded(seed: u64, purpose: Purpose, number: u64) -> Pcg64 {
     let word = [purpose as u64, number].into_iter().fold(mix(seed), |word, part| mix(word ^ mix(part)));
     Pcg64::seed_from_u64(word)

@@ -1,4 +1,4 @@
-//! Comparisons with their signals found in the rows of a trace.
+//! Comparisons and flags whose signals are found in the rows of a trace.
 
 use crate::Arithmetic;
 use crate::worth::Worth;
@@ -37,7 +37,7 @@ impl Number {
     }
 }
 
-/// A formula without parts, over the columns of a row.
+/// A formula without sub-formulas, over the columns of a row.
 #[derive(Debug, Clone)]
 enum Statement {
     Constant(bool),
@@ -50,13 +50,13 @@ enum Statement {
 pub(crate) struct Atom {
     statement: Statement,
     negated: bool,
-    /// What it says and the names of its signals, for complaints.
+    /// The text of the statement, for error messages. The names of its signals serve the same purpose.
     text: String,
     signals: Vec<(String, usize)>,
 }
 
 impl Atom {
-    /// Finds the signals of a formula without parts.
+    /// Finds the columns of the signals in a formula without sub-formulas.
     pub fn resolve(formula: &Formula, negated: bool, signals: &[String]) -> Result<Self, EvaluationError> {
         let statement = match formula {
             Formula::Flag(name) => Statement::Flag(column(name, signals)?),
@@ -70,7 +70,7 @@ impl Atom {
         Ok(Self { statement, negated, text: formula.to_string(), signals: named.collect::<Result<_, _>>()? })
     }
 
-    /// What the statement is worth of a row, at so many seconds.
+    /// Returns the worth of the statement for a row. `time` gives the time of the row in seconds.
     #[inline]
     pub fn at(&self, row: &[f64], time: impl FnOnce() -> f64) -> Result<Worth, EvaluationError> {
         let worth = match &self.statement {
@@ -88,7 +88,7 @@ impl Atom {
         Ok(worth.flipped(self.negated))
     }
 
-    /// What the statement is worth of each of these rows, `dt` seconds apart.
+    /// Returns the worth of the statement for each of these rows, which are `dt` seconds apart.
     pub fn column<'a>(
         &self,
         rows: impl ExactSizeIterator<Item = &'a [f64]>,

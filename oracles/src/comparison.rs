@@ -1,21 +1,21 @@
-//! Comparisons of numbers, as truths and as distances.
+//! Comparisons of numbers: their truth and their distance from the other truth.
 
 use crate::worth::Worth;
 
-/// How two numbers are compared.
+/// The ways to compare two numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Comparison {
-    /// `<`
+    /// The comparison `<`.
     Below,
-    /// `<=`
+    /// The comparison `<=`.
     AtMost,
-    /// `>`
+    /// The comparison `>`.
     Above,
-    /// `>=`
+    /// The comparison `>=`.
     AtLeast,
-    /// `==`
+    /// The comparison `==`.
     Equal,
-    /// `!=`
+    /// The comparison `!=`.
     Different,
 }
 
@@ -23,7 +23,7 @@ impl Comparison {
     pub(crate) const ALL: [Self; 6] =
         [Self::Below, Self::AtMost, Self::Above, Self::AtLeast, Self::Equal, Self::Different];
 
-    /// Whether `left` compares to `right` so. Nothing compares to NaN, except that it is different from everything.
+    /// Returns `true` if the comparison holds for the two numbers. With NaN only [`Different`](Self::Different) holds.
     pub fn holds(self, left: f64, right: f64) -> bool {
         match self {
             Comparison::Below => left < right,
@@ -35,7 +35,8 @@ impl Comparison {
         }
     }
 
-    /// The distance to the other answer, for numbers that are not NaN. Equal infinities are at distance 0.
+    /// Returns the distance from the other truth, for numbers that are not NaN. For equal infinities the distance is
+    /// 0.
     pub(crate) fn worth(self, left: f64, right: f64) -> Worth {
         if left == right {
             let holds = matches!(self, Comparison::AtMost | Comparison::AtLeast | Comparison::Equal);
@@ -49,7 +50,7 @@ impl Comparison {
         })
     }
 
-    /// How the comparison is written.
+    /// Returns the sign of the comparison, such as `<`.
     pub fn symbol(self) -> &'static str {
         match self {
             Comparison::Below => "<",

@@ -1,42 +1,43 @@
-//! Formulas reduced to four kinds of nodes, with times in ticks and signals as columns.
+//! Reduces formulas to four kinds of nodes, with times in ticks and signals as columns.
 //!
-//! Negations are pushed to the comparisons, and every operator is written by its sibling that takes maxima:
-//! conjunction, `always` and `release` are disjunction, `eventually` and `until` between two negations, which the mark
-//! `dual` stands for. What is left is monotone, so that what is unknown can be bounded from either side by itself. A
-//! sequence that begins later is taken apart, `a until[s,e] b = always[0,s-1] a and next[s] (a until[0,e-s] b)`; the
-//! parts share their operands, and so the nodes form an acyclic graph, operands first.
+//! Negations are moved down to the comparisons. Every operator is expressed by its counterpart that takes maxima.
+//! Conjunction, `always` and `release` become disjunction, `eventually` and `until` between two negations; the mark
+//! `dual` stands for these negations. The remaining operators are monotone, so unknown values can be bounded from each
+//! side independently. A sequence whose interval begins later is divided: `a until[s,e] b = always[0,s-1] a and
+//! next[s] (a until[0,e-s] b)`. The parts share their operands. So the nodes form an acyclic graph, operands first.
 
 use crate::atom::Atom;
 use crate::ticks::FOREVER;
 use crate::worth::Worth;
 use crate::{Connective, EvaluationError, Formula, Modality, Sequence};
 
-/// A node's place in the graph.
+/// The position of a node in the graph.
 pub(crate) type Id = usize;
 
-/// Which way in time an operator looks, and how it ends.
+/// The direction in which an operator looks in time, and the end of its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Sight {
     pub past: bool,
-    /// The last tick, counted from where the operator stands; [`FOREVER`] if there is none.
+    /// The last tick that the operator sees, counted from its own tick. [`FOREVER`] if there is no end.
     pub end: usize,
-    /// Whether the operator as written has no end. It then runs to the end of the trace, and what comes after it does
-    /// not exist; otherwise that is unknown.
+    /// `true` if the operator is written without an end. On a complete trace it then runs to the end of the trace, and
+    /// nothing exists behind the end. In all other cases, the samples behind the end are unknown.
     pub endless: bool,
 }
 
 #[derive(Debug, Clone)]
 pub(crate) enum CoreKind {
     Atom(Atom),
-    /// The greater of the two.
+    /// The greater worth of two operands.
     Or(Id, Id),
-    /// The greatest from tick `start` to the end, counted from where it stands.
+    /// The greatest worth of the operand, from tick `start` to the end, counted from the operator's tick.
     Any {
         operand: Id,
         start: usize,
         sight: Sight,
     },
-    /// The greatest, over all ticks to the end, of the lesser of `goal` then and the least of `hold` before then.
+    /// The greatest worth, over all ticks to the end, of the lesser of `goal` at this tick and the least of `hold`
+    /// before it.
     Until {
         hold: Id,
         goal: Id,
@@ -47,7 +48,7 @@ pub(crate) enum CoreKind {
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
     pub kind: CoreKind,
-    /// Operands and result are negated.
+    /// `true` if the operands and the result are negated.
     pub dual: bool,
 }
 
@@ -63,25 +64,26 @@ impl Node {
     }
 }
 
-/// The nodes of a formula, operands first and the formula itself last.
+/// The nodes of a formula. Operands come first, and the formula itself is the last node.
 #[derive(Debug, Clone)]
 pub(crate) struct Core {
     pub nodes: Vec<Node>,
 }
 
-/// What stands for the worth of a formula beyond the end of the trace.
+/// The assumption about a formula beyond the end of the trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Beyond {
-    /// Nothing: what was recorded is all that counts.
+    /// There is nothing beyond the end. Only the recorded samples count.
     Nothing,
-    /// The worst that could follow.
+    /// The worst possible samples follow.
     Worst,
-    /// The best.
+    /// The best possible samples follow.
     Best,
 }
 
 impl Beyond {
-    /// What the node takes for an operand beyond the end, before its own negations are undone; `None` for nothing.
+    /// Returns the worth of the node's operands beyond the end, negated if the node is `dual`. `None` if nothing lies
+    /// there.
     pub fn operand(self, node: &Node, sight: Sight, complete: bool) -> Option<Worth> {
         match self {
             _ if sight.past || (sight.endless && complete) => None,
@@ -93,8 +95,8 @@ impl Beyond {
 }
 
 impl Core {
-    /// Reduces a formula over rows of these signals, `dt` seconds apart. Also tells of which sub-formula each node is
-    /// part.
+    /// Reduces a formula over rows of these signals, `dt` seconds apart. Also returns the sub-formula that each node
+    /// belongs to.
     pub fn new<'f>(
         formula: &'f Formula,
         signals: &[String],
@@ -105,7 +107,8 @@ impl Core {
         Ok((Self { nodes: builder.nodes }, builder.parts))
     }
 
-    /// How many ticks of each node count for the first tick of the formula, on a trace of so many ticks.
+    /// Returns, for each node, the number of ticks on which the formula's first tick depends, on a trace of `ticks`
+    /// ticks.
     pub fn needed(&self, ticks: usize) -> Vec<usize> {
         let mut needed = vec![0; self.nodes.len()];
         *needed.last_mut().expect("a formula has a node") = ticks.min(1);

@@ -1,29 +1,29 @@
-//! Why a formula cannot be asked of a trace, and the nearest name to one that is unknown.
+//! Errors of an evaluation, and the search for the nearest known name.
 
 use crate::Interval;
 use thiserror::Error;
 
-/// A formula that does not fit the trace, or a trace with a hole in it.
+/// The reason why a formula cannot be evaluated on a trace.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum EvaluationError {
     /// The formula names a signal that the trace does not have.
     #[error("the trace has no signal `{name}`{}", did_you_mean(.nearest))]
     UnknownSignal {
-        /// The name that is in the formula only.
+        /// The name of the signal in the formula.
         name: String,
-        /// The signal of the trace that is most like it, if one is like it.
+        /// The most similar signal of the trace, if a signal is similar enough.
         nearest: Option<String>,
     },
-    /// A sample that is NaN, or an expression without a value: infinity minus infinity, zero by zero, zero times
-    /// infinity.
+    /// A sample or an expression has no value. The sample is NaN, or the expression is infinity minus infinity, 0 / 0,
+    /// or zero times infinity. In dense time, infinite numbers cause this error, too.
     #[error("`{what}` has no value at {time} s")]
     NoValue {
-        /// The signal or the comparison in question.
+        /// The signal, the expression or the comparison without a value.
         what: String,
-        /// When, in seconds.
+        /// The time in seconds.
         time: f64,
     },
-    /// A time bound between two samples, which the formula does not say to round.
+    /// A time bound lies between two samples, and the formula does not allow rounding.
     #[error(
         "a time bound of {bound} s is no multiple of the sample period of {dt} s; {widened} would round it outward"
     )]
@@ -32,24 +32,25 @@ pub enum EvaluationError {
         bound: f64,
         /// The sample period in seconds.
         dt: f64,
-        /// The interval that would be accepted.
+        /// The same interval with rounding, which would be accepted.
         widened: Interval,
     },
-    /// An expression that is not piecewise linear where its signals are, or a truth that has no distance to the other:
-    /// neither can be followed between samples.
+    /// A comparison is not piecewise linear in time, or a signal is used as a truth, which has no distance to the
+    /// other truth. Dense time cannot follow either of them between samples.
     #[error("`{formula}` is no piecewise linear function of its signals, as dense time asks for")]
     NotLinear {
-        /// The part of the formula.
+        /// The part of the formula, as text.
         formula: String,
     },
-    /// Bounds that are no interval; only formulas built in Rust can have them.
+    /// The time bounds are not a valid interval. Only formulas built in Rust can have such bounds.
     #[error("the time bounds [{},{}] are no interval, expected 0 <= start <= end in seconds", .0.start, .0.end)]
     Interval(Interval),
 }
 
 impl EvaluationError {
-    /// Whether the formula will fit other traces of the same source no better. A signal that one trace lacks another may
-    /// have, unless one that is there is called the same but for a slip of the pen.
+    /// Returns `true` if the formula will not fit other traces of the same source either. Another trace may have a
+    /// signal that this trace lacks. But if this trace has a signal whose name differs only by a typing mistake, the
+    /// result is `true`.
     pub fn fits_no_trace(&self) -> bool {
         match self {
             EvaluationError::UnknownSignal { name, nearest } => {
@@ -68,8 +69,8 @@ impl EvaluationError {
     }
 }
 
-/// The candidate most like `name`, by the normalised Damerau-Levenshtein distance without regard to case; none below
-/// a likeness of 0.4.
+/// Returns the candidate that is most similar to `name`, by the normalised Damerau-Levenshtein similarity without
+/// regard to case. `None` if no similarity is at least 0.4.
 pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let name = name.to_lowercase();
     candidates
@@ -80,9 +81,10 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
         .map(|(_, candidate)| candidate)
 }
 
-/// Whether one name is written for the other: with other capitals or separators, or in one word with two letters swapped, or
-/// with one that is wrong, missing or too many between its first and its last. What differs by a digit or at the edge of a word,
-/// as `car1` and `car2`, `gap_l` and `gap_r` do, are names of two things.
+/// Returns `true` if one name is probably a mistyped form of the other. Then the names differ in capitals and
+/// separators only. Or, in one word, two neighbouring letters are swapped, or one letter other than the first and the
+/// last is wrong, missing or added. Names that differ in a digit or at the edge of a word name two things: `car1` and
+/// `car2`, `gap_l` and `gap_r`.
 fn is_slip(name: &str, other: &str) -> bool {
     let [name, other] = [name, other].map(str::to_lowercase);
     let words = |name: &str| -> Vec<String> {

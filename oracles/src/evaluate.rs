@@ -1,4 +1,4 @@
-//! Formulas asked of a trace: what they are worth on it, and which part of them that comes down to.
+//! Evaluates formulas on a trace, and finds the part of a formula that determines its robustness.
 
 use crate::core::{Core, CoreKind, Id, Sight};
 use crate::offline::{Column, columns};
@@ -6,11 +6,11 @@ use crate::worth::Worth;
 use crate::{Cause, Evaluation, EvaluationError, Formula, Semantics, Trace, dense};
 
 impl Formula {
-    /// What the formula is worth at the beginning of the trace, by its samples or between them.
+    /// Evaluates the formula at the beginning of the trace, at its samples or between them.
     ///
     /// # Errors
-    /// As for [`evaluate`](Self::evaluate); in dense time also if a comparison is not piecewise linear or a sample is
-    /// infinite, while time bounds may be any.
+    /// As for [`evaluate`](Self::evaluate). In dense time there is also an error if a comparison is not piecewise
+    /// linear or if a sample is infinite. Time bounds between two samples are allowed there.
     pub fn evaluate_in(&self, semantics: Semantics, trace: &Trace) -> Result<Evaluation, EvaluationError> {
         match semantics {
             Semantics::Sampled => self.evaluate(trace),
@@ -19,13 +19,14 @@ impl Formula {
         }
     }
 
-    /// What the formula is worth at the beginning of the trace, in time linear in the trace whatever the time bounds.
+    /// Evaluates the formula at the beginning of the trace. The time is linear in the length of the trace, for any
+    /// time bounds.
     ///
-    /// On a trace without a sample nothing is decided, and the robustness is NaN.
+    /// On a trace without samples nothing is decided, and the robustness is NaN.
     ///
     /// # Errors
-    /// The formula names a signal that the trace does not have, or has a time bound between two samples; or a number
-    /// that it depends on is NaN.
+    /// The formula names a signal that the trace does not have, or has a time bound between two samples, or depends on
+    /// a number that is NaN.
     pub fn evaluate(&self, trace: &Trace) -> Result<Evaluation, EvaluationError> {
         let (core, _) = Core::new(self, trace.signals(), trace.dt())?;
         if trace.is_empty() {
@@ -36,8 +37,8 @@ impl Formula {
         Ok(Evaluation::new(recorded, lower, upper))
     }
 
-    /// Which part of the formula, at which time, its robustness on this trace comes down to; if there are several, the
-    /// leftmost and the one nearest to where its operator stands. Nothing on a trace without a sample.
+    /// Finds the part of the formula and the time that determine its robustness on this trace. If there are several,
+    /// takes the leftmost part, at the time nearest to the instant of its operator. `None` if the trace is empty.
     ///
     /// # Errors
     /// As for [`evaluate`](Self::evaluate).
@@ -55,8 +56,11 @@ impl Formula {
         Ok(Some(Cause { time: at.1 as f64 * trace.dt(), part: parts[at.0], robustness }))
     }
 
-    /// The same by the samples or between them. In dense time the part is worth at that time what the whole is but for
-    /// rounding, and where two are, as lines meet, it is one of them. It takes up to twice as long as the evaluation.
+    /// Finds the cause of the robustness as [`explain`](Self::explain) does, at the samples or between them.
+    ///
+    /// In dense time the robustness of the part equals that of the whole formula up to rounding. If two parts have
+    /// this robustness, because two lines meet, the result is one of them. The search takes up to twice as long as the
+    /// evaluation.
     ///
     /// # Errors
     /// As for [`evaluate_in`](Self::evaluate_in).
@@ -69,7 +73,7 @@ impl Formula {
     }
 }
 
-/// The operand, and the tick of it, that the worth of a node at a tick is taken from.
+/// Finds the operand, and its tick, from which a node takes its worth at a tick.
 fn responsible(core: &Core, columns: &[Column], (id, tick): (Id, usize)) -> Option<(Id, usize)> {
     let dual = core.nodes[id].dual;
     let worth = columns[id].recorded[tick].flipped(dual);
@@ -98,7 +102,7 @@ fn responsible(core: &Core, columns: &[Column], (id, tick): (Id, usize)) -> Opti
     }
 }
 
-/// The ticks that an operator sees from where it stands, going away from there, in a column of so many ticks.
+/// Returns the ticks that an operator sees from its own tick, the nearest first, in a column of `length` ticks.
 fn seen(tick: usize, start: usize, sight: Sight, length: usize) -> Box<dyn Iterator<Item = usize>> {
     if sight.past {
         Box::new((start..=sight.end.min(tick)).map(move |back| tick - back))

@@ -1,38 +1,40 @@
-//! What a formula is worth on a trace, and why.
+//! The result of evaluating a formula on a trace, and the cause of its robustness.
 
 use crate::worth::{Worth, truth};
 use crate::{Formula, Truth};
 use serde::{Deserialize, Serialize};
 
-/// What a trace says of the time between its samples.
+/// The meaning of a trace between its samples.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Semantics {
-    /// Nothing: formulas speak of the samples.
+    /// Formulas refer to the samples only.
     #[default]
     Sampled,
-    /// Signals are straight lines from sample to sample, and formulas speak of every instant. A robustness of 0 is left
-    /// undecided. Windows are closed as they are written, to the instant: where a robustness jumps, because an operator
-    /// comes to see the first instant of the trace or loses sight of the last one, it has a value at that very instant
-    /// beside the limits from before and after it.
+    /// Signals are straight lines from sample to sample, and formulas refer to every instant. A robustness of 0 is
+    /// undecided.
+    ///
+    /// Windows include both of their ends exactly. The robustness may jump when the window of an operator reaches the
+    /// first instant of the trace or leaves the last one. At this instant, the robustness has a value of its own,
+    /// beside the limits from before and after.
     Dense,
 }
 
-/// What a formula is worth at the beginning of a trace.
+/// The truth and the robustness of a formula at the beginning of a trace.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evaluation {
-    /// Whether it holds.
+    /// The truth of the formula. It is valid for every continuation of the trace.
     pub truth: Truth,
-    /// How far it is from the other answer, judging by what was recorded.
+    /// The distance from the other truth, for the recorded samples only. It is NaN if the trace is empty.
     pub robustness: f64,
-    /// The least that this could have become, had the trace gone on in the worst way.
+    /// The lowest robustness that a continuation of the trace can lead to.
     pub lower: f64,
-    /// The most, had it gone on in the best way.
+    /// The highest robustness that a continuation of the trace can lead to.
     pub upper: f64,
 }
 
 impl Evaluation {
-    /// What is known before anything was recorded.
+    /// The evaluation of a formula on an empty trace.
     pub(crate) const UNKNOWN: Self =
         Self { truth: Truth::Undecided, robustness: f64::NAN, lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
@@ -46,14 +48,14 @@ impl Evaluation {
     }
 }
 
-/// What the robustness of a formula comes down to.
+/// A part of a formula and a time that together determine the robustness of the formula.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cause<'f> {
-    /// The critical time in seconds.
+    /// The time that determines the robustness, in seconds.
     pub time: f64,
-    /// The sub-formula whose worth at that time is, up to its sign, that of the whole: a comparison, or a temporal
-    /// operator within whose bounds nothing was recorded.
+    /// The sub-formula that determines the robustness. At this time its robustness is that of the whole formula, up to
+    /// the sign. It is a comparison, a flag or a constant, or a temporal operator whose bounds contain no sample.
     pub part: &'f Formula,
-    /// The robustness of the whole.
+    /// The robustness of the whole formula.
     pub robustness: f64,
 }

@@ -1,21 +1,21 @@
 //! Folds over sliding windows, in time that does not depend on the width of the window.
 //!
-//! The method is that of van Herk (Pattern Recognition Letters 13, 1992) and of Gil and Werman (PAMI 15, 1993): time is
-//! cut into blocks as long as the window, every window is the end of one block and the beginning of the next, and both
-//! are folded step by step. It takes three operations per sample, on any data, and asks nothing but associativity of
-//! them; a monotone wedge (Lemire, 2006) takes as many comparisons, but they cannot be predicted, and needs an order.
-//! Because it asks so little, one window serves `eventually` and `until` alike: see [`Clamp`].
+//! The method is that of van Herk (Pattern Recognition Letters 13, 1992) and of Gil and Werman (PAMI 15, 1993). Time
+//! is cut into blocks as long as the window. Every window is the end of one block and the beginning of the next, and
+//! both parts are folded step by step. The method takes three operations per sample on any data, and the operation
+//! only has to be associative. A monotone wedge (Lemire, 2006) takes as many comparisons, but the processor cannot
+//! predict them, and the wedge needs an order. So one window serves both `eventually` and `until`: see [`Clamp`].
 
 use crate::worth::Worth;
 
-/// What windows are folded by: an associative operation, the earlier operand first, with a neutral element.
+/// An associative operation that folds the values of a window. The earlier operand comes first.
 pub(crate) trait Fold: Copy {
     const NEUTRAL: Self;
 
     fn join(self, later: Self) -> Self;
 }
 
-/// The greatest.
+/// Folds to the greatest value.
 impl Fold for Worth {
     const NEUTRAL: Self = Worth::WORST;
 
@@ -24,8 +24,8 @@ impl Fold for Worth {
     }
 }
 
-/// One step of `until`: what it is worth now as a function `x -> max(goal, min(hold, x))` of what it is worth at the
-/// next tick. Such functions compose to functions of the same form; at the end of the window `x` is the worst.
+/// A step of `until`: a function `x -> max(goal, min(hold, x))` from the worth at the next tick to the worth now. The
+/// composition of two such functions has the same form. At the end of the window, `x` is the worst value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Clamp {
     pub goal: Worth,
@@ -40,7 +40,7 @@ impl Fold for Clamp {
     }
 }
 
-/// A fold that is taken the other way round: for windows into the past.
+/// A fold in the opposite direction, for windows into the past.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reversed<T>(pub T);
 
@@ -52,7 +52,8 @@ impl<T: Fold> Fold for Reversed<T> {
     }
 }
 
-/// Replaces each value by the fold of itself and the `span` values behind it; beyond the last one all are `outside`.
+/// Replaces each value by the fold of the value and the `span` values behind it. All values beyond the last are
+/// `outside`.
 pub(crate) fn windows<T: Fold>(values: &mut [T], span: usize, outside: T) {
     if span >= values.len() {
         return suffixes(values, outside);
@@ -68,7 +69,7 @@ pub(crate) fn windows<T: Fold>(values: &mut [T], span: usize, outside: T) {
             fold = fold.join(behind.next().copied().unwrap_or(outside));
             *place = fold;
         }
-        // The last block may be short; its windows then end in what is outside.
+        // The last block may be short. Its windows then end with values from outside.
         let mut fold = if block.len() < size { outside } else { T::NEUTRAL };
         let (first, others) = block.split_first_mut().expect("no block is empty");
         for (value, behind) in others.iter_mut().zip(&beginning).rev() {
@@ -79,7 +80,7 @@ pub(crate) fn windows<T: Fold>(values: &mut [T], span: usize, outside: T) {
     }
 }
 
-/// Replaces each value by the fold of itself and all behind it, and of what is outside.
+/// Replaces each value by the fold of the value, all values behind it, and `outside`.
 pub(crate) fn suffixes<T: Fold>(values: &mut [T], outside: T) {
     let mut fold = outside;
     for value in values.iter_mut().rev() {
@@ -88,25 +89,26 @@ pub(crate) fn suffixes<T: Fold>(values: &mut [T], outside: T) {
     }
 }
 
-/// The last so many values, folded. Before the first value they are all `blank`.
+/// The fold of the last `size` values. All values before the first are `blank`.
 #[derive(Debug, Clone)]
 pub(crate) struct Window<T> {
     size: usize,
     blank: T,
-    /// Up to `at` the values of this block; from there on the folds from each value of the block before to its end.
+    /// Before `at`: the values of this block. From `at` on: the folds from each value of the previous block to its
+    /// end.
     block: Vec<T>,
     at: usize,
-    /// The fold of this block up to `at`.
+    /// The fold of the values of this block before `at`.
     recent: T,
 }
 
 impl<T: Fold> Window<T> {
-    /// A window over `size` values, at least 1. Its memory grows up to that many.
+    /// Makes a window over `size` values. `size` is at least 1. The memory grows up to this number of values.
     pub fn new(size: usize, blank: T) -> Self {
         Self { size, blank, block: Vec::with_capacity(size.min(1 << 16)), at: 0, recent: T::NEUTRAL }
     }
 
-    /// Moves on by one value; the fold of the last `size`.
+    /// Takes the next value, and returns the fold of the last `size` values.
     #[inline]
     pub fn push(&mut self, value: T) -> T {
         match self.block.get_mut(self.at) {
@@ -121,7 +123,7 @@ impl<T: Fold> Window<T> {
         self.block.get(self.at).copied().unwrap_or(self.blank).join(self.recent)
     }
 
-    /// Begins a new block; the fold of the one that is full.
+    /// Begins a new block, and returns the fold of the full block.
     fn turn(&mut self) -> T {
         let mut rest = T::NEUTRAL;
         for value in self.block.iter_mut().rev() {
@@ -133,7 +135,7 @@ impl<T: Fold> Window<T> {
         rest
     }
 
-    /// The values so far, if there were fewer than the window takes.
+    /// Returns the values so far if they do not fill the window yet.
     pub fn unfilled(&self) -> Option<&[T]> {
         (self.block.len() < self.size).then_some(&self.block)
     }

@@ -1,7 +1,7 @@
-//! Temporal formulas over the signals of a trace: signal temporal logic with its past.
+//! Temporal formulas over the signals of a trace: signal temporal logic with operators of the past.
 //!
-//! A formula is data. It is parsed from text or built in Rust, printed so that it parses again, and means the same
-//! wherever it is evaluated; the [crate documentation](crate) says what.
+//! A formula is data. It is parsed from text or built in Rust, and its printed text can be parsed again. It has the
+//! same meaning in every evaluation; the [crate documentation](crate) defines the meaning.
 //!
 //! ```
 //! use paracosm_oracles::{Formula, flag, signal};
@@ -20,117 +20,119 @@ pub use expression::{Arithmetic, Expression, signal};
 use crate::{Comparison, Interval};
 use std::ops::Not;
 
-/// How two formulas are joined at one instant.
+/// The way in which two formulas are joined at one instant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Connective {
-    /// Both hold.
+    /// Both formulas hold.
     And,
-    /// One of them holds.
+    /// At least one formula holds.
     Or,
-    /// The second holds, or the first does not.
+    /// The second formula holds, or the first does not hold.
     Implies,
 }
 
-/// At which instants of an interval a formula is to hold.
+/// The instants of an interval at which a formula has to hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Modality {
-    /// At all, from now on.
+    /// The formula holds at all instants, from now on.
     Always,
-    /// At one, from now on.
+    /// The formula holds at one instant or more, from now on.
     Eventually,
-    /// At all, up to now.
+    /// The formula held at all instants, up to now.
     Historically,
-    /// At one, up to now.
+    /// The formula held at one instant or more, up to now.
     Once,
 }
 
-/// How two formulas follow one another.
+/// The order in time in which two formulas have to hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sequence {
-    /// The second holds at an instant of the interval, and the first from now until before it.
+    /// The second formula holds at an instant of the interval, and the first holds from now until just before it.
     Until,
-    /// The second holds at every instant of the interval up to the first, that one included, at which the first holds.
+    /// The second formula holds at every instant of the interval, up to and including the first instant at which the
+    /// first formula holds.
     Release,
-    /// The second held at an instant of the interval, looking back, and the first ever since, up to now.
+    /// The second formula held at an instant of the past interval, and the first has held since just after it.
     Since,
 }
 
-/// A temporal formula. [`Display`](std::fmt::Display) writes it so that it can be parsed again.
+/// A temporal formula. [`Display`](std::fmt::Display) writes a text that can be parsed again.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Formula {
-    /// True or false, whatever happens.
+    /// A formula that is always true or always false.
     Constant(bool),
-    /// A signal that is itself a truth: it holds while its samples are above 0.
+    /// A signal that is itself true or false. It is true while its samples are above 0.
     Flag(String),
-    /// Two numbers compared.
+    /// A comparison of two numbers.
     Compare(Expression, Comparison, Expression),
-    /// The formula does not hold.
+    /// The negation of a formula.
     Not(Box<Formula>),
-    /// Two formulas at one instant.
+    /// Two formulas, joined at the same instant.
     Join(Connective, Box<Formula>, Box<Formula>),
-    /// A formula over an interval.
+    /// A formula that has to hold at all instants, or at one instant, of an interval.
     Modal(Modality, Interval, Box<Formula>),
-    /// Two formulas, one after the other.
+    /// Two formulas that have to hold one after the other.
     Sequence(Sequence, Interval, Box<Formula>, Box<Formula>),
 }
 
-/// The signal of this name, which is itself a truth.
+/// Makes a formula of the signal with this name, which is itself true or false.
 pub fn flag(name: impl Into<String>) -> Formula {
     Formula::Flag(name.into())
 }
 
 impl Formula {
-    /// Both hold.
+    /// Makes the formula "this formula and `other` hold".
     pub fn and(self, other: Formula) -> Self {
         Formula::Join(Connective::And, Box::new(self), Box::new(other))
     }
 
-    /// One of them holds.
+    /// Makes the formula "this formula or `other` holds".
     pub fn or(self, other: Formula) -> Self {
         Formula::Join(Connective::Or, Box::new(self), Box::new(other))
     }
 
-    /// If this holds, so does the other.
+    /// Makes the formula "if this formula holds, `other` holds".
     pub fn implies(self, other: Formula) -> Self {
         Formula::Join(Connective::Implies, Box::new(self), Box::new(other))
     }
 
-    /// Holds throughout the interval from now on.
+    /// Makes the formula "this formula holds at all instants of the interval from now on".
     pub fn always(self, interval: impl Into<Interval>) -> Self {
         Formula::Modal(Modality::Always, interval.into(), Box::new(self))
     }
 
-    /// Holds at some instant of the interval from now on.
+    /// Makes the formula "this formula holds at an instant of the interval from now on".
     pub fn eventually(self, interval: impl Into<Interval>) -> Self {
         Formula::Modal(Modality::Eventually, interval.into(), Box::new(self))
     }
 
-    /// Held throughout the interval back from now.
+    /// Makes the formula "this formula held at all instants of the interval back from now".
     pub fn historically(self, interval: impl Into<Interval>) -> Self {
         Formula::Modal(Modality::Historically, interval.into(), Box::new(self))
     }
 
-    /// Held at some instant of the interval back from now.
+    /// Makes the formula "this formula held at an instant of the interval back from now".
     pub fn once(self, interval: impl Into<Interval>) -> Self {
         Formula::Modal(Modality::Once, interval.into(), Box::new(self))
     }
 
-    /// Holds from now until before an instant of the interval at which `goal` holds.
+    /// Makes the formula "this formula holds until just before an instant of the interval at which `goal` holds".
     pub fn until(self, interval: impl Into<Interval>, goal: Formula) -> Self {
         Formula::Sequence(Sequence::Until, interval.into(), Box::new(self), Box::new(goal))
     }
 
-    /// Releases `duty`, which holds at every instant of the interval up to and including the first at which this does.
+    /// Makes the formula "`duty` holds at every instant of the interval, up to and including the first at which this
+    /// formula holds".
     pub fn release(self, interval: impl Into<Interval>, duty: Formula) -> Self {
         Formula::Sequence(Sequence::Release, interval.into(), Box::new(self), Box::new(duty))
     }
 
-    /// Has held ever since an instant of the interval, back from now, at which `cause` held.
+    /// Makes the formula "this formula has held since an instant of the interval back from now at which `cause` held".
     pub fn since(self, interval: impl Into<Interval>, cause: Formula) -> Self {
         Formula::Sequence(Sequence::Since, interval.into(), Box::new(self), Box::new(cause))
     }
 
-    /// The names of the signals it speaks of, each once, in the order in which they first occur.
+    /// Returns the names of the signals in the formula, each once, in the order in which they first occur.
     pub fn signals(&self) -> Vec<&str> {
         let mut names = Vec::new();
         self.for_each_signal(&mut |name| {
@@ -152,8 +154,8 @@ impl Formula {
         }
     }
 
-    /// How many seconds it looks ahead from where it stands: what a trace has to last for it to be decided at time 0
-    /// in every case. Infinite where an operator of the future has no end.
+    /// Returns how many seconds the formula looks ahead. A trace of this duration always decides the formula at time
+    /// 0. The result is infinite if an operator of the future has no end.
     pub fn horizon(&self) -> f64 {
         let inner = self.operands().into_iter().flatten().map(Formula::horizon).fold(0.0, f64::max);
         match self {
@@ -163,8 +165,8 @@ impl Formula {
         }
     }
 
-    /// The outermost and leftmost sub-formula with a finite time bound later than `seconds`: on a trace that lasts no
-    /// longer it asks about what was not recorded, which is worth a warning.
+    /// Returns the outermost and leftmost sub-formula with a finite time bound later than `seconds`. If a trace is not
+    /// longer than `seconds`, this sub-formula asks for samples that were not recorded, which deserves a warning.
     pub fn outlasting(&self, seconds: f64) -> Option<&Formula> {
         match self {
             Formula::Modal(_, interval, _) | Formula::Sequence(_, interval, ..)

@@ -3,32 +3,33 @@
 use std::fmt;
 use std::ops::{RangeFrom, RangeFull, RangeInclusive};
 
-/// From when to when a temporal operator looks, relative to where it stands: into the future or, for the operators of
-/// the past, back.
+/// The interval in which a temporal operator looks, in seconds from its own instant: into the future, or back for the
+/// operators of the past.
 ///
-/// Written as ranges in Rust, `0.0..=5.0`, `2.0..` and `..`, and as `[0,5]`, `[2,inf]` and nothing in text. An
-/// interval without an end runs to the end of the trace, or back to its beginning.
+/// In Rust an interval is written as a range: `0.0..=5.0`, `2.0..` or `..`. In text the same intervals are written
+/// `[0,5]`, `[2,inf]` and with nothing. An interval without an end runs to the end of the trace, or back to its
+/// beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// The earlier bound in seconds.
     pub start: f64,
-    /// The later bound in seconds; infinite where there is none.
+    /// The later bound in seconds. It is infinite if the interval has no end.
     pub end: f64,
-    /// Whether bounds that fall between two samples are moved outward to the next sample (`~[0,0.25]`) rather than
-    /// refused.
+    /// `true` if a bound between two samples is moved outward to the next sample (`~[0,0.25]`). Otherwise the
+    /// evaluation refuses such a bound.
     pub outward: bool,
 }
 
 impl Interval {
-    /// The interval without bounds.
+    /// The interval from 0 without an end.
     pub const UNBOUNDED: Self = Self { start: 0.0, end: f64::INFINITY, outward: false };
 
-    /// The same interval, widened to whole samples where it is none of them.
+    /// Returns the same interval, but with bounds that are moved outward to whole samples.
     pub fn outward(self) -> Self {
         Self { outward: true, ..self }
     }
 
-    /// Whether the bounds are numbers of seconds from 0 on, the first finite and no later than the second.
+    /// Returns `true` if the bounds are valid: at least 0, the first finite, and the second not below the first.
     pub fn is_valid(&self) -> bool {
         self.start >= 0.0 && self.start.is_finite() && self.end >= self.start
     }
@@ -52,7 +53,7 @@ impl From<RangeFull> for Interval {
     }
 }
 
-/// As it is written behind an operator: nothing for the unbounded interval.
+/// Writes the interval as it stands behind an operator. The unbounded interval is written as nothing.
 impl fmt::Display for Interval {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if *self == Self::UNBOUNDED {

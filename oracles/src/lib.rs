@@ -1,14 +1,15 @@
-//! What a run leaves behind, and what is asked of it.
+//! Oracles: formulas that judge the trace of a run, with a truth and a robustness.
 //!
-//! A run yields a [`Trace`]: named signals, sampled once per tick. A [`Requirement`] asks a [`Formula`] of it
-//! and answers twice: with a [`Truth`], from the Boolean meaning of the formula, and with a robustness, how far
-//! the trace is from the other answer, in the unit of the requirement. The crate judges; it simulates nothing
-//! and writes no file.
+//! A run gives a [`Trace`]: named signals, sampled once per tick. A [`Requirement`] has a [`Formula`] that the trace
+//! should satisfy. Its judgement has two parts. The [`Truth`] says whether the trace satisfies the formula. The
+//! robustness says how far the trace is from the other truth, in the unit of the requirement. The crate judges traces;
+//! it runs no simulation and writes no file.
 //!
-//! # What formulas mean
+//! # The meaning of formulas
 //!
-//! The logic is signal temporal logic with its past, the semantics that of Donzé and Maler ("Robust satisfaction of
-//! temporal logic over real-valued signals", FORMATS 2010) on the samples of the trace. At the tick of time `t`
+//! The logic is signal temporal logic with operators of the past. Its semantics is that of Donzé and Maler ("Robust
+//! satisfaction of temporal logic over real-valued signals", FORMATS 2010) on the samples of the trace. At the tick of
+//! time `t`, the robustness is:
 //!
 //! | formula | robustness |
 //! | --- | --- |
@@ -24,19 +25,32 @@
 //! | `p since[a,b] q` | the same back in time: `s` in `[t-b, t-a]`, and `p` over `(s, t]` |
 //! | `p release[a,b] q` | that of `not ((not p) until[a,b] (not q))` |
 //!
-//! The least of nothing is infinity, the greatest minus infinity. The truth is that of the same formula read with
-//! truths for numbers. Where the robustness is not 0 its sign is the truth; 0 alone decides nothing.
+//! The least of no values is infinity, the greatest of no values is minus infinity. The truth results from the same
+//! rules with truths instead of numbers. If the robustness is not 0, its sign gives the truth; a robustness of 0 alone
+//! decides nothing.
 //!
-//! **Where the trace ends.** Before time 0 there was nothing: operators of the past see only what is in the trace. What
-//! would have come after the last sample is unknown, with one exception: an operator *without* a later bound runs to
-//! the end of a trace that is complete ([`Trace::finish`]), where nothing more will happen. Hence `always p` holds of a
-//! complete trace whose samples all satisfy `p`, and `eventually p` is violated by one of which none does, while
-//! `always[0,5] p` one second before the end is undecided if it is not violated yet. An [`Evaluation`] says what holds
-//! whatever might have followed ([`Truth`], and the bounds of the robustness), and the robustness by what was recorded:
-//! there, windows are cut off at the end of the trace.
+//! **Where the trace ends.** There is nothing before time 0: operators of the past see only the trace. The samples
+//! after the last one are unknown, with one exception. If the trace is complete ([`Trace::finish`]), nothing more
+//! happens after its end, and an operator *without* a later bound ends there. So `always p` holds on a complete trace
+//! if all samples satisfy `p`, and `eventually p` is violated if no sample satisfies `p`. But one second before the
+//! end, `always[0,5] p` is undecided unless it is already violated. The [`Truth`] in an [`Evaluation`], and its bounds
+//! of the robustness, are valid for every continuation of the trace. Its robustness considers only the recorded
+//! samples: windows are cut off at the end of the trace.
 //!
-//! **Numbers.** Arithmetic is that of IEEE 754. Infinite samples are numbers; a sample that is NaN, or an expression
-//! without a value such as 0 / 0, is an error if the formula depends on it.
+//! **Numbers.** Arithmetic follows IEEE 754. Infinite samples are valid numbers. If a formula depends on a sample that
+//! is NaN, or on an expression without a value such as 0 / 0, the evaluation fails with an error.
+//!
+//! ```
+//! use paracosm_oracles::{Formula, Trace, Truth};
+//!
+//! let formula = Formula::parse("always (speed < 13)", &["speed"])?;
+//! let mut trace = Trace::new(0.5, vec!["speed".to_owned()]);
+//! [10.0, 12.5, 11.0].iter().for_each(|speed| trace.record(&[*speed]));
+//! trace.finish();
+//! let evaluation = formula.evaluate(&trace).expect("the trace has the signal");
+//! assert_eq!((evaluation.truth, evaluation.robustness), (Truth::Holds, 0.5));
+//! # Ok::<(), paracosm_oracles::ParseError>(())
+//! ```
 
 mod atom;
 mod comparison;

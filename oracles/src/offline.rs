@@ -1,26 +1,26 @@
-//! What a formula is worth on a recorded trace, in time linear in the trace whatever the bounds.
+//! Evaluates a formula on a recorded trace. The time is linear in the length of the trace, for any time bounds.
 //!
-//! Node by node, operands first, a column of worths is made for as many ticks as the formula's first tick depends on.
-//! An operator of the past is one of the future on reversed columns. What lies beyond the end of the trace matters to
-//! the last ticks of a column only, as far as the operators look ahead; for these the worst and the best that could
-//! have followed are worked out beside what was recorded.
+//! Each node gets a column of worths, operands first, for all ticks on which the formula's first tick depends. An
+//! operator of the past is an operator of the future on reversed columns. The samples beyond the end of the trace
+//! influence only the last ticks of a column, as far as the operators look ahead. For these ticks the worst and the
+//! best possible worth are computed, too.
 
 use crate::core::{Beyond, Core, CoreKind, Node, Sight};
 use crate::fold::{Clamp, Fold, windows};
 use crate::worth::Worth;
 use crate::{EvaluationError, Trace};
 
-/// What could have followed the end.
+/// The assumptions about the samples beyond the end.
 const OPEN: [Beyond; 2] = [Beyond::Worst, Beyond::Best];
 
-/// What a node is worth at each of its ticks.
+/// The worth of a node at each of its ticks.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Column {
-    /// By what was recorded.
+    /// The worth according to the recorded samples.
     pub recorded: Vec<Worth>,
-    /// The first tick that depends on what was not.
+    /// The first tick that depends on samples beyond the end.
     settled: usize,
-    /// From that tick on, at worst and at best.
+    /// The worst and the best possible worth, from that tick on.
     open: [Vec<Worth>; 2],
 }
 
@@ -29,7 +29,7 @@ impl Column {
         Self { settled: recorded.len(), recorded, open: Default::default() }
     }
 
-    /// The ticks from `from` to before `to`, at worst or at best.
+    /// Returns the worst or best worths of the ticks from `from` to before `to`.
     fn at(&self, side: usize, from: usize, to: usize) -> Vec<Worth> {
         let mut ticks = Vec::with_capacity(to - from);
         ticks.extend_from_slice(&self.recorded[from.min(self.settled)..to.min(self.settled)]);
@@ -38,7 +38,7 @@ impl Column {
         ticks
     }
 
-    /// At the first tick: by what was recorded, at worst and at best.
+    /// Returns the worth at the first tick: for the recorded samples, the worst possible, and the best possible.
     pub fn first(&self) -> [Worth; 3] {
         let recorded = self.recorded[0];
         let open = |side: usize| if self.settled > 0 { recorded } else { self.open[side][0] };
@@ -46,8 +46,8 @@ impl Column {
     }
 }
 
-/// The columns of all nodes, on a trace that has ticks. Those that nobody needs any more are empty, unless they are to
-/// be `kept`.
+/// Computes the columns of all nodes, on a trace with samples. A column is emptied when no node needs it any more,
+/// unless `kept` is true.
 pub(crate) fn columns(core: &Core, trace: &Trace, kept: bool) -> Result<Vec<Column>, EvaluationError> {
     let mut columns: Vec<Column> = Vec::with_capacity(core.nodes.len());
     let mut users = vec![usize::from(kept); core.nodes.len()];
@@ -94,7 +94,7 @@ fn or([left, right]: [Column; 2], ticks: usize, dual: bool) -> Column {
     Column { recorded: join(left.recorded, &right.recorded), settled, open }
 }
 
-/// A temporal operator on a trace, asked for so many ticks.
+/// A temporal operator on a trace, for a number of ticks.
 struct Scope<'a> {
     node: &'a Node,
     sight: Sight,
@@ -103,8 +103,8 @@ struct Scope<'a> {
 }
 
 impl Scope<'_> {
-    /// The column of an operator that is computed by `apply` from columns of its operands, for so many ticks and with
-    /// what is beyond their end.
+    /// Computes the column of an operator. `apply` computes it from columns of the operands, for a number of ticks,
+    /// with the worth beyond their end.
     fn temporal<const N: usize>(
         &self,
         operands: [Column; N],
@@ -135,8 +135,8 @@ impl Scope<'_> {
     }
 }
 
-/// The greatest of `column` from `start` to the end of sight, at each of the first so many ticks; beyond the column it
-/// is `outside`.
+/// Returns the greatest worth in `column` from `start` to the end of sight, for each of the first `ticks` ticks.
+/// Beyond the column the worth is `outside`.
 fn any(
     mut column: Vec<Worth>,
     ticks: usize,
@@ -161,7 +161,7 @@ fn any(
     column
 }
 
-/// The `until` of two columns, at each of the first so many ticks.
+/// Returns the worth of `until` on two columns, for each of the first `ticks` ticks.
 fn until(
     mut hold: Vec<Worth>,
     mut goal: Vec<Worth>,

@@ -1,6 +1,6 @@
-//! Formulas as text: what is printed parses to the same formula.
+//! Prints formulas as text. Parsing the text gives the same formula.
 //!
-//! Comparisons always stand in parentheses, and two joined formulas wherever they are part of another one.
+//! Comparisons always stand in parentheses. Joined formulas stand in parentheses if they are part of another formula.
 
 use crate::parse::is_plain_name;
 use crate::{Arithmetic, Connective, Expression, Formula, Modality, Sequence};
@@ -55,7 +55,7 @@ impl fmt::Display for Formula {
     }
 }
 
-/// A formula as part of another one.
+/// A formula that is part of another formula.
 struct Part<'a>(&'a Formula);
 
 impl fmt::Display for Part<'_> {
@@ -67,7 +67,7 @@ impl fmt::Display for Part<'_> {
     }
 }
 
-/// The name of a signal, in quotation marks where it would otherwise be read as something else.
+/// The name of a signal, in quotation marks if it would otherwise have another meaning.
 struct Name<'a>(&'a str);
 
 impl fmt::Display for Name<'_> {
@@ -79,7 +79,7 @@ impl fmt::Display for Name<'_> {
     }
 }
 
-/// How strongly an expression holds its parts together.
+/// Returns how strongly an expression binds its parts.
 fn strength(expression: &Expression) -> u8 {
     match expression {
         Expression::Binary(Arithmetic::Add | Arithmetic::Subtract, ..) => 1,
@@ -98,7 +98,7 @@ impl fmt::Display for Expression {
             Expression::Signal(name) => write!(f, "{}", Name(name)),
             Expression::Negate(inner) => {
                 f.write_str("-")?;
-                // Without parentheses the minus sign would be the number's own.
+                // Without parentheses the minus sign would become part of the number.
                 within(f, inner, strength(inner) < 3 || matches!(**inner, Expression::Number(_)))
             }
             Expression::Absolute(inner) => write!(f, "abs({inner})"),

@@ -1,24 +1,24 @@
-//! A requirement: a formula with what a test report needs to speak of it.
+//! Requirements: formulas with the texts, units and scales that reports need.
 
 use crate::{Evaluation, EvaluationError, Formula, Trace};
 
-/// What is asked of every run of a scenario.
+/// A requirement that every run of a scenario should satisfy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Requirement {
-    /// The short name by which logs and commands know it: `no-collision`.
+    /// The short name of the requirement in logs and commands, such as `no-collision`.
     pub id: String,
-    /// One sentence for people.
+    /// The requirement in one sentence, for people.
     pub text: String,
-    /// What is asked.
+    /// The formula that the trace of a run should satisfy.
     pub formula: Formula,
-    /// The unit of its robustness.
+    /// The unit of the robustness.
     pub unit: String,
-    /// How much robustness is a lot, in that unit: requirements are compared by robustness / scale.
+    /// A robustness that counts as large, in the unit. Requirements are compared by robustness / scale.
     pub scale: f64,
 }
 
 impl Requirement {
-    /// Judges a trace.
+    /// Evaluates the requirement at the beginning of a trace.
     ///
     /// # Errors
     /// The formula does not fit the trace, or a number that it depends on is NaN.

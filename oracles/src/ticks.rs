@@ -1,16 +1,16 @@
-//! The ticks that time bounds stand for on a sampled trace.
+//! Converts time bounds into ticks of a sampled trace.
 
 use crate::{EvaluationError, Interval};
 
-/// How far from a multiple of the sample period a time bound may be, relative to itself: what the decimal notation of
-/// both leaves uncertain, a thousandfold.
+/// The greatest distance of a time bound from a multiple of the sample period, as a share of the bound. It is a
+/// thousand times the uncertainty that the decimal notation of both numbers causes.
 const TOLERANCE: f64 = 1e-9;
 
-/// No trace has so many ticks; sums of a few hundred such bounds still fit into a `usize`.
+/// A number of ticks that no trace reaches. Sums of a few hundred such bounds still fit into a `usize`.
 pub(crate) const FOREVER: usize = 1 << 48;
 
 impl Interval {
-    /// The bounds in ticks of `dt` seconds, the later one absent where there is none.
+    /// Returns the bounds in ticks of `dt` seconds. The later bound is `None` if the interval has no end.
     pub(crate) fn ticks(&self, dt: f64) -> Result<(usize, Option<usize>), EvaluationError> {
         if !self.is_valid() {
             return Err(EvaluationError::Interval(*self));

@@ -1,31 +1,31 @@
-//! The record of one run: named signals, one sample of each per tick.
+//! The trace of a run: named signals, with a sample of each signal per tick.
 //!
-//! A trace is the only thing that oracles see, so that whatever is judged can also be looked at (as CSV), and
-//! its hash is the fingerprint by which a replay is compared with the run it repeats.
+//! Oracles see only the trace. So people can look at everything that is judged (as CSV). A replay is compared with the
+//! original run by the hash of the trace.
 
 use xxhash_rust::xxh3::Xxh3;
 
-/// Named signals over time, sampled every `dt` seconds from time 0 on.
+/// The named signals of a run over time, sampled every `dt` seconds from time 0 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
     dt: f64,
     signals: Vec<String>,
-    /// Row by row: all signals at the first tick, all at the second, ...
+    /// The samples row by row: all signals at the first tick, then all signals at the second tick, and so on.
     samples: Vec<f64>,
     complete: bool,
 }
 
 impl Trace {
-    /// An empty trace of these signals, sampled every `dt` seconds.
+    /// Makes an empty trace of these signals, sampled every `dt` seconds.
     ///
     /// # Panics
-    /// There is no signal, or `dt` is no positive number: both are mistakes of the program, not of its input.
+    /// There is no signal, or `dt` is not a positive number. Both are mistakes of the program, not of its input.
     pub fn new(dt: f64, signals: Vec<String>) -> Self {
         assert!(dt > 0.0 && !signals.is_empty(), "a trace needs a sample period and a signal");
         Self { dt, signals, samples: Vec::new(), complete: false }
     }
 
-    /// Makes room for this many ticks, so that recording them allocates nothing.
+    /// Reserves memory for this many ticks, so that recording them allocates nothing.
     pub fn reserve(&mut self, ticks: usize) {
         self.samples.reserve_exact(ticks * self.signals.len());
     }
@@ -33,56 +33,56 @@ impl Trace {
     /// Appends one tick: a sample of every signal, in the order of the signals.
     ///
     /// # Panics
-    /// The row has another number of samples than there are signals.
+    /// The number of samples in the row differs from the number of signals.
     pub fn record(&mut self, row: &[f64]) {
         assert_eq!(row.len(), self.signals.len(), "one sample per signal");
         self.samples.extend_from_slice(row);
     }
 
-    /// Says that the run went to its planned end: what has not happened by now will not happen.
+    /// Marks the trace as complete: the run reached its planned end, and nothing more will happen.
     pub fn finish(&mut self) {
         self.complete = true;
     }
 
-    /// Whether the run went to its planned end, rather than being cut short.
+    /// Returns `true` if the run reached its planned end, and `false` if it was cut short.
     pub fn is_complete(&self) -> bool {
         self.complete
     }
 
-    /// The sample period in seconds.
+    /// Returns the sample period in seconds.
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
-    /// The names of the signals.
+    /// Returns the names of the signals.
     pub fn signals(&self) -> &[String] {
         &self.signals
     }
 
-    /// The number of samples of each signal.
+    /// Returns the number of ticks, which is the number of samples of each signal.
     pub fn len(&self) -> usize {
         self.samples.len() / self.signals.len()
     }
 
-    /// Whether nothing was recorded.
+    /// Returns `true` if the trace has no samples.
     pub fn is_empty(&self) -> bool {
         self.samples.is_empty()
     }
 
-    /// The samples tick by tick: all signals at time 0, at `dt`, at `2 dt`, ...
+    /// Returns the samples tick by tick: all signals at time 0, then at `dt`, at `2 dt` and so on.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.samples.chunks_exact(self.signals.len())
     }
 
-    /// The samples of one signal, if the trace has it.
+    /// Returns the samples of one signal, or `None` if the trace does not have the signal.
     pub fn signal(&self, name: &str) -> Option<impl DoubleEndedIterator<Item = f64> + ExactSizeIterator + '_> {
         let column = self.signals.iter().position(|signal| signal == name)?;
         Some(self.samples.chunks_exact(self.signals.len()).map(move |row| row[column]))
     }
 
-    /// A fingerprint of everything the trace holds: 32 hexadecimal digits of XXH3-128.
+    /// Returns a hash of the whole content of the trace: 32 hexadecimal digits of XXH3-128.
     ///
-    /// Two traces with the same hash are the same bit for bit, for all that chance can do.
+    /// Traces with the same hash are identical bit for bit, except with a negligible probability.
     pub fn hash(&self) -> String {
         let mut hasher = Xxh3::new();
         hasher.update(&self.dt.to_le_bytes());

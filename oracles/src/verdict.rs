@@ -1,26 +1,26 @@
-//! The words in which a run is judged.
+//! Truths of formulas and verdicts of tests.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Whether a trace satisfies a formula.
+/// The truth of a formula on a trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Truth {
-    /// It does, whatever might have followed.
+    /// The formula holds, for every continuation of the trace.
     Holds,
-    /// It does not, whatever might have followed.
+    /// The formula is violated, for every continuation of the trace.
     Violated,
-    /// The trace was cut short before that was decided.
+    /// The trace does not decide the formula. It ends too early or, in dense time, the robustness is 0.
     Undecided,
 }
 
 impl Truth {
-    /// The truth of a statement about a sample.
+    /// Converts a boolean into a truth.
     pub fn of(holds: bool) -> Self {
         if holds { Truth::Holds } else { Truth::Violated }
     }
 
-    /// Both hold (Kleene's conjunction).
+    /// Returns the truth of "both hold" (Kleene's conjunction).
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Truth::Violated, _) | (_, Truth::Violated) => Truth::Violated,
@@ -29,12 +29,12 @@ impl Truth {
         }
     }
 
-    /// One holds (Kleene's disjunction).
+    /// Returns the truth of "at least one holds" (Kleene's disjunction).
     pub fn or(self, other: Self) -> Self {
         self.not().and(other.not()).not()
     }
 
-    /// The contrary.
+    /// Returns the truth of the negation.
     #[expect(clippy::should_implement_trait, reason = "it stands beside `and` and `or`")]
     pub fn not(self) -> Self {
         match self {
@@ -45,7 +45,7 @@ impl Truth {
     }
 }
 
-/// What became of a test.
+/// The verdict of a test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
@@ -55,9 +55,9 @@ pub enum Verdict {
     Fail,
     /// The situation that the test is about never came about.
     Inconclusive,
-    /// The test's world cannot be built.
+    /// The world of the test cannot be built.
     Invalid,
-    /// The run broke: a crash, a time-out, a state that is no number.
+    /// The run failed because of a crash, a time-out or a state that is not finite.
     Error,
 }
 

@@ -1,30 +1,30 @@
-//! What a formula is worth at a tick: its robustness and, where that is 0, its truth.
+//! The worth of a formula at a tick: its robustness and, if the robustness is 0, its truth.
 //!
-//! Robustness above 0 says that a formula holds and below 0 that it does not; 0 says neither. IEEE 754 has two zeros,
-//! and so one number can carry both meanings: a formula that holds with nothing to spare is worth +0, one that is
-//! violated by nothing -0. In the total order of floating-point numbers minimum and maximum are then conjunction and
-//! disjunction for both meanings at once, a change of sign is negation, and the sign bit is the truth. The numbers are
-//! kept as the integers that have that order, in which negation is the bitwise complement.
+//! A robustness above 0 says that a formula holds, and below 0 that it is violated; 0 says neither. IEEE 754 has two
+//! zeros, so one number can express both meanings: +0 means that the formula holds without any margin, -0 that it is
+//! violated without any margin. In the total order of floats, the minimum is then the conjunction and the maximum is
+//! the disjunction, for both meanings at once. A change of sign is the negation, and the sign bit is the truth. The
+//! numbers are stored as integers with the same order. The negation of these integers is the bitwise complement.
 
 use crate::Truth;
 
-/// A robustness with its truth; ordered from surely violated to surely held.
+/// A robustness with its truth. The order runs from certainly violated to certainly satisfied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Worth(i64);
 
 impl Worth {
-    /// Held by a margin that nothing exceeds; the conjunction of nothing.
+    /// The worth of a formula that holds with an infinite margin. It is the conjunction of no formulas.
     pub const BEST: Self = Self(key(f64::INFINITY));
-    /// The disjunction of nothing.
+    /// The worth of a formula that is violated with an infinite margin. It is the disjunction of no formulas.
     pub const WORST: Self = Self(key(f64::NEG_INFINITY));
 
-    /// The worth of a number that is not NaN, whose sign bit says whether the formula is violated.
+    /// Makes the worth of a number that is not NaN. The sign bit says whether the formula is violated.
     pub fn of(number: f64) -> Self {
         debug_assert!(!number.is_nan(), "a robustness is a number");
         Self(key(number))
     }
 
-    /// The worth of a statement that is true or false by no measure.
+    /// Makes the worth of a statement that is true or false without a distance.
     pub fn certain(holds: bool) -> Self {
         if holds { Self::BEST } else { Self::WORST }
     }
@@ -33,25 +33,25 @@ impl Worth {
         self.0 >= 0
     }
 
-    /// The robustness; neither zero has a sign that anybody should see.
+    /// Returns the robustness. A zero never has a sign that users could see.
     pub fn robustness(self) -> f64 {
         let bits = self.0 ^ ((self.0 >> 63) as u64 >> 1) as i64;
         f64::from_bits(bits as u64) + 0.0
     }
 
-    /// The worth of the negated formula, if it is `dual`, and of the formula itself otherwise.
+    /// Returns the worth of the negated formula if `dual` is true, and otherwise the worth itself.
     pub fn flipped(self, dual: bool) -> Self {
         Self(self.0 ^ -i64::from(dual))
     }
 }
 
-/// The integer whose order is that of the floating-point numbers, -0 below +0.
+/// Returns the integer that has the same order as the floats, with -0 below +0.
 const fn key(number: f64) -> i64 {
     let bits = number.to_bits() as i64;
     bits ^ ((bits >> 63) as u64 >> 1) as i64
 }
 
-/// The truth of a formula that is worth at least `lower` and at most `upper`.
+/// Returns the truth of a formula whose worth lies between `lower` and `upper`.
 pub(crate) fn truth(lower: Worth, upper: Worth) -> Truth {
     match (lower.holds(), upper.holds()) {
         (true, _) => Truth::Holds,

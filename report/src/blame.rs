@@ -1,4 +1,4 @@
-//! The failing tests and whose fault they are as a flat table.
+//! Writes the failing tests, and whose fault each failure is, as a flat table.
 
 use paracosm_analysis::blame::{Blame, Rerun};
 use paracosm_campaign::{Artefact, Error, Study};
@@ -6,9 +6,9 @@ use paracosm_campaign::{Artefact, Error, Study};
 /// The table `blame.csv` of a study's failures.
 #[derive(Debug, Clone, Copy)]
 pub struct BlameTable<'b> {
-    /// The failures.
+    /// The failures, with the results of the reference drivers.
     pub blame: &'b Blame,
-    /// Their study.
+    /// The study that the failures come from.
     pub study: &'b Study,
 }
 
@@ -22,8 +22,9 @@ impl Artefact for BlameTable<'_> {
     }
 }
 
-/// The failing tests as CSV: index, parameters, what is violated, whose fault that is, and with each of the references
-/// the verdict and the robustness of every requirement that the study states.
+/// Returns the failing tests as CSV. The columns are the index, the parameters, the violated requirements, whose fault
+/// the failure is, and for each reference driver the verdict and the robustness of every requirement that the study
+/// states.
 fn csv(blame: &Blame, study: &Study) -> Vec<u8> {
     let ids: Vec<&str> = study.requirements().iter().map(|requirement| requirement.id.as_str()).collect();
     let mut csv = csv::Writer::from_writer(Vec::new());

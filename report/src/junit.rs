@@ -1,49 +1,50 @@
-//! Trials as JUnit test cases, which CI systems read.
+//! Writes trials as JUnit test cases, which CI systems read.
 //!
-//! Each study is a test suite, and each trial a test case in it with a failure, an error or a mark that it was skipped if it did
-//! not pass. Properties say what JUnit has no words for: requirements, parameters, the simulated seconds, the command that
-//! runs a test again. There is no `time`: readers take it for the time that a test took, which differs from run to run.
+//! Each study is a test suite, and each trial is a test case in the suite. A trial that did not pass is a failure, an
+//! error or a skipped test case. Properties hold the facts for which JUnit has no element: requirements, parameters,
+//! the simulated seconds, and the command that runs the test again. No `time` is written: readers take it for the time
+//! that a test took, which differs from run to run.
 
 use paracosm_campaign::{Artefact, Error, Log, Study, Subject, Trial};
 use paracosm_oracles::Verdict;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::path::Path;
 
-/// Suites of trials as one file.
+/// A JUnit file with suites of trials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Junit(Report);
 
 /// A trial as a test case.
 pub struct Case<'a> {
-    /// Its name, which no other test case of its suite has.
+    /// The name of the test case, unique in its suite.
     pub name: String,
-    /// The trial.
+    /// The trial that the test case describes.
     pub trial: &'a Trial,
-    /// The command that runs it again.
+    /// The command that runs the trial again.
     pub replay: String,
-    /// How it ends as a test case.
+    /// The result as a test case.
     pub end: End,
-    /// What there is to be said of that end.
+    /// The message that explains the result.
     pub message: String,
-    /// What was expected of it, if that is not that it passes.
+    /// The expected result; `None` if the trial is expected to pass.
     pub expected: Option<&'static str>,
 }
 
-/// How a test case ends.
+/// The result of a test case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// As it should.
+    /// The test case ended as expected.
     Passed,
-    /// CI has to stop for it.
+    /// The test case failed, and CI has to stop.
     Failed,
-    /// It came to nothing.
+    /// The test case has no result because of a crash, a time-out or a similar problem.
     Error,
-    /// It says nothing either way.
+    /// The test case counts neither for nor against the system under test.
     Skipped,
 }
 
 impl Junit {
-    /// The tests of a campaign in a folder; `program` is the command that replays them.
+    /// Makes the file of a campaign; `program` is the command that replays the tests of the campaign in `folder`.
     pub fn of_campaign(log: &Log, folder: &Path, program: &str) -> Self {
         let study = log.study();
         let (program, folder) = (shell_word(program), shell_word(&folder.to_string_lossy()));
@@ -54,7 +55,7 @@ impl Junit {
         Self::of([suite])
     }
 
-    /// Test cases of studies, each a suite of its own with this name.
+    /// Makes a file of test cases; each case becomes a suite of its own, with the given name.
     pub fn of_cases<'a>(cases: impl IntoIterator<Item = (String, &'a Study, Case<'a>)>) -> Self {
         Self::of(cases.into_iter().map(|(name, study, case)| {
             let mut suite = suite(study, name);
@@ -69,7 +70,7 @@ impl Junit {
         Self(report)
     }
 
-    /// The text of the file.
+    /// Returns the text of the file.
     pub fn text(&self) -> String {
         self.0.to_string().expect("the report is written to memory")
     }
@@ -85,7 +86,7 @@ impl Artefact for Junit {
     }
 }
 
-/// A suite with what is said of all its tests.
+/// Makes a suite with the properties that all its tests share.
 fn suite(study: &Study, name: String) -> TestSuite {
     let mut suite = TestSuite::new(name);
     suite.add_property(("strategy", study.sampling().to_string().as_str()));
@@ -108,7 +109,7 @@ fn suite(study: &Study, name: String) -> TestSuite {
 }
 
 impl<'a> Case<'a> {
-    /// A trial of a campaign, which ends as its verdict says.
+    /// Makes the test case of a campaign's trial. The trial's verdict decides how the test case ends.
     fn of(study: &Study, trial: &'a Trial, replay: String) -> Self {
         let error = trial.error().unwrap_or_default();
         let (end, message) = match trial.verdict {
@@ -143,7 +144,7 @@ impl<'a> Case<'a> {
             case.add_property((format!("requirement.{id}").as_str(), became));
         }
         if let Subject::Scenario(simulation) = study.subject() {
-            // Milliseconds are enough, and hide how ticks add up.
+            // Milliseconds are precise enough, and hide the rounding errors of summed ticks.
             let seconds = format!("{:.3}", trial.ticks as f64 * simulation.dt());
             case.add_property(("simulated_seconds", seconds.as_str()));
         }
@@ -154,8 +155,8 @@ impl<'a> Case<'a> {
         case
     }
 
-    /// How it ends. An attribute has no lines, so the first line of a message is the attribute, and the description has all
-    /// of the message.
+    /// Returns the JUnit status. An attribute cannot have several lines, so the attribute holds the first line of the
+    /// message, and the description holds the whole message.
     fn status(&self) -> TestCaseStatus {
         let message = &self.message;
         let (kind, word) = match self.end {
@@ -178,7 +179,7 @@ fn first_line(text: &str) -> &str {
     text.lines().next().unwrap_or_default()
 }
 
-/// What a trial violates, and by how much.
+/// Returns the requirements that a trial violates, with the robustness of each.
 fn violations(study: &Study, trial: &Trial) -> String {
     let violation = |id: &str| {
         let unit = study.requirement(id).map_or("", |requirement| requirement.unit.as_str());
@@ -187,7 +188,7 @@ fn violations(study: &Study, trial: &Trial) -> String {
     trial.violated().map(violation).collect::<Vec<_>>().join(", ")
 }
 
-/// A word as a shell takes it.
+/// Returns a word quoted for a shell, if quotes are necessary.
 pub fn shell_word(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:,@+".contains(c);
     if !word.is_empty() && word.chars().all(plain) {

@@ -1,4 +1,21 @@
-//! Knowledge to something to look at.
+//! Shows results: figures, tables, CSV, JUnit, LaTeX, films, and recorded data sets.
+//!
+//! Other crates run tests and analyse their results. This crate turns the results into files that people and other
+//! programs can read.
+//!
+//! ```
+//! use paracosm_campaign::{Campaign, Catalogue, Study};
+//! use paracosm_report::{FailureMap, Picture};
+//!
+//! let catalogue = Catalogue::of(paracosm_scenarios::ALL);
+//! let study = Study::of(catalogue.find("pedestrian-crossing")?).budget(10).build()?;
+//! let log = Campaign::new(&study)?.into_log()?;
+//! let map = FailureMap::of(&log).expect("the study has two continuous parameters");
+//! assert_eq!(map.marks.len(), 10);
+//! let svg = Picture::of(map).svg()?;
+//! assert!(svg.starts_with("<svg"));
+//! # Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
+//! ```
 
 pub mod bench;
 pub mod blame;

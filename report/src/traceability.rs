@@ -1,9 +1,9 @@
-//! Requirement by test as a flat table.
+//! Writes a flat table of requirements by tests.
 
 use paracosm_analysis::Traceability;
 
-/// The matrix as CSV: a row for each requirement, with what is known of it in all and then a column for each test,
-/// `test.INDEX`, that says what became of it there: `passed`, `failed`, `undecided`, `not reached` or `not judged`.
+/// Returns the matrix as CSV. Each row is a requirement. The first columns hold what is known of the requirement over
+/// all tests. Then each test has a column `test.INDEX`: `passed`, `failed`, `undecided`, `not reached` or `not judged`.
 pub fn csv(traceability: &Traceability) -> Vec<u8> {
     let mut csv = csv::Writer::from_writer(Vec::new());
     let mut write = |row: Vec<String>| csv.write_record(row).expect("rows of one length fit into memory");
@@ -51,7 +51,8 @@ mod tests {
         Study::of_system(system, Space::from_toml(space).unwrap()).build().unwrap()
     }
 
-    /// A trial at `x` on two lanes that ended so, with the robustness of `a` and `b` and what it says of its premise.
+    /// Makes a trial at `x` on two lanes with this verdict, the robustness of `a` and `b`, and whether its premise
+    /// occurred.
     fn trial(index: usize, x: f64, verdict: Verdict, [a, b]: [Option<f64>; 2], triggered: Option<bool>) -> Trial {
         let test: Values = [("x".to_owned(), Value::Number(x)), ("lanes".to_owned(), 2.into())].into_iter().collect();
         let judgements = vec![Judgement::new("a", a), Judgement::new("b", b)];

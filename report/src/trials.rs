@@ -1,9 +1,10 @@
-//! The trials of a campaign as one flat table.
+//! Writes the trials of a campaign as one flat table.
 
 use paracosm_campaign::{Artefact, Error, Log, Metric, Trial};
 use std::collections::BTreeMap;
 
-/// The table `trials.csv` of a campaign: index, parameters, verdict, robustness, metrics and the rest.
+/// The table `trials.csv` of a campaign. Its columns are index, parameters, verdict, robustness, metrics, ticks, hash
+/// of the trace, and error.
 #[derive(Debug, Clone, Copy)]
 pub struct TrialTable<'l>(pub &'l Log);
 
@@ -46,7 +47,7 @@ fn csv(log: &Log) -> Vec<u8> {
     csv.into_inner().expect("memory does not fail to flush")
 }
 
-/// Each name once, in the order in which they come first.
+/// Returns each name once, in the order of first occurrence.
 fn each_once<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut once = Vec::new();
     for name in names {

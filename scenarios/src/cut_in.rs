@@ -1,7 +1,8 @@
-//! The cut-in of UN Regulation No. 157: a slower car changes into the lane of the car under test, right before it.
+//! The cut-in of UN Regulation No. 157: a slower car changes into the lane of the ego vehicle, directly in front of it.
 //!
-//! Ranges are those of the public variations of the regulation's scenarios. The lane change begins at once; the gap is from
-//! bumper to bumper at that moment. A combination in which the other car would drive backwards is no world.
+//! The ranges are those of the public variations of the regulation's scenarios. The lane change begins at once; `gap`
+//! is the distance from bumper to bumper at that moment. A test in which the other car would drive backwards is
+//! invalid.
 
 use crate::LANE;
 use crate::surroundings::{later_weather, roadside};

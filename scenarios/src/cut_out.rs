@@ -1,7 +1,7 @@
-//! The cut-out of UN Regulation No. 157: the car that the car under test follows changes to the lane beside, and what was
-//! hidden behind it is a car that stands.
+//! The cut-out of UN Regulation No. 157: the leader changes to the next lane and reveals a standing car.
 //!
-//! The leader keeps the same speed at a time headway, and changes lanes when it is `gap` metres before the standing car.
+//! The leader keeps the same speed, at a time headway ahead of the ego vehicle, and changes lanes when it is `gap`
+//! metres before the standing car.
 
 use crate::surroundings::{later_weather, roadside};
 use crate::{LANE, middles};

@@ -1,7 +1,8 @@
-//! The paper's second study (section 4.2.2, Figure 10): the car follows a leader, whose speed is a signal over the run.
+//! The paper's second study (section 4.2.2, Figure 10): the ego vehicle follows a leader whose speed is a signal over
+//! the run.
 //!
-//! The leader starts `gap` metres ahead, bumper to bumper, and drives as the signal has it, which may well mean that it
-//! brakes. Fog and light are there for drivers that see.
+//! The leader starts `gap` metres ahead, from bumper to bumper, and drives at the speed of the signal, which may make
+//! it brake. Fog and light matter to drivers that use cameras.
 
 use crate::oncoming_distractor::RED;
 use crate::surroundings::{roadside, weather};

@@ -1,5 +1,6 @@
-//! A city of 6 by 6 junctions full of cars that follow each other, yield at crossings and turn as chance has it. The car
-//! drives along a long way through it; it has to cope with junctions at which others may have the right of way.
+//! A city of 6 by 6 junctions full of cars that follow each other, yield at crossings and turn at random. The ego
+//! vehicle drives a long route through the city, and has to cope with junctions at which other cars may have the right
+//! of way.
 
 use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::road::{RoadNetwork, grid_city};

@@ -1,8 +1,9 @@
-//! The road of the paper's section 4.2.1: six lanes with all kinds of traffic, and a crossing on which a white truck passes
-//! from left to right while the car comes along the innermost lane.
+//! The road of the paper's section 4.2.1: six lanes with all kinds of traffic. At a crossing a white truck passes from
+//! left to right while the ego vehicle approaches on the innermost lane.
 //!
-//! Cars, vans and lorries of different sizes and tempers drive both ways beside the car; who can changes lanes, also to
-//! that of the car. Lorries keep to the middle lanes, which lead straight on.
+//! Cars, vans and lorries of different sizes and temperaments drive in both directions beside the ego vehicle. Cars and
+//! vans change lanes where they can, also into the lane of the ego vehicle. Lorries keep to the middle lanes, which
+//! lead straight on.
 
 use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::Colour;
@@ -15,7 +16,7 @@ pub(crate) const PROGRAM: Program =
     Program::new("highway-traffic", "six lanes of traffic, and a truck that crosses them", highway_traffic);
 
 const WHITE: Colour = [245, 245, 245];
-/// The roads with traffic, and the cars on each of their lanes: 40 m apart.
+/// The roads with traffic, and the number of cars on each of their lanes, 40 m apart.
 const TRAFFIC: [(&str, i32); 2] = [("west", 6), ("east", 3)];
 
 static ROADS: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| {
@@ -41,7 +42,8 @@ fn highway_traffic(s: &mut Scenario) {
     s.place(weather);
     let way = streets.way(("west", -1, 240.0), ("east", 1, 140.0));
     let car = s.place(AutonomousVehicle::along(way).speed(speed.value()));
-    // From the left of the car, which drives east, to its right. It minds the traffic, but not the car.
+    // The truck drives from the left of the ego vehicle, which drives east, to its right. The truck reacts to the
+    // traffic, but not to the ego vehicle.
     let [from, to] =
         [("north", -1, 25.0), ("south", 1, 140.0)].map(|(road, lane, at)| streets.place_on(road, lane, at));
     let crossing = from.zip(to).and_then(|(from, to)| ROADS.route(from, to, 0.0)).expect("the roads are longer");

@@ -1,4 +1,12 @@
-//! The catalogue of scenario programs, by name.
+//! The catalogue of scenarios: programs that build a world from a test, found by name.
+//!
+//! ```
+//! let cut_in = paracosm_scenarios::find("cut-in").expect("the catalogue has it");
+//! let declaration = cut_in.declare()?;
+//! let names: Vec<_> = declaration.parameters.iter().map(|declared| declared.parameter.name.as_str()).collect();
+//! assert!(names.contains(&"gap"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod cut_in;
 mod cut_out;
@@ -16,7 +24,7 @@ use paracosm_engine::Program;
 use paracosm_engine::object::Body;
 use paracosm_engine::vehicle::Vehicle;
 
-/// Every scenario there is.
+/// All scenarios of the catalogue.
 pub const ALL: &[&Program] = &[
     &pedestrian_crossing::PROGRAM,
     &follow_leader::PROGRAM,
@@ -36,12 +44,13 @@ pub const ALL: &[&Program] = &[
 /// The width of a lane in metres.
 const LANE: f64 = 3.5;
 
-/// From the middle of the car under test to that of a car ahead, in metres, when their bumpers are `gap` metres apart.
+/// Returns the distance from the middle of the ego vehicle to the middle of a car ahead, in metres, if their bumpers
+/// are `gap` metres apart.
 fn middles(gap: f64) -> f64 {
     gap + 0.5 * Vehicle::BMW_320I.length + Body::car().outline.half_extent().x
 }
 
-/// The scenario of that name.
+/// Returns the scenario with this name, if there is one.
 pub fn find(name: &str) -> Option<&'static Program> {
     ALL.iter().copied().find(|program| program.name() == name)
 }

@@ -1,9 +1,9 @@
-//! Tests of Euro NCAP's AEB protocols: pedestrians that cross (CPNA, CPFA, CPNCO) and cars ahead (CCR).
+//! Tests of Euro NCAP's AEB protocols: crossing pedestrians (CPNA, CPFA, CPNCO) and cars ahead (CCR).
 //!
-//! A pedestrian starts so that a car that does not brake takes it with a given part of its front: `impact` is the share of
-//! the car's width at which the middle of the pedestrian is then, counted from the side that it comes from. It stands
-//! beside the way of the car, gathers speed evenly over the first metre or so, and walks on across. The run begins 6 s
-//! before the impact.
+//! A pedestrian starts so that a car that does not brake hits the pedestrian with a given part of its front. `impact`
+//! is the place of the pedestrian's middle at that moment as a share of the car's width, counted from the side that the
+//! pedestrian comes from. The pedestrian stands beside the lane, gathers speed evenly over the first metre or so, and
+//! walks on across. The run begins 6 s before the impact.
 
 use crate::middles;
 use crate::surroundings::{later_weather, roadside};
@@ -25,34 +25,36 @@ pub(crate) const CCR: Program = Program::new(
     ccr,
 );
 
-/// Seconds from the beginning to the impact.
+/// The time from the beginning to the impact, in seconds.
 const TIME: f64 = 6.0;
-/// Where the car starts and where the pedestrian crosses, in metres along the road.
+/// The place where the ego vehicle starts, in metres along the road.
 const START: f64 = 10.0;
 
-/// A pedestrian beside the way of the car.
+/// A pedestrian who crosses the road in front of the ego vehicle.
 struct Crossing {
     body: Body,
     name: &'static str,
-    /// -1 from the right, 1 from the left.
+    /// The side from which the pedestrian comes: -1 for the right, 1 for the left.
     side: f64,
-    /// Metres from the middle of the car's lane at which it stands, and over which it gathers speed.
+    /// The distance from the middle of the lane at which the pedestrian stands, and the distance over which the
+    /// pedestrian gathers speed, in metres.
     from: f64,
     run_up: f64,
-    /// In m/s.
+    /// The walking speed in m/s.
     speed: f64,
-    /// The share of the car's width at which it is taken.
+    /// The place of the impact, as a share of the car's width.
     impact: f64,
 }
 
 impl Crossing {
-    /// Where the pedestrian walks, when `bumper` is where the car's front is at the impact.
+    /// Returns the path of the pedestrian. `lane` is the pose on the lane where the path crosses it.
     fn path(&self, lane: Pose) -> Path {
         let start = lane.position + lane.left() * (self.side * self.from);
         Path::straight(start, start - lane.left() * (self.side * 2.0 * self.from))
     }
 
-    /// Its speed over time: it starts so late that it is where it is to be after [`TIME`].
+    /// Returns the pedestrian's speed over time. The pedestrian starts late enough to reach the place of the impact
+    /// after [`TIME`].
     fn speed(&self, time: &Stream<f64>) -> Stream<f64> {
         let width = Vehicle::BMW_320I.width;
         let way = self.from - 0.5 * width + self.impact * width;
@@ -62,7 +64,7 @@ impl Crossing {
     }
 }
 
-/// A straight road with the car on it, 6 s at its speed before the pedestrian.
+/// Builds a straight road with the ego vehicle on it, which reaches the pedestrian after 6 s at constant speed.
 fn approach(s: &mut Scenario, crossing: &Crossing, speed: &Param<f64>) -> (Road, Car) {
     let friction = s.nominal("friction", 0.2..=0.8, 0.8);
     let weather = later_weather(s);
@@ -104,8 +106,8 @@ fn cpnco(s: &mut Scenario) {
     let body = Body::child();
     let crossing = Crossing { body, name: "child", side: -1.0, from: 4.0, run_up: 1.0, speed: 5.0 / 3.6, impact: 0.5 };
     let (road, _) = approach(s, &crossing, &speed);
-    // Two cars are parked one after the other, a metre beside the way of the car; the child comes from a metre behind the
-    // last of them.
+    // Two cars are parked one after the other, a metre beside the way of the ego vehicle. The child comes out a metre
+    // beyond the second of them.
     let line = START + speed.value() / 3.6 * TIME + 0.5 * Vehicle::BMW_320I.length;
     for back in [1.0 + 0.5 * 4.5, 1.0 + 1.5 * 4.5 + 1.0] {
         let lane = road.on_lane(1, line - back);
@@ -117,7 +119,7 @@ fn cpnco(s: &mut Scenario) {
 
 fn ccr(s: &mut Scenario) {
     let speed = s.interval("ego_speed", 10.0..=80.0).unit("km/h").default(50.0);
-    // The share of the car's width that meets the target; a negative one is to the left of it.
+    // The share of the ego vehicle's width that meets the target; for a negative share the target is to the right.
     let overlap = s.choice("overlap", [-50, -75, 100, 75, 50]).unit("%").default(100);
     let target = s.choice("target", ["standing", "moving", "braking"]).default("standing");
     let gap = s.nominal_choice("gap", [12, 40], 40).unit("m");

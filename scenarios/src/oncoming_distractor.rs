@@ -1,5 +1,5 @@
-//! The car follows a leader of constant speed while another car, of the same colour, comes the other way: a driver that
-//! follows what it sees must not take the one for the other (section 4.2.2 of the paper).
+//! The ego vehicle follows a leader of constant speed while another car of the same colour comes the other way. A
+//! driver that follows the car that it sees must not confuse the two (section 4.2.2 of the paper).
 
 use crate::surroundings::{roadside, weather};
 use paracosm_engine::object::{Body, Colour};

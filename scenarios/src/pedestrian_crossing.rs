@@ -1,12 +1,14 @@
-//! The paper's study (sections 2 and 4.2.2, Figure 9): a pedestrian steps onto the road in front of the car.
+//! The paper's first study (sections 2 and 4.2.2, Figure 9): a pedestrian steps onto the road in front of the ego
+//! vehicle.
 //!
-//! The walker waits on the far sidewalk and starts when the car is nearer than `distance`; it crosses both
-//! lanes at `speed` and stops on the near sidewalk. The car comes at 60 km/h. From the far side the driver has
-//! time to see what is coming, so that whether it brakes early enough is a matter of both parameters, and a
-//! slow walker can be as dangerous as a quick one. The run lasts 25 s: enough to stop, wait and go on.
+//! The pedestrian waits on the far sidewalk, starts when the car is nearer than `distance`, crosses both lanes at
+//! `speed`, and stops on the near sidewalk. The car comes at 60 km/h. From the far side the driver has time to see the
+//! pedestrian. Whether it brakes early enough therefore depends on both parameters, and a slow pedestrian can be as
+//! dangerous as a quick one. The run lasts 25 s: enough to stop, wait and go on.
 //!
-//! Light and fog are what the world is like to a camera; a driver that does not see by one drives as in broad daylight. Rain
-//! makes the road slippery besides. What should not matter, beside the road and on it, can be added: `roadside`, `zebra`.
+//! Light and fog are the conditions for a camera; a driver without cameras drives as in broad daylight. Rain also makes
+//! the road slippery. Features that should not matter, beside the road and on it, can be added with `roadside` and
+//! `zebra`.
 
 use crate::surroundings::{roadside, weather};
 use paracosm_engine::{AutonomousVehicle, Pedestrian, Program, RoadSegment, Scenario, Side, eventually, never};

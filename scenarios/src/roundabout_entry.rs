@@ -1,7 +1,8 @@
-//! The car comes to a roundabout while another one is in it: it has to let that one pass, or be well ahead of it.
+//! The ego vehicle comes to a roundabout with another car in it. It has to let that car pass, or enter well before it.
 //!
-//! The other car goes round from the arm at the left to the arm opposite, past the entry of the car under test. `lead` is
-//! by how many seconds it would be there before the car if neither changed its speed; it slows down only for who is in its way.
+//! The other car drives round from the arm at the left to the arm opposite, past the entry of the ego vehicle. `lead`
+//! is the number of seconds by which the other car would reach the entry before the ego vehicle if neither changed its
+//! speed. The other car slows down only for road users that are in its way.
 
 use crate::surroundings::{later_weather, roadside};
 use paracosm_engine::road::{RoadNetwork, RoadSegment, Roundabout};
@@ -39,7 +40,7 @@ fn roundabout_entry(s: &mut Scenario) {
     let from = streets.place_on("west", -1, 110.0).expect("the road is longer");
     let to = streets.place_on("north", 1, 100.0).expect("the road is longer");
     let other = ROUNDABOUT.route(from, to, 0.0).expect("the ring leads there");
-    // From the entry of the other car to that of the car under test it is a quarter of the ring.
+    // From the entry of the other car to that of the ego vehicle it is a quarter of the ring.
     let meeting = 110.0 + 20.0;
     let time = 60.0 / speed.value();
     let start = meeting - other_speed.value() * (time - lead.value());

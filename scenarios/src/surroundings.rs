@@ -1,15 +1,16 @@
-//! What every scenario has around it, closed until a study opens it: light, fog, rain, the sun, and what stands
-//! beside the road.
+//! Adds to every scenario the parameters of its surroundings, closed until a study opens them: light, fog, rain, the
+//! sun, and the objects beside the road.
 
 use paracosm_engine::{Environment, Param, Roadside, Scenario, Stream, Weather};
 use std::f64::consts::PI;
 
-/// The weather of a scenario that has asked for light, fog and rain from the beginning.
+/// Returns the weather of a scenario that had light, fog and rain from the beginning.
 pub(crate) fn weather(s: &mut Scenario) -> Environment {
     asked(s, |parameter| parameter)
 }
 
-/// The weather of a scenario that did without at first, so that the noise of its tests is still the same.
+/// Returns the weather of a scenario to which light, fog and rain were added later; its parameters leave the noise of
+/// its tests unchanged.
 pub(crate) fn later_weather(s: &mut Scenario) -> Environment {
     asked(s, Param::incidental)
 }
@@ -25,7 +26,7 @@ fn asked(s: &mut Scenario, mark: fn(Param<f64>) -> Param<f64>) -> Environment {
     Environment::new().light(light).fog(fog).rain(rain).sun(elevation, azimuth)
 }
 
-/// What stands beside the road, once all else is placed.
+/// Places objects beside the road. Call it after everything else is placed.
 pub(crate) fn roadside(s: &mut Scenario) {
     let fullness = s.nominal("roadside", 0.0..=1.0, 0.0).incidental();
     s.place(Roadside::new(fullness.value()));

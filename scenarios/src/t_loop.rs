@@ -1,7 +1,9 @@
-//! The loop of the paper's Figure 10b: four straight roads joined by T-intersections, at each of which the car turns right.
+//! The loop of the paper's Figure 10b: four straight roads joined by T-intersections, at each of which the ego vehicle
+//! turns right.
 //!
-//! At a T the car could also go straight on, into a road that ends: who misses the turn leaves its way, and who leaves the
-//! road runs into the houses around it. The run takes 200 s, some twenty turns.
+//! At an intersection the car could also go straight on, into a road that ends. A car that misses the turn leaves its
+//! route, and a car that leaves the road runs into the houses around it. The run takes 200 s, which is about twenty
+//! turns.
 
 use crate::surroundings::{roadside, weather};
 use paracosm_engine::road::{Composite, Path, RoadNetwork, RoadSegment, TIntersection};
@@ -13,7 +15,7 @@ pub(crate) const PROGRAM: Program =
 
 /// The length of a side between two intersections, in metres.
 const SIDE: f64 = 60.0;
-/// How often the car goes round at most in 200 s.
+/// The most laps that the ego vehicle can drive in 200 s.
 const LAPS: usize = 10;
 
 static LOOP: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| {
@@ -29,7 +31,7 @@ static LOOP: LazyLock<Arc<RoadNetwork>> = LazyLock::new(|| {
     all.build().expect("the loop closes")
 });
 
-/// Along the sides and through the right turns, again and again.
+/// Returns the route: along the sides and through the right turns, again and again.
 fn way() -> Path {
     let lane = |i: usize| {
         let turn = LOOP.lane_between(&format!("tee {}", i % 4 + 1), "three", "two", 1);

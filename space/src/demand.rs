@@ -1,33 +1,33 @@
-//! What is asked of tests beside all combinations of any k values, and the kinds of tests that answer it.
+//! Demands on a set of tests beyond all combinations of any k values, and the kinds of tests that meet these demands.
 //!
-//! A *negative* value is one that the system under test is to reject. A test with one asks for nothing but that, since
-//! what else it contains may never be looked at; and of two of them one would hide the other. So a combination without
-//! negative values counts only in tests without any, one with a negative value only in tests with no other (Czerwonka,
-//! *Pairwise testing in the real world*, 2006). The tests fall into *kinds*, those without a negative value and those with
-//! this one, and no kind helps another: the first has to show all combinations of k values that are not negative, each
-//! other kind, where one of the k is its negative value already, all combinations of k - 1 values of the other parameters.
+//! A *negative* value is a value that the system under test should reject. It may then never look at the other values
+//! of the test, and one negative value may hide another. So a combination without negative values counts only in tests
+//! without any, and a combination with a negative value only in tests with no other (Czerwonka, *Pairwise testing in
+//! the real world*, 2006). The tests therefore fall into *kinds*: one kind without negative values, and one kind for
+//! each negative value. No kind covers anything for another kind. The kind without negative values has to show all
+//! combinations of k values that are not negative. In each other kind the negative value is one of the k values, so
+//! the kind has to show all combinations of k - 1 values of the other parameters.
 
 use crate::rules::{Clause, Literal, Rules, RulesError};
 use crate::{Space, SpaceError};
 
-/// What tests are to cover beside all combinations of any k values.
+/// The combinations that tests have to cover beyond all combinations of any k values.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Demand {
-    /// Groups of discrete parameters of which more are covered together: their positions among the discrete ones, and how
-    /// many.
+    /// The groups of discrete parameters that need a higher strength: the positions of a group's parameters among the
+    /// discrete parameters, and the strength within the group.
     pub groups: Vec<(Vec<usize>, usize)>,
-    /// The negative values: positions among the discrete parameters, and levels.
+    /// The negative values, each as the position of a parameter among the discrete parameters and a level of it.
     pub negatives: Vec<(usize, usize)>,
 }
 
 impl Demand {
-    /// The kinds of tests that a space has, one where no value is negative.
+    /// Returns the kinds of tests of `space`, which is a single kind if the demand has no negative values. Every
+    /// negative value has to be a level of the space. This is not checked.
     ///
     /// # Errors
-    /// No test keeps the space's constraints, or none without two negative values.
-    ///
-    /// # Panics
-    /// There is no such negative value.
+    /// No test keeps the constraints of the space, or every test that keeps them has two negative values or more. Or
+    /// the search for such a test exceeds its bounds.
     pub fn kinds(&self, space: &Space) -> Result<Vec<TestKind>, SpaceError> {
         let rules = space.rules()?;
         if self.negatives.is_empty() {
@@ -37,7 +37,7 @@ impl Demand {
     }
 }
 
-/// Tests that count for the same combinations: those with one negative value, or without any.
+/// The tests that count for the same combinations: the tests with a certain negative value, or the tests without one.
 #[derive(Debug, Clone)]
 pub struct TestKind {
     rules: Rules,
@@ -45,19 +45,22 @@ pub struct TestKind {
 }
 
 impl TestKind {
-    /// All tests as one kind: no value is negative.
+    /// Makes the only kind of tests of a space without negative values.
     pub fn of(rules: &Rules) -> Self {
         Self { rules: rules.clone(), negative: None }
     }
 
-    /// The kinds of tests of parameters with so many levels each, under constraints, where the (parameter, level) pairs
-    /// are negative: those without one first, then one for each pair in order. Kinds without tests are left out.
+    /// Returns the kinds of tests for parameters with the given numbers of levels.
+    ///
+    /// The tests keep the constraints. The (parameter, level) pairs in `negatives` are the negative values; they have
+    /// to exist, which is not checked. The kind without negative values comes first, then one kind for each pair, in
+    /// order. A kind without tests is left out.
     ///
     /// # Errors
-    /// There is no kind with tests, or whether one has any cannot be decided.
+    /// No kind has tests, or it cannot be decided whether a kind has tests.
     ///
     /// # Panics
-    /// There is no such parameter or level.
+    /// A constraint names a parameter or a level that does not exist.
     pub fn all(
         levels: &[usize],
         constraints: &[Vec<Clause>],
@@ -94,18 +97,20 @@ impl TestKind {
         }
     }
 
-    /// What tests of this kind keep: the constraints, and which values are negative.
+    /// Returns the rules that the tests of this kind keep. They come from the constraints and from the negative
+    /// values.
     pub fn rules(&self) -> &Rules {
         &self.rules
     }
 
-    /// The negative value that all tests of this kind have: a parameter and its level.
+    /// Returns the parameter and the level of the negative value that all tests of this kind have, if they have one.
     pub fn negative(&self) -> Option<(usize, usize)> {
         self.negative
     }
 
-    /// What this kind has to show, where all combinations of `k` of some parameters are asked for: all combinations of
-    /// how many of which parameters, beside the negative value. None where that value is of none of them.
+    /// Returns the share of this kind if all combinations of `k` of `parameters` have to be shown: parameters and a
+    /// number. Tests of this kind have to show all combinations of that number of these parameters, beside the
+    /// negative value. `None` if the negative value belongs to none of `parameters`.
     pub fn share(&self, parameters: &[usize], k: usize) -> Option<(Vec<usize>, usize)> {
         match self.negative {
             None => Some((parameters.to_vec(), k)),

@@ -3,17 +3,17 @@
 use crate::Value;
 use std::fmt;
 
-/// What values a parameter takes.
+/// The values that a parameter takes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Domain {
-    /// Any number from `lo` to `hi`: a continuous parameter.
+    /// An interval of numbers, from `lo` to `hi`. The parameter is continuous.
     Interval {
-        /// The lower end.
+        /// The lower end of the interval.
         lo: f64,
-        /// The upper end.
+        /// The upper end of the interval.
         hi: f64,
     },
-    /// One of these values: a discrete parameter.
+    /// A finite list of values. The parameter is discrete.
     Choice(Vec<Value>),
 }
 
@@ -32,29 +32,31 @@ impl fmt::Display for Domain {
     }
 }
 
-/// The number at coordinate `u` of `[lo, hi]`: both ends exactly, never outside, and never less where `u` is more,
-/// for each step of the sum rounds monotonically ([`coordinate`] relies on that).
+/// Returns the number at the coordinate `u` of `[lo, hi]`.
+///
+/// Both ends are exact, and the result is never outside the interval. The result never falls when `u` grows, since
+/// each step of the sum rounds monotonically. [`coordinate`] relies on that.
 pub(crate) fn at(lo: f64, hi: f64, u: f64) -> f64 {
     if u >= 1.0 {
         return hi;
     }
     let width = hi - lo;
-    // Halves, where the width overflows.
+    // Compute with halves if the width overflows.
     let v = if width.is_finite() { lo + u * width } else { 2.0 * (0.5 * lo + u * (0.5 * hi - 0.5 * lo)) };
     v.clamp(lo, hi)
 }
 
-/// The coordinate of `v` in `[lo, hi]`.
+/// Returns the coordinate of `v` in `[lo, hi]`.
 ///
-/// Division alone is off by an ulp now and then, so that a logged test would come back as another one. Where it
-/// is, the least coordinate that decodes to `v` or more is found by bisection; it decodes to `v`, if any does.
+/// Division alone is sometimes wrong by one ulp. A logged test would then be read back as another test. In this case
+/// bisection finds the least coordinate that decodes to `v` or more. It decodes to `v` exactly if any coordinate does.
 pub(crate) fn coordinate(lo: f64, hi: f64, v: f64) -> f64 {
-    // Halves, because hi - lo may overflow.
+    // Compute with halves, because hi - lo may overflow.
     let u = ((v * 0.5 - lo * 0.5) / (hi * 0.5 - lo * 0.5)).clamp(0.0, 1.0);
     if at(lo, hi, u) == v {
         return u;
     }
-    // Numbers from 0 to 1 are ordered as their bits are.
+    // The bit patterns of floats from 0 to 1 have the same order as the numbers.
     let (mut low, mut high) = (0, 1.0f64.to_bits());
     while low < high {
         let middle = low + (high - low) / 2;

@@ -1,4 +1,4 @@
-//! What can be wrong with a space, or with a test of it.
+//! Errors of a space, and of a test in a space.
 
 use crate::constraint::ConstraintError;
 use crate::names::did_you_mean;
@@ -6,73 +6,73 @@ use crate::rules::Conflict;
 use crate::{ParameterError, Position};
 use thiserror::Error;
 
-/// Why a space cannot be built, or a test does not belong to it.
+/// The reason why a space cannot be built, or why a test does not belong to a space.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum SpaceError {
-    /// Two parameters share a name.
+    /// Two parameters have the same name.
     #[error("parameter `{name}` is declared twice")]
     Twice {
-        /// The name.
+        /// The name that both parameters have.
         name: String,
     },
-    /// A parameter without a name.
+    /// A parameter has no name. The number is its position among the parameters, from 1.
     #[error("parameter {0} has no name")]
     Nameless(usize),
-    /// A parameter that cannot be, or a value that it does not take.
+    /// A parameter is not valid, or a value is outside the domain of its parameter.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// A name that the space does not know.
+    /// The space has no parameter of the given name.
     #[error("no parameter is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// A name that was perhaps meant.
+        /// The most similar name of a parameter, if a name is similar enough.
         nearest: Option<String>,
     },
-    /// A test that says nothing of a parameter.
+    /// A test gives no value for a parameter.
     #[error("the test gives no value for parameter `{name}`")]
     Missing {
-        /// The parameter.
+        /// The name of the parameter.
         name: String,
     },
-    /// A constraint that means nothing here.
+    /// A constraint cannot be read, or does not fit the parameters.
     #[error("{}", in_constraint(.text, .error, .at.as_ref()))]
     Constraint {
-        /// Its position in the list of constraints, from 0.
+        /// The position of the constraint in the list of constraints, from 0.
         index: usize,
         /// The constraint as it was written.
         text: String,
-        /// What is wrong with it, and where in the constraint.
+        /// The error in the constraint, with its offset in the constraint.
         error: ConstraintError,
-        /// The place in the file that the constraint was read from.
+        /// The position of the error in the file, if the constraint was read from a file.
         at: Option<Position>,
     },
-    /// Constraints that no test keeps together.
+    /// No test satisfies these constraints together.
     #[error("{}", kept_by_none(.constraints, *.smallest))]
     Conflict {
-        /// Their positions in the list of constraints, from 0, in ascending order, and how they were written.
+        /// The positions of the constraints in the list of constraints, from 0, in ascending order, and their texts.
         constraints: Vec<(usize, String)>,
-        /// Whether it is known that no conflict has fewer constraints.
+        /// `true` if it is certain that no smaller set of constraints is in conflict.
         smallest: bool,
     },
-    /// Constraints on the parameters of these names that are too entangled.
+    /// The search for the combinations that the constraints allow exceeded its bounds. The list names the parameters.
     #[error(
         "what the constraints allow of {} was not found out within the bounds of the search; leave out some of the \
          constraints on these parameters, or give them fewer values", quoted(.0)
     )]
     Undecided(Vec<String>),
-    /// A text that is no TOML, or has other fields than a space.
+    /// The text is not valid TOML, or does not have the fields of a space.
     #[error("{}", .error.message())]
     Toml {
-        /// The error of the reader of TOML.
+        /// The error of the TOML reader.
         error: Box<toml::de::Error>,
-        /// The place in the text, if the reader knows it.
+        /// The position in the text, if the TOML reader knows it.
         at: Option<Position>,
     },
 }
 
 impl SpaceError {
-    /// The place in the text that the space was read from, if it is known.
+    /// Returns the position of the error in the text that the space was read from, if it is known.
     pub fn at(&self) -> Option<Position> {
         match self {
             Self::Toml { at, .. } | Self::Constraint { at, .. } => *at,
@@ -81,7 +81,7 @@ impl SpaceError {
     }
 }
 
-/// Names the constraint, unless the place in a file is known.
+/// Writes the message of an error in a constraint. It names the constraint unless the position in a file is known.
 fn in_constraint(text: &str, error: &ConstraintError, at: Option<&Position>) -> String {
     match at {
         Some(_) => error.to_string(),
@@ -93,7 +93,7 @@ fn quoted(texts: &[String]) -> String {
     texts.iter().map(|text| format!("`{text}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// That no test keeps these constraints, each in a line of its own.
+/// Says that no test keeps these constraints, and lists each constraint in a line of its own.
 fn kept_by_none(constraints: &[(usize, String)], smallest: bool) -> String {
     let these = if constraints.len() == 1 { "this constraint" } else { "these constraints together" };
     let caveat = if smallest { "" } else { Conflict::CAVEAT };

@@ -1,13 +1,15 @@
-//! Parameter spaces: what tests vary, and how.
+//! Parameter spaces: the parameters that tests vary, their values, and the constraints between them.
 //!
-//! A [`Space`] is the ordered list of the parameters that a study leaves open. A [`Parameter`] takes numbers of an interval
-//! or values of a finite choice ([`Domain`]), and may vary over time as a signal ([`Shape`]). A test is written in two ways:
-//! as [`Values`], which scenarios read and logs keep, and as a [`Point`] of coordinates, which generators propose and
-//! coverage measures. [`Space::decode`] and [`Space::encode`] are the only ways from one to the other.
+//! A [`Space`] is the ordered list of the parameters that a study leaves open. A [`Parameter`] takes numbers of an
+//! interval or values of a finite choice ([`Domain`]). It may vary over time as a signal ([`Shape`]). A test is
+//! written in two ways: as [`Values`], which scenarios read and logs keep, and as a [`Point`] of coordinates, which
+//! strategies propose and coverage measures use. [`Space::decode`] and [`Space::encode`] are the only ways to convert
+//! one into the other.
 //!
-//! Constraints say which tests make sense: [`constraint`] is their language, [`rules`] derives what follows from them. A
-//! [`demand`] asks for more than all combinations of k values. A [`Distribution`] says how likely the values of a parameter
-//! are. [`Space::from_toml`] reads SPACE.toml, and [`pict`] reads the model files of PICT.
+//! Constraints say which tests make sense: [`constraint`] is their language, and [`rules`] derives which combinations
+//! of values they allow. A [`demand`] asks tests to cover more than all combinations of k values. A [`Distribution`]
+//! says how likely the values of a parameter are. [`Space::from_toml`] reads SPACE.toml, and [`pict`] reads the model
+//! files of PICT.
 //!
 //! ```
 //! use paracosm_space::{Point, Space};
@@ -38,6 +40,7 @@ mod error;
 mod names;
 mod parameter;
 pub mod pict;
+mod plural;
 mod position;
 mod record;
 pub mod rules;
@@ -50,6 +53,7 @@ pub use domain::Domain;
 pub use error::SpaceError;
 pub use names::{did_you_mean, nearest};
 pub use parameter::{Coordinate, Parameter, ParameterError, ParameterFlaw};
+pub use plural::plural;
 pub use position::Position;
 pub use record::Record;
 pub use shape::{Shape, ShapeError};

@@ -1,8 +1,8 @@
-//! The nearest valid name to one that is unknown, for error messages that help.
+//! Finds the valid name that is nearest to an unknown name, so that error messages can suggest it.
 
-/// The candidate most like `name`, unless none is alike enough to be what was meant.
+/// Returns the candidate that is most similar to `name`, or `None` if no candidate is similar enough.
 ///
-/// Similarity is the normalised Damerau-Levenshtein distance, ignoring case; below 0.4 nothing is suggested.
+/// Similarity is the normalised Damerau-Levenshtein similarity, ignoring case. A candidate needs at least 0.4.
 ///
 /// ```
 /// assert_eq!(paracosm_space::nearest("haltom", ["random", "halton"]), Some("halton"));
@@ -21,7 +21,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, candidate)| candidate)
 }
 
-/// The end of a message about an unknown name: ` (did you mean `halton`?)`, or nothing.
+/// Writes the end of a message about an unknown name: ` (did you mean `halton`?)`, or nothing if there is no
+/// suggestion.
 pub fn did_you_mean(nearest: &Option<impl AsRef<str>>) -> String {
     nearest.as_ref().map(|name| format!(" (did you mean `{}`?)", name.as_ref())).unwrap_or_default()
 }

@@ -1,8 +1,9 @@
-//! One parameter: its name, what values it takes, and its unit.
+//! A parameter: its name, its values, its unit and its distribution.
 
 use crate::distribution::DistributionError;
 use crate::domain::at;
 use crate::names::{did_you_mean, nearest};
+use crate::plural;
 use crate::shape::{self, ShapeError};
 use crate::{Distribution, Domain, Shape, Value};
 use serde::de::IgnoredAny;
@@ -10,83 +11,83 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use thiserror::Error;
 
-/// A signal with more coordinates than this is a mistake.
+/// The greatest number of coordinates of a signal. A larger number is a mistake.
 const MOST_COORDINATES: usize = 1_000_000;
 
-/// What is wrong with a parameter, or with a value for it.
+/// An error in a parameter, or in a value of a parameter.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[error("parameter `{name}`: {flaw}")]
 pub struct ParameterError {
-    /// The parameter.
+    /// The name of the parameter.
     pub name: String,
-    /// What is wrong.
+    /// The kind of error.
     pub flaw: ParameterFlaw,
 }
 
-/// What can be wrong with a parameter, or with a value for it.
+/// The kinds of errors in a parameter, or in a value of a parameter.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum ParameterFlaw {
-    /// An interval without inner points, or with ends that are no numbers.
+    /// The lower end of an interval is not below its upper end, or an end is not a finite number.
     #[error("interval [{lo}, {hi}], expected two finite numbers, the first below the second")]
     Interval {
-        /// Its lower end.
+        /// The lower end of the interval.
         lo: f64,
-        /// Its upper end.
+        /// The upper end of the interval.
         hi: f64,
     },
-    /// A choice of nothing.
+    /// A choice has no values.
     #[error("a choice needs at least one value")]
     EmptyChoice,
-    /// A choice that names a value twice.
+    /// A choice names a value twice.
     #[error("the choice names {value} twice")]
     SameLevel {
         /// The repeated value.
         value: Value,
     },
-    /// A choice between lists.
+    /// A choice has a list as a value.
     #[error("a choice is between numbers and words, found {value}")]
     ListLevel {
-        /// The list.
+        /// The list in the choice.
         value: Value,
     },
-    /// A signal with no coordinate, or with too many.
+    /// A signal has no coordinate, or too many coordinates.
     #[error("the signal {shape} has {found} coordinates, expected 1 to {MOST_COORDINATES}")]
     Coordinates {
         /// The shape of the signal.
         shape: Shape,
-        /// How many coordinates it has.
+        /// The number of coordinates of the signal.
         found: usize,
     },
-    /// A signal without a piece.
+    /// A signal has no piece.
     #[error("a signal needs at least one piece")]
     NoPiece,
-    /// A choice that is to vary smoothly.
+    /// A discrete parameter has a smooth signal. The values of a choice cannot change smoothly.
     #[error("a choice is piecewise constant where it varies, found the shape {shape}")]
     SmoothChoice {
         /// The shape of the signal.
         shape: Shape,
     },
-    /// A list that is not as long as the signal has coordinates.
-    #[error("found {found} values, expected the {expected} of a signal {shape}")]
+    /// The number of values in a list differs from the number of coordinates of the signal.
+    #[error("found {}, expected {expected} for a signal of shape {shape}", plural(*found, "value"))]
     SignalLength {
-        /// How many values there are.
+        /// The number of values in the list.
         found: usize,
-        /// How many values the shape takes.
+        /// The number of values that the shape takes.
         expected: usize,
         /// The shape of the signal.
         shape: Shape,
     },
-    /// Values that cannot be distributed so.
+    /// The distribution does not fit the domain of the parameter.
     #[error(transparent)]
     Distribution(#[from] DistributionError),
-    /// A value that the parameter does not take.
+    /// The parameter does not take this value.
     #[error("found {value}, expected {expected}{}", did_you_mean(.nearest))]
     OutsideDomain {
-        /// The value found.
+        /// The value that was found.
         value: Value,
-        /// The parameter's domain.
+        /// The domain of the parameter.
         expected: Domain,
-        /// A level that was perhaps meant.
+        /// The most similar level of the parameter, if a level is similar enough.
         nearest: Option<String>,
     },
 }
@@ -95,27 +96,28 @@ pub enum ParameterFlaw {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Entry", into = "Entry")]
 pub struct Parameter {
-    /// The name by which a scenario asks for it.
+    /// The name that scenarios use to read the parameter.
     pub name: String,
-    /// What values it takes.
+    /// The values that the parameter takes.
     pub domain: Domain,
-    /// The unit in which its values are read, for labels.
+    /// The unit of the parameter's values, for labels.
     pub unit: Option<String>,
-    /// The nominal value: what it is where nobody varies it, and where shrinking goes.
+    /// The nominal value. The parameter has it if nobody varies the parameter, and shrinking moves the parameter
+    /// towards it.
     pub default: Option<Value>,
-    /// How it varies over time; `None` of what is constant in each test.
+    /// The shape of the signal if the parameter varies over time, or `None` if it is constant in each test.
     pub signal: Option<Shape>,
-    /// How likely its values are, where a probability is asked for.
+    /// The distribution of the parameter's values. It is used if a probability is asked for.
     pub distribution: Distribution,
 }
 
 impl Parameter {
-    /// A parameter without unit and nominal value, constant over time.
+    /// Makes a parameter without unit and nominal value that is constant over time.
     pub fn new(name: impl Into<String>, domain: Domain) -> Self {
         Self { name: name.into(), domain, unit: None, default: None, signal: None, distribution: Distribution::Uniform }
     }
 
-    /// The values of a discrete parameter; `None` of a continuous one.
+    /// Returns the values of a discrete parameter, or `None` if the parameter is continuous.
     pub fn levels(&self) -> Option<&[Value]> {
         match &self.domain {
             Domain::Interval { .. } => None,
@@ -123,7 +125,8 @@ impl Parameter {
         }
     }
 
-    /// The position of a value among the levels: of the level that is written so, or the only one that is the same number.
+    /// Returns the position of a value among the levels. This is the level that is written in the same way, or else
+    /// the only level that is the same number.
     pub fn level(&self, value: &Value) -> Option<usize> {
         let levels = self.levels()?;
         levels.iter().position(|level| level == value).or_else(|| {
@@ -132,7 +135,7 @@ impl Parameter {
         })
     }
 
-    /// The value at a coordinate in `[0,1]` of a continuous parameter.
+    /// Returns the value of a continuous parameter at a coordinate in `[0,1]`.
     ///
     /// # Panics
     /// The parameter is discrete.
@@ -143,7 +146,7 @@ impl Parameter {
         }
     }
 
-    /// The name with its unit, for an axis or a column: `speed (m/s)`.
+    /// Returns the name with the unit, for an axis or a column: `speed (m/s)`.
     pub fn label(&self) -> String {
         match &self.unit {
             Some(unit) => format!("{} ({unit})", self.name),
@@ -152,10 +155,10 @@ impl Parameter {
     }
 
     /// Checks that the parameter takes this value. A signal takes a list with a value for each coordinate, or a single
-    /// value for one that never changes.
+    /// value if the signal never changes.
     ///
     /// # Errors
-    /// It does not; the error says what it takes.
+    /// The parameter does not take the value. The error says which values it takes.
     pub fn check(&self, value: &Value) -> Result<(), ParameterError> {
         if let (Value::List(values), Some(shape)) = (value, self.signal) {
             let (found, expected) = (values.len(), shape.coordinates());
@@ -184,7 +187,7 @@ impl Parameter {
     pub(crate) fn validate(&self) -> Result<(), ParameterError> {
         match &self.domain {
             &Domain::Interval { lo, hi } => {
-                // Written so that NaN fails.
+                // Written in this way, the condition also rejects NaN.
                 if !(lo.is_finite() && hi.is_finite() && lo < hi) {
                     return Err(self.wrong(ParameterFlaw::Interval { lo, hi }));
                 }
@@ -193,7 +196,7 @@ impl Parameter {
                 if levels.is_empty() {
                     return Err(self.wrong(ParameterFlaw::EmptyChoice));
                 }
-                // Two levels that are written alike could not be told apart in a file of tests.
+                // A file of tests could not tell two levels apart that are written alike.
                 let mut written = BTreeSet::new();
                 for level in levels {
                     if matches!(level, Value::List(_)) {
@@ -210,15 +213,16 @@ impl Parameter {
         self.default.as_ref().map_or(Ok(()), |value| self.check(value))
     }
 
-    /// How many coordinates of a test it has: one, or those of its signal.
+    /// Returns the number of coordinates that a test has for the parameter: one, or the coordinates of its signal.
     pub fn coordinates(&self) -> usize {
         self.signal.map_or(1, Shape::coordinates)
     }
 
-    /// The values of its coordinates; of a signal, a single value stands for the one that never changes.
+    /// Returns the values of the parameter's coordinates. For a signal, a single value stands for a signal that never
+    /// changes.
     ///
     /// # Errors
-    /// The value is not in the domain, or a list that is not as long as there are coordinates.
+    /// The value is not in the domain, or it is a list whose length differs from the number of coordinates.
     pub fn scalars(&self, value: &Value) -> Result<Vec<Value>, ParameterError> {
         self.check(value)?;
         Ok(match value {
@@ -227,10 +231,10 @@ impl Parameter {
         })
     }
 
-    /// Checks that it can vary in this shape.
+    /// Checks that the parameter can vary in this shape.
     ///
     /// # Errors
-    /// The shape has no piece or too many coordinates, or the parameter is a choice and the shape not piecewise
+    /// The shape has no piece or too many coordinates, or the parameter is a choice and the shape is not piecewise
     /// constant.
     pub fn check_signal(&self, shape: Shape) -> Result<(), ParameterError> {
         let found = shape.coordinates();
@@ -251,23 +255,23 @@ impl Parameter {
     }
 }
 
-/// One coordinate of the tests of a space: a parameter, or one of the values that make a signal.
+/// A coordinate of the tests of a space: a parameter, or one of the values that make a signal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coordinate<'a> {
-    /// The parameter that it belongs to.
+    /// The parameter that the coordinate belongs to.
     pub parameter: &'a Parameter,
-    /// Which of its values it is, from 0.
+    /// The position of the coordinate among the coordinates of the parameter, from 0.
     pub index: usize,
 }
 
 impl Coordinate<'_> {
-    /// The name of the parameter; of a signal with the index: `leader_speed[0]`.
+    /// Returns the name of the parameter. For a signal the index is added: `leader_speed[0]`.
     pub fn name(&self) -> String {
         let Parameter { name, signal, .. } = self.parameter;
         if signal.is_some() { format!("{name}[{}]", self.index) } else { name.clone() }
     }
 
-    /// The name with its unit, for an axis or a column: `leader_speed[0] (m/s)`.
+    /// Returns the name with the unit, for an axis or a column: `leader_speed[0] (m/s)`.
     pub fn label(&self) -> String {
         match &self.parameter.unit {
             Some(unit) => format!("{} ({unit})", self.name()),
@@ -275,7 +279,7 @@ impl Coordinate<'_> {
         }
     }
 
-    /// Its value among those of a test; `None` where the test says nothing of it.
+    /// Returns the value of this coordinate in a value of the parameter, or `None` if a list has no such element.
     pub fn value<'v>(&self, value: &'v Value) -> Option<&'v Value> {
         match value {
             Value::List(values) => values.get(self.index),
@@ -284,7 +288,7 @@ impl Coordinate<'_> {
     }
 }
 
-/// A parameter as files write it: `interval = [lo, hi]` or `choice = [..]`, beside its name.
+/// A parameter as it is written in files: `interval = [lo, hi]` or `choice = [..]`, beside its name.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Entry {
@@ -293,7 +297,7 @@ pub(crate) struct Entry {
     interval: Option<[f64; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     choice: Option<Vec<Value>>,
-    /// How the values of the choice are written, where the format would write some numbers otherwise.
+    /// The texts of the choice's values, if the file format would write some numbers in another way.
     #[serde(skip_serializing_if = "Option::is_none")]
     written: Option<Vec<String>>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -308,7 +312,7 @@ pub(crate) struct Entry {
     reserved: Option<IgnoredAny>,
 }
 
-/// A key that a later version will read.
+/// The name of a key that a later version will read.
 const RESERVED: &str = "scale";
 
 fn is_uniform(distribution: &Distribution) -> bool {
@@ -316,7 +320,7 @@ fn is_uniform(distribution: &Distribution) -> bool {
 }
 
 impl Entry {
-    /// An entry that says how its numbers are written, whatever the format makes of fractions.
+    /// Makes an entry that says how its numbers are written, since file formats may write fractions in another way.
     pub(crate) fn spelled_out(parameter: Parameter) -> Self {
         let levels = parameter.levels().unwrap_or_default();
         let fraction = |level: &Value| level.number().is_some() && level.to_string().parse::<i64>().is_err();
@@ -326,7 +330,7 @@ impl Entry {
     }
 }
 
-/// Why an entry of a file is no parameter.
+/// The reason why an entry of a file is not a parameter.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[error("parameter `{name}`: {flaw}")]
 pub(crate) struct EntryError {
@@ -348,7 +352,7 @@ enum EntryFlaw {
     Shape(#[from] ShapeError),
 }
 
-/// The levels of a choice as they are written.
+/// Returns the levels of a choice as the texts in `written` write them.
 fn as_written(choice: Vec<Value>, written: &[String]) -> Result<Vec<Value>, EntryFlaw> {
     if choice.len() != written.len() {
         return Err(EntryFlaw::WrittenCount { found: written.len(), expected: choice.len() });

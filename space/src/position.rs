@@ -1,16 +1,16 @@
-//! Where in a text something stands, as editors count.
+//! Positions in a text as editors count them: lines and columns.
 
-/// A place in a text.
+/// A position in a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Position {
-    /// The line, from 1.
+    /// The line, counted from 1.
     pub line: usize,
-    /// The column, from 1, in characters.
+    /// The column, counted in characters from 1.
     pub column: usize,
 }
 
 impl Position {
-    /// The place of a byte of a text; of a byte behind its end, the end.
+    /// Returns the position of the byte at `offset`. If the offset is behind the end of the text, returns the end.
     ///
     /// ```
     /// use paracosm_space::Position;
@@ -18,7 +18,7 @@ impl Position {
     /// ```
     ///
     /// # Panics
-    /// The byte is within a character.
+    /// The offset is inside a character of several bytes.
     pub fn of(text: &str, offset: usize) -> Self {
         let before = &text[..offset.min(text.len())];
         let line = before.matches('\n').count() + 1;

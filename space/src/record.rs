@@ -1,4 +1,4 @@
-//! Named values that keep their order: how tests and all that is known of them are written.
+//! Values by name that keep their order. Tests and the entries of a log are written as such records.
 
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::ser::SerializeMap;
@@ -6,25 +6,25 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Values by name, in the order in which they were given; an object in JSON. No name stands twice.
+/// Values by name, in the order in which they were given. JSON writes them as an object. Every name occurs once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record<T>(Vec<(String, T)>);
 
 impl<T> Record<T> {
-    /// No names.
+    /// The record without values.
     pub const EMPTY: Self = Self(Vec::new());
 
-    /// The value of that name.
+    /// Returns the value of this name, if there is one.
     pub fn get(&self, name: &str) -> Option<&T> {
         self.iter().find(|(key, _)| *key == name).map(|(_, value)| value)
     }
 
-    /// Names and values in order.
+    /// Returns the names and values in order.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
         self.0.iter().map(|(name, value)| (name.as_str(), value))
     }
 
-    /// Gives a name its value; an earlier value of the same name is replaced where it stands.
+    /// Sets the value of a name. A value that the name already has is replaced and keeps its place.
     pub fn set(&mut self, name: impl Into<String>, value: impl Into<T>) {
         let (name, value) = (name.into(), value.into());
         match self.0.iter_mut().find(|(key, _)| *key == name) {

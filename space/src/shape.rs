@@ -1,60 +1,61 @@
 //! Signals: parameters that vary over time, reduced to a few coordinates by a shape (section 3.3 of the paper).
 //!
-//! A test gives a signal one value for each of its coordinates, all in the parameter's domain, and the shape says what
-//! that means at each moment of a run. Every shape stays in the domain: what lies between two values is a mean of them,
-//! and a polynomial is written in the Bernstein basis, where it is a mean of all its coefficients.
+//! A test gives a signal one value for each of its coordinates, all in the parameter's domain. The shape says which
+//! value the signal has at each moment of a run. The signal never leaves the domain: between two values it is a mean
+//! of both, and a polynomial is written in the Bernstein basis, where it is a mean of all its coefficients.
 
 use crate::names::{did_you_mean, nearest};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// How a signal follows from the values of its coordinates.
+/// The way in which the values of a signal's coordinates determine the signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
-    /// A polynomial of this degree over the run's duration: its Bernstein coefficients, one more than the degree. The
-    /// first and the last are its values at the start and at the end.
+    /// A polynomial over the duration of the run. The coordinates are its Bernstein coefficients, one more than the
+    /// degree. The first and the last are the values of the signal at the start and at the end of the run.
     Polynomial {
-        /// The degree.
+        /// The degree of the polynomial.
         degree: usize,
     },
-    /// As many values, each for an equal part of the run.
+    /// A signal that is constant in each of several equal parts of the run. Each coordinate is the value of a part.
     PiecewiseConstant {
         /// The number of parts.
         pieces: usize,
     },
-    /// Straight lines over equal parts of the run: the values where they begin, and that at the end.
+    /// Straight lines over equal parts of the run. The coordinates are the values at the start of each part and at the
+    /// end of the run.
     PiecewiseLinear {
         /// The number of parts.
         pieces: usize,
     },
 }
 
-/// Why a text, or an entry of a file, is no shape of a signal.
+/// The reason why a text, or an entry of a file, does not describe the shape of a signal.
 #[derive(Debug, Clone, Error, PartialEq, Eq)]
 pub enum ShapeError {
-    /// No shape has that name.
+    /// No shape has this name.
     #[error("no shape of a signal is called `{name}`{}; there are {}", did_you_mean(.nearest), NAMES.join(", "))]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// A name that was perhaps meant.
+        /// The most similar name of a shape, if a name is similar enough.
         nearest: Option<&'static str>,
     },
-    /// A text without the number that its shape takes.
+    /// The text lacks the number that its shape needs.
     #[error("found `{text}`, expected `{shape}` with a number")]
     NoNumber {
         /// The text.
         text: String,
-        /// The shape that it names.
+        /// The name of the shape in the text.
         shape: String,
     },
-    /// An entry of a file that lacks the key of its shape, or has that of another one.
+    /// An entry of a file lacks the key that its shape needs, or has a key of another shape.
     #[error("a signal of the shape `{shape}` takes {takes}")]
     Keys {
-        /// The shape.
+        /// The name of the shape.
         shape: String,
-        /// The keys that it takes.
+        /// The keys that the shape takes, in words.
         takes: &'static str,
     },
 }
@@ -63,7 +64,7 @@ pub enum ShapeError {
 const NAMES: [&str; 3] = ["polynomial", "piecewise-constant", "piecewise-linear"];
 
 impl Shape {
-    /// How many values make such a signal.
+    /// Returns the number of values that make a signal of this shape.
     pub fn coordinates(self) -> usize {
         match self {
             Shape::Polynomial { degree } => degree.saturating_add(1),
@@ -72,7 +73,8 @@ impl Shape {
         }
     }
 
-    /// The value of a signal of numbers at a tick of a run that takes `ticks`; from the last tick on it stays as it is.
+    /// Returns the value of a signal of numbers at a tick of a run that takes `ticks`. After the last tick the value
+    /// stays.
     ///
     /// ```
     /// # use paracosm_space::Shape;
@@ -81,7 +83,7 @@ impl Shape {
     /// ```
     ///
     /// # Panics
-    /// There are not as many values as coordinates.
+    /// The number of values differs from the number of coordinates.
     pub fn number_at(self, values: &[f64], tick: usize, ticks: usize) -> f64 {
         assert_eq!(values.len(), self.coordinates(), "a value for every coordinate");
         let (tick, ticks) = (tick.min(ticks), ticks.max(1));
@@ -90,26 +92,29 @@ impl Shape {
             Shape::PiecewiseConstant { pieces } => values[Self::piece(pieces, tick, ticks)],
             Shape::PiecewiseLinear { pieces } => {
                 let piece = Self::piece(pieces, tick, ticks);
-                // How far into the piece, exactly: a tick at which a piece begins has the value given for it.
+                // The share of the piece that has passed. It is exactly 0 at a piece's first tick, where the value is
+                // the given one.
                 let share = (tick * pieces - piece * ticks) as f64 / ticks as f64;
                 mean(values[piece], values[piece + 1], share)
             }
         }
     }
 
-    /// Which of equal parts of a run a tick belongs to. With as many parts as ticks, every tick has its own.
+    /// Returns the part that a tick belongs to, if the run is divided into `pieces` equal parts. If there are as many
+    /// parts as ticks, every tick has its own part.
     pub fn piece(pieces: usize, tick: usize, ticks: usize) -> usize {
         (tick * pieces / ticks.max(1)).min(pieces - 1)
     }
 }
 
-/// A point between two numbers; both ends exactly, and never outside.
+/// Returns a point between two numbers. Both ends are exact, and the point is never outside.
 fn mean(from: f64, to: f64, share: f64) -> f64 {
     ((1.0 - share) * from + share * to).clamp(from.min(to), from.max(to))
 }
 
-/// A polynomial with these Bernstein coefficients at `u` in `[0,1]`, by convex combinations in linear time: Woźny and
-/// Chudy, "Linear-time geometric algorithm for evaluating Bézier curves", Computer-Aided Design 118, 2020.
+/// Evaluates the polynomial with these Bernstein coefficients at `u` in `[0,1]`, by convex combinations in linear
+/// time. See Woźny and Chudy, "Linear-time geometric algorithm for evaluating Bézier curves", Computer-Aided Design
+/// 118, 2020.
 fn bernstein(coefficients: &[f64], u: f64) -> f64 {
     let degree = coefficients.len() - 1;
     let (mut weight, mut value) = (1.0, coefficients[0]);
@@ -131,7 +136,7 @@ impl fmt::Display for Shape {
     }
 }
 
-/// A shape as people write it: `polynomial(2)` or, where a shell would take the parentheses, `polynomial:2`.
+/// Reads a shape as people write it: `polynomial(2)`, or `polynomial:2` if a shell would interpret the parentheses.
 impl FromStr for Shape {
     type Err = ShapeError;
 
@@ -144,7 +149,7 @@ impl FromStr for Shape {
 }
 
 impl Shape {
-    /// The shape of that name, with the number that it takes.
+    /// Returns the shape of this name. `number` gives the number that the shape takes.
     fn named(name: &str, number: impl Fn() -> Result<usize, ShapeError>) -> Result<Self, ShapeError> {
         match name {
             "polynomial" => Ok(Shape::Polynomial { degree: number()? }),
@@ -155,7 +160,7 @@ impl Shape {
     }
 }
 
-/// A shape as files write it: `{ shape = "polynomial", degree = 2 }`.
+/// A shape as it is written in files: `{ shape = "polynomial", degree = 2 }`.
 #[derive(Debug, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Entry {
@@ -167,7 +172,7 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    /// The shape; none of a signal that is constant, which is as good as no signal.
+    /// Returns the shape, or `None` if the signal is constant: a constant signal is the same as no signal.
     pub fn shape(&self) -> Result<Option<Shape>, ShapeError> {
         let Self { shape, degree, pieces } = self;
         let (takes, number, other) = match shape.as_str() {

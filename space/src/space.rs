@@ -1,9 +1,9 @@
-//! The space of tests: named parameters, and the two ways in which a test is written.
+//! The space of tests: its named parameters and constraints, and the two ways in which a test is written.
 //!
-//! A test has *values* (what a scenario reads and a log keeps) and *coordinates* (what generators propose and
-//! coverage measures): a number in `[0,1]` for each continuous parameter, a level index for each discrete
-//! one, and as many for a parameter that varies over time as its [`Shape`] says. [`Space::decode`] and
-//! [`Space::encode`] are the only way from one to the other.
+//! A test has *values* (a scenario reads them and a log keeps them) and *coordinates* (strategies propose them and
+//! coverage measures use them). The coordinates are a number in `[0,1]` for each continuous parameter and a level
+//! index for each discrete parameter. A parameter that varies over time has as many coordinates as its [`Shape`] says.
+//! [`Space::decode`] and [`Space::encode`] are the only ways to convert one into the other.
 
 mod chance;
 mod text;
@@ -16,12 +16,12 @@ use crate::{Coordinate, Domain, Parameter, SpaceError, Value, Values};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
-/// A test as coordinates, in the order of the space's parameters.
+/// The coordinates of a test, in the order of the space's parameters.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Point {
-    /// One coordinate in `[0,1]` for each continuous parameter; several of a signal.
+    /// The coordinates of the continuous parameters, in `[0,1]`: one for each parameter, several for a signal.
     pub continuous: Vec<f64>,
-    /// One level index for each discrete parameter; several of a signal.
+    /// The level indices of the discrete parameters: one for each parameter, several for a signal.
     pub discrete: Vec<usize>,
 }
 
@@ -33,7 +33,7 @@ pub struct Space {
     constraints: Vec<Constraint>,
 }
 
-/// A space as it is written in a file, before it is checked.
+/// A space as it is written in a file. It is not checked yet.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Declaration {
@@ -41,16 +41,17 @@ struct Declaration {
     constraints: Vec<String>,
     #[serde(rename = "parameter")]
     parameters: Vec<Parameter>,
-    /// What a file says of the operational design domain, which is for whoever runs tests of the space.
+    /// The description of the operational design domain in the file. Only programs that run tests of the space read
+    /// it.
     #[serde(default, rename = "odd", skip_serializing)]
     _odd: IgnoredAny,
 }
 
 impl Space {
-    /// A space of these parameters, in this order.
+    /// Makes a space of these parameters, in this order.
     ///
     /// # Errors
-    /// Two parameters share a name, or one has no name or a domain without values.
+    /// Two parameters share a name, or a parameter has no name, or a parameter is not valid.
     pub fn new(parameters: Vec<Parameter>) -> Result<Self, SpaceError> {
         for (index, parameter) in parameters.iter().enumerate() {
             if parameter.name.trim().is_empty() {
@@ -62,7 +63,7 @@ impl Space {
             parameter.validate()?;
         }
         let space = Self { parameters, constraints: Vec::new() };
-        // What is called as a coordinate of a signal could not be told from it in a table.
+        // A table could not tell such a parameter apart from the coordinate of a signal that has the same name.
         let signals = space.coordinates().filter(|coordinate| coordinate.parameter.signal.is_some());
         for name in signals.map(|coordinate| coordinate.name()) {
             if space.parameter(&name).is_ok() {
@@ -72,8 +73,7 @@ impl Space {
         Ok(space)
     }
 
-    /// The same space with these constraints besides those it has, in the language of
-    /// [`constraint`](crate::constraint).
+    /// Returns the same space with further constraints, in the language of [`constraint`](crate::constraint).
     ///
     /// ```
     /// use paracosm_space::{Domain, Parameter, Point, Space};
@@ -86,8 +86,8 @@ impl Space {
     /// ```
     ///
     /// # Errors
-    /// One of them is no constraint between the discrete parameters: [`SpaceError::Constraint`] says which, where and
-    /// why.
+    /// A text is not a constraint between the discrete parameters. [`SpaceError::Constraint`] says which text, where
+    /// and why.
     pub fn with_constraints(mut self, texts: impl IntoIterator<Item = impl AsRef<str>>) -> Result<Self, SpaceError> {
         for text in texts {
             let text = text.as_ref();
@@ -100,21 +100,22 @@ impl Space {
         Ok(self)
     }
 
-    /// The unit cube with coordinates `x1` to `x{dims}`: the space of a point set that came without one.
+    /// Makes the unit cube with parameters `x1` to `x{dims}`: the space of a set of points that has no space of its
+    /// own.
     pub fn unit_cube(dims: usize) -> Self {
         let axis = |i| Parameter::new(format!("x{i}"), Domain::Interval { lo: 0.0, hi: 1.0 });
         Self { parameters: (1..=dims).map(axis).collect(), constraints: Vec::new() }
     }
 
-    /// The parameters in order.
+    /// Returns the parameters in order.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
     }
 
-    /// The parameter of that name.
+    /// Returns the parameter of this name.
     ///
     /// # Errors
-    /// No parameter has it; the error suggests the nearest name.
+    /// No parameter has the name. The error suggests the nearest name.
     pub fn parameter(&self, name: &str) -> Result<&Parameter, SpaceError> {
         self.parameters.iter().find(|p| p.name == name).ok_or_else(|| SpaceError::Unknown {
             name: name.to_owned(),
@@ -122,60 +123,61 @@ impl Space {
         })
     }
 
-    /// All coordinates of a test in the order of their parameters, which is that of a table's columns.
+    /// Returns all coordinates of a test in the order of their parameters. The columns of a table have the same order.
     pub fn coordinates(&self) -> impl Iterator<Item = Coordinate<'_>> {
         let of = |parameter| (0..Parameter::coordinates(parameter)).map(move |index| Coordinate { parameter, index });
         self.parameters.iter().flat_map(of)
     }
 
-    /// What each coordinate of [`Point::continuous`] belongs to, in order.
+    /// Returns the coordinates of the continuous parameters, in the order of [`Point::continuous`].
     pub fn continuous(&self) -> impl Iterator<Item = Coordinate<'_>> {
         self.coordinates().filter(|coordinate| coordinate.parameter.levels().is_none())
     }
 
-    /// What each coordinate of [`Point::discrete`] belongs to, in order.
+    /// Returns the coordinates of the discrete parameters, in the order of [`Point::discrete`].
     pub fn discrete(&self) -> impl Iterator<Item = Coordinate<'_>> {
         self.coordinates().filter(|coordinate| coordinate.parameter.levels().is_some())
     }
 
-    /// The number of continuous coordinates.
+    /// Returns the number of continuous coordinates.
     pub fn dims(&self) -> usize {
         self.parameters.iter().filter(|p| p.levels().is_none()).map(Parameter::coordinates).sum()
     }
 
-    /// The number of levels of each discrete coordinate.
+    /// Returns the number of levels of each discrete coordinate.
     pub fn levels(&self) -> Vec<usize> {
         self.discrete().filter_map(|coordinate| coordinate.parameter.levels()).map(<[Value]>::len).collect()
     }
 
-    /// The constraints in order.
+    /// Returns the constraints in order.
     pub fn constraints(&self) -> &[Constraint] {
         &self.constraints
     }
 
-    /// Whether the test keeps every constraint.
+    /// Returns `true` if the test keeps every constraint.
     ///
     /// # Panics
-    /// The point has fewer discrete coordinates than the space, or a level index beyond a choice's last.
+    /// The point has fewer discrete coordinates than the space, or a level index is not below the number of levels.
     pub fn allows(&self, point: &Point) -> bool {
         self.constraints.iter().all(|constraint| constraint.holds(&point.discrete))
     }
 
-    /// The clauses of each constraint, over the positions of parameters among the discrete ones.
+    /// Returns the clauses of each constraint. A literal names a parameter by its position among the discrete
+    /// coordinates.
     pub fn clauses(&self) -> Vec<Vec<Clause>> {
         self.constraints.iter().map(|constraint| constraint.clauses().to_vec()).collect()
     }
 
-    /// What the constraints allow of the discrete parameters.
+    /// Returns the rules that the constraints imply for the discrete parameters.
     ///
     /// # Errors
-    /// No test keeps all constraints: the error names as few as possible that cannot be kept together. Or the
-    /// constraints are too entangled to find out whether a test does, or at which levels.
+    /// No test keeps all constraints: the error names a conflict among them that is as small as possible. Or the
+    /// search for a test, or for the levels that tests can have, exceeds its bounds.
     pub fn rules(&self) -> Result<Rules, SpaceError> {
         Rules::new(&self.levels(), &self.clauses()).map_err(|error| self.explain(error))
     }
 
-    /// Why there are no rules, with the constraints and parameters by their names.
+    /// Converts an error of the rules, so that it shows the constraints as texts and the parameters by name.
     pub(crate) fn explain(&self, error: RulesError) -> SpaceError {
         match error {
             RulesError::Conflict(Conflict { constraints, smallest }) => {
@@ -189,10 +191,10 @@ impl Space {
         }
     }
 
-    /// The values at these coordinates.
+    /// Returns the values of the test with these coordinates.
     ///
     /// # Panics
-    /// The point has another number of coordinates than the space, or a level index beyond a choice's last.
+    /// The point has another number of coordinates than the space, or a level index is not below the number of levels.
     pub fn decode(&self, point: &Point) -> Values {
         let mut continuous = point.continuous.iter();
         let mut discrete = point.discrete.iter();
@@ -215,10 +217,9 @@ impl Space {
         values
     }
 
-    /// The coordinates of these values; the inverse of [`Space::decode`].
+    /// Returns the coordinates of the test with these values. This is the inverse of [`Space::decode`].
     ///
-    /// Decoding what this returns gives the very numbers that went in, if decoding gave them in the first
-    /// place.
+    /// If the values come from [`Space::decode`], then decoding the result gives exactly the same values.
     ///
     /// # Errors
     /// A parameter is missing or unknown, or has a value outside its domain.

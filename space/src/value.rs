@@ -1,26 +1,26 @@
-//! Values of parameters: numbers, words, and the lists of them that make signals.
+//! Values of parameters: numbers, words, and the lists of numbers or words that make signals.
 
 use crate::Record;
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 
-/// A number, a word, or a list of them.
+/// A value of a parameter: a number, a word, or a list of numbers and words.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// A number; whole ones are written without a point.
+    /// A number. A whole number is written without a decimal point.
     Number(f64),
-    /// A level that is a number and is written otherwise than [`Value::Number`] would be, as `1.10` or `007`: its text.
-    /// It is another value than the number, which [`Value::means`] it all the same.
+    /// The text of a number that [`Value::Number`] would write in another way, such as `1.10` or `007`. Only levels
+    /// are such values. The value is not equal to the number, but [`Value::means`] treats both as the same.
     Written(Box<str>),
-    /// A word.
+    /// A word, such as `fog`.
     Word(String),
-    /// The values of a signal's coordinates.
+    /// The values of a signal, one for each coordinate.
     List(Box<[Value]>),
 }
 
 impl Value {
-    /// The number, if it is one.
+    /// Returns the number, or `None` if the value is a word or a list.
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(number) => Some(*number),
@@ -29,7 +29,7 @@ impl Value {
         }
     }
 
-    /// The word, if it is one.
+    /// Returns the word, or `None` if the value is a number or a list.
     pub fn word(&self) -> Option<&str> {
         match self {
             Value::Word(word) => Some(word),
@@ -37,7 +37,7 @@ impl Value {
         }
     }
 
-    /// The value as a list: its own elements, or itself alone.
+    /// Returns the elements of a list, or the value itself as the only element.
     pub fn scalars(&self) -> &[Value] {
         match self {
             Value::List(values) => values,
@@ -45,14 +45,14 @@ impl Value {
         }
     }
 
-    /// Reads a finite number where the text is one, a word otherwise.
+    /// Reads the text as a finite number if possible, and otherwise as a word.
     pub fn parse(text: &str) -> Self {
         let text = text.trim();
         let number = text.parse().ok().filter(|number: &f64| number.is_finite());
         number.map_or_else(|| Value::Word(text.to_owned()), Value::Number)
     }
 
-    /// Reads a value as [`Value::parse`] does, and keeps how a number is written:
+    /// Reads a value as [`Value::parse`] does, but keeps the way in which a number is written.
     ///
     /// ```
     /// use paracosm_space::Value;
@@ -68,7 +68,7 @@ impl Value {
         }
     }
 
-    /// Whether both are the same number, however they are written, or else the same value.
+    /// Returns `true` if both values are the same number, however they are written, or are equal.
     pub fn means(&self, other: &Value) -> bool {
         match (self.number(), other.number()) {
             (Some(number), Some(other)) => number == other,
@@ -76,7 +76,7 @@ impl Value {
         }
     }
 
-    /// The number as an integer, where nothing is lost by that.
+    /// Returns the number as an integer, or `None` if the integer would not be exactly the same number.
     fn whole(number: f64) -> Option<i64> {
         // Beyond 2^53 neighbouring integers share a float; -0 would lose its sign.
         let whole = number.trunc() == number && number.abs() < 9e15 && !(number == 0.0 && number.is_sign_negative());
@@ -119,14 +119,14 @@ impl From<&str> for Value {
     }
 }
 
-/// A list.
+/// Makes a list.
 impl<T: Into<Value>, const N: usize> From<[T; N]> for Value {
     fn from(values: [T; N]) -> Self {
         values.into_iter().collect()
     }
 }
 
-/// A list.
+/// Makes a list.
 impl<T: Into<Value>> FromIterator<T> for Value {
     fn from_iter<I: IntoIterator<Item = T>>(values: I) -> Self {
         Value::List(values.into_iter().map(Into::into).collect())
@@ -140,7 +140,7 @@ impl Serialize for Value {
                 Some(integer) => serializer.serialize_i64(integer),
                 None => serializer.serialize_f64(*number),
             },
-            // How a level is written is said by the space; elsewhere it is the number that is used.
+            // The space says how a level is written. Everywhere else only the number is used.
             Value::Written(text) => match self.number() {
                 Some(number) => Value::Number(number).serialize(serializer),
                 None => serializer.serialize_str(text),
@@ -192,5 +192,5 @@ impl<'de> Deserialize<'de> for Value {
     }
 }
 
-/// The values of a test by parameter name.
+/// The values of a test, by the names of the parameters.
 pub type Values = Record<Value>;

@@ -1,24 +1,12 @@
 //! The language of constraints: what it says, against expressions evaluated by name and by hand, and how it is written.
 
+mod common;
+
+use common::drive;
 use paracosm_space::constraint::{Expression, Operand, Relation};
 use paracosm_space::rules::Clause;
 use paracosm_space::{Domain, Parameter, Point, Space, SpaceError, Value, Values};
 use proptest::prelude::*;
-
-/// A drive: one continuous parameter, words, numbers, a mixture of both, and a name that needs brackets.
-fn drive() -> Space {
-    let choice = |name: &str, levels: Vec<Value>| Parameter::new(name, Domain::Choice(levels));
-    Space::new(vec![
-        choice("weather", vec!["clear".into(), "rain".into(), "fog".into()]),
-        Parameter::new("speed", Domain::Interval { lo: 0.0, hi: 10.0 }),
-        choice("lanes", vec![2.into(), 4.into(), 6.into()]),
-        choice("open", vec![1.into(), 2.into(), 3.into()]),
-        choice("gear", vec![1.into(), 2.into(), "auto".into()]),
-        choice("many", (0..9).map(Value::from).collect()),
-        choice("road surface", vec!["dry".into(), "it's wet".into()]),
-    ])
-    .unwrap()
-}
 
 fn tests_of(space: &Space) -> Vec<Point> {
     let rows = space.levels().iter().fold(vec![vec![]], |heads: Vec<Vec<usize>>, &levels| {

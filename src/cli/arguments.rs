@@ -1,4 +1,4 @@
-//! Reading the arguments: what clap says, but for people where a number was expected.
+//! Reads the arguments with clap, and explains in words for people that a number was expected.
 
 use super::complain;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -7,7 +7,7 @@ use std::error::Error;
 use std::num::{IntErrorKind, ParseFloatError, ParseIntError};
 use std::process;
 
-/// The program's arguments; ends the program where they are wrong, or where only help was asked for.
+/// Returns the program's arguments. Ends the program if they are wrong, or if only help was asked for.
 pub(super) fn parse<C: Parser>() -> C {
     let matches = with_negative_numbers(C::command()).try_get_matches();
     let read = matches.and_then(|mut matches| C::from_arg_matches_mut(&mut matches));
@@ -20,12 +20,12 @@ pub(super) fn parse<C: Parser>() -> C {
     })
 }
 
-/// Takes `-1` for the value that it is, so that who is given it can say what was expected.
+/// Reads `-1` as a value and not as an option, so that the error can say which value was expected.
 fn with_negative_numbers(command: Command) -> Command {
     command.allow_negative_numbers(true).mut_subcommands(with_negative_numbers)
 }
 
-/// What was found and what was expected, where that is a number.
+/// Says what was found and what was expected, if a number was expected.
 fn explained(error: &clap::Error) -> Option<String> {
     let text = |kind| match error.get(kind) {
         Some(ContextValue::String(text)) => Some(text),

@@ -1,4 +1,4 @@
-//! `paracosm-fuzz bench`: the study of strategies that find failures, with everything that watches it.
+//! `paracosm-fuzz bench`: compares strategies by the failures that they find, and shows the progress.
 
 use super::output::{Format, json, plural};
 use super::subject::Subject;
@@ -27,29 +27,29 @@ Examples:
   paracosm-fuzz bench --scenarios ball5,decoy5,valley2 --reference-tests 0       functions whose failures are known
   paracosm-fuzz bench --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)' --strategies random,auto
 
-Every strategy runs every scenario with every seed, to the end of the budget; runs of a seed are pairs. A scenario may be
-written with parameters to open, NAME+PARAMETER+PARAMETER; beside those of `paracosm-fuzz list` there are the functions
-corner5 ball5 decoy5 errors5 valley2 ring2 rough3 few20 words2 needle2, each seed of which puts the failure elsewhere.
+Every strategy runs on every scenario with every seed, to the end of the budget. Runs with the same seed are compared as
+pairs. NAME+PARAMETER+PARAMETER names a scenario and parameters to open. The functions corner5 ball5 decoy5 errors5 valley2
+ring2 rough3 few20 words2 needle2 can be named like scenarios; each seed puts their failures elsewhere.
 
-Strategies in open loop draw discrete values for every test, uniformly among the valid ones, instead of taking the rows of a
-covering array as `run` does; a test that repeats an earlier one costs nothing. A run without a failure is censored at the
-budget, unless the strategy had nothing more to test: then it is exhausted, and has no failure to find.
+Open-loop strategies draw discrete values for every test, uniformly among the valid values. `run` uses the rows of a
+covering array instead. A test that repeats an earlier test costs nothing. A run without a failure is censored at the
+budget. If the strategy had nothing more to test, the run is exhausted: there was no failure to find.
 
-What a run knows of where tests fail is held against a map of many random tests: each of them is told to fail if the
-nearest of the run's tests fails. Recall is the share of the failing ones that are told so, precision the share of those
-told to fail that do. Maps are read from --reference where they are there, and made and kept there where not.
+A map of many random tests measures how well a run knows where tests fail. A test of the map is predicted to fail if the
+nearest test of the run fails. Recall is the share of the failing tests of the map that are predicted to fail. Precision is
+the share of the predicted failures that do fail. Maps are read from --reference, or made and kept there if they are missing.
 
-DIR gets runs.csv (a row for each run, as they end), summary.csv (success rates with Wilson's interval; restricted means of
+DIR gets runs.csv (a row for each run), summary.csv (success rates with Wilson's interval; restricted means of
 the tests to the first failure with bootstrap intervals; against the baseline their ratio, Vargha and Delaney's A12,
-Wilcoxon's p over pairs, the log-rank test's p and Holm's correction of either), survival.csv (Kaplan and Meier's curves), correlations.csv (dispersion and
-recall), standings.csv, table.tex, and for each scenario figures as SVG and PNG.";
+Wilcoxon's p over pairs, the log-rank test's p and Holm's correction of both), survival.csv (Kaplan and Meier's curves),
+correlations.csv (dispersion and recall), standings.csv, table.tex, and for each scenario figures as SVG and PNG.";
 
-/// What `bench` takes.
+/// The options of `bench`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
-    /// Several scenarios, NAME or NAME+PARAMETER+.. to open parameters, or functions
+    /// The scenarios, each NAME or NAME+PARAMETER+.. to open parameters, or functions
     #[arg(long, value_name = "LIST", value_delimiter = ',', conflicts_with_all = ["scenario", "system"])]
     scenarios: Vec<String>,
     /// The strategies; `paracosm-fuzz list` shows them all [default: random,halton,random-corners,nelder-mead,cmaes,gp-cmaes,bayes,auto]
@@ -58,28 +58,28 @@ pub(super) struct Options {
     /// How many tests a run has
     #[arg(long, value_name = "N", default_value_t = 200)]
     budget: usize,
-    /// How many seeds each strategy is given
+    /// How many seeds each strategy runs with
     #[arg(long, value_name = "N", default_value_t = 30)]
     seeds: usize,
     /// The first seed; the others follow it
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// How many tests a strategy is asked for at a time, which changes what an adaptive one proposes
+    /// How many tests a strategy is asked for at a time; this changes the tests of an adaptive strategy
     #[arg(long, value_name = "N", default_value_t = 16)]
     batch: usize,
-    /// The strategy that the others are held against [default: random if it is there, else the first]
+    /// The strategy that the others are compared with [default: random if it runs, else the first]
     #[arg(long, value_name = "S")]
     baseline: Option<String>,
-    /// Where the maps are that say where tests fail, NAME.json for each scenario [default: the folder `maps` in DIR]
+    /// The folder of the reference maps, NAME.json for each scenario [default: the folder `maps` in DIR]
     #[arg(long, value_name = "FOLDER")]
     reference: Option<PathBuf>,
-    /// How many tests a map has that is made; 0 for no maps
+    /// How many tests a new reference map has; 0 for no maps
     #[arg(long, value_name = "N", default_value_t = 20_000)]
     reference_tests: usize,
     /// How many runs are made at a time; results do not depend on it [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Where to write: a folder that is empty or not there
+    /// The folder to write to, empty or new
     #[arg(long, value_name = "DIR", default_value = "paracosm-bench")]
     out: PathBuf,
     /// Continue the bench in the folder
@@ -116,7 +116,7 @@ impl Options {
         bar.finish_and_clear();
         let benched = benched.map_err(|error| {
             let (runs, out) = (plural(safe, "run"), self.out.display());
-            Failure::from(format!("{error}\n  {runs} are safe in {out}; --resume goes on from there"))
+            Failure::from(format!("{error}\n  {runs} are safe in {out}; --resume continues from there"))
         })?;
         paracosm_report::bench::write(&benched, &self.out)?;
         for note in &benched.notes {
@@ -154,7 +154,7 @@ impl Options {
         Ok(study)
     }
 
-    /// A scenario with parameters to open, or a function.
+    /// Returns the scenario, with its parameters to open, or the function of this name.
     fn target(&self, text: &str, verbosity: Verbosity) -> Result<Target, Error> {
         if let Some(function) = Function::ALL.into_iter().find(|function| function.name == text) {
             return Ok(Target::function(function));
@@ -173,7 +173,7 @@ impl Options {
         Ok(Target::study(text, self.study(&self.subject.on(&scenario, parts), verbosity)?))
     }
 
-    /// The maps of all scenarios: read where they are there, made and kept where not.
+    /// Returns the maps of all scenarios. A map that does not exist is made and kept.
     fn maps(
         &self,
         bench: &Bench,
@@ -203,7 +203,7 @@ impl Options {
                 map
             };
             let (tests, failing) = map.counts();
-            verbosity.note(format_args!("{}: {failing} of {tests} tests of the map fail", target.name()));
+            verbosity.note(format_args!("{}: {failing} of {} of the map fail", target.name(), plural(tests, "test")));
             maps.insert(target.name().to_owned(), map);
         }
         Ok(maps)
@@ -214,13 +214,13 @@ impl Options {
     }
 }
 
-/// The command that was given, to be kept with what it makes.
+/// Returns the command line, which is kept in the files that the command writes.
 fn command() -> String {
     let arguments: Vec<String> = std::env::args().skip(1).map(|word| shell_word(&word)).collect();
     format!("paracosm-fuzz {}", arguments.join(" "))
 }
 
-/// A bar of so many things, hidden where nothing is to be said.
+/// Makes a progress bar for `of` things; `--quiet` hides the bar.
 fn bar(verbosity: Verbosity, of: usize, what: &str) -> ProgressBar {
     let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(of as u64) };
     let template = format!("{{bar:40.blue/white}} {{human_pos}}/{{human_len}} {what}  {{eta}} left  {{msg}}");

@@ -1,4 +1,4 @@
-//! `paracosm-fuzz blame`: which failures other drivers could have avoided.
+//! `paracosm-fuzz blame`: shows which failures other drivers could have avoided.
 
 use super::map::Axes;
 use super::output::{Format, Table, digits, json, percent, plural};
@@ -19,17 +19,17 @@ Examples:
   paracosm-fuzz blame paracosm-out
   paracosm-fuzz blame paracosm-out --driver ideal,reg157
 
-Every failing test is run again with each of the drivers, in their standard settings. A driver prevents a failure if what
-was violated holds then, and nothing that held is violated instead. The failure is
-  unpreventable   if none of these drivers prevents it: they brake, and do not steer around anybody or drive slower
-                  beforehand, so that others may prevent it all the same
-  preventable     if one of them does
-  induced         if `cruise` does, which never brakes for others: without braking it would not have happened
-  unknown         if none is known to prevent it, and a run with one of them broke or could not be built
+Every failing test is run again with each reference driver, in its standard settings. A driver prevents a failure if the
+violated requirements hold in its run, and no other requirement is violated instead. The failure is
+  unpreventable   if no reference driver prevents it. Reference drivers brake; they do not steer around anybody and do not
+                  drive slower beforehand. So another driver may still prevent the failure
+  preventable     if a reference driver prevents it
+  induced         if `cruise` prevents it, which never brakes for others: braking has caused the failure
+  unknown         if no reference driver prevents it, and a run with a reference driver broke or could not be built
 
-Into DIR go blame.json and blame.csv, and blame-map.svg and .png where two continuous parameters are open.";
+Blame writes blame.json and blame.csv to DIR, and blame-map.svg and .png if two continuous parameters are open.";
 
-/// What `blame` takes.
+/// The options of `blame`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     /// The folder of the campaign
@@ -45,7 +45,7 @@ pub(super) struct Options {
     /// How many tests run at a time; results do not depend on it [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// How to print what was found [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
@@ -81,7 +81,7 @@ impl Options {
         let map = match axes {
             _ if blame.failures.is_empty() => None,
             None => {
-                verbosity.note("no map: it needs two continuous open parameters");
+                verbosity.note("no map: a map needs two open continuous parameters");
                 None
             }
             Some([x, y]) => Some(FailureMap::of_blame(log, blame, [&x, &y])?),
@@ -107,12 +107,12 @@ impl Options {
         let Blame { references, tests, failures } = blame;
         let title = study.title();
         if failures.is_empty() {
-            table.heading(&format!("{title}: none of {} fails, so that nobody is to blame", plural(*tests, "test")));
+            table.heading(&format!("{title}: {}, no failure, so nobody is to blame", plural(*tests, "test")));
             return table.finish();
         }
-        table.heading(&format!("{title}: {} of {} fail", failures.len(), plural(*tests, "test")));
+        table.heading(&format!("{title}: {} in {}", plural(failures.len(), "failure"), plural(*tests, "test")));
         let share = |count: usize| percent(count as f64 / failures.len() as f64);
-        // What is not judged is no kind of fault: there is a line of it only if there is any.
+        // A failure that is not judged has no fault; there is a line only if there is such a failure.
         for fault in Preventability::ALL {
             let count = blame.count(fault);
             if fault == Preventability::Unknown && count == 0 {
@@ -139,17 +139,17 @@ impl Options {
 
 fn meaning(fault: Preventability, references: &[String]) -> String {
     match fault {
-        Preventability::Unpreventable => format!("none of {} prevents it", references.join(", ")),
-        Preventability::Preventable => "one of them does, by braking".to_owned(),
+        Preventability::Unpreventable => format!("prevented by none of {}", references.join(", ")),
+        Preventability::Preventable => "prevented by a reference driver, by braking".to_owned(),
         Preventability::Induced if references.iter().any(|name| name == "cruise") => {
-            "cruise does, which never brakes for others".to_owned()
+            "prevented by cruise, which never brakes for others".to_owned()
         }
-        Preventability::Induced => "cruise, which would tell, was not asked".to_owned(),
-        Preventability::Unknown => "not judged: a run with one of them broke or could not be built".to_owned(),
+        Preventability::Induced => "unknown: only the driver cruise could show it, and cruise was not run".to_owned(),
+        Preventability::Unknown => "not judged: a run with a reference driver broke or could not be built".to_owned(),
     }
 }
 
-/// A failing test in a line: whose fault it is, what it violates, where it is.
+/// Describes a failing test in a line: its fault, its violated requirements and its values.
 fn line(study: &Study, trial: &Trial, failure: &Blamed) -> String {
     let by = if failure.prevented_by.is_empty() {
         String::new()

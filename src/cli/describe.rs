@@ -1,4 +1,4 @@
-//! `paracosm-fuzz describe`: what a scenario asks for and asks of its runs.
+//! `paracosm-fuzz describe`: shows the parameters, the requirements and the world of a scenario.
 
 use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, domain_words, json, value_words};
@@ -13,18 +13,18 @@ use paracosm_report::plot;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// What `describe` takes.
+/// The options of `describe`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
-    /// Print the graph of its streams in the language of Graphviz
+    /// Print the graph of the streams in the language of Graphviz
     #[arg(long, conflicts_with = "format")]
     dot: bool,
-    /// Draw its world from above as it begins with the values that are set, and nominal ones, to a file: .svg or .png
+    /// Draw the world from above at time 0, with values of --set and nominal values, to a file: .svg or .png
     #[arg(long, value_name = "FILE", conflicts_with_all = ["dot", "format"])]
     draw: Option<PathBuf>,
-    /// How to print it [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
@@ -89,24 +89,24 @@ fn table(study: &Study, program: &Program, declaration: &Declaration) -> Result<
         let formula = requirement.formula.as_ref().map(ToString::to_string).unwrap_or_default();
         table.row("", &format!("{formula}{}", scale.unwrap_or_default()));
     }
-    table.heading("signals that formulas can speak of");
+    table.heading("signals that formulas can use");
     for (object, names) in by_object(&signals(study)?) {
         table.row(object, &names.join(" "));
     }
     Ok(table.finish())
 }
 
-/// What a parameter is set to that is not its nominal value.
+/// Returns the fixed value of a parameter, if it differs from the nominal value.
 fn set<'a>(study: &'a Study, declared: &Declared) -> Option<&'a Value> {
     study.fixed().get(&declared.parameter.name).filter(|value| **value != declared.nominal())
 }
 
-/// The signals of the scenario, as formulas name them.
+/// Returns the signals of the scenario, as formulas name them.
 fn signals(study: &Study) -> Result<Vec<String>, Error> {
     Ok(study.signals()?.unwrap_or_default().into_iter().map(|name| signal(name).to_string()).collect())
 }
 
-/// Signals by the objects that their names begin with; what stands in quotes is of none.
+/// Groups signals by the objects that their names begin with. Names in quotes belong to no object.
 fn by_object(signals: &[String]) -> Vec<(&str, Vec<&str>)> {
     let mut objects: Vec<(&str, Vec<&str>)> = Vec::new();
     for name in signals {

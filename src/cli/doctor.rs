@@ -1,4 +1,4 @@
-//! `paracosm-fuzz doctor`: what this machine draws with, and how fast.
+//! `paracosm-fuzz doctor`: shows the graphics adapter of this machine, and how fast it draws.
 
 use super::output::{Format, Table, json};
 use super::{Failure, Status, print};
@@ -10,24 +10,24 @@ use nalgebra::{Isometry3, Vector3};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// What `doctor` takes.
+/// The options of `doctor`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// How to print it [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
 
-/// What is said of this machine.
+/// The findings about this machine.
 #[derive(Debug, Serialize)]
 struct Findings {
     version: &'static str,
     target: &'static str,
     threads: usize,
-    /// The drivers that can be put to the test.
+    /// The drivers that can be tested.
     drivers: Vec<&'static str>,
     adapter: Option<Described>,
-    /// Why there is no adapter, or why it cannot be used, and what to do.
+    /// The reason why there is no adapter, or why the adapter cannot be used, and what to do.
     problem: Option<String>,
     speed: Vec<Speed>,
 }
@@ -43,7 +43,7 @@ struct Described {
     max_buffer: u64,
 }
 
-/// How many images are drawn and read back in a second.
+/// The number of images that are drawn and read back in a second.
 #[derive(Debug, Serialize)]
 struct Speed {
     width: u32,
@@ -52,14 +52,14 @@ struct Speed {
     frames_per_second: f64,
 }
 
-/// Images of a size, and what is drawn besides their colours.
+/// A size of images, and the outputs that are drawn.
 struct Size {
     width: u32,
     height: u32,
     depth: bool,
     semantic: bool,
     shadows: bool,
-    /// All of it in words.
+    /// The outputs in words.
     outputs: &'static str,
 }
 
@@ -70,14 +70,14 @@ impl From<Adapter> for Described {
     }
 }
 
-/// The sizes at which people train and look, and what is drawn at each.
+/// The usual sizes for training networks and for looking at images, with the outputs of each.
 const SIZES: [Size; 3] = [
     Size { width: 128, height: 128, depth: true, semantic: true, shadows: false, outputs: "rgb, depth, semantic" },
     Size { width: 200, height: 66, depth: false, semantic: false, shadows: false, outputs: "rgb" },
     Size { width: 640, height: 480, depth: false, semantic: false, shadows: true, outputs: "rgb, shadows" },
 ];
 
-/// How many cameras are drawn at once, and for how long at each size.
+/// How many cameras are drawn at once, and for how long each size is measured.
 const BATCH: usize = 64;
 const LONG_ENOUGH: Duration = Duration::from_millis(700);
 
@@ -119,7 +119,7 @@ fn table(findings: &Findings) -> String {
     table.row("threads", &findings.threads.to_string());
     table.row("drivers", &findings.drivers.join(", "));
     match &findings.adapter {
-        None => table.row("graphics adapter", "none; only what asks for cameras needs one"),
+        None => table.row("graphics adapter", "none; only cameras need an adapter"),
         Some(adapter) => {
             table.row("graphics adapter", &format!("{} ({})", adapter.name, adapter.kind));
             table.row("  driver", &format!("{}, by {}", adapter.driver, adapter.backend));
@@ -138,7 +138,7 @@ fn table(findings: &Findings) -> String {
     table.finish()
 }
 
-/// How fast the beginning of the pedestrian study is drawn.
+/// Measures how fast the beginning of the pedestrian study is drawn.
 fn speeds(renderer: &mut Renderer) -> Result<Result<Vec<Speed>, RenderError>, Failure> {
     let program = &crate::catalogue().find("pedestrian-crossing")?;
     let test = program.declare()?.nominal();
@@ -168,7 +168,7 @@ fn speed(
 ) -> Result<f64, RenderError> {
     let view = View { without: Some(1), ..View::new(scene, camera, pose) };
     let views = [view; BATCH];
-    // The first batch brings meshes to the adapter and makes its programs.
+    // The first batch loads meshes to the adapter and compiles its programs.
     renderer.render(&views[..1], wanted)?;
     let begin = Instant::now();
     let mut drawn = 0;

@@ -1,6 +1,6 @@
 //! The files that pictures are written to: `--draw` of `paracosm-fuzz describe` and `replay`, `--out` of `map`.
 //!
-//! What was drawn or reported before is replaced, as it can be had again; what belongs to a campaign is not.
+//! Older pictures and reports are replaced, since they can be made again. Files of a campaign are never replaced.
 
 use super::usage;
 use paracosm_campaign::files::write_whole;
@@ -8,7 +8,7 @@ use paracosm_campaign::{Error, Failure as Breakdown, Folder};
 use paracosm_space::{did_you_mean, nearest};
 use std::path::{Path, PathBuf};
 
-/// What a picture is written as.
+/// The format of a picture file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FileKind {
     Svg,
@@ -28,7 +28,7 @@ impl FileKind {
     }
 }
 
-/// A file for a picture or its numbers.
+/// A file for a picture or for its numbers.
 #[derive(Debug)]
 pub(super) struct Target {
     path: PathBuf,
@@ -54,10 +54,10 @@ impl Target {
         Ok(Self { path: path.to_owned(), kind: *kind })
     }
 
-    /// Writes the picture that is drawn so; how large it is, in words.
+    /// Draws and writes the picture. Returns its size in words.
     ///
     /// # Errors
-    /// It cannot be drawn or written.
+    /// The picture cannot be drawn or written.
     pub fn write(
         &self,
         drawn: impl FnOnce(FileKind) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>>,
@@ -69,10 +69,13 @@ impl Target {
     }
 }
 
-/// Checks that the file of an option is none of a campaign's own, which nothing replaces.
+/// Checks that the file of an option does not have the name of a campaign's own file, which nothing replaces.
 pub(super) fn is_ours_to_write(option: &str, path: &Path) -> Result<(), Error> {
     if path.file_name().is_some_and(Folder::owns) {
-        let message = format!("{option} {} has the name of a campaign's own file", path.display());
+        let message = format!(
+            "{option} {} has the name of a file that belongs to campaigns; choose another name",
+            path.display()
+        );
         return Err(usage(message));
     }
     Ok(())

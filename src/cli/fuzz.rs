@@ -11,19 +11,19 @@ Examples:
   paracosm-fuzz --strategy halton --budget 500       the pedestrian study of the paper, into paracosm-out/
   paracosm-fuzz pedestrian-crossing --driver aeb --open friction=0.3..0.8 --out slippery
   paracosm-fuzz --open friction:piecewise-linear:3   the friction varies while a test runs
-  paracosm-fuzz --spec 'always[0,10] (car.speed > 1)'           ask more of every run
+  paracosm-fuzz --spec 'always[0,10] (car.speed > 1)'           require more of every run
   paracosm-fuzz follow-leader --driver-command 'python3 my_driver.py'       a driver of your own, in its own process
   paracosm-fuzz --system 'python3 model.py' --space SPACE.toml --spec 'G (rpm < 4750)'    a system of your own
   paracosm-fuzz map paracosm-out --x speed --y friction    the failure map over other parameters
   paracosm-fuzz replay paracosm-out 17               test 17 again, with its trace as CSV
   paracosm-fuzz shrink paracosm-out 17               the simplest test near test 17 that still fails
   paracosm-fuzz blame paracosm-out                   which failures other drivers could have avoided
-  paracosm-fuzz trace paracosm-out                   requirement by test, and what is untested
-  paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)'       ask formulas of a recorded trace
-  paracosm-fuzz record pedestrian-crossing --budget 20 --out images      what cameras see of tests, labelled
+  paracosm-fuzz trace paracosm-out                   requirements by tests, and the untested rest
+  paracosm-fuzz monitor trace-17.csv --spec 'always (car.speed < 17)'       evaluate formulas on a recorded trace
+  paracosm-fuzz record pedestrian-crossing --budget 20 --out images      labelled camera images of tests
   paracosm-fuzz list                                 scenarios, strategies, drivers
 
-Exit status: 0 done, 1 a violation was found (with --fail-on-violation), 2 wrong use, bad input or a failed run.";
+Exit status: 0 done; 1 a requirement was violated (with --fail-on-violation); 2 wrong use, bad input or a failed run.";
 
 const REPLAYS: &str = "\
 Examples:
@@ -32,16 +32,16 @@ Examples:
   paracosm-fuzz replay paracosm-out 17 --camera front-17.mp4
   paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json
   paracosm-fuzz replay regressions/*.json                      the failures are still the same
-  paracosm-fuzz replay regressions/*.json --fail-on-violation  in CI: what was mended stays so
-  paracosm-fuzz replay regressions/*.json --junit report.xml   and a report that CI systems read
+  paracosm-fuzz replay regressions/*.json --fail-on-violation  in CI: mended failures stay mended
+  paracosm-fuzz replay regressions/*.json --junit report.xml   also writes a report that CI systems read
 
-A regression file says how its test is to end: `\"expect\": \"fail\"` as it is written, `\"pass\"`
-once you have mended what failed and edited the file. Every file is run, and a line says what
-became of it and whether that was expected.
+A regression file says how its test should end. `shrink --save` writes `\"expect\": \"fail\"`. After you
+have mended the failure, change it to `\"pass\"`. Every file is run. A line for each file says how
+its test ended, and whether this was expected.
 
-Exit status: 0 all tests were run; 1 with --fail-on-violation, a test violated a requirement,
-expected or not; 2 a file cannot be run, a test broke, or one that is to fail had another trace
-than the same version of the software recorded.";
+Exit status: 0 all tests were run; 1 a test violated a requirement, expected or not (with
+--fail-on-violation); 2 a file cannot be run, a test broke, or a test that should fail had another
+trace than the trace that the same version of the software recorded.";
 
 /// Tests a driver over the open parameters of a scenario.
 #[derive(Debug, Parser)]
@@ -59,26 +59,26 @@ pub(super) struct Command {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
-    /// Run one campaign; what is done when no command is named
+    /// Run a campaign; this is the default command
     #[command(after_help = EXAMPLES)]
     Run(Box<run::Options>),
-    /// Estimate how likely a test fails, when parameters are distributed as you say
+    /// Estimate the probability that a test fails, for given distributions of the parameters
     #[command(after_help = likelihood::EXAMPLES)]
     Likelihood(likelihood::Options),
-    /// Hold strategies against each other: how soon each finds a failure, and how much of where tests fail it knows
+    /// Compare strategies: how soon each finds a failure, and how well each knows where tests fail
     #[command(after_help = bench::EXAMPLES)]
     Bench(Box<bench::Options>),
-    /// Show scenarios, strategies and drivers with their parameters
+    /// Show everything that has a name: scenarios, strategies, drivers, measures, sensors, camera settings
     #[command(after_help = "Example:\n  paracosm-fuzz list")]
     List(list::Options),
-    /// Show a scenario: its parameters and requirements, the graph of its streams, or its world from above
+    /// Show a scenario: its parameters and requirements, its graph of streams, or its world from above
     #[command(
         after_help = "Examples:\n  paracosm-fuzz describe pedestrian-crossing --dot | dot -Tsvg > streams.svg\n  \
                             paracosm-fuzz describe pedestrian-crossing --set friction=0.3 --open lanes\n  \
                             paracosm-fuzz describe pedestrian-crossing --draw world.svg"
     )]
     Describe(Box<describe::Options>),
-    /// Draw the failure map of a campaign again, over other parameters: its tests, and how probable a failure is
+    /// Draw the failure map of a campaign again, over other parameters
     #[command(after_help = "Examples:\n  paracosm-fuzz map paracosm-out --x speed --y friction\n  \
                             paracosm-fuzz map paracosm-out --x distance --y friction --out slippery.svg")]
     Map(map::Options),
@@ -92,19 +92,19 @@ enum Verb {
     #[command(after_help = "Examples:\n  paracosm-fuzz shrink paracosm-out 17\n  \
                             paracosm-fuzz shrink paracosm-out 17 --save regressions/late-brake.json")]
     Shrink(shrink::Options),
-    /// Run each failing test again with the reference drivers: who could have avoided it
+    /// Run each failing test again with reference drivers, to see which driver avoids the failure
     #[command(after_help = blame::EXAMPLES)]
     Blame(blame::Options),
-    /// Show requirement by test: what passed, what failed, and what is untested
+    /// Show for each requirement which tests passed and failed, and what is untested
     #[command(after_help = trace::EXAMPLES)]
     Trace(trace::Options),
-    /// Ask formulas of a recorded trace, or of one that is being recorded
+    /// Evaluate formulas on a trace, also while it is being recorded
     #[command(after_help = monitor::EXAMPLES)]
     Monitor(monitor::Options),
-    /// Run a campaign and record what cameras see of its tests: images, masks, depths, boxes and controls
+    /// Run a campaign and record its tests with cameras: images, masks, depths, boxes and controls
     #[command(after_help = record::EXAMPLES)]
     Record(Box<record::Options>),
-    /// Show what this machine draws with, and how fast
+    /// Show the graphics adapter of this machine, and how fast it draws
     #[command(after_help = "Example:\n  paracosm-fuzz doctor")]
     Doctor(doctor::Options),
 }

@@ -1,19 +1,19 @@
-//! Ctrl-C while a search runs that has something to show at any moment: it ends the search, not the program.
+//! Ctrl-C during a search that has a result at any moment: it ends the search, not the program.
 
 use crate::coverage::Deadline;
 use std::process;
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether the search is to stop. Where none runs it is set, and Ctrl-C ends the program.
+/// True if the search should stop. It is also true while no search runs: then Ctrl-C ends the program.
 static STOPPED: AtomicBool = AtomicBool::new(true);
 
 /// The exit status of a program that an interrupt ended, as shells count it: 128 and the number of SIGINT.
 const INTERRUPTED: i32 = 130;
 
-/// A search that the first Ctrl-C stops; the next one ends the program.
+/// A search that the first Ctrl-C stops. The next Ctrl-C ends the program.
 pub(super) struct Interruptible {
-    /// When the search has to come back with what it has.
+    /// The deadline at which the search returns its best result so far.
     pub deadline: Deadline,
 }
 
@@ -23,7 +23,7 @@ impl Interruptible {
         static HANDLER: Once = Once::new();
         STOPPED.store(false, Ordering::Relaxed);
         HANDLER.call_once(|| {
-            // Where there can be no handler, an interrupt ends the program at once.
+            // Without a handler, an interrupt ends the program at once.
             let _ = ctrlc::set_handler(|| {
                 if STOPPED.swap(true, Ordering::Relaxed) {
                     process::exit(INTERRUPTED);
@@ -33,7 +33,7 @@ impl Interruptible {
         Self { deadline: deadline.or_when(&STOPPED) }
     }
 
-    /// Ends the search: whether it was interrupted.
+    /// Ends the search. Returns true if the search was interrupted.
     pub fn end(self) -> bool {
         STOPPED.swap(true, Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! `paracosm-fuzz likelihood`: how likely a test fails.
+//! `paracosm-fuzz likelihood`: estimates the probability that a test fails.
 
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::progress::bar;
@@ -17,20 +17,20 @@ Examples:
   paracosm-fuzz likelihood --distribution speed=normal:1.4,0.3 --distribution distance=beta:2,5
   paracosm-fuzz likelihood --open lanes --distribution lanes=weights:7,2,1 --budget 5000
   paracosm-fuzz likelihood --method subset --budget 20000 --set driver.ttc=3
-  paracosm-fuzz likelihood --system 'python3 model.py' --space SPACE.toml        its parameters say how they are distributed
+  paracosm-fuzz likelihood --system 'python3 model.py' --space SPACE.toml        SPACE.toml has the distributions
 
-monte-carlo counts independent tests; its interval holds whatever the system does.
-qmc spreads tests evenly: its interval is narrower where few parameters decide.
-subset goes down to rare failures level by level, where monte-carlo finds next to none in thousands of tests.
-All are estimates: none of them shows that a system does not fail.";
+monte-carlo counts independent tests. Its interval is valid for every system.
+qmc spreads tests evenly. Its interval is narrower if few parameters decide.
+subset reaches rare failures level by level, when monte-carlo finds almost no failure in thousands of tests.
+All methods estimate. No method proves that a system does not fail.";
 
-/// What `likelihood` takes.
+/// The options of `likelihood`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     #[command(flatten)]
     subject: Subject,
-    /// How a parameter is distributed over its domain: uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or of a
-    /// choice weights:W,W,.. in the order of its values [default: what SPACE.toml says, or uniform]
+    /// The distribution of a parameter over its domain: uniform, beta:A,B, normal:MEAN,DEVIATION, triangular:MODE, or for a
+    /// choice weights:W,W,.. in the order of its values [default: the distribution in SPACE.toml, or uniform]
     #[arg(long, value_name = "NAME=DISTRIBUTION")]
     distribution: Vec<String>,
     /// How the probability is estimated: monte-carlo, qmc or subset
@@ -39,7 +39,7 @@ pub(super) struct Options {
     /// How many tests to run at most
     #[arg(long, value_name = "N", default_value_t = 1000)]
     budget: usize,
-    /// How often the interval is to cover the truth
+    /// The probability that the interval contains the true value
     #[arg(long, value_name = "C", default_value_t = 0.95)]
     confidence: f64,
     /// The source of all chance
@@ -48,12 +48,12 @@ pub(super) struct Options {
     /// How many tests run at a time; results do not depend on it [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// How to print it [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
 
-/// The answer with what it is about, for programs.
+/// The estimate with the distributions of the parameters, as JSON.
 #[derive(Serialize)]
 struct Report<'a> {
     #[serde(flatten)]
@@ -124,12 +124,12 @@ fn sentence(likelihood: &Likelihood) -> String {
 
 fn table(likelihood: &Likelihood, study: &Study) -> String {
     let mut table = Table::default();
-    table.heading(&format!("{}, if parameters are distributed so:", sentence(likelihood)));
+    table.heading(&format!("{}, for these distributions:", sentence(likelihood)));
     for parameter in study.space().parameters() {
         table.row(&parameter.name, &distribution(parameter));
     }
     let Likelihood { method, interval, evaluations, failures, unjudged, notes, .. } = likelihood;
-    table.heading("How it was found:");
+    table.heading("How the probability was estimated:");
     table.row("method", method.name());
     table.row("interval", interval);
     let failed = format!("{}, of which {failures} failed", plural(*evaluations, "test"));
@@ -141,7 +141,7 @@ fn table(likelihood: &Likelihood, study: &Study) -> String {
     table.finish()
 }
 
-/// How a parameter is distributed over what.
+/// Describes the domain and the distribution of a parameter.
 fn distribution(parameter: &Parameter) -> String {
     let unit = parameter.unit.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
     let each = if parameter.signal.is_some() { ", each of its coordinates" } else { "" };
@@ -162,7 +162,7 @@ fn distribution(parameter: &Parameter) -> String {
     }
 }
 
-/// As many digits as an estimate has at most.
+/// Rounds an estimate to three digits.
 fn three_digits(share: f64) -> String {
     let rounded = format!("{share:.2e}");
     let number: f64 = rounded.parse().expect("it was written so");

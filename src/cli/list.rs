@@ -1,4 +1,4 @@
-//! `paracosm-fuzz list`: everything that can be chosen by name.
+//! `paracosm-fuzz list`: shows everything that has a name.
 
 mod markdown;
 
@@ -16,13 +16,13 @@ use serde_json::json;
 use std::fmt::Write;
 use std::io::{self, IsTerminal};
 
-/// What `list` takes.
+/// The options of `list`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// List only these
+    /// The kind to list [default: all kinds]
     #[arg(value_enum)]
     kind: Option<ListKind>,
-    /// How to print it [default: table on a terminal, json elsewhere]
+    /// How to print the list [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Form>,
 }
@@ -38,20 +38,20 @@ enum Form {
     Markdown,
 }
 
-/// What can be listed on its own.
+/// The kinds of named things.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum ListKind {
     /// Worlds with their parameters and requirements
     Scenarios,
-    /// How tests are chosen
+    /// Strategies, which choose tests
     Strategies,
-    /// The systems under test, with their settings
+    /// Drivers, which are systems under test, with their settings
     Drivers,
-    /// How well tests cover a space
+    /// Measures of how well tests cover a space
     Measures,
-    /// What a driver can perceive with
+    /// Sensors of drivers
     Sensors,
-    /// The numbers that describe a camera
+    /// Settings of cameras
     Cameras,
 }
 
@@ -124,17 +124,17 @@ fn drivers(lists: &Lists, text: &mut String) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How wide the columns of a scenario's parameters are at least: names, domains and units.
+/// The least widths of the columns of a scenario's parameters: names, domains and units.
 const COLUMNS: [usize; 3] = [20, 12, 6];
 
-/// The same where something is longer.
+/// Returns the widths of the columns for this scenario.
 fn widths(declaration: &Declaration) -> [usize; 3] {
     let longest = |of: &dyn Fn(&Declared) -> usize| declaration.parameters.iter().map(of).max().unwrap_or(0);
     let width = |i: usize| COLUMNS[i].max(1 + longest(&|declared| scenario_words(declared)[i].chars().count()));
     [0, 1, 2].map(width)
 }
 
-/// A parameter in words: its name, its domain, its unit, and its value unless it is opened.
+/// Describes a parameter: its name, its domain, its unit, and its value if it is not opened.
 fn scenario_words(declared: &Declared) -> [String; 4] {
     let Parameter { name, domain, unit, .. } = &declared.parameter;
     let nominal = if declared.open { "open".to_owned() } else { value_words(&declared.nominal()) };

@@ -1,4 +1,4 @@
-//! `paracosm-fuzz map`: a failure map again, over other parameters; and the map that every campaign ends with.
+//! `paracosm-fuzz map`: draws the failure map of a campaign again, over other parameters.
 
 use super::draw::{FileKind, Target};
 use super::output::{Format, Table, json, percent};
@@ -13,7 +13,7 @@ use paracosm_report::{FailureMap, Picture};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// What `map` takes.
+/// The options of `map`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     /// The folder of the campaign
@@ -23,18 +23,18 @@ pub(super) struct Options {
     /// Write to this file, .svg, .png or .csv [default: failure-map.svg, .png and .csv in DIR]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// How to print what the map says [default: table on a terminal, json elsewhere]
+    /// How to print the numbers of the map [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
 
-/// What the axes of a map are to be.
+/// The options for the axes of a map.
 #[derive(Debug, Args)]
 pub(super) struct Axes {
-    /// The parameter along the horizontal axis [default: the first continuous one that is open]
+    /// The parameter of the horizontal axis [default: the first open continuous parameter]
     #[arg(long, value_name = "NAME")]
     x: Option<String>,
-    /// The parameter along the vertical axis [default: the next one]
+    /// The parameter of the vertical axis [default: the next open continuous parameter]
     #[arg(long, value_name = "NAME")]
     y: Option<String>,
 }
@@ -44,7 +44,7 @@ impl Options {
         let kinds = [FileKind::Svg, FileKind::Png, FileKind::Csv];
         let target = self.out.as_ref().map(|file| Target::new("--out", file, &kinds)).transpose()?;
         let log = Log::read(&self.dir, &crate::catalogue())?;
-        let nowhere = "a map needs two continuous parameters, and the campaign varies fewer";
+        let nowhere = "a map needs two open continuous parameters, and this campaign has fewer";
         let [x, y] = self.axes.find(log.study())?.ok_or_else(|| usage(nowhere.into()))?;
         let map = FailureMap::over(&log, [&x, &y])?;
         match &target {
@@ -64,7 +64,9 @@ impl Options {
                 table.heading(&format!("{}: {}", map.title, map.note));
                 table.row("axes", &format!("{} and {}", map.x.label, map.y.label));
                 match estimate {
-                    None => table.row("estimated failing", "unknown: that takes a test that fails and one that passes"),
+                    None => {
+                        table.row("estimated failing", "unknown: an estimate needs a failing test and a passing test")
+                    }
                     Some(estimate) => {
                         table.row("estimated failing", &percent(estimate.mean()));
                         if estimate.invalid() > 0.0 {
@@ -91,11 +93,11 @@ impl Options {
 }
 
 impl Axes {
-    /// The names that were given, the first continuous coordinates in place of those that were not; `None` where there are
-    /// too few of these.
+    /// Returns the names of both axes. The first free continuous coordinates take the place of names that were not given. Returns
+    /// `None` if the study has too few continuous coordinates.
     ///
     /// # Errors
-    /// A name is none of a continuous coordinate, or both are one.
+    /// A name does not belong to a continuous coordinate, or both names are the same.
     pub fn find(&self, study: &Study) -> Result<Option<[String; 2]>, Error> {
         let given = [&self.x, &self.y];
         let coordinates = study.space().continuous().map(|coordinate| coordinate.name());
@@ -107,10 +109,10 @@ impl Axes {
     }
 }
 
-/// How much of a map is decided, in words.
+/// Says in words how much of a map is decided.
 fn decided(share: f64) -> String {
     if share == 0.0 {
-        return "nothing of the map: that takes more tests".to_owned();
+        return "nothing of the map: more tests are needed".to_owned();
     }
     format!("{} of the map, by this estimate", percent(share))
 }
@@ -119,7 +121,7 @@ fn contents(map: &FailureMap, kind: FileKind) -> Result<Vec<u8>, Failure> {
     match kind {
         FileKind::Csv => {
             let estimate = map.estimate.as_ref();
-            Ok(estimate.ok_or("nothing is estimated: that takes a test that fails and one that passes")?.csv())
+            Ok(estimate.ok_or("nothing is estimated: an estimate needs a failing test and a passing test")?.csv())
         }
         FileKind::Png => Picture::of(map.clone()).png(),
         FileKind::Svg | FileKind::Gif => Ok(Picture::of(map.clone()).svg()?.into_bytes()),

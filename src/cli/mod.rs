@@ -1,7 +1,7 @@
-//! The two programs, as the library sees them: arguments in, an exit status out.
+//! The two programs: they read arguments, call the library, print the result and return an exit status.
 //!
-//! Results go to standard output, everything else to standard error. The exit status is 0 when done, 1 when a
-//! violation was found and that was asked about, 2 when the command, its input or the run was wrong.
+//! Results go to standard output, everything else to standard error. The exit status is 0 if the command has done its work, 1 if a
+//! requirement was violated and the user asked about violations, and 2 if the command, its input or the run was wrong.
 
 mod arguments;
 mod bench;
@@ -42,25 +42,25 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
-/// How much is said on standard error.
+/// The options that decide how much is printed to standard error.
 #[derive(Debug, Clone, Copy, Args)]
 struct Verbosity {
-    /// Say nothing but errors
+    /// Print nothing but errors to standard error
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Say more on standard error
+    /// Print more to standard error
     #[arg(short, long, global = true)]
     verbose: bool,
 }
 
 impl Verbosity {
-    /// Says what a reader should know of a file.
+    /// Prints the notes of a file.
     fn noted(self, file: SpaceFile) -> SpaceFile {
         file.notes.iter().for_each(|note| self.note(note));
         file
     }
 
-    /// Says something that is no result.
+    /// Prints a note, which is no result.
     fn note(self, message: impl Display) {
         if !self.quiet {
             complain(&message);
@@ -68,34 +68,34 @@ impl Verbosity {
     }
 }
 
-/// What a command that did its work found.
+/// The finding of a command that has done its work.
 enum Status {
     Nothing,
     Violation,
 }
 
-/// Why a command could not do its work, in words.
+/// The reason why a command could not do its work.
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// A command that makes no sense as it is.
+/// An error in the arguments of a command, in words.
 #[derive(Debug, Error)]
 #[error("{0}")]
 struct Usage(String);
 
 impl Reason for Usage {}
 
-/// The error of a command that makes no sense as it is.
+/// Makes an error about the arguments of a command.
 fn usage(message: String) -> Error {
     Usage(message).into()
 }
 
-/// The program `paracosm-fuzz`.
+/// Runs the program `paracosm-fuzz`.
 pub fn fuzz() -> ExitCode {
     quiet_workers();
     exit(arguments::parse::<fuzz::Command>().execute())
 }
 
-/// The program `paracosm-cover`.
+/// Runs the program `paracosm-cover`.
 pub fn cover() -> ExitCode {
     exit(arguments::parse::<cover::Command>().execute().map(|()| Status::Nothing))
 }
@@ -104,7 +104,7 @@ fn exit(result: Result<Status, Failure>) -> ExitCode {
     match result {
         Ok(Status::Nothing) => ExitCode::SUCCESS,
         Ok(Status::Violation) => ExitCode::from(1),
-        // Somebody closed the pipe that we print to, as `head` does: no reason to complain.
+        // The reader closed the pipe, as `head` does. This is no error.
         Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
             ExitCode::SUCCESS
         }
@@ -115,12 +115,12 @@ fn exit(result: Result<Status, Failure>) -> ExitCode {
     }
 }
 
-/// Says something on standard error; where nobody listens, nothing is said.
+/// Prints a message to standard error. A closed standard error is no error.
 fn complain(message: &impl Display) {
     let _ = writeln!(io::stderr(), "{message}");
 }
 
-/// Lets an interrupt set this; where there can be no handler, it ends the program at once, which logs survive as well.
+/// Lets an interrupt set `stop`. Without a handler an interrupt ends the program at once; logs survive this, too.
 fn on_interrupt(stop: Arc<AtomicBool>) {
     let _ = ctrlc::set_handler(move || stop.store(true, Ordering::Relaxed));
 }
@@ -132,7 +132,7 @@ fn print(text: &str) -> Result<(), Failure> {
     Ok(stdout.flush()?)
 }
 
-/// Keeps panics of tests, which are recorded as trials, off the terminal.
+/// Keeps panics of tests off the terminal. They are recorded as trials.
 fn quiet_workers() {
     let default = panic::take_hook();
     panic::set_hook(Box::new(move |info| {

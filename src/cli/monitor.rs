@@ -1,4 +1,4 @@
-//! `paracosm-fuzz monitor`: formulas asked of a trace as it comes.
+//! `paracosm-fuzz monitor`: evaluates formulas on a trace, sample by sample.
 
 use super::output::{Format, Table, digits, json, plural};
 use super::usage;
@@ -17,40 +17,40 @@ Examples:
   ./vehicle --log-csv | paracosm-fuzz monitor --spec 'always (speed < 30)' --stop-when-decided
   paracosm-fuzz monitor trace-17.csv --dense --spec 'always[0,0.25] (car.speed > 1)'
 
-A trace is CSV: a header, a column `time` in seconds, evenly spaced from 0 on, and one for each signal. Standard
-error says what a formula comes to at the first sample at which that is known, whatever follows.
+A trace is CSV with a header: a column `time` in seconds, evenly spaced from 0 on, and a column for each signal. As soon as
+a formula is decided, whatever follows, a line on standard error says so.
 
-Exit status: 0 done, 1 a formula is violated (with --fail-on-violation), 2 wrong use or bad input.";
+Exit status: 0 done; 1 a formula is violated (with --fail-on-violation); 2 wrong use or bad input.";
 
-/// What `monitor` takes.
+/// The options of `monitor`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     /// The trace; `-` is standard input
     #[arg(default_value = "-", value_name = "TRACE.csv")]
     trace: PathBuf,
-    /// Ask a formula of it; several times for several
+    /// A formula to evaluate; the option can be repeated
     #[arg(long, value_name = "FORMULA", required = true)]
     spec: Vec<String>,
-    /// Take signals for straight lines from sample to sample, and the formulas to speak of every instant
+    /// Evaluate formulas in dense time: signals are straight lines between samples, and formulas are about every instant
     #[arg(long)]
     dense: bool,
-    /// End when all formulas are decided, and leave the rest of the trace unread
+    /// End when all formulas are decided, without reading the rest of the trace
     #[arg(long, conflicts_with = "dense")]
     stop_when_decided: bool,
     /// Exit with status 1 if a formula is violated
     #[arg(long)]
     fail_on_violation: bool,
-    /// How to print it [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
 
-/// A formula with what is known of it.
+/// A formula with its verdict so far.
 struct Asked {
     id: String,
     formula: Formula,
     monitor: Option<Monitor>,
-    /// When it was decided, if that was before the end.
+    /// The time at which the formula was decided, if this was before the end of the trace.
     decided_at: Option<f64>,
 }
 
@@ -93,7 +93,7 @@ impl Options {
         if self.dense { Semantics::Dense } else { Semantics::Sampled }
     }
 
-    /// Checks the formulas against the signals, and lets monitors follow those that can be followed.
+    /// Checks the formulas against the signals, and starts a monitor for each formula in sampled time.
     fn begin(&self, asked: &mut [Asked], trace: &Trace) -> Result<(), Error> {
         for (asked, text) in asked.iter_mut().zip(&self.spec) {
             let wrong = |error: String| usage(format!("--spec {text}: {error}"));
@@ -124,7 +124,7 @@ impl Options {
             let open = if lower == upper { String::new() } else { format!(", open from {lower} to {upper}") };
             table.row("  robustness", &format!("{}{open}", digits(*robustness)));
             if let Some(Cause { time, part, .. }) = cause {
-                table.row("  because of", &format!("`{part}` at {} s", digits(*time)));
+                table.row("  cause", &format!("`{part}` at {} s", digits(*time)));
             }
         }
         table.finish()
@@ -145,7 +145,7 @@ impl Options {
 }
 
 impl Asked {
-    /// Learns a sample.
+    /// Takes the next sample.
     fn step(&mut self, row: &[f64], time: f64, verbosity: Verbosity) -> Result<(), Error> {
         let Some(monitor) = &mut self.monitor else { return Ok(()) };
         let truth = monitor.step(row).map_err(|error| usage(format!("{}: {error}", self.id)))?;

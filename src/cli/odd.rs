@@ -1,10 +1,10 @@
-//! What of the operational design domain tests are about, in words.
+//! Describes in words which part of the operational design domain the tests cover.
 
 use super::output::domain_words;
 use crate::space::Parameter;
 use paracosm_campaign::Study;
 
-/// A line for each attribute, and one for open parameters that no attribute names; nothing where nobody has said anything.
+/// Returns a line for each attribute, and a line for open parameters that no attribute names. Empty if no design domain is stated.
 pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
     let Some(odd) = study.odd() else { return Vec::new() };
     let mut lines: Vec<(String, String)> = Vec::new();
@@ -20,12 +20,12 @@ pub(super) fn lines(study: &Study) -> Vec<(String, String)> {
     let named = |parameter: &&Parameter| odd.iter().any(|(_, attribute)| attribute.varied.contains(&parameter.name));
     let others: Vec<String> = study.space().parameters().iter().filter(|p| !named(p)).map(range).collect();
     if !others.is_empty() {
-        lines.push(("of no attribute".to_owned(), format!("varied by {}", others.join(", "))));
+        lines.push(("no attribute".to_owned(), format!("varied by {}", others.join(", "))));
     }
     lines
 }
 
-/// A parameter with its domain.
+/// Describes a parameter with its domain.
 fn range(parameter: &Parameter) -> String {
     let unit = parameter.unit.as_deref().unwrap_or_default();
     format!("{} {} {unit}", parameter.name, domain_words(&parameter.domain)).trim_end().to_owned()

@@ -1,13 +1,14 @@
-//! How results are printed: as a table for people, as JSON for programs.
+//! Prints results: as a table for people, as JSON for programs.
 
 use crate::coverage::Bracket;
+pub(super) use crate::space::plural;
 use crate::space::{Domain, Record, Value};
 use clap::ValueEnum;
 use paracosm_analysis::estimate::{Continuous, Coverage, Discrete, KEpsilon, Measured, Strength};
 use std::fmt::Write;
 use std::io::IsTerminal;
 
-/// The form of what is printed.
+/// The form of a printed result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
     /// For people
@@ -17,20 +18,20 @@ pub(super) enum Format {
 }
 
 impl Format {
-    /// What was asked for; otherwise a table on a terminal and JSON elsewhere.
+    /// Returns the form that was asked for, or else a table on a terminal and JSON elsewhere.
     pub fn or_fitting(asked: Option<Self>) -> Self {
         asked.unwrap_or(if std::io::stdout().is_terminal() { Self::Table } else { Self::Json })
     }
 }
 
-/// A value as JSON on lines of its own.
+/// Returns a value as indented JSON.
 pub(super) fn json(value: &impl serde::Serialize) -> String {
     let mut text = serde_json::to_string_pretty(value).expect("results are always JSON");
     text.push('\n');
     text
 }
 
-/// Names on the left, values on the right.
+/// A table with names on the left and values on the right.
 #[derive(Default)]
 pub(super) struct Table {
     lines: Vec<Line>,
@@ -41,7 +42,7 @@ enum Line {
     Row(String, String),
 }
 
-/// Where values begin, unless a name is longer.
+/// The column at which values begin, if no name is longer.
 const LABEL: usize = 22;
 
 impl Table {
@@ -53,7 +54,7 @@ impl Table {
         self.lines.push(Line::Row(label.to_owned(), value.to_owned()));
     }
 
-    /// A row that has columns of its own.
+    /// Adds a line that has its own columns.
     pub fn line(&mut self, text: &str) {
         self.lines.push(Line::Text(format!("  {text}")));
     }
@@ -74,7 +75,7 @@ impl Table {
         text
     }
 
-    /// The rows of a coverage report.
+    /// Adds the rows of a coverage report.
     pub fn coverage(&mut self, coverage: &Coverage) {
         if let Some(continuous) = &coverage.continuous {
             self.continuous(continuous);
@@ -83,7 +84,8 @@ impl Table {
             self.discrete(discrete);
         }
         if coverage.violating > 0 {
-            self.row("violate a constraint", &format!("{} tests, which cover nothing", coverage.violating));
+            let tests = plural(coverage.violating, "test");
+            self.row("violate constraints", &format!("{tests}; these tests cover nothing"));
         }
         if let Some(KEpsilon { k, complete, epsilon_over_covered_rows, epsilon_at_least, .. }) = &coverage.k_epsilon {
             let worst = Bracket { lower: *epsilon_at_least, upper: *epsilon_over_covered_rows };
@@ -92,7 +94,7 @@ impl Table {
                 (true, false) => {
                     format!("({k}, {})-covering, perhaps better: {}", digits(worst.upper), bracket(&worst))
                 }
-                (false, _) => format!("no: {k}-wise incomplete; over the rows {}", bracket(&worst)),
+                (false, _) => format!("no: {k}-wise incomplete; epsilon over the covered rows {}", bracket(&worst)),
             };
             self.row("(k, epsilon)", &value);
         }
@@ -112,7 +114,10 @@ impl Table {
             let label = measure.descriptor().label;
             match measured {
                 Measured::Number(number) => {
-                    self.row(label, &number.map_or("unknown: no tests, or no time".into(), digits));
+                    self.row(
+                        label,
+                        &number.map_or("unknown: no tests, or the time limit ended the search".into(), digits),
+                    );
                 }
                 Measured::Bracket(found) => self.row(label, &bracket(found)),
                 Measured::Hole(hole) => {
@@ -144,7 +149,7 @@ impl Table {
         }
     }
 
-    /// So many combinations that no test contains, of which some are listed.
+    /// Adds rows for combinations that no test contains: the listed combinations, and the number of the others.
     fn missing(&mut self, all: u64, listed: &[Record<Value>]) {
         for (i, tuple) in listed.iter().enumerate() {
             let values: Vec<String> = tuple.iter().map(|(name, value)| format!("{name} {value}")).collect();
@@ -157,12 +162,12 @@ impl Table {
     }
 }
 
-/// One side of a box: a parameter from and to.
+/// Describes a side of a box: a parameter with its range.
 fn side((name, [lo, hi]): (&str, &[f64; 2])) -> String {
     format!("{name} {}..{}", digits(*lo), digits(*hi))
 }
 
-/// An exact value as one number, a bracket as two.
+/// Prints an exact value as one number, and a bracket as two numbers.
 pub(super) fn bracket(bracket: &Bracket) -> String {
     if bracket.is_exact() {
         digits(bracket.lower)
@@ -171,7 +176,7 @@ pub(super) fn bracket(bracket: &Bracket) -> String {
     }
 }
 
-/// A bracket where there is little room.
+/// Prints a bracket in little room.
 pub(super) fn short_bracket(bracket: &Bracket) -> String {
     if bracket.is_exact() {
         digits(bracket.lower)
@@ -180,17 +185,12 @@ pub(super) fn short_bracket(bracket: &Bracket) -> String {
     }
 }
 
-/// A share in percent with one decimal.
+/// Prints a share in percent with one decimal.
 pub(super) fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// How many there are of something.
-pub(super) fn plural(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
-/// Five significant digits: enough to compare, few enough to read. Very small and large numbers get an exponent.
+/// Prints a number with five significant digits. Very small and large numbers get an exponent.
 pub(super) fn digits(number: f64) -> String {
     let scientific = format!("{number:.4e}");
     let exponent: i32 = scientific.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
@@ -205,7 +205,7 @@ pub(super) fn digits(number: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// The domain of a parameter as `--open` takes it.
+/// Prints the domain of a parameter as `--open` takes it.
 pub(super) fn domain_words(domain: &Domain) -> String {
     match domain {
         Domain::Interval { lo, hi } => format!("{lo}..{hi}"),
@@ -213,7 +213,7 @@ pub(super) fn domain_words(domain: &Domain) -> String {
     }
 }
 
-/// A value of a parameter, its numbers with five digits; of a long list no more than begins and ends it.
+/// Prints a value of a parameter, its numbers with five digits. A long list is shortened to its first values and its last value.
 pub(super) fn value_words(value: &Value) -> String {
     let scalar = |value: &Value| value.number().map_or_else(|| value.to_string(), digits);
     match value {

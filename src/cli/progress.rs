@@ -9,7 +9,7 @@ use paracosm_analysis::{LiveCoverage, Summary};
 use paracosm_campaign::{Error, Extension, Observer, Study, Trial};
 use std::ops::ControlFlow;
 
-/// A bar of so many tests, hidden where nothing is to be said.
+/// Makes a progress bar for `tests` tests; `--quiet` hides the bar.
 pub(super) fn bar(verbosity: Verbosity, tests: usize) -> ProgressBar {
     let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new(tests as u64) };
     let template = "{bar:40.blue/white} {human_pos}/{human_len} tests  {rate} tests/s  {eta} left  {msg}";
@@ -24,7 +24,7 @@ pub(super) struct Progress<'a> {
     study: &'a Study,
     pub bar: ProgressBar,
     pub summary: Summary,
-    /// Whether the campaign has begun, so that its folder is there.
+    /// True if the campaign has begun, so that its folder exists.
     pub begun: bool,
     coverage: Option<LiveCoverage>,
     quiet: bool,
@@ -44,7 +44,7 @@ impl<'a> Progress<'a> {
 
     fn count(&mut self, trial: &Trial) {
         self.summary.add(trial);
-        // Where nobody sees the bar, it need not be known.
+        // A hidden bar needs no coverage.
         if trial.covers()
             && !self.bar.is_hidden()
             && let Some(coverage) = &mut self.coverage
@@ -64,7 +64,7 @@ impl<'a> Progress<'a> {
         let combinations = combinations.unwrap_or_default();
         self.bar.set_message(format!("{} fail{dispersion}{combinations}", self.summary.count(Verdict::Fail)));
         self.bar.inc(1);
-        // What is wrong with one test may be wrong with all, and whoever looks on can stop them.
+        // The error of a test may be the error of all tests, and a user who sees it can stop the campaign.
         let is_first = trial.verdict == Verdict::Error && self.summary.count(Verdict::Error) == 1;
         if let Some(error) = trial.error().filter(|_| is_first && !self.verbose && !self.quiet) {
             self.bar.suspend(|| complain(&format!("test {} ended in an error: {error}", trial.index)));
@@ -91,7 +91,7 @@ impl Observer for Progress<'_> {
     fn known(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Error> {
         self.count(trial);
         self.bar.inc(1);
-        // The rate is that of this session, not of what was there before.
+        // The rate counts tests of this session only.
         self.bar.reset_eta();
         Ok(ControlFlow::Continue(()))
     }

@@ -1,4 +1,4 @@
-//! `paracosm-fuzz record`: a campaign, and what cameras see of its tests.
+//! `paracosm-fuzz record`: runs a campaign, and records its tests with cameras.
 
 use super::output::plural;
 use super::run::{self, Conducted};
@@ -17,35 +17,35 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   paracosm-fuzz record pedestrian-crossing --strategy halton --budget 20 --out images
   paracosm-fuzz record pedestrian-crossing --outputs rgb,depth --colours 7 --out images
-  paracosm-fuzz record --print-cameras > cameras.toml       the cameras, to be changed ..
-  paracosm-fuzz record pedestrian-crossing --cameras cameras.toml     .. and used
+  paracosm-fuzz record --print-cameras > cameras.toml       a file of cameras to edit
+  paracosm-fuzz record pedestrian-crossing --cameras cameras.toml     use the edited file
 
-Beside the files of the campaign, the folder 000017 of --out has for test 17, and for each camera, here `front`:
+Beside the files of the campaign, --out gets a folder for each test. The folder 000017 of test 17 has for a camera `front`:
   front/rgb/000003.png       colours of its fourth image, in sRGB
   front/semantic/000003.png  the class of each pixel, numbered as CARLA numbers them
-  front/depth/000003.png     metres along the camera's axis times 256, 16 bits; 0 where there is none (as in KITTI)
-  front/instance/000003.png  which thing it is, 16 bits; 0 for what is no thing
-  annotations.json           boxes in the COCO format, with occlusion and boxes in space
+  front/depth/000003.png     metres along the camera's axis times 256, 16 bits; 0 if the ray hits nothing (as in KITTI)
+  front/instance/000003.png  the number of the thing, 16 bits; 0 for a pixel without a thing
+  annotations.json           boxes in the COCO format, with occlusion and boxes in 3D
   calibration.json           the cameras' matrices and where they are mounted
-  controls.csv               for each image its time, pose and speed, and what the driver answered to it
-and annotations.json beside these folders has the boxes of all tests as one set.";
+  controls.csv               for each image its time, pose and speed, and the driver's answer
+The file annotations.json beside these folders has the boxes of all tests as one dataset.";
 
-/// What `record` takes.
+/// The options of `record`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     #[command(flatten)]
     run: run::Options,
-    /// The cameras on the car under test [default: what --print-cameras prints]. A setting that is a range, "LO..HI", or a
-    /// list, "A,B,C", is a parameter of the tests, called camera.NAME.SETTING
+    /// The cameras on the ego vehicle [default: the file of --print-cameras]. A setting that is a range, "LO..HI", or a
+    /// list, "A,B,C", becomes a parameter of the tests, named camera.NAME.SETTING
     #[arg(long, value_name = "CAMERAS.toml")]
     cameras: Option<PathBuf>,
-    /// Print the file of the default camera, with an explanation of everything, and do nothing else
+    /// Only print the file of the default camera, with an explanation of every setting
     #[arg(long)]
     print_cameras: bool,
-    /// What to keep, some of: rgb, semantic, depth, instance, boxes
+    /// The outputs to write, some of: rgb, semantic, depth, instance, boxes
     #[arg(long, value_name = "LIST", default_value = "rgb,semantic,depth,instance,boxes")]
     outputs: String,
-    /// Paint the cars and people of every test in colours drawn from this seed: what should not matter to a driver
+    /// Paint the cars and people of every test in colours drawn from this seed; colours should not matter to a driver
     #[arg(long, value_name = "SEED")]
     colours: Option<u64>,
 }
@@ -56,14 +56,17 @@ impl Options {
             return print(&standard_cameras_file()).map(|()| Status::Nothing);
         }
         if self.run.subject.is_system() {
-            return Err(usage("--system: what a system does cannot be seen, so it cannot be recorded".into()).into());
+            return Err(usage(
+                "--system: a system has no world that cameras could record; `record` needs a scenario".into(),
+            )
+            .into());
         }
         let cameras = match &self.cameras {
             Some(path) => read_cameras(path)?,
             None => VariedCameras::from(standard_cameras()),
         };
         let kept: Kept = self.outputs.parse()?;
-        // Before a long campaign, not after it, it is said that nothing can be drawn.
+        // A missing adapter is reported before a long campaign, not after it.
         let mut projector = Projector::new(cameras.nominal(), kept.outputs())?;
         let check = |study: &_| check_rates(study, cameras.nominal());
         let conducted = self.run.conduct(verbosity, |study| cameras.open(study), check)?;
@@ -90,7 +93,7 @@ impl Options {
         for trial in &left {
             if stop.load(Ordering::Relaxed) {
                 bar.finish_and_clear();
-                let message = "the tests recorded so far are whole; --resume goes on from there";
+                let message = "the tests recorded so far are complete; --resume continues from there";
                 return Err(format!("{}\n  {message}", Error::Interrupted).into());
             }
             let recorded = dataset.record(&mut worker, trial, projector)?;
@@ -106,8 +109,10 @@ impl Options {
         let (tests, drawn) = (plural(left.len(), "test"), plural(images, "image"));
         verbosity.note(format_args!("{drawn} of {tests} written to {}", self.run.out.display()));
         if !broken.is_empty() {
-            verbosity
-                .note(format_args!("{} ended as invalid or in an error: nothing to see", plural(broken.len(), "test")));
+            verbosity.note(format_args!(
+                "{} ended as invalid or in an error and cannot be recorded",
+                plural(broken.len(), "test")
+            ));
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! `paracosm-fuzz replay FILE...`: regression tests once more.
+//! `paracosm-fuzz replay FILE...`: runs regression files.
 
 use super::draw::is_ours_to_write;
 use super::output::{Format, digits, json};
@@ -13,10 +13,10 @@ use serde_json::json;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// Runs regression files, all of them whatever becomes of one, and says what became of each. `expect` overrides what they
-/// say, and `junit` is written, in the place of an older report. A violation is found also where one
-/// was expected; the report for CI goes by what was expected. The first that broke, or did not repeat what the same software has
-/// recorded, is the failure in the end.
+/// Runs all regression files, even if one of them breaks, and prints a line for each. `expect` overrides the expectation of
+/// the files. `junit` is written in the place of an older report. The exit status counts a violation even if it was
+/// expected; the report for CI goes by the expectations. The first test that broke, or did not repeat the trace that the same
+/// software has recorded, becomes the error of the command.
 pub(super) fn replay(
     files: &[PathBuf],
     expect: Option<Expectation>,
@@ -60,7 +60,7 @@ pub(super) fn replay(
     wrong.map_or(Ok(found), |message| Err(message.into()))
 }
 
-/// Checks that a report may be written there, and that it is no regression file that was taken for the option's.
+/// Checks that a report may be written to `path`, and that `path` is not a regression file, given by mistake.
 fn is_report(path: &Path) -> Result<(), Error> {
     is_ours_to_write("--junit", path)?;
     if path.extension().is_some_and(|ending| ending == "json") {
@@ -69,7 +69,7 @@ fn is_report(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// How a test ends for CI: by what was expected of it, not by its verdict alone.
+/// Returns the end of a test for CI. It depends on the expectation, not on the verdict alone.
 fn end(replayed: &Replayed) -> End {
     match replayed {
         _ if broke(&replayed.trial) || replayed.same_trace == Some(false) => End::Error,
@@ -92,7 +92,7 @@ fn suite<'a>(
     (name, regression.study(), case)
 }
 
-/// What became of a test.
+/// Describes the end of a test.
 fn words(regression: &Regression, replayed: &Replayed) -> String {
     let Replayed { expect, as_expected, same_trace, trial } = replayed;
     let end = match trial.verdict {
@@ -108,7 +108,9 @@ fn words(regression: &Regression, replayed: &Replayed) -> String {
             format!(", expected to violate {}", regression.violates.join(", "))
         }
         _ if broke(trial) => format!(", expected to {}", if *expect == Expectation::Fail { "fail" } else { "pass" }),
-        (Expectation::Fail, false) => ", expected to fail: if that is mended, set its `expect` to \"pass\"".to_owned(),
+        (Expectation::Fail, false) => {
+            ", expected to fail: if the failure is mended, set `expect` in the file to \"pass\"".to_owned()
+        }
         (Expectation::Pass, false) => ", EXPECTED TO PASS".to_owned(),
     };
     let hash = |hash: &Option<String>| hash.clone().unwrap_or_else(|| "none".to_owned());
@@ -122,12 +124,12 @@ fn words(regression: &Regression, replayed: &Replayed) -> String {
     format!("{end}{note}{trace}")
 }
 
-/// Whether a test came to nothing.
+/// Returns true if a test is invalid or ended in an error.
 fn broke(trial: &Trial) -> bool {
     matches!(trial.verdict, Verdict::Error | Verdict::Invalid)
 }
 
-/// What a test violates, and by how much.
+/// Describes the violated requirements with their robustness.
 fn violations(regression: &Regression, replayed: &Replayed) -> String {
     let requirements = regression.study().requirements().iter();
     let violated = requirements.filter_map(|requirement| {

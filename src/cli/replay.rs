@@ -1,7 +1,7 @@
-//! `paracosm-fuzz replay`: tests once more, one of a campaign's log or those in regression files.
+//! `paracosm-fuzz replay`: runs a test of a campaign's log again, or the tests in regression files.
 
 use super::draw::{FileKind, Target};
-use super::output::{Format, Table, digits, json, value_words};
+use super::output::{Format, Table, digits, json, plural, value_words};
 use super::usage;
 use super::{Failure, Status, Verbosity, on_interrupt, print, regressions};
 use crate::engine::picture::MotionRecord;
@@ -15,48 +15,48 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-/// What `replay` takes.
+/// The options of `replay`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
-    /// The folder of a campaign and the index of a test; or regression files, as `shrink --save` writes them
+    /// The folder of a campaign and the index of a test, or regression files of `shrink --save`
     #[arg(required = true, value_name = "DIR INDEX | FILE")]
     what: Vec<PathBuf>,
-    /// Where to write the trace [default: DIR/trace-INDEX.csv]
+    /// The file for the trace [default: DIR/trace-INDEX.csv]
     #[arg(long, value_name = "FILE.csv")]
     trace: Option<PathBuf>,
     /// Draw the run from above to a file: as one picture (.svg, .png) or as a film (.gif)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
-    /// Film what a camera sees, into a FILE.mp4, a FILE.gif, or a FOLDER of PNG files that does not exist yet
+    /// Film through a camera, into a FILE.mp4, a FILE.gif, or PNG files in a new FOLDER
     #[arg(long, value_name = "FILE.mp4|FILE.gif|FOLDER")]
     camera: Option<PathBuf>,
-    /// Film through a camera in this file; `paracosm-fuzz record --print-cameras` prints one [default: what the driver sees
-    /// through; where it sees nothing, a camera at the front with 640 x 480 pixels]
+    /// The file of cameras for --camera; `paracosm-fuzz record --print-cameras` prints an example [default: the cameras of
+    /// the driver; for a driver without cameras, a camera at the front with 640 x 480 pixels]
     #[arg(long, value_name = "CAMERAS.toml", requires = "camera")]
     cameras: Option<PathBuf>,
-    /// Which of these cameras to film through [default: the first by name]
+    /// The name of the camera for --camera [default: the first by name]
     #[arg(long, value_name = "NAME", requires = "camera")]
     through: Option<String>,
-    /// How the tests in regression files are to end, whatever the files say
+    /// The expected end of the tests in regression files, instead of the expectation in the files
     #[arg(long, value_name = "VERDICT")]
     expect: Option<Ending>,
-    /// Write what became of the tests in regression files to this file, as CI systems read it
+    /// Write a JUnit report on the tests in regression files to this file
     #[arg(long, value_name = "FILE.xml")]
     junit: Option<PathBuf>,
     /// Exit with status 1 if a test violates a requirement, expected or not
     #[arg(long)]
     fail_on_violation: bool,
-    /// How to print the outcome [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
 
-/// How a test is to end.
+/// The expected end of a test.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 enum Ending {
-    /// It violates what it violated before
+    /// The test violates the same requirements as before
     Fail,
-    /// It violates nothing
+    /// The test violates no requirement
     Pass,
 }
 
@@ -84,7 +84,7 @@ impl Options {
     fn replay(&self, dir: &Path, index: usize, verbosity: Verbosity) -> Result<Status, Failure> {
         if self.expect.is_some() || self.junit.is_some() {
             let option = if self.expect.is_some() { "--expect" } else { "--junit" };
-            let message = format!("{option} is for regression files; the log says how a test ended");
+            let message = format!("{option} is for regression files; for a test of a campaign the log has the verdict");
             return Err(usage(message).into());
         }
         let log = Log::read(dir, &crate::catalogue())?;
@@ -101,7 +101,7 @@ impl Options {
         let seen = seen.into_iter().find_map(|(option, file)| Some((option, file.as_ref()?)));
         if let (Some((option, file)), Subject::System(_)) = (seen, study.subject()) {
             let message =
-                format!("{option} {}: what a system does cannot be seen; --trace writes it down", file.display());
+                format!("{option} {}: a system has no world to draw; --trace writes its signals", file.display());
             return Err(usage(message).into());
         }
         let mut record = MotionRecord::default();
@@ -122,9 +122,13 @@ impl Options {
             let default = || dir.join(format!("trace-{index}.csv"));
             let path = self.trace.clone().unwrap_or_else(default);
             write_trace(&path, trace)?;
-            verbosity.note(format_args!("trace of {} ticks written to {}", trial.ticks, path.display()));
+            verbosity.note(format_args!(
+                "trace of {} written to {}",
+                plural(trial.ticks as usize, "tick"),
+                path.display()
+            ));
         } else if let Some(path) = &self.trace {
-            verbosity.note(format_args!("no trace to write to {}", path.display()));
+            verbosity.note(format_args!("the test has no trace to write to {}", path.display()));
         }
         if let Some(target) = &target {
             let caption =
@@ -151,14 +155,14 @@ impl Options {
 }
 
 impl Options {
-    /// The camera among these that is filmed through.
+    /// Returns the camera of --through, or the first camera.
     fn through(&self, mut cameras: Cameras) -> Result<Cameras, Error> {
         let names = || cameras.all.keys().map(String::as_str);
         let name = match &self.through {
             Some(name) if cameras.all.contains_key(name) => Some(name.clone()),
             Some(name) => {
                 let (all, meant) = (names().collect::<Vec<_>>().join(", "), did_you_mean(&nearest(name, names())));
-                return Err(usage(format!("--through {name}: there is no such camera, expected one of {all}{meant}")));
+                return Err(usage(format!("--through {name}: no camera has this name, expected one of {all}{meant}")));
             }
             None => names().next().map(str::to_owned),
         };
@@ -167,7 +171,7 @@ impl Options {
     }
 }
 
-/// The cameras that the driver sees through, or one for people where it sees nothing.
+/// Returns the cameras of the driver, or a camera for people if the driver has no camera.
 fn eyes(worker: &mut Worker) -> Result<Cameras, Error> {
     let eyes = worker.eyes()?;
     Ok(if eyes.all.is_empty() { cameras_for_people() } else { eyes })
@@ -187,7 +191,7 @@ fn parse_index(index: &Path) -> Result<usize, Error> {
     text.parse().map_err(|_| usage(format!("found `{text}`, expected the index of a test after the folder")))
 }
 
-/// The trial of that index in the log of a folder.
+/// Returns the trial of this index in the log of a folder.
 pub(super) fn logged<'a>(dir: &Path, log: &'a Log, index: usize) -> Result<&'a Trial, Error> {
     log.trials().get(index).ok_or_else(|| {
         let count = log.trials().len();
@@ -201,17 +205,17 @@ const FILM: f64 = 800.0;
 
 /// The run from above.
 fn draw(record: &MotionRecord, kind: FileKind, caption: &str) -> Result<Vec<u8>, Failure> {
-    let nothing = "its world could not be built, so that there was nothing to see";
+    let nothing = "the world of the test could not be built, so there is nothing to draw";
     let story = || record.story(caption).ok_or(nothing);
     match kind {
         FileKind::Svg => Ok(story()?.svg().into_bytes()),
         FileKind::Png => plot::drawing_png(&story()?),
         FileKind::Gif => plot::film_gif(&record.film(FILM, caption).ok_or(nothing)?),
-        FileKind::Csv => unreachable!("it is none of the kinds"),
+        FileKind::Csv => unreachable!("the target takes no CSV"),
     }
 }
 
-/// What of the replay is not as it was logged.
+/// Describes the differences between the replay and the log.
 fn difference(worker: &Worker, logged: &Trial, trial: &Trial) -> String {
     let fields = |trial: &Trial| serde_json::to_value(trial).expect("a trial is always JSON");
     let (logged, found) = (fields(logged), fields(trial));
@@ -223,7 +227,7 @@ fn difference(worker: &Worker, logged: &Trial, trial: &Trial) -> String {
         message.push_str("; the campaign was run by another version of this software");
     }
     if worker.darkroom().is_some() {
-        message.push_str("; its driver sees, and images are the same only by the same graphics adapter");
+        message.push_str("; its driver has cameras, and images are the same only on the same graphics adapter");
     }
     message
 }

@@ -1,4 +1,4 @@
-//! What a campaign says at its end, for people and as JSON.
+//! The summary at the end of a campaign, as a table and as JSON.
 
 use super::odd;
 use super::output::{Table, digits, percent, plural, value_words};
@@ -17,13 +17,13 @@ use std::path::Path;
 /// How many failure modes a table shows.
 const MODES_SHOWN: usize = 5;
 
-/// A report that is printed.
+/// A report with all that the summary needs.
 pub(super) struct Printed<'a> {
     pub report: &'a Report,
     pub out: &'a Path,
     /// The program as it was called.
     pub program: &'a str,
-    /// Whether guilty combinations were to be located.
+    /// True if the user asked to locate guilty combinations.
     pub locate: bool,
 }
 
@@ -33,7 +33,12 @@ impl Printed<'_> {
     pub(super) fn table(&self) -> String {
         let (study, summary) = (self.study(), &self.report.summary);
         let mut table = Table::default();
-        table.heading(&format!("{}, strategy {}: {} tests", study.title(), study.sampling(), summary.tests()));
+        table.heading(&format!(
+            "{}, strategy {}: {}",
+            study.title(),
+            study.sampling(),
+            plural(summary.tests(), "test")
+        ));
         for verdict in VERDICTS {
             let count = summary.count(verdict);
             if count > 0 || matches!(verdict, Verdict::Fail | Verdict::Pass) {
@@ -49,12 +54,15 @@ impl Printed<'_> {
             table.row(if i == 0 { "design domain" } else { "" }, &format!("{name}: {words}"));
         }
         if self.stopped() {
-            table.row("stopped", &format!("at the first failing test; the budget is {}", study.sampling().budget));
+            table.row(
+                "stopped",
+                &format!("at the first failing test; the budget was {}", plural(study.sampling().budget, "test")),
+            );
         }
         if let Some(known) = self.extends() {
             table.row(
                 "extends",
-                &format!("{} of {}, which the coverage counts", plural(known.tests, "test"), known.name),
+                &format!("{} of {}; the coverage counts them", plural(known.tests, "test"), known.name),
             );
         }
         table.coverage(&self.report.coverage);
@@ -153,12 +161,12 @@ impl Printed<'_> {
         self.report.log.study()
     }
 
-    /// The tests that count as done.
+    /// Returns the record of the tests that count as done.
     fn extends(&self) -> Option<&ExtensionRecord> {
         self.report.log.extension().map(Extension::record)
     }
 
-    /// What became of a requirement.
+    /// Describes the result of a requirement.
     fn in_words(&self, judged: &Judged) -> String {
         let Judged { id, violated, undecided, worst } = judged;
         let mut text = format!("{id}: violated in {}", plural(*violated, "test"));
@@ -175,24 +183,24 @@ impl Printed<'_> {
         text
     }
 
-    /// A robustness in the unit of its requirement.
+    /// Prints a robustness with the unit of its requirement.
     fn robustness(&self, requirement: &str, robustness: f64) -> String {
         let unit = self.study().requirement(requirement).map_or("", |requirement| requirement.unit.as_str());
         format!("{} {unit}", digits(robustness)).trim_end().to_owned()
     }
 
-    /// Whether the first failing test has ended the campaign.
+    /// Returns true if the first failing test has ended the campaign.
     fn stopped(&self) -> bool {
         self.report.finish == Finish::Stopped
     }
 
-    /// The ways in which tests fail.
+    /// Adds the failure modes to the table.
     fn show_modes(&self, table: &mut Table) {
         let Modes { modes, .. } = &self.report.modes;
         for (i, mode) in modes.iter().take(MODES_SHOWN).enumerate() {
             let tests = match mode.count {
                 1 => format!("test {}", mode.representative),
-                count => format!("{count} tests such as {}", mode.representative),
+                count => format!("{count} tests, such as test {}", mode.representative),
             };
             table.row(if i == 0 { "failure modes" } else { "" }, &format!("{tests}: {}", mode.words));
         }
@@ -201,35 +209,35 @@ impl Printed<'_> {
         }
     }
 
-    /// How many different combinations of all discrete values were tested.
+    /// Counts the different combinations of all discrete values among the tests.
     fn different_rows(&self) -> usize {
         let space = self.study().space();
         let points = self.report.log.trials().iter().filter_map(|trial| space.encode(&trial.test).ok());
         points.map(|point| point.discrete).collect::<BTreeSet<_>>().len()
     }
 
-    /// The command that runs a test again.
+    /// Returns the command that runs a test again.
     fn replay(&self, index: usize) -> String {
         self.command("replay", index)
     }
 
-    /// A command about a test, with the program as it was called.
+    /// Returns a command about a test, with the program as it was called.
     fn command(&self, verb: &str, index: usize) -> String {
         format!("{} {verb} {} {index}", shell_word(self.program), shell_word(&self.out.to_string_lossy()))
     }
 }
 
-/// What a verdict says that is no answer.
+/// Explains a verdict that is neither pass nor fail.
 fn meaning(verdict: Verdict) -> &'static str {
     match verdict {
-        Verdict::Inconclusive => ", of which the situation never came about, or which ended too early",
-        Verdict::Invalid => ", whose world cannot be built: they cover nothing",
-        Verdict::Error => ", which broke: they cover nothing",
+        Verdict::Inconclusive => "; their situation never came about, or they ended too early",
+        Verdict::Invalid => "; their worlds cannot be built, and they cover nothing",
+        Verdict::Error => "; they broke, and cover nothing",
         Verdict::Pass | Verdict::Fail => "",
     }
 }
 
-/// Where a test is: its values with their units.
+/// Describes a test by its values with their units.
 pub(super) fn in_words(study: &Study, trial: &Trial) -> String {
     let value = |(name, value): (&str, &Value)| {
         let value = value_words(value);

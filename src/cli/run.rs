@@ -1,4 +1,4 @@
-//! `paracosm-fuzz run`: a campaign with everything that watches it.
+//! `paracosm-fuzz run`: runs a campaign, shows its progress and prints its summary.
 
 use super::output::{Format, json, plural};
 use super::progress::Progress;
@@ -21,16 +21,16 @@ use std::sync::atomic::AtomicBool;
 pub(super) struct Conducted {
     pub report: Report,
     pub found: Status,
-    /// What an interrupt sets.
+    /// The flag that an interrupt sets.
     pub stop: Arc<AtomicBool>,
 }
 
-/// What `run` takes.
+/// The options of `run`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     #[command(flatten)]
     pub subject: Subject,
-    /// How tests are chosen; `paracosm-fuzz list` shows all strategies [default: halton; greedy with
+    /// The strategy that chooses tests; `paracosm-fuzz list strategies` shows all of them [default: halton; greedy with
     /// --extend; auto with --stop-at-first]
     #[arg(long, value_name = "S")]
     strategy: Option<String>,
@@ -39,18 +39,18 @@ pub(super) struct Options {
     budget: usize,
     #[command(flatten)]
     sampling: Sampling,
-    /// How many tests an adaptive strategy is asked for at a time: fewer learn from more, more keep more cores busy
-    /// [default: 16]
+    /// How many tests an adaptive strategy proposes at a time: with fewer it learns from more outcomes, with more it keeps
+    /// more cores busy [default: 16]
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
-    /// Count the tests in this file as done: run only tests that complete them, and measure the coverage of all together.
-    /// Its columns are the open parameters
+    /// Count the tests in this file as done: run only the tests that complete them, and measure the coverage of all tests
+    /// together. The columns of the file are the open parameters
     #[arg(long, value_name = "TESTS.csv")]
     extend: Option<PathBuf>,
     /// How many tests run at a time; results do not depend on it [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Where to write
+    /// The folder to write to
     #[arg(long, value_name = "DIR", default_value = "paracosm-out")]
     pub out: PathBuf,
     /// Continue the campaign in the folder
@@ -66,7 +66,7 @@ pub(super) struct Options {
     /// Exit with status 1 if a test violates a requirement
     #[arg(long)]
     fail_on_violation: bool,
-    /// Write the tests to junit.xml in the folder as well, as CI systems read them
+    /// Also write junit.xml to the folder, a report that CI systems read
     #[arg(long)]
     junit: bool,
     /// How to print the summary [default: table on a terminal, json elsewhere]
@@ -79,8 +79,7 @@ impl Options {
         self.conduct(verbosity, |study| study, |_| Ok(())).map(|conducted| conducted.found)
     }
 
-    /// Runs the campaign and prints its summary. `prepare` may open more of what is tested, and `check` have something against
-    /// it.
+    /// Runs the campaign and prints its summary. `prepare` may open more parameters, and `check` may refuse the study.
     pub fn conduct(
         &self,
         verbosity: Verbosity,
@@ -118,12 +117,12 @@ impl Options {
             let given = log.study().given().find(|requirement| requirement.id == judged.id);
             if let Some(formula) = given.and_then(|requirement| requirement.formula.as_ref()) {
                 let (id, tests) = (&judged.id, plural(judged.undecided, "test"));
-                verbosity.note(format!("{id} stayed undecided in {tests}, which ended too early for `{formula}`"));
+                verbosity.note(format!("{id} stayed undecided in {tests}: too short for `{formula}`"));
             }
         }
         if summary.tests() > 0 && summary.count(Verdict::Error) == summary.tests() {
             let first = log.trials()[0].error().unwrap_or_default();
-            return Err(format!("every test ended in an error; the first: {first}").into());
+            return Err(format!("every test ended in an error; the first error: {first}").into());
         }
         let violated = self.fail_on_violation && summary.count(Verdict::Fail) > 0;
         let found = if violated { Status::Violation } else { Status::Nothing };
@@ -138,7 +137,7 @@ impl Options {
         if self.junit { runner.with_junit() } else { runner }
     }
 
-    /// How tests are chosen, as it is asked for.
+    /// Reads the options that choose tests.
     fn sampling(&self) -> Result<paracosm_campaign::Sampling, Error> {
         let Sampling { seed, skip, k, epsilon, .. } = self.sampling;
         let strategy = self.strategy()?;
@@ -156,7 +155,7 @@ impl Options {
         })
     }
 
-    /// Says why there are fewer tests than there could be, and why there is no map.
+    /// Notes why the campaign has fewer tests than its budget, and why it has no map.
     fn note_end(&self, report: &Report, extension: Option<&Extension>, verbosity: Verbosity) {
         let ran = report.log.trials().len();
         if ran < self.budget && report.finish != Finish::Stopped {
@@ -164,24 +163,23 @@ impl Options {
                 extension.map(|known| format!(" beside the {} in {}", known.record().tests, known.record().name));
             let beside = beside.unwrap_or_default();
             verbosity.note(match (self.sampling.epsilon, ran) {
-                (_, 0) => format!("nothing is missing{beside}: no test was run"),
+                (_, 0) => format!("no test was run: nothing is missing{beside}"),
                 (Some(epsilon), ran) => {
                     let ran = plural(ran, "test");
-                    format!("no row has an empty box above {epsilon} after {ran}{beside}, fewer than the budget")
+                    format!("the campaign ended before its budget: after {ran}{beside} no row has an empty box above {epsilon}")
                 }
                 (None, ran) => {
-                    format!(
-                        "the strategy has no more tests for these parameters than {ran}{beside}, fewer than the budget"
-                    )
+                    let ran = plural(ran, "test");
+                    format!("the campaign ended before its budget: the strategy has only {ran} for these parameters{beside}")
                 }
             });
         }
         if report.map.is_none() {
-            verbosity.note("no failure map: it needs two continuous open parameters");
+            verbosity.note("no failure map: a map needs two open continuous parameters");
         }
     }
 
-    /// Checks that what is to be resumed is no folder in the place of a scenario.
+    /// Checks that the scenario to resume is not the name of a folder.
     fn is_no_folder(&self) -> Result<(), Error> {
         let name = self.subject.name();
         if self.subject.is_system() || crate::catalogue().programs().iter().any(|program| program.name() == name) {
@@ -189,9 +187,9 @@ impl Options {
         }
         let is_campaign = |folder: &Path| folder.join("campaign.json").exists();
         let folder = Path::new(name);
-        let said = "--resume takes no folder, --out does";
+        let said = "--resume takes no folder; --out names the folder";
         if is_campaign(folder) {
-            let message = format!("{name} is no scenario but the folder of a campaign: {said}: --out {name} --resume");
+            let message = format!("{name} is the folder of a campaign, not a scenario: {said}: --out {name} --resume");
             return Err(usage(message));
         }
         let parent = folder.parent().filter(|parent| !parent.as_os_str().is_empty());
@@ -220,21 +218,30 @@ impl Options {
     }
 }
 
-/// Says which formulas look further ahead than a test lasts.
+/// Notes which formulas look further ahead than a test lasts.
 fn note_outlasting(study: &Study, verbosity: Verbosity) -> Result<(), Error> {
     for (id, part) in study.outlasting() {
         let duration = study.subject().scenario()?.duration();
         verbosity.note(format_args!(
-            "{id} may stay undecided, and tests inconclusive: `{part}` looks past the {duration} s of a test"
+            "{id} may stay undecided, and tests may be inconclusive: `{part}` looks beyond the {duration} s of a test"
         ));
     }
     Ok(())
 }
 
-/// An error that ended the campaign, with what is left of it.
+/// Describes an error that ended the campaign, and says which trials are safe.
 fn cut_short(error: Error, out: &Path, safe: usize) -> Failure {
     if let Error::Environment(Breakdown::Unanswered { .. }) = error {
-        return format!("{error}\n  they are in {}", out.display()).into();
+        return format!("{error}\n  the tests are in {}", out.display()).into();
     }
-    format!("{error}\n  the first {safe} trials are safe in {}; --resume goes on from there", out.display()).into()
+    format!("{error}\n  {} safe in {}; --resume continues from there", safe_words(safe), out.display()).into()
+}
+
+/// Says how many trials are safe.
+fn safe_words(trials: usize) -> String {
+    match trials {
+        0 => "no trial is".to_owned(),
+        1 => "the first trial is".to_owned(),
+        trials => format!("the first {trials} trials are"),
+    }
 }

@@ -1,4 +1,4 @@
-//! `paracosm-fuzz shrink`: the simplest test near a failing one that still fails.
+//! `paracosm-fuzz shrink`: finds the simplest test near a failing test that still fails.
 
 use super::output::{Format, Table, digits, json, plural, value_words};
 use super::replay::logged;
@@ -8,7 +8,7 @@ use paracosm_analysis::{Change, Sameness, Shrunk};
 use paracosm_campaign::{Log, Regression, Study};
 use std::path::PathBuf;
 
-/// What `shrink` takes.
+/// The options of `shrink`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     /// The folder of the campaign
@@ -18,14 +18,14 @@ pub(super) struct Options {
     /// How many tests to run at most
     #[arg(long, value_name = "N", default_value_t = 500)]
     budget: usize,
-    /// Keep to the failure mode: violate nothing more, and touch the same with the same side, braking or not. Otherwise a
-    /// simpler test has to violate what the first one did, and may do it in another way, which is said
+    /// Keep the failure mode: the same violated requirements, the same contact, braking or not. Otherwise the simpler test
+    /// violates the same requirements, perhaps in another way; the output says so
     #[arg(long)]
     same_mode: bool,
-    /// Write the simplest test to a regression file that does not exist yet, which `replay` runs
+    /// Write the simplest test to a new regression file, which `replay` runs
     #[arg(long, value_name = "FILE.json")]
     save: Option<PathBuf>,
-    /// How to print the outcome [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
@@ -67,11 +67,11 @@ fn table(study: &Study, shrunk: &Shrunk) -> String {
     if !shrunk.same_mode {
         let [before, after] = &shrunk.failures;
         table.row("fails in another way", after);
-        table.row("  before", &format!("{before}; --same-mode keeps to that"));
+        table.row("  before", &format!("{before}; --same-mode keeps this mode"));
     }
     let left = match shrunk.minimal {
-        true => "no simpler one that fails is a step or two away",
-        false => "a larger --budget may find a simpler one",
+        true => "no simpler failing test is within two steps",
+        false => "a larger --budget may find a simpler failing test",
     };
     table.row("found in", &format!("{}; {left}", plural(shrunk.runs, "run")));
     table.finish()

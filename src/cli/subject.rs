@@ -1,4 +1,4 @@
-//! The options that say what is tested, which all verbs that run tests share.
+//! The options that describe the system under test and its world. All commands that run tests share them.
 
 use super::Verbosity;
 use super::system::System;
@@ -12,66 +12,66 @@ use paracosm_campaign::study::Variation;
 use paracosm_campaign::{Error, StatedRequirement, Study, StudyBuilder};
 use std::path::PathBuf;
 
-/// What is tested.
+/// The options of the system under test and its world.
 #[derive(Debug, Clone, Args)]
 pub(super) struct Subject {
-    /// The world to test in; `paracosm-fuzz list` shows them all
+    /// The scenario to test in; `paracosm-fuzz list scenarios` shows all of them
     #[arg(default_value = "pedestrian-crossing")]
     scenario: String,
-    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open one. With a SHAPE each test
-    /// lets it vary over time: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES, per-tick,
-    /// constant
+    /// Open a parameter that the scenario leaves at its nominal value, or narrow an open parameter. With a SHAPE the
+    /// parameter varies while a test runs: polynomial:DEGREE, piecewise-linear:PIECES, piecewise-constant:PIECES,
+    /// per-tick, constant
     #[arg(long, value_name = "NAME[:SHAPE][=LO..HI|=A,B,C]")]
     open: Vec<String>,
-    /// Fix a parameter, a signal at one value or at A,B,C; or change a setting of the driver with driver.NAME=VALUE
+    /// Fix a parameter (a signal: at one value or at A,B,C), or change a setting of the driver: driver.NAME=VALUE
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The system under test: one of `paracosm-fuzz list`; `grpc://HOST:PORT`, one that listens there; a network, if the
-    /// program was built with them: `cnn`, one that comes with it, or MODEL.onnx [default: aeb]
+    /// The driver under test: a name of `paracosm-fuzz list drivers`; `grpc://HOST:PORT` for a driver that listens there; or,
+    /// in a program built with the feature `neural`, `cnn` for a network that comes with it or MODEL.onnx [default: aeb]
     #[arg(long, value_name = "NAME|grpc://HOST:PORT|MODEL.onnx")]
     driver: Option<String>,
-    /// Test a driver of your own: a command that starts one, once for each worker, which listens over gRPC at the address
-    /// in PARACOSM_ADDRESS
+    /// Test your own driver: a command that starts a driver, which listens over gRPC at the address in PARACOSM_ADDRESS. Each
+    /// worker starts the command once
     #[arg(long, value_name = "COMMAND", conflicts_with = "driver")]
     driver_command: Option<String>,
-    /// Show an actor to cameras as the model in a glTF file, stretched to the actor's size; `car` is the car under test, the
-    /// others are called as in traces; `tree` stands for `tree-2` and so on, too
+    /// Show an actor to cameras as the model in a glTF file, stretched to the actor's size. `car` is the ego vehicle; other
+    /// actors have their names of the traces; `tree` also stands for `tree-2` and so on
     #[arg(long, value_name = "ACTOR=FILE.glb")]
     model: Vec<String>,
     #[command(flatten)]
     system: System,
-    /// Ask what this file says, too: requirements with their sources and severities, and what of the design domain is tested
+    /// Add the requirements of this file, with their sources and severities, and its operational design domain
     #[arg(long, value_name = "FILE.toml")]
     requirements: Option<PathBuf>,
-    /// Ask a formula of every trace, too; several times for several. Its requirements are called spec-1, spec-2, ..;
-    /// `paracosm-fuzz describe SCENARIO` shows the signals that it may speak of
+    /// Add a formula that every trace should satisfy; the option can be repeated. The requirements are called spec-1, spec-2,
+    /// ..; `paracosm-fuzz describe SCENARIO` shows the signals for formulas
     #[arg(long, value_name = "FORMULA")]
     spec: Vec<String>,
-    /// Take signals for straight lines from sample to sample, and the formulas of --spec to speak of every instant. A file of
-    /// requirements says it of each of its own with time = "dense"
+    /// Evaluate the formulas of --spec in dense time: signals are straight lines between samples, and formulas are about every
+    /// instant. In a file of requirements, time = "dense" does the same for a requirement
     #[arg(long, requires = "spec")]
     dense: bool,
 }
 
 impl Subject {
-    /// Whether it is a system that others wrote.
+    /// Returns true if the subject is a system of the user.
     pub fn is_system(&self) -> bool {
         self.system.is_given()
     }
 
-    /// The same of another scenario, with further parameters opened.
+    /// Returns the same options for another scenario, with further parameters opened.
     pub fn on(&self, scenario: &str, opened: impl Iterator<Item = String>) -> Self {
         let mut subject = Self { scenario: scenario.to_owned(), ..self.clone() };
         subject.open.extend(opened);
         subject
     }
 
-    /// What it is called.
+    /// Returns the name of the scenario or the command of the system.
     pub fn name(&self) -> &str {
         self.system.name().unwrap_or(&self.scenario)
     }
 
-    /// A study of it, with all else as it is where nothing is said.
+    /// Begins a study with these options.
     pub fn study(&self, verbosity: Verbosity) -> Result<StudyBuilder, Error> {
         let mut study = match self.system.study(verbosity)? {
             Some(study) => study,
@@ -117,7 +117,7 @@ impl Subject {
         Ok(self.spec.iter().fold(study, |study, formula| study.spec_in(time, formula)))
     }
 
-    /// A study with the driver that is asked for.
+    /// Sets the driver of the study.
     fn driven(&self, study: StudyBuilder) -> StudyBuilder {
         let study = match (&self.driver_command, &self.driver) {
             (Some(command), _) => study.driver_command(command),
@@ -127,7 +127,7 @@ impl Subject {
         self.system.timeout().into_iter().fold(study, StudyBuilder::driver_timeout)
     }
 
-    /// Says which requirements of a file nothing judges, which may be a slip of the pen.
+    /// Notes which requirements of a file are not judged; their names may be misspelled.
     pub fn note_unjudged(&self, study: &Study, verbosity: Verbosity) {
         if self.requirements.is_none() || matches!(study.subject(), campaign::Subject::System(_)) {
             return;
@@ -136,13 +136,13 @@ impl Subject {
         for StatedRequirement { id, .. } in unjudged {
             let meant = did_you_mean(&nearest(id, judged.iter().map(|requirement| requirement.id.as_str())));
             verbosity.note(format_args!(
-                "requirement `{id}` has no formula, and the scenario has none of that name{meant}: nothing judges it"
+                "requirement `{id}` is not judged: it has no formula, and the scenario has no requirement of this name{meant}"
             ));
         }
     }
 }
 
-/// Part of a parameter's domain as `--open` takes it: LO..HI or A,B,C.
+/// Reads a domain of `--open`: LO..HI or A,B,C.
 fn domain(text: &str, over: &str) -> Result<Domain, Error> {
     let Some((lo, hi)) = over.split_once("..") else {
         return Ok(Domain::Choice(over.split(',').map(Value::parse).collect()));
@@ -153,7 +153,7 @@ fn domain(text: &str, over: &str) -> Result<Domain, Error> {
     }
 }
 
-/// How a parameter varies over time, as `--open` takes it.
+/// Reads a shape of `--open`.
 fn variation(text: &str, shape: &str) -> Result<Variation, Error> {
     match shape {
         "constant" => Ok(Variation::Constant),

@@ -1,4 +1,4 @@
-//! Suspect and located combinations of discrete values, in a campaign's summary.
+//! Suspect and located combinations of discrete values in the summary of a campaign.
 
 use super::output::{Table, digits, plural};
 use crate::Report;
@@ -14,7 +14,7 @@ const SHOWN: usize = 5;
 /// How many located combinations a table shows.
 const LOCATED_SHOWN: usize = 10;
 
-/// Adds what is known of the combinations behind failures to a summary as JSON.
+/// Adds suspects and located combinations to a summary as JSON.
 pub(super) fn add_to(summary: &mut serde_json::Value, report: &Report) {
     if let Some(suspects) = &report.suspects {
         summary["suspects"] = serde_json::json!(suspects);
@@ -24,30 +24,30 @@ pub(super) fn add_to(summary: &mut serde_json::Value, report: &Report) {
     }
 }
 
-/// Adds the same to a table; `asked` is whether anything was to be located.
+/// Adds suspects and located combinations to a table. `asked` is true if the user asked to locate combinations.
 pub(super) fn show(table: &mut Table, report: &Report, asked: bool) {
     if let Some(suspects) = &report.suspects {
         show_suspects(suspects, table);
     }
     match &report.located {
         Some(located) => show_located(located, table),
-        None if asked => table.row("located", "nothing: that takes a test that fails and one that passes"),
+        None if asked => table.row("located", "nothing: locating needs a failing test and a passing test"),
         None => (),
     }
 }
 
 fn show_suspects(suspects: &SuspectReport, table: &mut Table) {
     for (i, suspect) in suspects.ranked.iter().take(SHOWN).enumerate() {
-        let all = if suspect.failures == 1 {
-            "the one test failed".into()
-        } else {
-            format!("all {} tests failed", suspect.failures)
+        let all = match suspect.failures {
+            1 => "the only test with it failed".to_owned(),
+            count => format!("all {count} tests with it failed"),
         };
         table.row(if i == 0 { "suspects" } else { "" }, &format!("{}: {all}", names(&suspect.values)));
     }
     let more = suspects.found.saturating_sub(SHOWN as u64);
     if more > 0 {
-        table.row("", &format!("and {more} more combinations of at most {} values", suspects.size));
+        let more = plural(more as usize, "more combination");
+        table.row("", &format!("and {more} of at most {}", plural(suspects.size, "value")));
     }
     let few = suspects.explanation.len();
     if few > 0 && (few as u64) < suspects.found {
@@ -58,9 +58,11 @@ fn show_suspects(suspects: &SuspectReport, table: &mut Table) {
     }
     let unexplained = suspects.unexplained.len();
     if unexplained > 0 {
-        let values = if suspects.size == 1 { "value" } else { "values" };
-        let message =
-            format!("{} without a suspect of at most {} {values}", plural(unexplained, "failure"), suspects.size);
+        let combination = match suspects.size {
+            1 => "single value".to_owned(),
+            size => format!("combination of up to {size} values"),
+        };
+        let message = format!("no {combination} explains {}", plural(unexplained, "failure"));
         table.row(if few == 0 { "suspects" } else { "  unexplained" }, &message);
     }
 }
@@ -96,7 +98,7 @@ fn show_located(located: &LocatedReport, table: &mut Table) {
     }
 }
 
-/// Rows under one label; a word where there are none.
+/// Adds lines under one label, or the word `none` if there are no lines.
 fn rows(label: &str, lines: impl Iterator<Item = String>, none: &str, table: &mut Table) {
     let mut lines = lines.peekable();
     if lines.peek().is_none() {
@@ -126,7 +128,7 @@ fn in_words(location: &Location) -> String {
     format!("{text} ({ran}{others})")
 }
 
-/// Why a failure has no guilty combination. Failures with equal reasons share a line.
+/// The reason why a failure has no guilty combination. Failures with equal reasons share a line.
 #[derive(PartialEq)]
 enum Reason<'a> {
     /// Tests with these values passed.
@@ -161,14 +163,14 @@ impl fmt::Display for Reason<'_> {
         match self {
             Self::Refuted { values, passed } => write!(
                 f,
-                "{} make the difference, but {} with these values passed: they are no cause by themselves",
+                "changing {} makes tests pass, but {} with these values passed, too: the values alone are no cause",
                 values.map(names).unwrap_or_default(),
                 plural(*passed, "test")
             ),
-            Self::NoStart => f.write_str("the discrete values of passing tests fail here, too"),
+            Self::NoStart => f.write_str("with the discrete values of a passing test, this test fails, too"),
             Self::NoPassingTest => f.write_str("all passing tests have the same discrete values"),
-            Self::Undecided(verdict) => write!(f, "a test on the way ended {verdict}"),
-            Self::LimitReached => f.write_str("no further tests were left; --locate=N allows more"),
+            Self::Undecided(verdict) => write!(f, "a further test ended with the verdict {verdict}"),
+            Self::LimitReached => f.write_str("the limit of further tests was reached; --locate=N allows more"),
         }
     }
 }
@@ -179,7 +181,7 @@ fn names(values: &Values) -> String {
     values.iter().map(|(name, of)| format!("{name} {}", value(of))).collect::<Vec<_>>().join(", ")
 }
 
-/// Some indices, not too many.
+/// Lists the first indices.
 fn list(what: &str, indices: &[usize]) -> String {
     let shown: Vec<String> = indices.iter().take(SHOWN).map(ToString::to_string).collect();
     let more = if indices.len() > SHOWN { format!(" and {} more", indices.len() - SHOWN) } else { String::new() };

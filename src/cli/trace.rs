@@ -1,4 +1,4 @@
-//! `paracosm-fuzz trace`: requirement by test, and what is untested.
+//! `paracosm-fuzz trace`: shows each requirement with its tests, and what is untested.
 
 use super::draw::{FileKind, Target};
 use super::output::{Format, Table, digits, json, plural};
@@ -13,12 +13,12 @@ Examples:
   paracosm-fuzz trace paracosm-out
   paracosm-fuzz trace paracosm-out --csv matrix.csv     a row for each requirement, a column for each test
 
-A requirement passed in a test if it holds and the test came to the situation that it is about; otherwise it was not
-reached. It is undecided where the test ended too early. Untested is what no test of the campaign has tried: requirements
-that no test decided, levels and tenths of ranges without a test, parameters that are the same in all tests, and what
-is excluded from the design domain.";
+A requirement passed in a test if it holds and the situation of the test came about. If the situation never came about, the
+requirement was not reached. If the test ended too early, the requirement is undecided. The untested list has requirements
+that no test decided, levels and tenths of ranges without a test, parameters with the same value in all tests, and the
+exclusions of the operational design domain.";
 
-/// What `trace` takes.
+/// The options of `trace`.
 #[derive(Debug, Args)]
 pub(super) struct Options {
     /// The folder of the campaign
@@ -26,7 +26,7 @@ pub(super) struct Options {
     /// Write the matrix to this file
     #[arg(long, value_name = "FILE.csv")]
     csv: Option<PathBuf>,
-    /// How to print it [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
@@ -47,7 +47,7 @@ impl Options {
     }
 }
 
-/// How many tests are named in a line.
+/// The number of tests in a line.
 const PER_LINE: usize = 20;
 
 const HEADER: [&str; 8] =
@@ -57,7 +57,7 @@ fn table(study: &Study, traceability: &Traceability) -> String {
     let mut table = Table::default();
     let Traceability { tests, broken, requirements, untested, .. } = traceability;
     let title = study.title();
-    let broke = if *broken > 0 { format!(", of which {broken} broke or could not be built") } else { String::new() };
+    let broke = if *broken > 0 { format!(", {broken} of them broke or could not be built") } else { String::new() };
     table.heading(&format!("{title}: {}{broke}", plural(*tests, "test")));
     let rows: Vec<[String; 8]> = [HEADER.map(str::to_owned)].into_iter().chain(requirements.iter().map(row)).collect();
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
@@ -74,17 +74,17 @@ fn table(study: &Study, traceability: &Traceability) -> String {
             table.row(if i == 0 { &traced.id } else { "" }, &line);
         }
     }
-    table.heading("what they ask");
+    table.heading("texts of the requirements");
     for Traced { id, text, .. } in requirements {
-        table.row(id, if text.is_empty() { "only the system knows" } else { text });
+        table.row(id, if text.is_empty() { "(no text: the system judges it)" } else { text });
     }
-    table.heading(if untested.is_empty() { "untested: nothing that is known here" } else { "untested" });
+    table.heading(if untested.is_empty() { "untested: nothing found" } else { "untested" });
     for Gap { what, why } in untested {
         table.row(what, why);
     }
     let domain = odd::lines(study);
     if !domain.is_empty() {
-        table.heading("operational design domain, as it is stated");
+        table.heading("operational design domain, as stated");
     }
     for (name, words) in domain {
         table.row(&name, &words);
@@ -92,7 +92,7 @@ fn table(study: &Study, traceability: &Traceability) -> String {
     table.finish()
 }
 
-/// Indices of tests, some in each line.
+/// Lists indices of tests in lines.
 fn indices(all: &[usize]) -> Vec<String> {
     let line = |some: &[usize]| some.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
     all.chunks(PER_LINE).map(line).collect()

@@ -88,7 +88,7 @@ fn sets_are_those_that_estimate_measures() {
             ("dispersion_lower", &continuous["dispersion"]["lower"]),
             ("star_upper", &continuous["star_discrepancy"]["upper"]),
             ("extreme_lower", &continuous["extreme_discrepancy"]["lower"]),
-            ("l2_star_lower", &continuous["l2_star"]),
+            ("l2-star_lower", &continuous["l2_star"]),
             ("mixture_upper", &continuous["mixture"]),
         ] {
             assert_eq!(Some(number(set, column)), value.as_f64(), "{strategy} {column}");
@@ -140,7 +140,7 @@ fn the_summary_is_what_the_rows_of_the_sets_say() {
 #[test]
 fn the_latex_table_has_rows_of_one_length_and_closes_what_it_opens() {
     let dir = tempfile::tempdir().unwrap();
-    compare(dir.path(), "out", &["--measures", "l2_star,k-wise-dispersion"]);
+    compare(dir.path(), "out", &["--measures", "l2-star,k-wise-dispersion"]);
     let text = fs::read_to_string(dir.path().join("out/table.tex")).unwrap();
     let tables: Vec<&str> = text.split("\\begin{tabular}").skip(1).collect();
     assert_eq!(tables.len(), 2);

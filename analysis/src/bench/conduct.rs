@@ -1,4 +1,5 @@
-//! One run: a strategy proposes tests of a target to the end of the budget, and what comes of them is a row.
+//! Conducts one run of a bench: a strategy proposes tests of a target until the budget is spent, and the results
+//! become a row.
 
 use super::target::{TargetKind, generator_of, study_of};
 use super::{Bench, Case, ReferenceMap, Row};
@@ -13,13 +14,14 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Up to how many dimensions the dispersion of a few hundred tests is computed in far less time than the tests take.
+/// The greatest number of dimensions of which the dispersion is computed. Up to this number the dispersion of a few
+/// hundred tests takes far less time than the tests.
 const MOST_DIMS: usize = 4;
 
-/// After so many batches in a row without a new test a strategy is taken to have no more.
+/// The number of batches in a row without a new test after which a strategy is taken to have no more tests.
 const MOST_IDLE: usize = 100;
 
-/// The row of a run; `None` if it was stopped.
+/// Conducts a run and returns its row; `None` if the run was stopped.
 pub(super) fn row(
     bench: &Bench,
     case: &Case,
@@ -41,7 +43,7 @@ pub(super) fn row(
             let generator = generator_of(*function, case.strategy, case.seed, bench)?;
             let mut placed = Computed { generator, placed: function.placed(case.seed) };
             let fails = |robustness: &Option<f64>| robustness.map(|robustness| robustness < 0.0);
-            // There is no map against which more could be held.
+            // A function has no reference map, so that tests after the first failure would tell nothing more.
             let Some(done) = explore(&mut placed, bench, stop, |robustness| fails(robustness) == Some(true))? else {
                 return Ok(None);
             };
@@ -64,21 +66,22 @@ pub(super) fn row(
     }))
 }
 
-/// The dispersion of the tests that cover anything.
+/// Returns the dispersion of the tests that count for coverage (those with an outcome); `None` unless `dims` is in 1
+/// to `MOST_DIMS`.
 fn dispersion_of(dims: usize, tests: &[(Point, Option<bool>)]) -> Result<Option<f64>, Error> {
     if !(1..=MOST_DIMS).contains(&dims) {
         return Ok(None);
     }
     let covering = tests.iter().filter(|(_, fails)| fails.is_some()).map(|(point, _)| &point.continuous);
     let points = PointSet::new(dims, covering)?;
-    // Without a deadline both ends are the same.
+    // Without a deadline the lower and the upper bound are the same.
     Ok(Some(dispersion(&points, Deadline::never()).volume.upper))
 }
 
 /// Tests with their outcomes.
 type Done<T> = Vec<(Point, T)>;
 
-/// What is tested, with whoever chooses the tests.
+/// A target together with the strategy that chooses its tests.
 trait Tested {
     type Outcome: Clone;
     fn ask(&mut self, n: usize) -> Vec<Point>;
@@ -86,8 +89,8 @@ trait Tested {
     fn tell(&mut self, tests: &[Point], outcomes: &[Self::Outcome]) -> Result<(), Error>;
 }
 
-/// Different tests with their outcomes up to one that `ends` the run, as many as the budget if the strategy has so many;
-/// `None` if it was stopped.
+/// Runs different tests until an outcome `ends` the run, the budget is spent or the strategy has no more tests.
+/// Returns the tests with their outcomes; `None` if `stop` was set.
 fn explore<T: Tested>(
     tested: &mut T,
     &Bench { budget, batch, .. }: &Bench,
@@ -125,12 +128,12 @@ fn explore<T: Tested>(
     Ok(Some(done))
 }
 
-/// A test is known by its coordinates, to the last bit.
+/// Returns the key of a test, which is its coordinates to the last bit.
 fn key(test: &Point) -> (Vec<u64>, Vec<usize>) {
     (test.continuous.iter().map(|u| u.to_bits()).collect(), test.discrete.clone())
 }
 
-/// A study, as a campaign runs it.
+/// A study whose tests run as in a campaign.
 struct Studied<'a> {
     study: &'a Study,
     steering: Steering<'a>,
@@ -165,7 +168,7 @@ impl Tested for Studied<'_> {
     }
 }
 
-/// A function.
+/// A function whose tests are computed.
 struct Computed {
     generator: Box<dyn Generator>,
     placed: Placed,

@@ -1,5 +1,5 @@
-//! The folder of a bench: `bench.json` says what is run, `runs.csv` grows by a row with every run, and the rest is derived
-//! from the rows at the end.
+//! Reads and writes the folder of a bench: `bench.json` describes the bench, `runs.csv` gains a row with every run,
+//! and all other files are derived from the rows at the end.
 
 use super::row::RowFlaw;
 use super::{Bench, BenchFlaw, Row};
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 const BENCH: &str = "bench.json";
 const RUNS: &str = "runs.csv";
 
-/// The rows of a bench in its folder, open for appending.
+/// The file of rows of a bench, open for appending.
 #[derive(Debug)]
 pub struct Rows {
     path: PathBuf,
@@ -22,10 +22,11 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Begins a bench in a folder that is empty or not there; `maps` says against which maps its runs are held.
+    /// Begins a bench in a folder that is empty or does not exist. `maps` describes the reference maps that the runs
+    /// are compared with.
     ///
     /// # Errors
-    /// The folder cannot be written, or has something in it.
+    /// The folder cannot be written, or is not empty.
     pub fn create(folder: &Path, bench: &Bench, maps: &Value) -> Result<Self, Error> {
         new_folder(folder)?;
         Self::begin(folder, bench, maps)
@@ -40,10 +41,12 @@ impl Rows {
         Ok(rows)
     }
 
-    /// Continues this bench in its folder, or begins it if there is nothing yet; the rows that are there.
+    /// Continues a bench in its folder, or begins the bench if the folder has no `bench.json`. Returns also the rows
+    /// that the folder already has.
     ///
     /// # Errors
-    /// The folder holds something else, or a row that is broken or none of this bench.
+    /// The folder holds a different bench; or it is not empty, but has no `bench.json`; or a row is broken or does
+    /// not belong to this bench.
     pub fn resume(folder: &Path, bench: &Bench, maps: &Value) -> Result<(Self, Vec<Row>), Error> {
         make_folder(folder)?;
         let (file, runs) = (folder.join(BENCH), folder.join(RUNS));
@@ -57,7 +60,7 @@ impl Rows {
         }
         let text =
             if runs.exists() { fs::read_to_string(&runs).map_err(Error::io("read", &runs))? } else { String::new() };
-        // What a kill leaves behind has no end.
+        // A program that was killed can leave a last line without a line end. Such a line does not count.
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
         if whole == 0 {
             write_whole(&runs, b"")?;
@@ -75,7 +78,7 @@ impl Rows {
         Ok(Self { path, file })
     }
 
-    /// Appends the next row.
+    /// Appends the next row to the file.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -91,7 +94,7 @@ impl Rows {
     }
 }
 
-/// What makes a bench this one.
+/// Returns the content of `bench.json`, which is all that distinguishes this bench from others.
 fn description(bench: &Bench, maps: &Value) -> Value {
     json!({
         "format": 2,

@@ -1,23 +1,25 @@
-//! Strategies held against each other by what they are for: how soon each finds a failure, and how much of where tests fail
-//! is known after it.
+//! Compares strategies by their purpose: how soon each strategy finds a failure, and how well its tests show where
+//! tests fail.
 //!
-//! Every strategy runs every target with every seed; runs of the same seed are pairs. A run goes on to its budget, whatever
-//! it finds (only that of a function ends with a failure), and is one row:
+//! Every strategy runs every target with every seed. Runs with the same seed are pairs. A run on a study continues to
+//! its budget, whatever it finds; a run on a function ends with the first failure. Each run becomes one row:
 //!
-//! - *tests to the first failure*, censored at the budget where there was none (`statistics::Survival` says what that asks
-//!   for). A test that is proposed again is known, and costs nothing. A run that is *exhausted*, for its strategy had nothing
-//!   more to propose before the budget was spent, is not censored: there is no failure for it to be found, however many
-//!   tests it had, and its time is infinite. In restricted means both count as the budget;
-//! - *failure modes*, as [`Modes`](crate::Modes) tells them apart;
-//! - *recall* and *precision* of the run as a map of where tests fail, against a [`ReferenceMap`];
-//! - *dispersion* of its tests, exact, so that it can be asked whether a low one finds failures.
+//! - *tests to the first failure*, censored at the budget if there was no failure (see `statistics::Survival`). A
+//!   test that a strategy proposes again has a known result and costs nothing. A run is *exhausted* if its strategy
+//!   had nothing more to propose before the budget was spent. An exhausted run is not censored: it would find no
+//!   failure with any number of tests, and its time is infinite. In restricted means, censored and exhausted runs
+//!   both count as the budget;
+//! - *failure modes*, as [`Modes`](crate::Modes) distinguishes them;
+//! - *recall* and *precision* of the run as a map of where tests fail, compared with a [`ReferenceMap`];
+//! - *dispersion* of the run's tests, exact. It shows whether strategies with a low dispersion find failures.
 //!
-//! Discrete values are drawn for every test of an open-loop strategy, uniformly among the valid ones, instead of taken from
-//! the rows of a covering array as in `run`: a run over such rows tells what the array has left out, and `random` would not be
-//! random (`Strategy::build_independent`). Adaptive strategies search all combinations anyway.
+//! An open-loop strategy draws the discrete values of every test uniformly among the valid ones. It does not take
+//! them from the rows of a covering array, as `run` does: a run over such rows would show what the array leaves out,
+//! and `random` would not be random (`Strategy::build_independent`). Adaptive strategies search all combinations
+//! anyway.
 //!
-//! Runs are made one to a core, each on a single thread, so that results depend neither on their number nor on what else a
-//! core does. Rows are written in order as runs end, so that a study that was cut short goes on where it was.
+//! Each run takes one core and a single thread, so that results depend neither on the number of parallel runs nor on
+//! other work of the core. Rows are written in order as runs end, so that an interrupted bench can be continued.
 
 mod conduct;
 mod files;
@@ -42,7 +44,8 @@ use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use thiserror::Error;
 
-/// The strategies of a bench where nothing is said: chance, the paper's choice, random corners as a control, and what goes by robustness.
+/// The default strategies of a bench. They are random tests, the paper's choice, random corners as a control, and
+/// strategies that use robustness.
 pub const USUAL: [Strategy; 8] = [
     Strategy::RANDOM,
     Strategy::HALTON,
@@ -54,32 +57,32 @@ pub const USUAL: [Strategy; 8] = [
     Strategy::AUTO,
 ];
 
-/// What is run, and how.
+/// The description of a bench, with its strategies, targets, budget and seeds.
 #[derive(Debug, Clone)]
 pub struct Bench {
     /// The strategies, in the order in which they are shown.
     pub strategies: Vec<Strategy>,
-    /// What they are tried on.
+    /// The targets on which the strategies are tried.
     pub targets: Vec<Target>,
-    /// How many tests a run has.
+    /// The number of tests of a run.
     pub budget: usize,
-    /// How many seeds each strategy is given, at least 2.
+    /// The number of seeds of each strategy, at least 2.
     pub seeds: usize,
-    /// The first seed; the others follow it.
+    /// The first seed. The other seeds follow it without a gap.
     pub first_seed: u64,
-    /// How many tests a strategy is asked for at a time.
+    /// The number of tests that a strategy is asked for at a time.
     pub batch: usize,
-    /// The strategy that the others are held against.
+    /// The strategy that the others are compared with.
     pub baseline: Strategy,
 }
 
-/// What makes no sense in a bench.
+/// A flaw in the description or the folder of a bench.
 #[derive(Debug, Error)]
 pub enum BenchFlaw {
-    /// No test is run.
+    /// The budget or the batch is 0.
     #[error("found 0 as the budget or the batch, expected numbers from 1 on")]
     Zero,
-    /// The baseline is not run.
+    /// The baseline is not among the strategies.
     #[error("the baseline {baseline} is not among the strategies")]
     Baseline {
         /// The baseline.
@@ -92,22 +95,22 @@ pub enum BenchFlaw {
         strategy: Strategy,
         /// The target.
         target: String,
-        /// Why.
+        /// The reason.
         why: Error,
     },
-    /// A folder holds another bench.
+    /// The folder holds a different bench.
     #[error("{} holds a different bench: its `{key}` differs", folder.display())]
     Other {
         /// The folder.
         folder: PathBuf,
-        /// The entry of bench.json in which they differ.
+        /// The entry of bench.json in which the benches differ.
         key: String,
     },
 }
 
 impl Reason for BenchFlaw {}
 
-/// A run that is to be made.
+/// A run of a bench, before it is conducted.
 #[derive(Debug, Clone, Copy)]
 struct Case {
     target: usize,
@@ -116,8 +119,8 @@ struct Case {
 }
 
 impl Bench {
-    /// These strategies on these targets: 200 tests in batches of 16, 30 seeds, against `random` if it is among them and
-    /// the first if not.
+    /// Makes a bench of these strategies on these targets with the default settings. These are 200 tests in batches
+    /// of 16 and 30 seeds. The baseline is `random` if it is among the strategies, and otherwise the first strategy.
     ///
     /// # Errors
     /// A list is empty, or names something twice.
@@ -130,7 +133,7 @@ impl Bench {
         Ok(Self { strategies, targets, budget: 200, seeds: ENOUGH_SEEDS, first_seed, batch: 16, baseline })
     }
 
-    /// Checks that it can be done.
+    /// Checks that the bench can be run.
     ///
     /// # Errors
     /// A number is out of range, the baseline is not among the strategies, or a strategy cannot make tests of a target.
@@ -151,12 +154,12 @@ impl Bench {
         Ok(())
     }
 
-    /// How many runs there are.
+    /// Returns the number of runs of the bench.
     pub fn runs(&self) -> usize {
         self.targets.len() * self.strategies.len() * self.seeds
     }
 
-    /// The runs in the order of their rows.
+    /// Returns the runs in the order of their rows.
     fn cases(&self) -> Vec<Case> {
         let mut cases = Vec::with_capacity(self.runs());
         for target in 0..self.targets.len() {
@@ -167,12 +170,11 @@ impl Bench {
         cases
     }
 
-    /// Makes the runs that are not known yet, `jobs` at a time; `watch` sees the row of each in order, and its first error
-    /// ends the work, as does `stop` once it is set. The known rows are those of the first runs; `maps` are by the names of
-    /// the targets.
+    /// Conducts the runs that are not known yet, `jobs` at a time. `known` has the rows of the first runs, and `maps`
+    /// has reference maps by the names of the targets. `watch` receives the new rows in order; its first error ends
+    /// the work. The work also ends if `stop` is set.
     ///
-    /// # Errors
-    /// That of `watch`, or a run cannot be made.
+    /// `watch` returned an error, a run cannot be made, or `stop` was set.
     pub fn run(
         &self,
         jobs: NonZeroUsize,
@@ -206,30 +208,30 @@ impl Bench {
     }
 }
 
-/// A bench that was run.
+/// A bench with its results.
 #[derive(Debug, Clone)]
 pub struct Benched {
-    /// What was run.
+    /// The description of the bench.
     pub bench: Bench,
-    /// Every run: by target, strategy and seed.
+    /// All runs, ordered by target, strategy and seed.
     pub rows: Vec<Row>,
-    /// What is said of each strategy: by target and strategy.
+    /// The results of each strategy on each target, ordered by target and strategy.
     pub cells: Vec<BenchCell>,
-    /// How dispersion and recall go together: by target.
+    /// The correlation of dispersion and recall on each target, ordered by target.
     pub correlations: Vec<Correlation>,
-    /// How each strategy stands over all targets.
+    /// The standing of each strategy over all targets.
     pub standings: Vec<MeanRatio>,
-    /// What else a reader should know, a sentence each.
+    /// Further remarks for the reader, one sentence each.
     pub notes: Vec<String>,
 }
 
 impl Benched {
-    /// The cells of a target, in the order of the strategies.
+    /// Returns the cells of a target, in the order of the strategies.
     pub fn of_target<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a BenchCell> {
         self.cells.iter().filter(move |cell| cell.scenario == name)
     }
 
-    /// The rows of a strategy on a target.
+    /// Returns the rows of a strategy on a target.
     pub fn rows_of<'a>(&'a self, scenario: &'a str, strategy: Strategy) -> impl Iterator<Item = &'a Row> {
         self.rows.iter().filter(move |row| row.scenario == scenario && row.strategy == strategy)
     }

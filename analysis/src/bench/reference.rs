@@ -1,17 +1,19 @@
-//! Where tests of a target fail: the verdicts of very many random tests, which no run has a part in.
+//! Makes reference maps, which show by the verdicts of very many random tests where the tests of a target fail.
 //!
-//! A run of a few hundred tests says of every place what the nearest of its tests says (Cover and Hart, Nearest neighbor
-//! pattern classification, IEEE Trans. Inf. Theory 13, 1967). Held against the map that has
+//! A run of a few hundred tests predicts for every place the outcome of the nearest of its tests (Cover and Hart,
+//! Nearest neighbor pattern classification, IEEE Trans. Inf. Theory 13, 1967). The comparison of these predictions
+//! with the map gives
 //!
-//! - *recall*: the share of the failing tests of the map that are told to fail;
-//! - *precision*: the share of the tests told to fail that do fail (van Rijsbergen, Information Retrieval, 1979, chapter 7).
+//! - *recall*: the share of the failing tests of the map that the run predicts to fail;
+//! - *precision*: the share of the tests predicted to fail that do fail (van Rijsbergen, Information Retrieval, 1979,
+//!   chapter 7).
 //!
-//! As the map's tests are uniform, these are shares of volume. Distances are those of the unit cube, in which a discrete
-//! parameter counts 0 to 1 by its steps where its values have an order and 0 or 1 where they are words (HEOM; Wilson and
-//! Martinez, Improved heterogeneous distance functions, JAIR 6, 1997). Tests that broke or could not be built say nothing of
-//! any place.
+//! As the map's tests are uniform, these are shares of volume. Distances are those of the unit cube. A discrete
+//! parameter contributes 0 to 1 by its steps if its values are ordered, and 0 or 1 if its values are words (HEOM;
+//! Wilson and Martinez, Improved heterogeneous distance functions, JAIR 6, 1997). Tests with the verdict `error` or
+//! `invalid` tell nothing about any place.
 //!
-//! A file of a map has the study that made it, from which its tests follow, and a letter for the verdict of each.
+//! The file of a map holds the study that made the map, from which the tests follow, and a letter for each verdict.
 
 use paracosm_campaign::files::write_whole;
 use paracosm_campaign::{
@@ -28,14 +30,14 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
-/// The seed of the maps' tests, far from those of runs.
+/// The seed of the tests of a map, far from the seeds of runs.
 const SEED: u64 = 1_000_000;
-/// The version of the files.
+/// The version of the format of map files.
 const FORMAT: u32 = 1;
-/// How many verdicts stand in a line.
+/// The number of verdicts in a line of a map file.
 const LINE: usize = 100;
 
-/// What a failing and other tests are written as.
+/// The letters that stand for the verdicts in a map file.
 const LETTERS: [(Verdict, char); 5] = [
     (Verdict::Pass, '.'),
     (Verdict::Fail, 'F'),
@@ -44,18 +46,18 @@ const LETTERS: [(Verdict, char); 5] = [
     (Verdict::Error, 'e'),
 ];
 
-/// Many tests of a target, and which of them fail.
+/// A map of where the tests of a target fail, made of many random tests with their verdicts.
 #[derive(Debug, Clone)]
 pub struct ReferenceMap {
     study: Study,
     verdicts: Vec<Verdict>,
     axes: Vec<Axis>,
-    /// The places of the tests that say something, one after the other, and whether each fails.
+    /// The places of the tests that are neither `error` nor `invalid`, each with an entry in `fails`.
     places: Vec<f64>,
     fails: Vec<bool>,
 }
 
-/// How well a run knows where tests fail.
+/// The recall and the precision of a run as a map of where tests fail.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Judged {
     pub recall: Option<f64>,
@@ -65,52 +67,52 @@ pub(super) struct Judged {
 #[derive(Debug, Clone, Copy)]
 enum Axis {
     Continuous,
-    /// So many levels in order, or so many words.
+    /// A discrete parameter with this number of ordered levels, or (`Words`) this number of words.
     Ordered(usize),
     Words(usize),
 }
 
-/// What a file of a map holds.
+/// The content of a map file.
 #[derive(Serialize, Deserialize)]
 struct Written {
     format: u32,
-    /// The command that made it.
+    /// The command that made the map.
     command: String,
     study: StudyFile,
     verdicts: Vec<String>,
 }
 
-/// What is wrong with the file of a map.
+/// A flaw in the file of a reference map.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum MapFlaw {
-    /// It is of another version.
+    /// The file has another version of the format.
     #[error("found format {found}, expected {FORMAT}")]
     Format {
-        /// The format.
+        /// The version of the file's format.
         found: u32,
     },
-    /// It is the map of something else.
+    /// The file holds the map of another study.
     #[error("the map is of another study: its `{key}` differs; make another one elsewhere")]
     Other {
         /// The entry in which the studies differ.
         key: String,
     },
-    /// It has more verdicts than tests.
+    /// The file has more verdicts than its study has tests.
     #[error("found {found} verdicts, expected at most {expected}")]
     TooMany {
-        /// How many there are.
+        /// The number of verdicts.
         found: usize,
-        /// How many tests there are.
+        /// The number of tests.
         expected: usize,
     },
-    /// A letter is no verdict.
+    /// A letter does not stand for a verdict.
     #[error("found a verdict that is none of `. F i x e`")]
     Letter,
 }
 
 impl Reason for MapFlaw {}
 
-/// Ends a campaign once it is set.
+/// An observer that ends a campaign once the flag is set.
 struct Stop<'a>(&'a AtomicBool);
 
 impl Observer for Stop<'_> {
@@ -120,7 +122,7 @@ impl Observer for Stop<'_> {
 }
 
 impl ReferenceMap {
-    /// The study that makes the map of a study's subject: uniformly random tests, in every row of discrete values alike.
+    /// Returns the study of a map of a study's subject, with uniformly random tests in all rows of discrete values.
     fn study_of(study: &Study, tests: usize) -> Result<Study, Error> {
         let has_rows = !study.space().levels().is_empty();
         let discrete = if has_rows { DiscreteFamily::Cross } else { DiscreteFamily::Ipog };
@@ -129,7 +131,8 @@ impl ReferenceMap {
         Ok(study.sampled(Sampling { strategy, discrete, budget: tests, seed: Some(SEED), batch: None, ..sampling })?)
     }
 
-    /// Runs so many tests of the subject of a study; `watch` sees how many have been run.
+    /// Makes a map from this number of random tests of a study's subject. `watch` receives the number of tests so
+    /// far.
     ///
     /// # Errors
     /// The study cannot be run, or `stop` was set.
@@ -166,10 +169,10 @@ impl ReferenceMap {
         Ok(Self { study, verdicts, axes, places, fails })
     }
 
-    /// Reads the map of a study's subject that was written by [`ReferenceMap::write`].
+    /// Reads a map of a study's subject from a file that [`ReferenceMap::write`] has written.
     ///
     /// # Errors
-    /// The file cannot be read, is broken, or holds the map of something else.
+    /// The file cannot be read, is broken, or holds the map of another study.
     pub fn read(path: &Path, study: &Study) -> Result<Self, Error> {
         let text = fs::read_to_string(path).map_err(Error::io("read", path))?;
         let written: Written =
@@ -193,7 +196,7 @@ impl ReferenceMap {
         }
     }
 
-    /// Writes the map, with the command that made it.
+    /// Writes the map to a file, with the command that made the map.
     ///
     /// # Errors
     /// The file cannot be written.
@@ -206,21 +209,21 @@ impl ReferenceMap {
         write_whole(path, text.as_bytes())
     }
 
-    /// How many tests it has, and how many of them fail.
+    /// Returns the number of tests of the map, and the number of its failing tests.
     pub fn counts(&self) -> (usize, usize) {
         (self.verdicts.len(), self.fails.iter().filter(|fails| **fails).count())
     }
 
-    /// How well these tests, of which is known whether they fail, tell what fails.
+    /// Judges how well tests with known outcomes (`Some(true)`: failed) predict which tests of the map fail.
     pub(super) fn judge(&self, tests: &[(Point, Option<bool>)]) -> Judged {
         let axes = self.places.len() / self.fails.len().max(1);
         let known: Vec<(Vec<f64>, bool)> =
             tests.iter().filter_map(|(point, fails)| Some((place(&self.axes, point), (*fails)?))).collect();
-        // Without a test nothing is told, without coordinates all tests are one.
+        // Without tests nothing is predicted to fail. Without coordinates all tests are at the same place.
         let told = |at: &[f64]| {
             let distance = |place: &[f64]| place.iter().zip(at).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
             let nearest = known.iter().map(|(place, fails)| (distance(place), *fails));
-            // Of equally near ones the first.
+            // Among equally near tests the first counts.
             nearest.reduce(|best, next| if next.0 < best.0 { next } else { best }).is_some_and(|(_, fails)| fails)
         };
         let [mut both, mut told_to_fail, mut failing] = [0_usize; 3];
@@ -239,7 +242,7 @@ fn file(study: &Study) -> StudyFile {
     StudyFile::new(study, &Learned::new(), None)
 }
 
-/// A study without what another version of the software may change.
+/// Returns a study as JSON without the entries that another version of the software may change.
 fn comparable(study: &Study) -> serde_json::Value {
     let mut value = serde_json::to_value(file(study)).expect("a study is always JSON");
     if let Some(entries) = value.as_object_mut() {
@@ -258,14 +261,14 @@ fn axes(space: &Space) -> Vec<Axis> {
     std::iter::repeat_n(Axis::Continuous, space.dims()).chain(discrete).collect()
 }
 
-/// Where a test is, so that squared distances are those of the heterogeneous metric.
+/// Returns the place of a test such that squared distances are those of the heterogeneous metric (HEOM).
 fn place(axes: &[Axis], point: &Point) -> Vec<f64> {
     let mut place = point.continuous.clone();
     for (&level, axis) in point.discrete.iter().zip(&axes[point.continuous.len()..]) {
         match *axis {
             Axis::Continuous => unreachable!("discrete axes come last"),
             Axis::Ordered(levels) => place.push(level as f64 / (levels - 1).max(1) as f64),
-            // Two different ones of these are at distance 1.
+            // Two different words are at distance 1.
             Axis::Words(levels) => {
                 place.extend((0..levels).map(|word| if word == level { std::f64::consts::FRAC_1_SQRT_2 } else { 0.0 }));
             }

@@ -1,4 +1,4 @@
-//! What is written of a run: one line of `runs.csv`.
+//! Writes and reads the results of a run as one line of `runs.csv`.
 
 use paracosm_campaign::{Error, Reason};
 use paracosm_generators::Strategy;
@@ -6,52 +6,53 @@ use std::path::Path;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// A run in numbers.
+/// The results of a run in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// The name of its target.
+    /// The name of the target.
     pub scenario: String,
     /// The strategy.
     pub strategy: Strategy,
     /// The seed.
     pub seed: u64,
-    /// How many different tests were run: the budget, as many as the strategy had, or of a function up to the first failure.
+    /// The number of different tests run. It is below the budget if the strategy had no more tests, or if a test of a
+    /// function failed.
     pub tests: usize,
-    /// After how many tests the first one failed, itself among them; `None` if none did.
+    /// The number of tests up to and including the first failing test; `None` if no test failed.
     pub first_failure: Option<usize>,
-    /// How many tests failed.
+    /// The number of failing tests.
     pub failures: usize,
-    /// In how many modes, where failures have modes.
+    /// The number of failure modes; `None` for a function, whose failures have no modes.
     pub modes: Option<usize>,
-    /// Which share of where tests fail is told to fail, against a reference map.
+    /// The recall of the run against the reference map; `None` without a map or if no test of the map fails.
     pub recall: Option<f64>,
-    /// Which share of what is told to fail does fail; `None`, too, where nothing is told to fail.
+    /// The precision of the run against the reference map; `None` without a map or if no test is predicted to fail.
     pub precision: Option<f64>,
-    /// The volume of the largest empty box, where there is a map and it is known exactly.
+    /// The volume of the largest empty box; `None` without a reference map or if the volume is not known exactly.
     pub dispersion: Option<f64>,
 }
 
-/// What is wrong with a line of a file of rows.
+/// A flaw in a line of a file of rows.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RowFlaw {
-    /// Another version has written it.
+    /// The header is not that of this version.
     #[error("found another header than this version writes")]
     Header,
-    /// It is the row of another run.
+    /// The row belongs to another run.
     #[error("the row is not that of the run in its place; was the file edited?")]
     Foreign,
-    /// It has too few or too many fields.
+    /// The row has too few or too many fields.
     #[error("found {found} fields, expected {}", Row::COLUMNS.len())]
     Fields {
-        /// How many it has.
+        /// The number of fields of the row.
         found: usize,
     },
-    /// A field is no number.
+    /// A field that should be a number is not a number.
     #[error("found `{found}` as {column}, expected a number")]
     NoNumber {
-        /// What stands there.
+        /// The text of the field.
         found: String,
-        /// The column.
+        /// The name of the column.
         column: &'static str,
     },
 }
@@ -59,12 +60,13 @@ pub enum RowFlaw {
 impl Reason for RowFlaw {}
 
 impl Row {
-    /// Whether the strategy had nothing more to propose before the budget was spent, and no failure by then.
+    /// Returns `true` if the run found no failure and ended before the budget, because its strategy had nothing more
+    /// to propose.
     pub fn is_exhausted(&self, budget: usize) -> bool {
         self.first_failure.is_none() && self.tests < budget
     }
 
-    /// The names of the columns.
+    /// The names of the columns of `runs.csv`.
     pub const COLUMNS: [&str; 10] = [
         "scenario",
         "strategy",
@@ -78,7 +80,7 @@ impl Row {
         "dispersion",
     ];
 
-    /// The fields, in the order of the columns; empty where there is no value.
+    /// Returns the fields in the order of the columns. A field without a value is empty.
     pub(super) fn fields(&self) -> Vec<String> {
         vec![
             self.scenario.clone(),
@@ -94,7 +96,7 @@ impl Row {
         ]
     }
 
-    /// Reads the fields of a line of a file.
+    /// Reads a row from the fields of a line of a file.
     pub(super) fn parse(path: &Path, line: usize, fields: &csv::StringRecord) -> Result<Self, Error> {
         let wrong = |column: usize, text: &str| {
             let flaw = RowFlaw::NoNumber { found: text.to_owned(), column: Self::COLUMNS[column] };
@@ -127,7 +129,7 @@ impl Row {
     }
 }
 
-/// A value, or an empty field.
+/// Returns the value as text, or an empty field.
 fn maybe(value: Option<impl ToString>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }

@@ -1,5 +1,5 @@
-//! What is said of many runs: how soon and how often a strategy finds a failure, how it stands against the others, and
-//! whether those with a low dispersion know more of where tests fail.
+//! Summarises the runs of a bench: how soon and how often each strategy finds a failure, how it compares with the
+//! others, and whether runs with a low dispersion show better where tests fail.
 
 use super::{Bench, Benched, Row};
 use crate::statistics::{
@@ -8,7 +8,7 @@ use crate::statistics::{
 use paracosm_generators::Strategy;
 use serde::{Serialize, Serializer};
 
-/// What is said of a strategy on a target.
+/// The results of a strategy on a target.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BenchCell {
     /// The name of the target.
@@ -16,66 +16,69 @@ pub struct BenchCell {
     /// The strategy.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
-    /// How many runs there were.
+    /// The number of runs.
     pub runs: usize,
-    /// How many of them found a failure.
+    /// The number of runs that found a failure.
     pub found: usize,
-    /// How many of the others ended before the budget, for the strategy had nothing more to propose.
+    /// The number of runs without a failure that ended before the budget, because the strategy had no more tests.
     pub exhausted: usize,
-    /// Their share.
+    /// The share of the runs that found a failure.
     pub rate: f64,
-    /// Wilson's 95 % interval of the share.
+    /// Wilson's 95 % interval of the share of runs that found a failure.
     pub rate_interval: [f64; 2],
-    /// The mean number of tests to the first failure over those; it says too little where others found none.
+    /// The mean number of tests to the first failure, over the runs that found one. It says too little if some did
+    /// not.
     pub mean_found: Option<f64>,
-    /// After how many tests one half have found one; `None` where fewer did.
+    /// The number of tests after which half of the runs have found a failure; `None` if fewer runs found a failure.
     pub median: Option<f64>,
-    /// The restricted mean: how many tests a run takes that ends with the first failure, or with the budget; one that is
-    /// exhausted never finds a failure, and counts as the budget too.
+    /// The restricted mean of the number of tests to the first failure, in which a run counts at most the budget. An
+    /// exhausted run, which never finds a failure, counts as the budget.
     pub restricted_mean: f64,
-    /// Its 95 % bootstrap interval over the seeds.
+    /// The 95 % bootstrap interval of the restricted mean, over the seeds.
     pub restricted_interval: [f64; 2],
-    /// The restricted mean over the least one of any strategy but `auto`, which is made of others, and the control.
+    /// The restricted mean divided by the least of any strategy but `auto`, which consists of others, and
+    /// `random-corners`, the control.
     pub over_best: Option<f64>,
-    /// Restricted means against the baseline's, over pairs of the same seed; none for the baseline itself.
+    /// The restricted mean compared with the baseline's, over pairs with the same seed; `None` for the baseline.
     pub versus: Option<Versus>,
-    /// The curve of Kaplan and Meier against the baseline's, which takes no notice of pairs.
+    /// The Kaplan-Meier curve compared with the baseline's, ignoring pairs; `None` for the baseline.
     pub log_rank: Option<LogRank>,
-    /// The mean number of failure modes.
+    /// The mean number of failure modes; `None` if failures have no modes.
     pub modes: Option<f64>,
-    /// The mean recall.
+    /// The mean recall; `None` if it is not known of any run.
     pub recall: Option<f64>,
-    /// The mean precision of the runs that tell anything to fail.
+    /// The mean precision of the runs that predict any test to fail; `None` if there is no such run.
     pub precision: Option<f64>,
-    /// The median dispersion.
+    /// The median dispersion; `None` if it is not known of any run.
     pub dispersion: Option<f64>,
 }
 
-/// What the log-rank test says of two curves.
+/// The result of the log-rank test of two survival curves.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LogRank {
     /// The p-value, two-sided.
     pub p: f64,
-    /// The same after Holm's correction for all comparisons of the bench.
+    /// The p-value after Holm's correction for all comparisons of the bench.
     pub p_holm: f64,
 }
 
-/// How dispersion and recall go together on a target.
+/// The correlation of dispersion and recall on a target.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Correlation {
     /// The name of the target.
     pub scenario: String,
-    /// Among which runs: those of `all` strategies but the control, or of these that do not go by robustness, `open loop`.
+    /// The strategies of the runs, which are `all` (but the control) or the `open loop` strategies among them.
     pub among: &'static str,
-    /// How many these are.
+    /// The number of runs in the group.
     pub runs: usize,
-    /// Spearman's rank correlation: below 0, runs that leave smaller holes know more of where tests fail.
+    /// Spearman's rank correlation. If it is below 0, runs that leave smaller holes show better where tests fail.
     pub spearman: f64,
-    /// Its 95 % bootstrap interval over the seeds.
+    /// The 95 % bootstrap interval of the correlation, over the seeds.
     pub interval: [f64; 2],
 }
 
-/// A strategy over all targets: its restricted means over the least of any strategy but `auto` and the control.
+/// The standing of a strategy over all targets. A ratio divides its restricted mean on a target by the least
+/// restricted mean of any strategy but `auto` and the control.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeanRatio {
     /// The strategy.
@@ -83,9 +86,9 @@ pub struct MeanRatio {
     pub strategy: Strategy,
     /// The largest of the ratios.
     pub worst: f64,
-    /// On which target.
+    /// The name of the target with the largest ratio.
     pub worst_scenario: String,
-    /// Their geometric mean.
+    /// The geometric mean of the ratios.
     pub geometric_mean: f64,
 }
 
@@ -93,17 +96,17 @@ fn strategy_name<S: Serializer>(strategy: &Strategy, serializer: S) -> Result<S:
     serializer.serialize_str(strategy.name())
 }
 
-/// All that is said of the rows of a bench.
+/// Computes the cells, the correlations and the standings from the rows of a bench.
 pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<BenchCell>, Vec<Correlation>, Vec<MeanRatio>) {
     let (mut cells, mut correlations) = (Vec::new(), Vec::new());
     let per_target = bench.strategies.len() * bench.seeds;
     for of_target in rows.chunks(per_target) {
         cells.extend(cells_of(bench, of_target));
-        // The control leaves all of the inside empty on purpose.
+        // The control leaves the inside of the cube empty on purpose.
         let all: Vec<&Row> = of_target.iter().filter(|row| row.strategy != Strategy::RANDOM_CORNERS).collect();
         let some: Vec<&Row> = all.iter().copied().filter(|row| !row.strategy.is_adaptive()).collect();
         correlations.extend(correlation(bench, "all", &all));
-        // Where all are, it would be said twice.
+        // If all strategies are open-loop, the second correlation would repeat the first.
         if some.len() < all.len() {
             correlations.extend(correlation(bench, "open loop", &some));
         }
@@ -116,7 +119,7 @@ pub(super) fn summarise(bench: &Bench, rows: &[Row]) -> (Vec<BenchCell>, Vec<Cor
     (cells, correlations, standings)
 }
 
-/// How long a run waits for its first failure: longer than its budget where that is spent, for ever where it is exhausted.
+/// Returns the time to the first failure of a run: above the budget if that is spent, infinite if exhausted.
 pub(super) fn lifetime(bench: &Bench, row: &Row) -> Lifetime {
     let time = match row.first_failure {
         Some(tests) => tests as f64,
@@ -126,7 +129,7 @@ pub(super) fn lifetime(bench: &Bench, row: &Row) -> Lifetime {
     Lifetime { time, happened: row.first_failure.is_some() }
 }
 
-/// How many tests a run waits for its first failure, at most the budget.
+/// Returns the number of tests to the first failure of a run, at most the budget.
 fn waited(bench: &Bench, row: &Row) -> f64 {
     lifetime(bench, row).time.min(bench.budget as f64)
 }
@@ -136,7 +139,7 @@ fn lifetimes<'a>(bench: &Bench, rows: impl IntoIterator<Item = &'a Row>) -> Vec<
 }
 
 impl Benched {
-    /// The share of the runs of a strategy on a target without a failure, over their tests.
+    /// Returns the survival curve of a strategy on a target (the share of runs without a failure, over the tests).
     pub fn survival(&self, scenario: &str, strategy: Strategy) -> Survival {
         Survival::of(&lifetimes(&self.bench, self.rows_of(scenario, strategy)))
     }
@@ -198,12 +201,12 @@ fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// None where either is not known of every run, or does not vary.
+/// Returns `None` if dispersion or recall is unknown for a run, or does not vary.
 fn correlation(bench: &Bench, among: &'static str, rows: &[&Row]) -> Option<Correlation> {
     let both: Option<Vec<(f64, f64)>> = rows.iter().map(|row| Some((row.dispersion?, row.recall?))).collect();
     let (dispersion, recall): (Vec<f64>, Vec<f64>) = both?.into_iter().unzip();
     let rho = spearman(&dispersion, &recall)?;
-    // The runs of a strategy are one after the other, one for each seed: runs of a seed are drawn together.
+    // The runs of a strategy are consecutive, one for each seed, so that the runs of a seed are drawn together.
     let interval = bootstrap_interval(bench.seeds, |drawn| {
         let lines = (0..rows.len()).step_by(bench.seeds);
         let (x, y): (Vec<f64>, Vec<f64>) = lines
@@ -218,7 +221,7 @@ fn correlation(bench: &Bench, among: &'static str, rows: &[&Row]) -> Option<Corr
 fn standing(strategy: Strategy, cells: &[BenchCell]) -> Option<MeanRatio> {
     let ratios =
         || cells.iter().filter(|cell| cell.strategy == strategy).filter_map(|cell| Some((cell.over_best?, cell)));
-    // Of equal ones the first.
+    // Of equal ratios the first counts.
     let worst = ratios().reduce(|worst, next| if next.0 > worst.0 { next } else { worst })?;
     let logs: Vec<f64> = ratios().map(|(ratio, _)| libm::log(ratio)).collect();
     let geometric_mean = libm::exp(mean(&logs)?);

@@ -1,4 +1,4 @@
-//! What strategies are tried on: a study's subject, or a function whose failures are known.
+//! Defines the targets on which strategies are tried: the subject of a study, or a function whose failures are known.
 
 use super::Bench;
 use paracosm_campaign::{Error, Learned, Sampling, Study, StudyFile};
@@ -7,7 +7,7 @@ use paracosm_generators::{Generator, Request, Strategy};
 use paracosm_space::Space;
 use serde_json::{Value, json};
 
-/// What strategies are tried on.
+/// A target on which strategies are tried, which is the subject of a study or a function.
 #[derive(Debug, Clone)]
 pub struct Target {
     name: String,
@@ -16,34 +16,35 @@ pub struct Target {
 
 #[derive(Debug, Clone)]
 pub(super) enum TargetKind {
-    /// All but how tests are chosen is taken from it.
+    /// The study that gives all but the choice of tests.
     Study(Box<Study>),
     Function(Function),
 }
 
 impl Target {
-    /// The subject of a study, under a name.
+    /// Makes a target of a study's subject, with this name.
     pub fn study(name: impl Into<String>, study: Study) -> Self {
         Self { name: name.into(), kind: TargetKind::Study(Box::new(study)) }
     }
 
-    /// A function, each seed of which puts the failure elsewhere.
+    /// Makes a target of a function. Each seed puts the failure of the function at another place.
     pub fn function(function: Function) -> Self {
         Self { name: function.name.to_owned(), kind: TargetKind::Function(function) }
     }
 
-    /// Its name.
+    /// Returns the name of the target.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Its name as part of that of a file: a command may have anything in it.
+    /// Returns the name of the target in a form that can be part of a file name. The name may be a command with any
+    /// characters; all but ASCII letters, digits and `+-_.:=` become `_`.
     pub fn file_name(&self) -> String {
         let plain = |c: char| if c.is_ascii_alphanumeric() || "+-_.:=".contains(c) { c } else { '_' };
         self.name.chars().map(plain).collect()
     }
 
-    /// Its study; a function has none, and so no reference map either.
+    /// Returns the study of the target; `None` for a function, which has no reference map either.
     pub fn as_study(&self) -> Option<&Study> {
         match &self.kind {
             TargetKind::Study(study) => Some(study),
@@ -51,7 +52,7 @@ impl Target {
         }
     }
 
-    /// The space of its tests.
+    /// Returns the space of the target's tests.
     pub(super) fn space(&self) -> Space {
         match &self.kind {
             TargetKind::Study(study) => study.space().clone(),
@@ -59,7 +60,7 @@ impl Target {
         }
     }
 
-    /// What says which target it is.
+    /// Returns a description that identifies the target.
     pub(super) fn description(&self) -> Value {
         match &self.kind {
             TargetKind::Study(study) => {
@@ -69,7 +70,7 @@ impl Target {
         }
     }
 
-    /// Checks that a strategy can make its tests.
+    /// Checks that a strategy can make tests of the target.
     pub(super) fn check(&self, strategy: Strategy, bench: &Bench) -> Result<(), Error> {
         match &self.kind {
             TargetKind::Study(study) => {
@@ -81,14 +82,14 @@ impl Target {
     }
 }
 
-/// A study whose tests a strategy chooses.
+/// Returns a copy of the study whose tests a strategy chooses.
 pub(super) fn study_of(study: &Study, strategy: Strategy, seed: u64, bench: &Bench) -> Result<Study, Error> {
     let &Bench { budget, batch, .. } = bench;
     let sampling = study.sampling().clone();
     Ok(study.sampled(Sampling { strategy, budget, seed: Some(seed), batch: Some(batch), ..sampling })?)
 }
 
-/// A generator of tests of a function.
+/// Makes a generator of tests of a function.
 pub(super) fn generator_of(
     function: Function,
     strategy: Strategy,

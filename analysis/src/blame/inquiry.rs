@@ -1,4 +1,4 @@
-//! Runs failing tests with the reference drivers, all pairs of a test and a driver on all cores.
+//! Runs failing tests with the reference drivers. All pairs of a test and a driver share the cores.
 
 use super::{Blame, Blamed};
 use paracosm_campaign::darkroom::Darkroom;
@@ -10,26 +10,26 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::available_parallelism;
 use thiserror::Error;
 
-/// Who failures of a study are judged by.
+/// The reference drivers that judge the failures of a study, and how to run them.
 pub struct Inquiry {
     references: Vec<Reference>,
     jobs: NonZeroUsize,
     stop: Arc<AtomicBool>,
 }
 
-/// A driver that failures are judged by.
+/// A driver that judges failures.
 struct Reference {
     name: String,
-    /// The study in which it drives.
+    /// The study with this driver in place of its own.
     study: Study,
-    /// What draws for it on all threads, if it sees.
+    /// The renderer of the driver's images, shared by all threads, if the driver uses images.
     darkroom: Option<Arc<Darkroom>>,
 }
 
-/// Why nobody can be asked.
+/// A reason why the failures of a study cannot be judged.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum InquiryFlaw {
-    /// The campaign is of a system.
+    /// The campaign tests a system, which a reference driver cannot replace.
     #[error(
         "the campaign is of the system `{command}`, whose place no driver can take: only failures in scenarios have \
          somebody to blame"
@@ -38,13 +38,13 @@ pub enum InquiryFlaw {
         /// The command of the system.
         command: String,
     },
-    /// There is no driver.
+    /// No reference driver is named.
     #[error("no driver is named, expected at least one to judge by")]
     NoDriver,
-    /// There is a driver twice.
+    /// A reference driver is named twice.
     #[error("driver `{name}` is named twice")]
     Twice {
-        /// Its name.
+        /// The name of the driver.
         name: String,
     },
 }
@@ -65,11 +65,11 @@ impl Reference {
 }
 
 impl Inquiry {
-    /// An inquiry on all cores, with these drivers in their standard settings.
+    /// Makes an inquiry that uses all cores, with these reference drivers in their standard settings.
     ///
     /// # Errors
-    /// The study is of a system, which has no driver to take the place of; or its scenario, or a driver, does not exist;
-    /// or there is no driver, or one twice.
+    /// The study tests a system, which has no driver to replace; or the scenario or a driver does not exist; or no
+    /// driver is named, or a driver is named twice.
     pub fn new(study: &Study, references: &[&str]) -> Result<Self, Error> {
         if let Subject::System(system) = study.subject() {
             return Err(InquiryFlaw::System { command: system.command.clone() }.into());
@@ -85,21 +85,22 @@ impl Inquiry {
         Ok(Self { references, jobs, stop: Arc::default() })
     }
 
-    /// Runs this many tests at a time. Results do not depend on it.
+    /// Sets the number of tests that run at the same time. Results do not depend on it.
     pub fn jobs(mut self, jobs: NonZeroUsize) -> Self {
         self.jobs = jobs;
         self
     }
 
-    /// What ends it with [`Error::Interrupted`] once it is set.
+    /// Returns the flag that ends the inquiry with [`Error::Interrupted`] once it is set.
     pub fn stop(&self) -> Arc<AtomicBool> {
         self.stop.clone()
     }
 
-    /// Runs every failing test of a campaign with each of the references; `watch` sees them in order.
+    /// Runs every failing test of a campaign with each of the reference drivers. `watch` receives the results in
+    /// order.
     ///
     /// # Errors
-    /// It was told to stop.
+    /// The inquiry was stopped.
     pub fn run(&self, log: &Log, mut watch: impl FnMut(&Blamed)) -> Result<Blame, Error> {
         let failing: Vec<&Trial> = log.trials().iter().filter(|trial| trial.is_failure()).collect();
         let names = || self.references.iter().map(|reference| reference.name.clone());

@@ -1,15 +1,16 @@
-//! Whose fault a failure is: every failing test once more, with drivers at the wheel whose behaviour is known.
+//! Judges whether failures could have been prevented: runs every failing test again with reference drivers.
 //!
-//! A driver *prevents* a failure if in its run of the same test every requirement that was violated holds, and none that
-//! the driver under test had kept is violated instead: to stand still for ever prevents no collision behind the place that
-//! the car was to reach. What was undecided, as a contact had ended the run, is held against nobody. Of a run that broke, or
-//! that could not be built, nothing is known: a failure that nobody else prevents is then not judged.
+//! A driver *prevents* a failure if its run of the same test satisfies every requirement that was violated, and
+//! violates no requirement that the driver under test had satisfied. So a driver that stands still for ever does not
+//! prevent a collision that happens after the car has reached a required place. A requirement that was undecided,
+//! because a contact had ended the run, counts against no driver. A run that broke, or whose world could not be
+//! built, tells nothing: if no other driver prevents the failure, the failure is not judged.
 //!
-//! A failure that no reference prevents is *unpreventable by these drivers*, and no more is said. They brake and do
-//! nothing else: none of them steers around anybody, or drives slower where somebody might come. For what can be done by
-//! braking `ideal` has a proof, of one other road user whose future is known
-//! ([`engine::driver::reference`](paracosm_engine::driver::reference)). In a simulated car it is told the truth but not the
-//! future, and sees no more than can be seen.
+//! A failure that no reference driver prevents is *unpreventable by these drivers*, and no more than that is claimed.
+//! The reference drivers brake and do nothing else: they do not steer around road users, and do not drive slower
+//! where somebody might come. `ideal` has a proof of what braking can achieve, for a single other road user whose
+//! future is known ([`engine::driver::reference`](paracosm_engine::driver::reference)). In a simulated car `ideal`
+//! knows the ground truth but not the future, and sees no more than can be seen.
 
 mod inquiry;
 
@@ -21,28 +22,29 @@ use paracosm_space::{Record, Values};
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// Who failures are judged by where nothing else is said.
+/// The default reference drivers that judge failures.
 pub const REFERENCES: [&str; 5] = ["ideal", "cc", "rss", "fsm", "cruise"];
 
-/// The driver that never brakes for others: what it prevents was braking's doing.
+/// The name of the driver that never brakes for others. A failure that this driver prevents was caused by braking.
 const NEVER_BRAKES: &str = "cruise";
 
-/// Whose fault a failure is.
+/// The judgement of a failure, which says whether a reference driver prevents it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Preventability {
-    /// No reference prevents it.
+    /// No reference driver prevents the failure.
     Unpreventable,
-    /// A reference that brakes prevents it.
+    /// A reference driver that brakes prevents the failure.
     Preventable,
-    /// `cruise` prevents it, who never brakes: it would not have happened without braking.
+    /// The driver `cruise`, which never brakes, prevents the failure. Without braking it would not have happened.
     Induced,
-    /// No reference is known to prevent it, and a run with one of them broke or could not be built: not judged.
+    /// The failure is not judged. No reference driver is known to prevent it, and one of their runs broke or was not
+    /// built.
     Unknown,
 }
 
 impl Preventability {
-    /// All there are.
+    /// All values of the enum.
     pub const ALL: [Self; 4] = [Self::Unpreventable, Self::Preventable, Self::Induced, Self::Unknown];
 }
 
@@ -57,49 +59,49 @@ impl fmt::Display for Preventability {
     }
 }
 
-/// The failing tests of a campaign with whose fault they are.
+/// The failing tests of a campaign, each with its judgement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blame {
-    /// The names of the drivers that they are judged by.
+    /// The names of the reference drivers that judge the failures.
     pub references: Vec<String>,
-    /// How many tests there are, failing or not.
+    /// The number of all tests of the campaign.
     pub tests: usize,
-    /// The failing ones, in the order of their indices.
+    /// The failing tests, in the order of their indices.
     pub failures: Vec<Blamed>,
 }
 
-/// A failing test with whose fault it is.
+/// A failing test with its judgement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Blamed {
     /// The index of the test in its campaign.
     pub index: usize,
-    /// Its values.
+    /// The parameter values of the test.
     pub test: Values,
-    /// What it violates.
+    /// The requirements that the test violates.
     pub violates: Vec<String>,
-    /// Whose fault that is.
+    /// The judgement of the failure.
     pub fault: Preventability,
-    /// The references that prevent it.
+    /// The names of the reference drivers that prevent the failure.
     pub prevented_by: Vec<String>,
-    /// What became of the test with each of the references.
+    /// The results of the test with each of the reference drivers.
     pub runs: Record<Rerun>,
 }
 
-/// What became of a failing test with another driver.
+/// The result of a failing test with a reference driver.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rerun {
-    /// How it ended.
+    /// The verdict of the run with the reference driver.
     pub verdict: Verdict,
-    /// Whether the failure was prevented; `None` where the run broke or could not be built.
+    /// `Some(true)` if the failure was prevented; `None` if the run broke or its world could not be built.
     pub prevents: Option<bool>,
     robustness: Record<Number>,
-    /// Why the verdict is `invalid` or `error`.
+    /// The reason why the verdict is `invalid` or `error`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error: Option<String>,
 }
 
 impl Rerun {
-    /// A failing trial beside the one of the same test with another driver.
+    /// Compares a failing trial with the trial of the same test with a reference driver.
     fn new(failing: &Trial, trial: &Trial) -> Self {
         let robustness = trial.requirements().map(|id| (id.to_owned(), Number(trial.robustness(id))));
         Self {
@@ -110,13 +112,13 @@ impl Rerun {
         }
     }
 
-    /// The robustness of a requirement in its unit; `None` where it was not decided.
+    /// Returns the robustness of a requirement in its unit; `None` if the requirement was not decided.
     pub fn robustness(&self, requirement: &str) -> Option<f64> {
         self.robustness.get(requirement).and_then(|number| number.0)
     }
 }
 
-/// Whether a failure is prevented by the driver that ended so; `None` where its run judged nothing.
+/// Checks whether the driver of `trial` prevents the failure; `None` if its run was not judged.
 fn prevents(failing: &Trial, trial: &Trial) -> Option<bool> {
     let decided = |trial: &Trial, id: &str| trial.robustness(id).is_some();
     let holds = |trial: &Trial, id: &str| decided(trial, id) && !trial.violates(id);
@@ -126,7 +128,7 @@ fn prevents(failing: &Trial, trial: &Trial) -> Option<bool> {
 }
 
 impl Blamed {
-    /// A failing trial with what became of it with each of the references.
+    /// Judges a failing trial from the trials of the same test with each of the reference drivers.
     fn new(failing: &Trial, trials: impl Iterator<Item = (String, Trial)>) -> Self {
         let runs: Record<Rerun> = trials.map(|(name, trial)| (name, Rerun::new(failing, &trial))).collect();
         let prevented_by: Vec<String> =
@@ -144,7 +146,7 @@ impl Blamed {
     }
 }
 
-/// How many failures are whose fault, and how many each of the drivers prevents, go before the rest.
+/// In JSON, the number of failures of each kind and the number that each driver prevents come first.
 impl Serialize for Blame {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
@@ -167,18 +169,18 @@ impl JsonArtefact for Blame {
 }
 
 impl Blame {
-    /// The failing test of that index.
+    /// Returns the failing test with this index.
     pub fn of(&self, index: usize) -> Option<&Blamed> {
         let position = self.failures.binary_search_by_key(&index, |failure| failure.index).ok()?;
         Some(&self.failures[position])
     }
 
-    /// How many failures are of this kind.
+    /// Returns the number of failures with this judgement.
     pub fn count(&self, fault: Preventability) -> usize {
         self.failures.iter().filter(|failure| failure.fault == fault).count()
     }
 
-    /// How many failures a reference prevents.
+    /// Returns the number of failures that a reference driver prevents.
     pub fn prevented_by(&self, reference: &str) -> usize {
         self.failures.iter().filter(|failure| failure.prevented_by.iter().any(|name| name == reference)).count()
     }

@@ -1,11 +1,12 @@
-//! Strategies held against each other: how evenly each covers the unit cube, over dimensions, budgets and seeds.
+//! Compares strategies by how evenly each covers the unit cube, over dimensions, budgets and seeds.
 //!
-//! Every strategy makes a set of points for every dimension, budget and seed; those that have one add their plain set,
-//! which takes no chance. A set is measured by everything that does not take too long, and kept as one row. Sets of the
-//! same seed are pairs: what is said of a strategy over the baseline is said of pairs (see [`crate::statistics`]).
+//! Every strategy makes a set of points for every dimension, budget and seed. Strategies with a plain set, which uses
+//! no randomness, add it. Each set is measured with every measure that does not take too long, and becomes one row.
+//! Sets with the same seed are pairs: a comparison of a strategy with the baseline uses pairs (see
+//! [`crate::statistics`]).
 //!
-//! Sets are made and measured one to a core, each on a single thread, so that results depend neither on their number nor
-//! on what else a core does, but for values that a time limit cut short, which say so.
+//! Each set is made and measured on one core and a single thread. So results depend neither on the number of parallel
+//! sets nor on other work of the core, except values that a time limit cut short, which are marked.
 
 mod set;
 mod summary;
@@ -26,9 +27,9 @@ use std::num::NonZeroUsize;
 use std::time::Duration;
 use thiserror::Error;
 
-/// More sets than this are a mistake rather than a plan.
+/// The greatest number of sets: a comparison with more sets is a mistake rather than a plan.
 const MOST_SETS: usize = 10_000_000;
-/// What is compared, and how.
+/// The description of a comparison of strategies by their coverage of unit cubes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SamplerComparison {
     /// The strategies, in the order in which they are shown.
@@ -37,57 +38,57 @@ pub struct SamplerComparison {
     pub dims: Vec<usize>,
     /// The numbers of points of the sets.
     pub budgets: Vec<usize>,
-    /// How many seeds each strategy is given, at least 2.
+    /// The number of seeds of each strategy, at least 2.
     pub seeds: usize,
-    /// The first seed; the others follow it.
+    /// The first seed. The other seeds follow it without a gap.
     pub first_seed: u64,
-    /// What is measured. `None` is all that a continuous space has, the extreme discrepancy only of sets where it takes
-    /// no more than about a second.
+    /// The measures that are taken. `None` stands for all measures of a continuous space; the extreme discrepancy
+    /// then only for sets of which it takes no more than about a second.
     pub measures: Option<Vec<Measure>>,
-    /// How many coordinates at a time the k-wise dispersion looks at.
+    /// The number of coordinates that the k-wise dispersion considers together.
     pub k: usize,
-    /// The strategy that the others are held against.
+    /// The strategy that the others are compared with.
     pub baseline: Strategy,
-    /// How long one measure of one set may take.
+    /// The time limit for one measure of one set.
     pub limit: Duration,
 }
 
-/// What makes no sense in a comparison.
+/// A flaw in the description of a comparison.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ComparisonFlaw {
-    /// There is nothing to compare.
+    /// There are no strategies.
     #[error("there is no strategy")]
     NoStrategy,
-    /// There are no points, or none of their coordinates.
+    /// A dimension or a budget is 0.
     #[error("found 0 among the dimensions or the budgets, expected numbers from 1 on")]
     Zero,
-    /// It would take for ever.
+    /// There are too many sets, so that the comparison would take for ever.
     #[error("these are more than {MOST_SETS} sets; take fewer seeds, budgets or dimensions")]
     TooManySets,
-    /// No coordinates are to be looked at together.
+    /// k is 0.
     #[error("k is 0, expected a number from 1 on")]
     NoStrength,
-    /// The baseline is not compared.
+    /// The baseline is not among the strategies.
     #[error("the baseline {baseline} is not among the strategies")]
     Baseline {
         /// The baseline.
         baseline: Strategy,
     },
-    /// The baseline cannot cover a dimension.
+    /// The baseline cannot make sets of a dimension.
     #[error("the baseline {baseline} is made for {}, not for {dims} dimensions", span(*.baseline))]
     Unable {
         /// The baseline.
         baseline: Strategy,
-        /// The dimensions.
+        /// The number of dimensions.
         dims: usize,
     },
-    /// A measure is none of continuous spaces.
+    /// A measure needs discrete parameters.
     #[error("k-wise is a measure of discrete parameters, and the unit cube has none")]
     Discrete,
-    /// Nothing is measured of any set.
+    /// No set would be measured.
     #[error("there is nothing to measure: {k}-wise dispersion needs more than {k} dimensions")]
     Nothing {
-        /// How many coordinates are looked at together.
+        /// The number of coordinates that are considered together.
         k: usize,
     },
 }
@@ -95,11 +96,12 @@ pub enum ComparisonFlaw {
 impl Reason for ComparisonFlaw {}
 
 impl SamplerComparison {
-    /// A comparison of these strategies in 2, 3 and 5 dimensions with 50, 100 and 500 points and 30 seeds, against
-    /// `halton` if it is among them and the first if not.
+    /// Makes a comparison of these strategies with the default settings. These are 2, 3 and 5 dimensions, 50, 100 and
+    /// 500 points, and 30 seeds. The baseline is `halton` if it is among the strategies, and otherwise the first
+    /// strategy.
     ///
     /// # Errors
-    /// There is no strategy.
+    /// There are no strategies.
     pub fn of(strategies: &[Strategy]) -> Result<Self, ComparisonFlaw> {
         let among = strategies.iter().find(|strategy| **strategy == Strategy::HALTON);
         let baseline = *among.or(strategies.first()).ok_or(ComparisonFlaw::NoStrategy)?;
@@ -116,11 +118,11 @@ impl SamplerComparison {
         })
     }
 
-    /// Lays out what is to be done, dimensions and budgets in ascending order.
+    /// Checks the comparison and plans its sets, with dimensions and budgets in ascending order.
     ///
     /// # Errors
-    /// A list is empty or names something twice, a number is out of range, the baseline is not among the strategies or
-    /// cannot cover a dimension, or a measure is none of continuous spaces.
+    /// A list is empty or names something twice, a number is out of range, the baseline is not among the strategies
+    /// or cannot make sets of a dimension, or a measure needs discrete parameters.
     pub fn plan(&self) -> Result<Schedule, Error> {
         let mut comparison = self.clone();
         comparison.dims.sort_unstable();
@@ -165,7 +167,7 @@ impl SamplerComparison {
         Ok(())
     }
 
-    /// What is measured of sets of this size.
+    /// Returns the measures that are taken of sets of this size.
     fn measures(&self, dims: usize, budget: usize) -> Vec<Measure> {
         let named = self.measures.is_some();
         let wanted = |measure: &Measure| match measure.descriptor().compare {
@@ -178,12 +180,12 @@ impl SamplerComparison {
         self.all_measures().into_iter().filter(wanted).collect()
     }
 
-    /// What is measured at all, in the order in which it is shown.
+    /// Returns the measures that are taken of any set, in the order in which they are shown.
     pub fn all_measures(&self) -> Vec<Measure> {
         self.measures.clone().unwrap_or_else(|| Measure::all().collect())
     }
 
-    /// The strategies that can cover so many dimensions.
+    /// Returns the strategies that can make sets of this number of dimensions.
     fn able(&self, dims: usize) -> impl Iterator<Item = Strategy> {
         self.strategies.iter().copied().filter(move |strategy| strategy.dims().contains(&dims))
     }
@@ -202,7 +204,7 @@ impl SamplerComparison {
         cases
     }
 
-    /// What a reader should know of what is left out, or of how little can be said.
+    /// Returns remarks for the reader about sets and measures that are left out, and about few seeds.
     fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         for strategy in &self.strategies {
@@ -232,18 +234,18 @@ impl SamplerComparison {
     }
 }
 
-/// The dimensions that a strategy can cover, in words.
+/// Returns the dimensions that a strategy supports, in words.
 fn span(strategy: Strategy) -> String {
     let (least, most) = strategy.dims().into_inner();
     if least == most { format!("exactly {most} dimensions") } else { format!("at most {most} dimensions") }
 }
 
-/// Numbers with commas between them.
+/// Returns the numbers with commas between them.
 fn list(numbers: &[usize]) -> String {
     numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
 
-/// A comparison that can be done.
+/// A comparison that was checked and can be run.
 #[derive(Debug)]
 pub struct Schedule {
     comparison: SamplerComparison,
@@ -252,20 +254,21 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// How many sets will be made.
+    /// Returns the number of sets that will be made.
     pub fn sets(&self) -> usize {
         self.cases.len()
     }
 
-    /// What is left out and what else a reader should know, a sentence each.
+    /// Returns remarks for the reader about what is left out, one sentence each.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Makes and measures all sets, `jobs` at a time; `watch` sees each in order, and its first error ends the work.
+    /// Makes and measures all sets, `jobs` at a time. `watch` receives the sets in order; its first error ends the
+    /// work.
     ///
     /// # Errors
-    /// That of `watch`, or a strategy cannot make a set that large.
+    /// `watch` returned an error, or a strategy cannot make a set of this size.
     pub fn run(
         self,
         jobs: NonZeroUsize,
@@ -298,23 +301,23 @@ impl Schedule {
     }
 }
 
-/// A comparison that was done.
+/// A comparison with its results.
 #[derive(Debug, Clone)]
 pub struct Compared {
-    /// What was compared.
+    /// The description of the comparison.
     pub comparison: SamplerComparison,
-    /// Every set: by dimension, budget, strategy, and the plain one before the seeds.
+    /// All sets, ordered by dimension, budget and strategy; the plain set comes before the sets with seeds.
     pub sets: Vec<MeasuredSet>,
-    /// What is said of each strategy: by measure, dimension, budget and strategy.
+    /// The results of each strategy, ordered by measure, dimension, budget and strategy.
     pub cells: Vec<ComparisonCell>,
-    /// How fast each strategy's values fall with the budget: by measure, dimension and strategy.
+    /// The slopes of each strategy's values over the budget, ordered by measure, dimension and strategy.
     pub slopes: Vec<Slope>,
-    /// What is left out and what else a reader should know, a sentence each.
+    /// Remarks for the reader about what is left out or cut short, one sentence each.
     pub notes: Vec<String>,
 }
 
 impl Compared {
-    /// The cell of a measure, a dimension, a budget and a strategy.
+    /// Returns the cell of a measure, a dimension, a budget and a strategy.
     pub fn cell(&self, measure: Measure, dims: usize, budget: usize, strategy: Strategy) -> Option<&ComparisonCell> {
         let at = |cell: &&ComparisonCell| {
             (cell.measure, cell.dims, cell.budget, cell.strategy) == (measure, dims, budget, strategy)
@@ -322,12 +325,12 @@ impl Compared {
         self.cells.iter().find(at)
     }
 
-    /// The slope of a measure, a dimension and a strategy.
+    /// Returns the slope of a measure, a dimension and a strategy.
     pub fn slope(&self, measure: Measure, dims: usize, strategy: Strategy) -> Option<&Slope> {
         self.slopes.iter().find(|slope| (slope.measure, slope.dims, slope.strategy) == (measure, dims, strategy))
     }
 
-    /// The strategies that have a value of this measure in this dimension.
+    /// Returns the strategies that have a value of this measure in this dimension.
     pub fn shown(&self, measure: Measure, dims: usize) -> Vec<Strategy> {
         let has = |strategy: &Strategy| {
             self.cells.iter().any(|c| (c.measure, c.dims, c.strategy) == (measure, dims, *strategy))
@@ -335,19 +338,19 @@ impl Compared {
         self.comparison.strategies.iter().copied().filter(has).collect()
     }
 
-    /// The budgets at which there is a value of this measure in this dimension.
+    /// Returns the budgets at which a strategy has a value of this measure in this dimension.
     pub fn budgets(&self, measure: Measure, dims: usize) -> Vec<usize> {
         let has = |budget: &usize| self.cells.iter().any(|c| (c.measure, c.dims, c.budget) == (measure, dims, *budget));
         self.comparison.budgets.iter().copied().filter(has).collect()
     }
 
-    /// The measures of which there is a value.
+    /// Returns the measures of which any strategy has a value.
     pub fn measures(&self) -> Vec<Measure> {
         let has = |measure: &Measure| self.cells.iter().any(|cell| cell.measure == *measure);
         self.comparison.all_measures().into_iter().filter(has).collect()
     }
 
-    /// A measure in words.
+    /// Returns the title of a measure in words, with the number in place of `k`.
     pub fn label(&self, measure: Measure) -> String {
         let title = measure.descriptor().title;
         title.strip_prefix("k-").map_or_else(|| title.to_owned(), |rest| format!("{}-{rest}", self.comparison.k))

@@ -1,4 +1,4 @@
-//! One set of points, and how evenly it covers its cube.
+//! Makes one set of points and measures how evenly it covers its cube.
 
 use crate::estimate::Coverage;
 use paracosm_campaign::Error;
@@ -10,28 +10,28 @@ use paracosm_generators::{Request, Strategy};
 use paracosm_space::Space;
 use std::time::Duration;
 
-/// A set that is to be made.
+/// A set of points that is to be made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Case {
     pub strategy: Strategy,
     pub dims: usize,
     pub budget: usize,
-    /// None is the plain set.
+    /// The seed; `None` for the plain set.
     pub seed: Option<u64>,
 }
 
-/// A set of points with all that was measured of it.
+/// A set of points with its measured values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredSet {
-    /// The strategy that made it.
+    /// The strategy that made the set.
     pub strategy: Strategy,
-    /// The dimension of its cube.
+    /// The number of dimensions of the cube.
     pub dims: usize,
-    /// The number of its points.
+    /// The number of points of the set.
     pub budget: usize,
-    /// The seed it was made with; none for a plain set.
+    /// The seed with which the set was made; `None` for a plain set.
     pub seed: Option<u64>,
-    /// What was measured; `None` where the time limit left nothing to say.
+    /// The measures with their values; a value is `None` if the time limit left no result.
     pub values: Vec<(Measure, Option<Bracket>)>,
 }
 
@@ -43,7 +43,7 @@ impl Case {
         let points = strategy.build(&Request { seed, ..Request::new(&space, budget) })?.ask(budget);
         let tests = TestSet::new(space, points);
         let value = |&measure: &Measure| {
-            // A measure that is not about k parameters must not stumble over a k that is too large.
+            // A measure that does not use k must not fail because of a k that is too large.
             let k = k.min(dims);
             let coverage = Coverage::of(&tests, &[measure], Some(k), Some(limit))?;
             Ok((measure, value(&coverage, measure)))
@@ -54,18 +54,18 @@ impl Case {
 }
 
 impl MeasuredSet {
-    /// The value of a measure, if it has one.
+    /// Returns the value of a measure, if the set has one.
     pub fn value(&self, measure: Measure) -> Option<Bracket> {
         self.values.iter().find(|(of, _)| *of == measure).and_then(|(_, value)| *value)
     }
 
-    /// Whether the time limit kept a measure from being exact.
+    /// Returns `true` if the time limit kept a measure from being exact.
     pub fn is_cut_short(&self) -> bool {
         self.values.iter().any(|(_, value)| value.is_none_or(|bracket| !bracket.is_exact()))
     }
 }
 
-/// A measure in a report of the coverage of continuous parameters.
+/// Returns the value of a measure from a coverage report; `None` if the report does not have it.
 fn value(coverage: &Coverage, measure: Measure) -> Option<Bracket> {
     match measure.descriptor().method {
         Computation::Combinations => None,

@@ -1,5 +1,5 @@
-//! What is said of many sets: medians and quartiles over the seeds, each strategy held against the baseline, and how
-//! fast values fall with the budget.
+//! Summarises the sets of a comparison: medians and quartiles over the seeds, the comparison of each strategy with
+//! the baseline, and how fast values fall with the budget.
 
 use super::{MeasuredSet, SamplerComparison};
 use crate::statistics::{Versus, bootstrap_interval, correct, median_and_quartiles, median_of, power_law_slope};
@@ -9,22 +9,22 @@ use paracosm_generators::Strategy;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
-/// A strategy's values of a measure at one dimension and budget. Values that are brackets count as their lower ends.
+/// A strategy's values of a measure at one dimension and budget. A value that is a bracket counts as its lower end.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ComparisonCell {
     /// The measure.
     #[serde(serialize_with = "measure_name")]
     pub measure: Measure,
-    /// The dimension.
+    /// The number of dimensions.
     pub dims: usize,
     /// The number of points.
     pub budget: usize,
     /// The strategy.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
-    /// Over how many seeds.
+    /// The number of seeds.
     pub seeds: usize,
-    /// Whether every value was computed to the end.
+    /// `true` if every value is exact, that is, if no time limit cut a measure short.
     pub exact: bool,
     /// The value of the plain set, if the strategy has one.
     pub plain: Option<f64>,
@@ -32,30 +32,30 @@ pub struct ComparisonCell {
     pub median: f64,
     /// The lower and the upper quartile over the seeds.
     pub quartiles: [f64; 2],
-    /// How it compares; none for the baseline itself, where a value of either is a bracket, and where neither differs
-    /// between seeds, as with measures that do not see a shift.
+    /// The comparison with the baseline; `None` for the baseline, if a value of either strategy is a bracket, and if
+    /// neither strategy's values differ between seeds (for example with measures that a shift does not change).
     pub versus: Option<Versus>,
 }
 
-/// The exponent with which a strategy's values of a measure fall with the budget: that of the power law fitted by least
-/// squares to their logarithms.
+/// The exponent with which a strategy's values of a measure fall with the budget. It is that of the power law fitted
+/// by least squares to the logarithms.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Slope {
     /// The measure.
     #[serde(serialize_with = "measure_name")]
     pub measure: Measure,
-    /// The dimension.
+    /// The number of dimensions.
     pub dims: usize,
     /// The strategy.
     #[serde(serialize_with = "strategy_name")]
     pub strategy: Strategy,
-    /// The budgets it is fitted to.
+    /// The budgets to which the power law is fitted.
     pub budgets: Vec<usize>,
-    /// That of the medians over the seeds.
+    /// The exponent for the medians over the seeds.
     pub slope: f64,
-    /// Its 95 % bootstrap interval over the seeds.
+    /// The 95 % bootstrap interval of the exponent, over the seeds.
     pub interval: [f64; 2],
-    /// That of the plain sets, if the strategy has them.
+    /// The exponent for the plain sets, if the strategy has them.
     pub plain: Option<f64>,
 }
 
@@ -67,7 +67,7 @@ fn strategy_name<S: Serializer>(strategy: &Strategy, serializer: S) -> Result<S:
     serializer.serialize_str(strategy.name())
 }
 
-/// All cells and slopes, each where every seed has a value.
+/// Computes the cells and the slopes, for each place at which every seed has a value.
 pub(super) fn summarise(comparison: &SamplerComparison, sets: &[MeasuredSet]) -> (Vec<ComparisonCell>, Vec<Slope>) {
     let SamplerComparison { dims, budgets, strategies, baseline, .. } = comparison;
     let (mut cells, mut slopes) = (Vec::new(), Vec::new());
@@ -82,7 +82,7 @@ pub(super) fn summarise(comparison: &SamplerComparison, sets: &[MeasuredSet]) ->
             .par_iter()
             .flat_map_iter(|line| line.places.iter().map(|place| line.cell(place, base(line, place.budget), *baseline)))
             .collect();
-        // By budget before strategy; the order within is that of the strategies.
+        // Cells are sorted by budget before strategy. The sort keeps the order of the strategies.
         of_measure.sort_by_key(|cell| (cell.dims, cell.budget));
         correct(of_measure.iter_mut().filter_map(|cell| cell.versus.as_mut()));
         cells.extend(of_measure);
@@ -99,7 +99,7 @@ struct Line {
     places: Vec<Place>,
 }
 
-/// The values at one budget: those of the seeds in order.
+/// A strategy's values of a measure at one budget, in the order of the seeds.
 struct Place {
     budget: usize,
     values: Vec<f64>,
@@ -108,7 +108,7 @@ struct Place {
 }
 
 impl Place {
-    /// Whether the values differ by more than rounding.
+    /// Checks whether the values differ by more than rounding.
     fn spreads(&self) -> bool {
         let ends = self.values.iter().fold([f64::INFINITY, 0.0], |[low, high], &v| [v.min(low), v.max(high)]);
         ends[1] - ends[0] > 1e-9 * ends[1].abs()
@@ -134,7 +134,8 @@ impl Line {
 
     fn cell(&self, place: &Place, base: Option<&Place>, baseline: Strategy) -> ComparisonCell {
         let (median, quartiles) = median_and_quartiles(&place.values);
-        // Of bracketed values the order is not known, and of values that chance does not move no test can be made.
+        // The order of bracketed values is unknown, and values that do not vary with the seed allow no statistical
+        // test.
         let tells = |base: &&Place| place.exact && base.exact && (place.spreads() || base.spreads());
         let base = base.filter(|_| self.strategy != baseline).filter(tells);
         ComparisonCell {
@@ -151,7 +152,7 @@ impl Line {
         }
     }
 
-    /// The slope; none where a value is a bracket.
+    /// Returns the slope; `None` if a value is a bracket.
     fn slope(&self) -> Option<Slope> {
         if self.places.iter().any(|place| !place.exact) {
             return None;

@@ -1,4 +1,4 @@
-//! How well tests cover their space: what `paracosm-cover estimate` prints.
+//! Measures how well tests cover their space. `paracosm-cover estimate` prints the result.
 
 mod report;
 
@@ -15,45 +15,45 @@ use paracosm_space::{Coordinate, Point, Record, Value};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// What is told who watches a measurement: the measure at work, and its bracket by now.
+/// A function that observes a measurement. It receives the measure that is at work and its bracket so far, if any.
 pub type Watch<'a> = dyn FnMut(Measure, Option<Bracket>) + 'a;
 
-/// A number of parameters that the space does not have.
+/// The error that k is not between 1 and the number of parameters of the space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("k is {k}, expected 1 to {parameters}, the number of parameters")]
 pub struct StrengthFlaw {
-    /// How many were to be looked at together.
+    /// The number of parameters to be considered together.
     pub k: usize,
-    /// How many there are.
+    /// The number of parameters of the space.
     pub parameters: usize,
 }
 
 impl Reason for StrengthFlaw {}
 
-/// The holes behind a report, in coordinates.
+/// The holes of a coverage report, in coordinates.
 #[derive(Debug, Default)]
 pub struct Holes {
     /// The largest empty box of the continuous coordinates.
     pub dispersion: Option<Dispersion>,
-    /// With how many parameters were looked at together.
+    /// The largest hole that any k parameters show, with k.
     pub k_wise: Option<(usize, KwiseDispersion)>,
 }
 
 impl Coverage {
-    /// Measures how well tests cover their space: `k` parameters at a time, where that matters (where nothing is
-    /// said, as the tests were made to; else 2, or as many as there are), and all that takes long within a time limit.
+    /// Measures how well tests cover their space. The measures that use `k` consider `k` parameters together; the
+    /// default is the strength for which the tests were made, or else 2, or the number of parameters if that is
+    /// smaller. `limit` is a time limit for all slow measures together.
     ///
     /// # Errors
-    /// There are not `k` parameters, or too many combinations of them to count.
+    /// `k` is 0 or above the number of parameters, or there are too many combinations of parameters to count.
     pub fn of(tests: &TestSet, measures: &[Measure], k: Option<usize>, limit: Option<Duration>) -> Result<Self, Error> {
         Self::watched(tests, measures, k, limit, &mut |_, _| ())
     }
 
-    /// [`Coverage::of`], while `watch` is told which measure is at work, and within which bracket it knows the number
-    /// by now.
+    /// Does the same as [`Coverage::of`]. `watch` receives the measure that is at work, and its bracket so far.
     ///
     /// # Errors
-    /// As [`Coverage::of`].
+    /// The same as of [`Coverage::of`].
     pub fn watched(
         tests: &TestSet,
         measures: &[Measure],
@@ -65,7 +65,7 @@ impl Coverage {
     }
 }
 
-/// [`Coverage::watched`], with the holes as they were found.
+/// Does the same as [`Coverage::watched`], and returns also the holes in coordinates.
 pub fn measure_holes(
     tests: &TestSet,
     measures: &[Measure],
@@ -88,7 +88,7 @@ pub fn measure_holes(
     }
     let levels = tests.space.levels();
     let is_mixed = !levels.is_empty() && tests.space.dims() > 0;
-    // In a mixed space k-wise coverage brings (k, epsilon)-covering with it, which takes time.
+    // In a mixed space, k-wise coverage also computes (k, epsilon)-covering, which takes time.
     let takes_time = |measure: &&Measure| **measure != Measure::K_WISE || is_mixed;
     let mut clock = Clock::new(limit, measures.iter().filter(takes_time).count());
     let mut holes = Holes::default();
@@ -108,7 +108,7 @@ pub fn measure_holes(
     let dims = tests.space.dims();
     let k_epsilon = combinations.map(|discrete| {
         let complete = discrete.covered == discrete.valid;
-        // Without continuous parameters a row has no hole to leave.
+        // Without continuous parameters a row has no hole.
         let Bracket { lower, upper } =
             if dims == 0 { Bracket::exact(0.0) } else { row_dispersion(dims, &tests.points, clock.next()) };
         KEpsilon {
@@ -122,7 +122,7 @@ pub fn measure_holes(
     let k_wise_dispersion = if measures.contains(&Measure::K_WISE_DISPERSION) {
         watch(Measure::K_WISE_DISPERSION, None);
         let found = match tests.space.dims() {
-            // Which tests count for a combination is for their kinds to say.
+            // With negative values, the kind of a test decides which combinations the test covers.
             0 if !tests.demand.negatives.is_empty() => {
                 let all: Vec<usize> = (0..levels.len()).collect();
                 KwiseDispersion::of_coverage(counted(tests, &all, k, &kinds)?)
@@ -139,14 +139,14 @@ pub fn measure_holes(
     Ok((Coverage { tests: tests.points.len(), continuous, violating, discrete, k_epsilon, k_wise_dispersion }, holes))
 }
 
-/// The tests that keep the constraints.
+/// Returns the set of those tests that satisfy the constraints.
 pub fn keeping(tests: &TestSet, kinds: &[TestKind]) -> TestSet {
     let keeps = |point: &&Point| kinds.iter().any(|kind| kind.rules().allows(&point.discrete));
     let points = tests.points.iter().filter(keeps).cloned().collect();
     TestSet { space: tests.space.clone(), points, k: tests.k, demand: tests.demand.clone() }
 }
 
-/// The place of a hole, as values.
+/// Returns the place of a hole in values of the parameters.
 pub fn place(
     tests: &TestSet,
     fixed: &[(usize, usize)],
@@ -169,7 +169,7 @@ fn continuous(
 ) -> Result<Continuous, Error> {
     let points = PointSet::new(tests.space.dims(), tests.points.iter().map(|point| &point.continuous))?;
     let parameters: Vec<Coordinate> = tests.space.continuous().collect();
-    // From the fastest to the slowest: a measure leaves the rest of its time to the measures after it.
+    // From the fastest to the slowest measure: a measure leaves its unused time to the measures after it.
     let mut order: Vec<Measure> = measures.iter().copied().filter(|measure| measure.is_of_points()).collect();
     order.sort_by_key(|measure| measure.descriptor().pace);
     let mut taken = Vec::new();
@@ -189,7 +189,7 @@ fn continuous(
     Ok(Continuous { parameters: parameters.iter().map(Coordinate::name).collect(), measured: taken })
 }
 
-/// The finding of a measure in the values of the parameters instead of coordinates.
+/// Returns the finding of a measure in values of the parameters instead of coordinates.
 fn in_values(found: Finding, parameters: &[Coordinate]) -> Measured {
     match found {
         Finding::Number(number) => Measured::Number(number),
@@ -236,28 +236,28 @@ fn discrete(tests: &TestSet, k: usize, kinds: &[TestKind]) -> Result<Discrete, E
     })
 }
 
-/// What the tests cover of some discrete parameters.
+/// Counts the combinations of values of `k` of these discrete parameters that the tests cover.
 fn counted(tests: &TestSet, parameters: &[usize], k: usize, kinds: &[TestKind]) -> Result<KwiseCoverage, Error> {
     Ok(coverage_of_kinds(kinds, parameters, k, tests.points.iter().map(|point| point.discrete.as_slice()))?)
 }
 
-/// A discrete coordinate with one of its values.
+/// Returns the name of a discrete coordinate and one of its values.
 pub fn named_level(coordinates: &[Coordinate], coordinate: usize, level: usize) -> (String, Value) {
     let coordinate = coordinates[coordinate];
     let levels = coordinate.parameter.levels().expect("it is a discrete parameter");
     (coordinate.name(), levels[level].clone())
 }
 
-/// A box over some continuous coordinates, as values.
+/// Returns the sides of a box over some continuous coordinates, as values.
 fn sides<'a>(coordinates: impl Iterator<Item = Coordinate<'a>>, witness: &LargestEmptyBox) -> Record<[f64; 2]> {
     let ends = witness.lower.iter().zip(&witness.upper);
     coordinates.zip(ends).map(|(c, (&lo, &hi))| (c.name(), [lo, hi].map(|u| c.parameter.value_at(u)))).collect()
 }
 
-/// A time limit for several measures: what one leaves of the time is for those after it.
+/// A time limit for several measures. Time that a measure does not use is left to the measures after it.
 struct Clock {
     end: Option<Instant>,
-    /// How many measures are still to come.
+    /// The number of measures that are still to come.
     waiting: u32,
 }
 
@@ -266,7 +266,7 @@ impl Clock {
         Self { end: limit.and_then(|limit| Instant::now().checked_add(limit)), waiting: waiting as u32 }
     }
 
-    /// The deadline of the next measure: its share of the time that is left.
+    /// Returns the deadline of the next measure, which has its share of the time that is left.
     fn next(&mut self) -> Deadline {
         let waiting = self.waiting.max(1);
         self.waiting = waiting - 1;

@@ -1,4 +1,4 @@
-//! What `estimate` says: the numbers and the places that show them, as JSON has them.
+//! Defines the report of `estimate`: the numbers and the places that show them, as in the JSON file.
 
 use paracosm_campaign::JsonArtefact;
 use paracosm_coverage::{Bracket, Measure};
@@ -6,45 +6,46 @@ use paracosm_space::{Record, Value};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
-/// How well a set of tests covers its space. Measures that were not asked for are absent.
+/// A report of how well a set of tests covers its space. Measures that were not asked for are absent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Coverage {
-    /// How many tests there are.
+    /// The number of tests.
     pub tests: usize,
-    /// The continuous half; `None` where the space has none.
+    /// The coverage of the continuous parameters; `None` if the space has no continuous parameters.
     pub continuous: Option<Continuous>,
-    /// How many of the tests violate a constraint; they cover nothing.
+    /// The number of tests that violate a constraint. Such tests cover nothing.
     #[serde(skip_serializing_if = "is_zero")]
     pub violating: usize,
-    /// The discrete half; `Some(None)`, null, where the space has none, and absent where it was not asked for.
+    /// The coverage of the discrete parameters; `Some(None)` (null) if the space has no discrete parameters, and
+    /// `None` (absent) if it was not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub discrete: Option<Option<Discrete>>,
-    /// Whether the tests are (k, epsilon)-covering; absent where nothing is discrete, or k-wise coverage was not asked
-    /// for. Without continuous parameters a row has no hole, and epsilon is 0.
+    /// The result whether the tests are (k, epsilon)-covering; absent if the space has no discrete parameters or
+    /// k-wise coverage was not asked for. Without continuous parameters a row has no hole, and epsilon is 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_epsilon: Option<KEpsilon>,
-    /// Both halves together.
+    /// The k-wise dispersion, over the discrete and continuous parameters together.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub k_wise_dispersion: Option<KwiseHole>,
 }
 
-/// How well tests cover the continuous parameters, each scaled to `[0,1]`. As JSON, the parameters, and each measure under
-/// its key.
+/// The coverage of the continuous parameters, each scaled to `[0,1]`. The JSON object has the parameters, and each
+/// measure under its key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Continuous {
-    /// The parameters; of a signal each of its coordinates.
+    /// The names of the continuous parameters; a signal has an entry for each of its coordinates.
     pub parameters: Vec<String>,
-    /// The measures that were taken, in the order in which they are shown, with what each says.
+    /// The measures that were taken with their results, in the order in which they are shown.
     pub measured: Vec<(Measure, Measured)>,
 }
 
-/// What a measure says of the continuous parameters.
+/// The result of a measure of the continuous parameters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Measured {
-    /// A number; null without tests or time.
+    /// A number; null if there are no tests or the time was too short.
     Number(Option<f64>),
-    /// A number that is exact, or between two bounds.
+    /// A number that is exact or lies in a bracket.
     Bracket(Bracket),
     /// The largest empty box.
     Hole(Hole),
@@ -53,7 +54,7 @@ pub enum Measured {
 }
 
 impl Measured {
-    /// The number, or between which bounds it is; none where nothing is known.
+    /// Returns the number as a bracket; `None` if nothing is known.
     pub fn bracket(&self) -> Option<Bracket> {
         match self {
             Self::Number(number) => number.map(Bracket::exact),
@@ -65,12 +66,12 @@ impl Measured {
 }
 
 impl Continuous {
-    /// What a measure says, if it was taken.
+    /// Returns the result of a measure, if the measure was taken.
     pub fn measured(&self, measure: Measure) -> Option<&Measured> {
         self.measured.iter().find(|(taken, _)| *taken == measure).map(|(_, measured)| measured)
     }
 
-    /// The number of a measure; none if the measure was not taken, or nothing is known.
+    /// Returns the number of a measure as a bracket; `None` if the measure was not taken or nothing is known.
     pub fn bracket(&self, measure: Measure) -> Option<Bracket> {
         self.measured(measure).and_then(Measured::bracket)
     }
@@ -87,98 +88,98 @@ impl Serialize for Continuous {
     }
 }
 
-/// The largest box that no test has entered.
+/// The largest box without a test inside.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Hole {
-    /// Its volume as a share of the space.
+    /// The volume of the box, as a share of the space.
     #[serde(flatten)]
     pub volume: Bracket,
-    /// A box of the lower volume: from and to of each parameter, as values.
+    /// The two ends, for each parameter as values, of a box that has the lower volume.
     pub largest_empty_box: Record<[f64; 2]>,
 }
 
-/// The largest ball that holds no test.
+/// The largest ball without a test inside.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Ball {
-    /// Its radius, each parameter scaled to `[0,1]`.
+    /// The radius of the ball, with each parameter scaled to `[0,1]`.
     #[serde(flatten)]
     pub radius: Bracket,
-    /// The centre of a ball of the lower radius, as values.
+    /// The centre of a ball with the lower radius, as values.
     pub centre: Record<f64>,
 }
 
-/// How well tests cover the discrete parameters.
+/// The coverage of the discrete parameters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Discrete {
-    /// How many parameters are looked at together.
+    /// The number of parameters that are considered together.
     pub k: usize,
-    /// All combinations of values of k parameters.
+    /// The number of valid combinations of values of any k parameters.
     pub valid: u64,
-    /// Those that some test contains.
+    /// The number of valid combinations that some test contains.
     pub covered: u64,
-    /// covered / valid.
+    /// The share of the valid combinations that some test contains (covered / valid).
     pub ratio: f64,
-    /// Some that no test contains, 20 at most.
+    /// Some valid combinations that no test contains, 20 at most.
     pub missing: Vec<Record<Value>>,
-    /// The share of the valid combinations of all parameters that are tested; null where these are too many to count.
+    /// The share of the valid combinations of all parameters that are tested; null if these are too many to count.
     pub combinations: Option<f64>,
-    /// The groups that were named, with a k of their own.
+    /// The coverage of the groups of parameters that have a k of their own.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub strengths: Vec<Strength>,
 }
 
-/// How well tests cover a group of discrete parameters.
+/// The coverage of a group of discrete parameters that has a k of its own.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Strength {
-    /// The parameters.
+    /// The names of the group's parameters.
     pub parameters: Vec<String>,
-    /// How many of them are looked at together.
+    /// The number of the group's parameters that are considered together.
     pub k: usize,
-    /// All combinations of values of k of them.
+    /// The number of valid combinations of values of any k parameters of the group.
     pub valid: u64,
-    /// Those that some test contains.
+    /// The number of valid combinations that some test contains.
     pub covered: u64,
-    /// covered / valid.
+    /// The share of the valid combinations that some test contains (covered / valid).
     pub ratio: f64,
-    /// Some that no test contains, 20 at most.
+    /// Some valid combinations that no test contains, 20 at most.
     pub missing: Vec<Record<Value>>,
 }
 
-/// Whether tests are (k, epsilon)-covering: any k discrete parameters show all valid combinations of their values, and
-/// no row of discrete values has an empty box larger than epsilon (the paper, section 3.1).
+/// The result whether tests are (k, epsilon)-covering. They are if any k discrete parameters show all valid
+/// combinations of their values, and no row of discrete values has an empty box larger than epsilon (the paper,
+/// section 3.1).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KEpsilon {
-    /// How many discrete parameters are looked at together.
+    /// The number of discrete parameters that are considered together.
     pub k: usize,
-    /// Whether all valid combinations of them are covered.
+    /// `true` if the tests cover all valid combinations of any k discrete parameters.
     pub complete: bool,
-    /// The smallest epsilon; null if they are not.
+    /// The smallest epsilon; null if a valid combination is not covered. After a time-out this is an upper bound.
     pub epsilon: Option<f64>,
-    /// The largest dispersion of the rows that there are. Where the time limit cut it short, it is no more than this,
-    /// and so is `epsilon`.
+    /// The largest dispersion among the rows that the tests have. After a time-out this is an upper bound.
     pub epsilon_over_covered_rows: f64,
-    /// It is no less than this either: the same number, unless the time limit cut it short.
+    /// A lower bound of the largest dispersion among the rows. Without a time-out it is the same number.
     pub epsilon_at_least: f64,
 }
 
 /// The largest hole that any k parameters show.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct KwiseHole {
-    /// How many parameters are looked at together.
+    /// The number of parameters that are considered together.
     pub k: usize,
-    /// Its volume as a share of the values of those parameters.
+    /// The volume of the hole, as a share of the space of its k parameters.
     #[serde(flatten)]
     pub volume: Bracket,
-    /// Where it is.
+    /// The place of the hole.
     pub worst: KwiseWorst,
 }
 
-/// The place of a hole: values of some discrete parameters, and a box over some continuous ones.
+/// The place of a hole, which is values of some discrete parameters and a box over some continuous parameters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KwiseWorst {
-    /// The discrete parameters among the k, with their values.
+    /// The discrete parameters of the hole, with their values.
     pub fixed: Record<Value>,
-    /// From and to of the continuous ones, as values.
+    /// The two ends of the box for each continuous parameter of the hole, as values.
     pub empty_box: Record<[f64; 2]>,
 }
 

@@ -1,8 +1,9 @@
-//! Why tests fail, in words: a decision tree of at most five leaves, with how far it can be trusted.
+//! Explains in words why tests fail: a decision tree of at most five leaves, with a measure of its accuracy.
 //!
-//! How many leaves it has is chosen by cross-validation, and so is its accuracy: each tenth of the tests is told by a tree
-//! that was grown, and whose size was chosen, without it. Failing and passing tests weigh the same, so that rare failures
-//! are explained too; how many tests of a leaf fail is said, as it may be less than half.
+//! Cross-validation chooses the number of leaves and measures the accuracy: the outcome of each tenth of the tests is
+//! predicted by a tree that was grown, and whose size was chosen, without these tests. Failing and passing tests have
+//! the same total weight, so that rare failures are explained too. The explanation states how many tests of a leaf
+//! fail, which may be less than half.
 
 mod tree;
 mod words;
@@ -13,60 +14,60 @@ use serde::Serialize;
 use tree::{Column, Table, Tree};
 use words::Names;
 
-/// A tree has at most so many leaves.
+/// The greatest number of leaves of a tree.
 const MOST_LEAVES: usize = 5;
 
-/// A leaf has at least so many tests: fewer are no rule.
+/// The least number of tests of a leaf: fewer tests do not justify a rule.
 const LEAST_TESTS: usize = 3;
 
-/// So many parts are left out in turn: when accuracy is measured, and when a size is chosen.
+/// The number of parts that are left out in turn: `FOLDS` to measure the accuracy, `SIZE_FOLDS` to choose a size.
 const FOLDS: usize = 10;
 const SIZE_FOLDS: usize = 5;
 
-/// By how many standard errors an explanation has to be better than chance.
+/// The number of standard errors by which an explanation has to be better than chance.
 const SURE: f64 = 2.0;
 
-/// Which tests of a campaign fail, in words.
+/// An explanation of which tests of a campaign fail.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Explanation {
-    /// The explanation as a sentence without its end.
+    /// The explanation as a sentence without a full stop.
     pub words: String,
-    /// How many tests passed or failed.
+    /// The number of tests that passed or failed.
     pub tests: usize,
-    /// How many of them failed.
+    /// The number of tests that failed.
     pub failures: usize,
-    /// The rules: a test fails if one of them holds. None where they would find failing tests that they were not made from
-    /// no better than chance does: not by two standard errors.
+    /// The rules of the explanation. A test is predicted to fail if a rule holds. There are no rules if the tree does
+    /// not find failing tests outside its own data better than chance by at least two standard errors.
     pub rules: Vec<Rule>,
-    /// How often the explanation is right of tests that it was not made from.
+    /// The accuracy for tests from which the tree was not made.
     pub cross_validated: Accuracy,
-    /// How often it is right of those that it was made from.
+    /// The accuracy for the tests from which the tree was made.
     pub fitted: Accuracy,
-    /// The accuracy of always saying the more frequent verdict.
+    /// The accuracy of always predicting the more frequent verdict.
     pub always: f64,
 }
 
-/// Conditions under which a larger share of the tests fails than of all.
+/// Conditions under which the share of failing tests is larger than among all tests.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Rule {
-    /// What has to hold, all of it.
+    /// The conditions, all of which have to hold.
     pub conditions: Vec<String>,
-    /// How many tests there are like this.
+    /// The number of tests that satisfy all conditions.
     pub tests: usize,
-    /// How many of them failed.
+    /// The number of those tests that failed.
     pub failures: usize,
 }
 
-/// How often an explanation is right.
+/// Measures of how often an explanation predicts the right verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Accuracy {
-    /// The share of the tests that it tells right.
+    /// The share of the tests whose verdict the explanation predicts correctly.
     pub accuracy: f64,
-    /// The mean of that share among the failing and among the passing tests.
+    /// The mean of the shares of correct predictions among the failing tests and among the passing tests.
     pub balanced: f64,
-    /// The share of failing tests among those it says fail; `None` where it says so of none.
+    /// The share of failing tests among the tests that are predicted to fail; `None` if no test is predicted to fail.
     pub precision: Option<f64>,
-    /// The share of the failing tests that it says fail.
+    /// The share of the failing tests that are predicted to fail.
     pub recall: f64,
 }
 
@@ -75,10 +76,10 @@ impl JsonArtefact for Explanation {
 }
 
 impl Explanation {
-    /// The explanation of a campaign; `None` where less than three tests passed, or less than three failed.
+    /// Explains the failures of a campaign; `None` if fewer than three tests passed or fewer than three failed.
     ///
     /// # Errors
-    /// A trial is none of the study's space.
+    /// A trial does not fit into the study's space.
     pub fn of(log: &Log) -> Result<Option<Self>, Error> {
         let (table, names) = table(log)?;
         let failures = table.failed.iter().filter(|failed| **failed).count();
@@ -115,24 +116,24 @@ impl Explanation {
 }
 
 impl Explanation {
-    /// When tests fail, a line for each rule.
+    /// Returns the rules in words, one line for each rule.
     pub fn rules_in_words(&self) -> Vec<String> {
         words::rules(self)
     }
 
-    /// How far the rules can be trusted, or that there are none.
+    /// Returns a sentence that says how far the rules can be trusted, or that there are no rules.
     pub fn trust_in_words(&self) -> String {
         words::trust(self)
     }
 }
 
 impl Accuracy {
-    /// The share of the passing tests that it says fail.
+    /// Returns the share of the passing tests that are predicted to fail.
     fn false_alarms(&self) -> f64 {
         1.0 + self.recall - 2.0 * self.balanced
     }
 
-    /// Whether it says fail more often of failing tests than of passing ones, and by more than chance would make it.
+    /// Checks whether the failing tests are predicted to fail more often than the passing tests, by more than chance.
     fn is_better_than_chance(&self, failing: usize, passing: usize) -> bool {
         let found = self.recall;
         let alarms = self.false_alarms();
@@ -154,7 +155,7 @@ impl Accuracy {
     }
 }
 
-/// The tests that passed or failed, a column for each coordinate.
+/// Returns the tests that passed or failed as a table with a column for each coordinate.
 fn table(log: &Log) -> Result<(Table, Names<'_>), Error> {
     let (space, trials) = (log.study().space(), log.trials());
     let judged: Vec<&Trial> = trials.iter().filter(|t| matches!(t.verdict, Verdict::Fail | Verdict::Pass)).collect();
@@ -175,8 +176,9 @@ fn table(log: &Log) -> Result<(Table, Names<'_>), Error> {
     Ok((Table { columns, failed: judged.iter().map(|trial| trial.is_failure()).collect() }, names))
 }
 
-/// The tree of these rows, as large as tells left-out tests best, failing and passing ones weighing the same in all; of
-/// equals the smallest. By plain accuracy rare failures would go unexplained: always saying "passes" is right too often.
+/// Grows a tree for these rows and chooses the size that predicts left-out tests best, with equal weights of failing
+/// and passing tests; of equal sizes the smallest. By plain accuracy rare failures would go unexplained, because the
+/// prediction "passes" is right for most tests.
 fn chosen(table: &Table, rows: &[usize]) -> Tree {
     let all = |rows: &[usize]| {
         let tree = Tree::grow(table, rows, MOST_LEAVES, LEAST_TESTS);
@@ -189,10 +191,10 @@ fn chosen(table: &Table, rows: &[usize]) -> Tree {
     all(rows).swap_remove(best).pruned()
 }
 
-/// What is said of each row by trees that were grown without it: for each of the trees that `grow` makes.
+/// Predicts each row by trees that were grown without it, once for each of the trees that `grow` returns.
 fn left_out(table: &Table, rows: &[usize], folds: usize, grow: impl Fn(&[usize]) -> Vec<Tree>) -> Vec<Vec<bool>> {
-    // Each verdict is dealt out by itself, in an order that has nothing to do with that of the tests: every tenth point of a
-    // sequence would be a corner of the space.
+    // The tests of each verdict are distributed separately, in an order that is independent of the order of the
+    // tests: every tenth point of a sequence would be a corner of the space.
     let mut order: Vec<usize> = (0..rows.len()).collect();
     order.sort_by_key(|&i| (table.failed[rows[i]], mix(i as u64)));
     let mut fold_of = vec![0; rows.len()];
@@ -209,7 +211,7 @@ fn left_out(table: &Table, rows: &[usize], folds: usize, grow: impl Fn(&[usize])
     told
 }
 
-/// One step of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): it shuffles.
+/// Computes one step of SplitMix64 (Steele, Lea, Flood, OOPSLA 2014), which shuffles.
 fn mix(word: u64) -> u64 {
     let word = word.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let word = (word ^ (word >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

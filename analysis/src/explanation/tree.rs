@@ -1,58 +1,59 @@
-//! Small decision trees: which ranges and levels tell failing tests from passing ones.
+//! Grows small decision trees: they find the ranges and levels that separate failing tests from passing tests.
 //!
-//! CART (Breiman, Friedman, Olshen and Stone 1984): every split is the one that lessens Gini's impurity most, over all
-//! columns and all places between two different numbers. Levels without an order are sorted by their share of failures
-//! first; for two classes no division of them is better than the best in this order (their theorem 4.5; sides of too few
-//! tests are passed over). The leaf with the most to gain is split next, so the tree of fewer leaves is always the beginning
-//! of the tree of more.
+//! The method is CART (Breiman, Friedman, Olshen and Stone 1984): every split is the one that reduces Gini's impurity
+//! most, over all columns and all places between two different numbers. Levels without an order are first sorted by
+//! their share of failures; for two classes no division of the levels is better than the best one in this order
+//! (their theorem 4.5; splits with too few tests on a side are skipped). The leaf with the greatest gain is split
+//! next, so that a tree with fewer leaves is always the beginning of a tree with more leaves.
 //!
-//! Failing and passing tests weigh the same in all (CART's priors of one half each), however rare failures are: a leaf is
-//! said to fail where a larger share of its tests fails than of all, which is what tells both verdicts best.
+//! Failing and passing tests have the same total weight (CART's priors of one half each), however rare failures are.
+//! A leaf predicts failure if a larger share of its tests fails than among all tests, because this rule separates the
+//! verdicts best.
 
 /// One column of the table that a tree explains: a value for each test.
 #[derive(Debug, Clone)]
 pub enum Column {
-    /// Numbers.
+    /// A column of numbers.
     Numbers(Vec<f64>),
-    /// Levels without an order, and how many there are.
+    /// A column of levels without an order, and the number of levels.
     Levels(Vec<usize>, usize),
 }
 
-/// Tests by columns, and whether they failed.
+/// The tests as columns of values, and whether each test failed.
 #[derive(Debug, Clone)]
 pub struct Table {
     pub columns: Vec<Column>,
     pub failed: Vec<bool>,
 }
 
-/// What is asked at a node.
+/// The condition at a node of a tree.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Condition {
-    /// Whether the number in a column is below this.
+    /// The number in this column is below this limit.
     Below(usize, f64),
-    /// Whether the level in a column is one of those marked.
+    /// The level in this column is one of the levels marked `true`.
     Among(usize, Vec<bool>),
 }
 
-/// A tree: its nodes, the first of which is the root.
+/// A decision tree, as a list of nodes that begins with the root.
 #[derive(Debug, Clone, Default)]
 pub struct Tree {
     pub nodes: Vec<Node>,
 }
 
-/// A node with the tests that come to it.
+/// A node with the numbers of tests and failures that reach it.
 #[derive(Debug, Clone)]
 pub struct Node {
     pub tests: usize,
     pub failures: usize,
-    /// What is asked, and the nodes for yes and no; none at a leaf.
+    /// The condition, and the indices of the nodes for yes and no; `None` at a leaf.
     pub split: Option<(Condition, [usize; 2])>,
 }
 
-/// A split of some tests.
+/// A division of some tests into two parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Split {
-    /// How much impurity it takes away, counted in tests of the weights that it was found with.
+    /// The impurity that the split removes, in tests weighted by the weights of the search.
     pub gain: f64,
     pub test: Condition,
 }
@@ -73,7 +74,7 @@ impl Table {
         rows.iter().filter(|&&row| self.failed[row]).count()
     }
 
-    /// The best split of these rows with at least `least` of them on either side; the first of equals.
+    /// Finds the best split of these rows with at least `least` rows on either side; the first of equal splits.
     pub fn best_split(&self, rows: &[usize], weights: Weights, least: usize) -> Option<Split> {
         let cutting = Cutting { weights, least };
         let splits = (0..self.columns.len()).filter_map(|column| match &self.columns[column] {
@@ -119,7 +120,7 @@ impl Table {
     }
 }
 
-/// What one passing and one failing test weigh.
+/// The weights of a passing and of a failing test.
 #[derive(Debug, Clone, Copy)]
 pub struct Weights {
     pass: f64,
@@ -127,29 +128,30 @@ pub struct Weights {
 }
 
 impl Weights {
-    /// Those by which both verdicts weigh half of all the tests, of which so many failed.
+    /// Returns the weights that give passing and failing tests half of the total weight each.
     pub fn balanced(tests: usize, failures: usize) -> Self {
         let each = |of: usize| 0.5 * tests as f64 / of.max(1) as f64;
         Self { pass: each(tests - failures), fail: each(failures) }
     }
 
-    /// Gini's impurity times the weight of the tests: `2 p (1 - p) w`.
+    /// Returns Gini's impurity times the weight of the tests: `2 p (1 - p) w`.
     fn impurity(self, [tests, failures]: [usize; 2]) -> f64 {
         let (pass, fail) = (self.pass * (tests - failures) as f64, self.fail * failures as f64);
         if tests == 0 { 0.0 } else { 2.0 * fail * pass / (fail + pass) }
     }
 }
 
-/// How rows are cut in two.
+/// The rules for dividing rows into two parts.
 #[derive(Debug, Clone, Copy)]
 struct Cutting {
     weights: Weights,
-    /// How many tests either side has at least.
+    /// The least number of tests on either side.
     least: usize,
 }
 
 impl Cutting {
-    /// Where to cut a row of (tests, failures), and how much impurity that takes away; only where `apart` says so.
+    /// Finds the best place to cut a list of (tests, failures), with the impurity that the cut removes. Only places
+    /// for which `apart` is true are allowed.
     fn best(self, counts: &[[usize; 2]], apart: impl Fn(usize) -> bool) -> Option<(f64, usize)> {
         let all = counts.iter().fold([0, 0], |sum, count| [sum[0] + count[0], sum[1] + count[1]]);
         let mut left = [0, 0];
@@ -162,7 +164,7 @@ impl Cutting {
             }
             let impurity = |side| self.weights.impurity(side);
             let gain = impurity(all) - impurity(left) - impurity(right);
-            // What rounding leaves is no gain.
+            // A gain that only rounding explains does not count.
             if gain > 1e-9 && best.is_none_or(|(other, _)| gain > other) {
                 best = Some((gain, cut));
             }
@@ -171,12 +173,12 @@ impl Cutting {
     }
 }
 
-/// A number between two others with as few digits as there are in the middle half of what lies between them.
+/// Returns a number in the middle half of the interval from `a` to `b` with as few digits as possible.
 pub fn round_between(a: f64, b: f64) -> f64 {
     let (middle, width) = (a + 0.5 * (b - a), b - a);
     for digits in -12_i32..=15 {
         let step = libm::exp10(f64::from(-digits));
-        // By way of its text, so that it is the number which is written so.
+        // The number goes through its text, so that it is exactly the number that the text shows.
         let number = (middle / step).round();
         let text =
             if digits > 0 { format!("{:.*}", digits as usize, number * step) } else { format!("{:.0}", number * step) };
@@ -189,7 +191,7 @@ pub fn round_between(a: f64, b: f64) -> f64 {
 }
 
 impl Tree {
-    /// The tree of these rows with at most so many leaves, each of at least `least` tests.
+    /// Grows a tree for these rows with at most this number of leaves, each of at least `least` tests.
     pub fn grow(table: &Table, rows: &[usize], leaves: usize, least: usize) -> Self {
         let leaf = |rows: &[usize]| Node { tests: rows.len(), failures: table.failures(rows), split: None };
         let mut tree = Self { nodes: vec![leaf(rows)] };
@@ -212,7 +214,7 @@ impl Tree {
         tree
     }
 
-    /// The tree as it was when it had so many leaves.
+    /// Returns the tree as it was when it had this number of leaves.
     pub fn with_leaves(&self, leaves: usize) -> Self {
         let kept = (2 * leaves - 1).min(self.nodes.len());
         let mut nodes = self.nodes[..kept].to_vec();
@@ -222,12 +224,13 @@ impl Tree {
         Self { nodes }
     }
 
-    /// Whether a node's tests are said to fail: a larger share of them did than of all.
+    /// Checks whether a node predicts failure, which it does if a larger share of its tests failed than among all
+    /// tests.
     fn says_fail(&self, node: &Node) -> bool {
         node.failures * self.nodes[0].tests > self.nodes[0].failures * node.tests
     }
 
-    /// Whether a test is said to fail.
+    /// Checks whether the tree predicts that a test fails.
     pub fn fails(&self, table: &Table, row: usize) -> bool {
         let mut at = &self.nodes[0];
         while let Some((test, [yes, no])) = &at.split {
@@ -236,10 +239,10 @@ impl Tree {
         self.says_fail(at)
     }
 
-    /// Takes back the splits of which both sides say the same.
+    /// Removes the splits of which both sides give the same prediction.
     pub fn pruned(&self) -> Self {
         let mut tree = self.clone();
-        // Children come after their parents.
+        // Children come after their parents in the list.
         for index in (0..tree.nodes.len()).rev() {
             let Some((_, [yes, no])) = &tree.nodes[index].split else { continue };
             let (yes, no) = (&tree.nodes[*yes], &tree.nodes[*no]);
@@ -250,7 +253,7 @@ impl Tree {
         tree
     }
 
-    /// The leaves that are said to fail, each with what is asked on the way to it and answered so.
+    /// Returns the leaves that predict failure, each with the conditions and the answers on the path to it.
     pub fn failing(&self) -> Vec<(Vec<(&Condition, bool)>, &Node)> {
         let mut failing = Vec::new();
         let mut open = vec![(0, Vec::new())];

@@ -1,16 +1,16 @@
-//! The rules of a tree in words.
+//! Writes the rules of a tree in words.
 
 use super::tree::Condition;
 use super::{Explanation, FOLDS, MOST_LEAVES, Rule};
 use paracosm_space::{Coordinate, Space, Value};
 
-/// What the columns of a tree are called.
+/// The coordinates behind the columns of a tree, which give the columns their names.
 pub(super) struct Names<'a> {
     columns: Vec<(Coordinate<'a>, Option<(usize, usize)>)>,
 }
 
 impl<'a> Names<'a> {
-    /// A column for each coordinate of the space.
+    /// Makes a column for each coordinate of the space.
     pub(super) fn of(space: &'a Space) -> Self {
         let mut discrete = 0..;
         let mut levels = |coordinate: &Coordinate| {
@@ -24,12 +24,13 @@ impl<'a> Names<'a> {
         Self { columns: space.coordinates().map(column).collect() }
     }
 
-    /// The coordinates, the discrete ones with their number among the discrete ones and how many levels they have.
+    /// Returns the coordinates. A discrete coordinate has its position among the discrete ones and its number of
+    /// levels.
     pub(super) fn columns(&self) -> impl Iterator<Item = (Coordinate<'a>, Option<(usize, usize)>)> {
         self.columns.iter().copied()
     }
 
-    /// What was asked and answered on the way to a leaf: one condition for each coordinate that was asked about.
+    /// Returns the conditions on the path to a leaf in words: one for each coordinate that the path uses.
     pub(super) fn conditions(&self, path: &[(&Condition, bool)]) -> Vec<String> {
         let of = |column: usize| path.iter().filter(move |(test, _)| column_of(test) == column);
         let asked = (0..self.columns.len()).filter(|&column| of(column).next().is_some());
@@ -82,7 +83,7 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-/// When tests fail: a line for each rule.
+/// Returns the rules in words, one line for each rule.
 pub(super) fn rules(explanation: &Explanation) -> Vec<String> {
     let line = |(i, Rule { conditions, tests, failures }): (usize, &Rule)| {
         let opening = if i == 0 { "fails in" } else { "and in" };
@@ -91,7 +92,7 @@ pub(super) fn rules(explanation: &Explanation) -> Vec<String> {
     explanation.rules.iter().enumerate().map(line).collect()
 }
 
-/// How far the rules can be trusted, or that there are none.
+/// Returns a sentence that says how far the rules can be trusted, or that there are no rules.
 pub(super) fn trust(explanation: &Explanation) -> String {
     let Explanation { tests, failures, cross_validated, .. } = explanation;
     if explanation.rules.is_empty() {
@@ -105,7 +106,7 @@ pub(super) fn trust(explanation: &Explanation) -> String {
     )
 }
 
-/// An explanation as a sentence.
+/// Returns an explanation as a sentence.
 pub(super) fn sentence(explanation: &Explanation) -> String {
     let mut lines = rules(explanation);
     lines.push(trust(explanation));

@@ -1,8 +1,8 @@
-//! How likely a test fails, when parameters are distributed as their user says.
+//! Estimates the probability that a test fails, if the parameters have the distributions that the user gives.
 //!
-//! The algorithms know nothing of scenarios: they are given what turns points of the unit cube, uniform and independent,
-//! into robustness values, and say with which probability these are below zero. Every number is an estimate and
-//! comes with a confidence interval; none of them proves that there is no failure.
+//! The algorithms know nothing about scenarios. They receive a function that maps points of the unit cube, uniform
+//! and independent, to robustness values, and estimate the probability that a value is below zero. Every number is an
+//! estimate with a confidence interval; no number proves that there is no failure.
 
 mod monte_carlo;
 mod qmc;
@@ -18,16 +18,16 @@ use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// How a probability of failure is estimated.
+/// A method that estimates a probability of failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Independent tests, with the exact interval of Clopper and Pearson.
     MonteCarlo,
-    /// Repetitions of Owen-scrambled Sobol points, with Student's interval over the repetitions: narrower than Monte Carlo
-    /// where few parameters decide and failures are not rare.
+    /// Repetitions of Owen-scrambled Sobol points, with Student's interval over the repetitions. The interval is
+    /// narrower than that of Monte Carlo if few parameters decide and failures are not rare.
     Qmc,
-    /// Subset simulation: a chain of ever worse tests, for failures too rare for the others.
+    /// Subset simulation by chains of ever worse tests, for failures that are too rare for the other methods.
     Subset,
 }
 
@@ -35,7 +35,7 @@ impl Method {
     /// All methods.
     pub const ALL: [Self; 3] = [Self::MonteCarlo, Self::Qmc, Self::Subset];
 
-    /// The name by which it is chosen.
+    /// Returns the name by which a user chooses the method.
     pub fn name(self) -> &'static str {
         match self {
             Self::MonteCarlo => "monte-carlo",
@@ -44,7 +44,7 @@ impl Method {
         }
     }
 
-    /// The least budget with which it can say anything.
+    /// Returns the least budget with which the method gives an estimate.
     pub fn least_budget(self) -> usize {
         match self {
             Self::MonteCarlo => 1,
@@ -60,26 +60,26 @@ impl fmt::Display for Method {
     }
 }
 
-/// A name that no method has.
+/// The error that no method has this name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("no method is called `{name}`{}; there are {}", did_you_mean(.nearest), Method::ALL.map(Method::name).join(", "))]
 pub struct UnknownMethod {
-    /// The name.
+    /// The name that was not found.
     pub name: String,
-    /// A name that was perhaps meant.
+    /// A similar name that was perhaps meant.
     pub nearest: Option<&'static str>,
 }
 
-/// Why there is no estimate.
+/// A reason why there is no estimate.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum LikelihoodFlaw {
-    /// The confidence is none.
+    /// The confidence is not between 0 and 1.
     #[error("the confidence is {found}, expected a number above 0 and below 1")]
     Confidence {
         /// The confidence.
         found: f64,
     },
-    /// There are too few tests for the method.
+    /// The budget is too small for the method.
     #[error("the budget is {budget}, expected at least {least} for the method {method}")]
     Budget {
         /// The budget.
@@ -89,20 +89,20 @@ pub enum LikelihoodFlaw {
         /// The method.
         method: Method,
     },
-    /// There is nothing that chance could decide.
+    /// No parameter is open, so that nothing is random.
     #[error("no parameter is open, so there is no probability to ask for")]
     NothingOpen,
-    /// The distribution of the tests is not known.
+    /// The space has constraints, so that the distribution of the tests is not known.
     #[error(
         "the space has constraints, expected none: distributions of parameters that depend on each other are not known"
     )]
     Constraints,
-    /// All tests broke, or their worlds cannot be.
+    /// No test could be judged: each test broke, or its world could not be built.
     #[error(
         "not one of the tests could be judged{}", first.as_ref().map(|first| format!("; the first: {first}")).unwrap_or_default()
     )]
     NothingJudged {
-        /// What was wrong with the first, if that is known.
+        /// The problem of the first test, if it is known.
         first: Option<Problem>,
     },
 }
@@ -119,16 +119,16 @@ impl FromStr for Method {
     }
 }
 
-/// What is asked for.
+/// The settings of an estimate, which are the method, the budget, the confidence and the seed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Question {
-    /// How the probability is estimated.
+    /// The method of the estimate.
     pub method: Method,
-    /// How many tests are run at most.
+    /// The greatest number of tests that are run.
     pub budget: usize,
-    /// How often the interval is to cover the truth, above 0 and below 1.
+    /// The probability with which the interval is to contain the true value, above 0 and below 1.
     pub confidence: f64,
-    /// The source of all chance.
+    /// The seed of all random numbers.
     pub seed: u64,
 }
 
@@ -149,36 +149,37 @@ impl Question {
 /// An estimated probability of failure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Likelihood {
-    /// The estimate: of a failure, given that the test can be judged.
+    /// The estimated probability of a failure, given that the test can be judged.
     pub probability: f64,
-    /// The lower end of the interval, in which tests that could not be judged count as passed.
+    /// The lower end of the interval. For it, tests that could not be judged count as passed.
     pub lower: f64,
-    /// The upper end, in which they count as failed.
+    /// The upper end of the interval. For it, tests that could not be judged count as failed.
     pub upper: f64,
-    /// How often such an interval covers the truth.
+    /// The probability with which an interval like this contains the true value.
     pub confidence: f64,
-    /// How the estimate was made.
+    /// The method of the estimate.
     pub method: Method,
-    /// What the interval goes by, in words.
+    /// The statistical basis of the interval, in words.
     pub interval: String,
-    /// How many tests were run.
+    /// The number of tests that were run.
     pub evaluations: usize,
-    /// How many of them failed. Only of `monte-carlo` it is a share that the probability follows from.
+    /// The number of failing tests. Only for `monte-carlo` does the probability follow from the share of failing
+    /// tests.
     pub failures: usize,
-    /// How many of them could not be judged: they broke, or their world cannot be.
+    /// The number of tests that could not be judged, because they broke or their worlds could not be built.
     pub unjudged: usize,
-    /// What else has to be known to read the numbers.
+    /// Further remarks that a reader needs to understand the numbers.
     pub notes: Vec<String>,
 }
 
-/// Runs tests: the robustness at each point of the unit cube, negative (-0 too) of a failure, `None` where the test could
-/// not be judged.
+/// A function that runs tests. It returns the robustness at each point of the unit cube, negative (-0 included) for a
+/// failure, and `None` if the test could not be judged.
 pub type Evaluate<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<f64>>, Error> + 'a;
 
-/// How likely a uniformly distributed point of the unit cube of so many dimensions is a failure.
+/// Estimates the probability that a uniformly distributed point of the unit cube with `dims` dimensions is a failure.
 ///
-/// How many points are evaluated at a time is for the method to say; the result depends on the question and the values
-/// alone.
+/// The method decides how many points are evaluated at a time. The result depends only on the question and the
+/// values.
 ///
 /// ```
 /// use paracosm_analysis::likelihood::{Method, Question, estimate};
@@ -189,7 +190,8 @@ pub type Evaluate<'a> = dyn FnMut(&[Vec<f64>]) -> Result<Vec<Option<f64>>, Error
 /// ```
 ///
 /// # Errors
-/// The budget is too small for the method, the confidence is none, no test could be judged, or an error of `evaluate`.
+/// The budget is too small for the method, the confidence is not between 0 and 1, `dims` is 0, no test could be
+/// judged, or `evaluate` returned an error.
 pub fn estimate(question: &Question, dims: usize, evaluate: &mut Evaluate) -> Result<Likelihood, Error> {
     question.check()?;
     if dims == 0 {
@@ -223,7 +225,7 @@ pub fn estimate(question: &Question, dims: usize, evaluate: &mut Evaluate) -> Re
     })
 }
 
-/// What a method finds.
+/// The result of a method.
 struct Tail {
     probability: f64,
     interval: [f64; 2],
@@ -231,7 +233,7 @@ struct Tail {
     notes: Vec<String>,
 }
 
-/// What runs tests, and counts them.
+/// A runner of tests that counts them.
 struct Runs<'a, 'b> {
     evaluate: &'a mut Evaluate<'b>,
     evaluations: usize,
@@ -240,7 +242,7 @@ struct Runs<'a, 'b> {
 }
 
 impl Runs<'_, '_> {
-    /// The robustness at each point.
+    /// Runs tests and returns the robustness at each point.
     fn run(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<f64>>, Error> {
         if points.is_empty() {
             return Ok(Vec::new());
@@ -258,12 +260,12 @@ impl Runs<'_, '_> {
     }
 }
 
-/// Whether a robustness is that of a failure: negative, or the zero that is.
+/// Checks whether a robustness is that of a failure (negative, or -0).
 fn is_failure(robustness: f64) -> bool {
     robustness.is_sign_negative()
 }
 
-/// How independent tests went.
+/// The counts of outcomes of independent tests.
 #[derive(Clone, Copy, Default)]
 struct Tally {
     tests: usize,
@@ -284,7 +286,7 @@ impl Tally {
         self.unjudged += other.unjudged;
     }
 
-    /// The share of failures among the tests that were judged.
+    /// Returns the share of failures among the tests that were judged.
     fn share(self) -> Result<f64, LikelihoodFlaw> {
         match self.tests - self.unjudged {
             0 => Err(LikelihoodFlaw::NothingJudged { first: None }),
@@ -292,7 +294,7 @@ impl Tally {
         }
     }
 
-    /// The exact interval of that share.
+    /// Returns the exact interval of the share of failures.
     fn interval(self, confidence: f64) -> [f64; 2] {
         let Self { tests, failures, unjudged } = self;
         let end = |failures, which: usize| crate::statistics::clopper_pearson(failures, tests, confidence)[which];

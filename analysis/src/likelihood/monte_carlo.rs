@@ -1,13 +1,13 @@
-//! Plain Monte Carlo: independent tests, counted.
+//! Implements plain Monte Carlo: runs independent tests and counts the failures.
 
 use super::{Question, Runs, Tail, Tally};
 use crate::statistics::random::SplitMix64;
 use paracosm_campaign::Error;
 
-/// How many tests are run at a time: enough for many cores, few enough for the memory.
+/// The number of tests that run at a time: enough for many cores, few enough for the memory.
 pub(super) const BATCH: usize = 4096;
 
-/// What the interval goes by.
+/// The statistical basis of the interval.
 pub(super) const SOURCE: &str = "Clopper and Pearson, independent tests";
 
 pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Result<Tail, Error> {

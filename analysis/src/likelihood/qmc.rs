@@ -1,6 +1,7 @@
-//! Quasi-Monte Carlo: points that are more even than chance, randomised as a whole and repeated, so that the spread of
-//! the repetitions says how far off they are (Owen, Scrambled net variance for integrals of smooth functions, Annals of
-//! Statistics 25, 1997; L'Ecuyer and Lemieux, Recent advances in randomized quasi-Monte Carlo methods, 2002).
+//! Implements quasi-Monte Carlo: the points are more even than random points. Each set of points is randomised as a
+//! whole, and repetitions show by their spread how large the error is (Owen, Scrambled net variance for integrals of
+//! smooth functions, Annals of Statistics 25, 1997; L'Ecuyer and Lemieux, Recent advances in randomized quasi-Monte
+//! Carlo methods, 2002).
 
 use super::monte_carlo::BATCH;
 use super::{Question, Runs, Tail, Tally};
@@ -10,11 +11,11 @@ use paracosm_campaign::Error;
 use paracosm_generators::{Request, Strategy};
 use paracosm_space::Space;
 
-/// How many repetitions there are at least: with fewer Student's interval is wide.
+/// The least number of repetitions: with fewer repetitions Student's interval is wide.
 pub(super) const REPLICATES: usize = 10;
 
 pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Result<Tail, Error> {
-    // Sobol's points are most even in numbers that are powers of two: what is left makes more repetitions.
+    // Sobol's points are most even if their number is a power of two. The rest of the budget makes more repetitions.
     let size = 1_usize << (question.budget / REPLICATES).ilog2();
     let count = question.budget / size;
     let space = Space::unit_cube(dims);
@@ -37,7 +38,7 @@ pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Res
     Ok(Tail { probability: all.share()?, interval, source, notes })
 }
 
-/// The interval, what it goes by, and what has to be said of it.
+/// Returns the interval, its statistical basis in words, and remarks about it.
 fn interval(tallies: &[Tally], all: Tally, confidence: f64) -> ([f64; 2], String, Vec<String>) {
     let count = tallies.len();
     let judged = all.tests - all.unjudged;
@@ -58,7 +59,7 @@ fn interval(tallies: &[Tally], all: Tally, confidence: f64) -> ([f64; 2], String
     if passed.iter().any(|share| *share != passed[0]) {
         return ([lower, upper], source, Vec::new());
     }
-    // That none of the repetitions was a test off does not say that the next one would not be.
+    // That no repetition differs by a test does not mean that the next repetition would not differ.
     let tail = (1.0 - confidence) / 2.0;
     let off = (1.0 - libm::pow(tail, 1.0 / count as f64)) / tallies[0].tests as f64;
     let note = "all repetitions agree: the interval allows for a test that is yet to tell them apart".to_owned();

@@ -1,16 +1,16 @@
-//! The probability of failure of a study: its tests as chance has them.
+//! Estimates the probability of failure of a study whose tests are drawn from the distributions of its parameters.
 
 use super::{Likelihood, LikelihoodFlaw, Question, estimate};
 use paracosm_campaign::{Campaign, Error, Learned, Problem, Scales, Study, Trial};
 use paracosm_oracles::Verdict;
 use paracosm_space::Values;
 
-/// How likely a test of the study fails, when its open parameters are distributed as its space says. `watch` sees every
-/// trial in order, and its first error ends the work. The campaign is one of the study and says how many tests run at a
-/// time, which changes nothing; the strategy plays no part.
+/// Estimates the probability that a test of the study fails, if its open parameters have the distributions of its
+/// space. `watch` receives every trial in order; its first error ends the work. The campaign must be one of this
+/// study. It sets how many tests run at a time, which does not change the result. The study's strategy is not used.
 ///
 /// # Errors
-/// The question cannot be answered, the space has constraints, every test broke, or an error of `watch`.
+/// The question is not valid, the space has constraints, no test could be judged, or `watch` returned an error.
 pub fn of_study(
     study: &Study,
     campaign: &Campaign,
@@ -44,8 +44,8 @@ pub fn of_study(
     }
 }
 
-/// The robustness of a trial, with the sign of its verdict, on which rounding has no say; `None` of one that broke or
-/// whose world cannot be. A test in which nothing was decided is as far from failing as can be.
+/// Returns the robustness of a trial, with the sign of its verdict even if rounding gave another sign; `None` if the
+/// trial broke or its world could not be built. A test without a decided requirement has an infinite robustness.
 fn robustness(scales: &Scales, trial: &Trial) -> Option<f64> {
     let worst = scales.worst(trial).map_or(f64::INFINITY, |(_, robustness)| robustness);
     match trial.verdict {

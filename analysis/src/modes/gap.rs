@@ -1,35 +1,38 @@
-//! Groups by empty gaps: one figure at a time, and only where chance would hardly leave such a gap.
+//! Divides failing tests into groups at empty gaps, one figure at a time, and only at gaps that chance would hardly
+//! leave.
 
-/// How probable a gap may be at most, in figures that are spread evenly by chance, to be taken for one.
+/// The greatest probability of a gap, among figures that are spread evenly by chance, at which the gap counts.
 const CHANCE: f64 = 0.01;
-/// Fewer things than that are not divided: that two of three share a value is no gap, but the measure of ticks.
+/// The least number of things that are divided: if two of three things share a value, that is not a gap but the
+/// effect of ticks.
 const FEWEST: usize = 6;
-/// The least share of a group's range that is a gap, however many figures there are.
+/// The least share of a group's range that a gap has, however many figures there are.
 const LEAST_SHARE: f64 = 0.25;
 
-/// A figure by which things are told apart.
+/// A figure by which things are distinguished.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Figure<'a> {
-    /// One for each of the things.
+    /// The value of the figure for each of the things.
     pub values: &'a [f64],
-    /// Less than this is no difference.
+    /// A smaller difference does not count as a difference.
     pub resolution: f64,
 }
 
-/// Some of the things, with the figures by which they were set apart from others.
+/// A group of things, with the indices of the figures that separated them from others.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Group {
     pub members: Vec<usize>,
     pub set_apart_by: Vec<usize>,
 }
 
-/// Divides things at the widest gap of any of their figures, and both parts again, as long as there is one.
+/// Divides things at the widest gap of any of their figures, and then each part again, as long as there is a gap.
 ///
-/// A gap is the empty space between neighbouring values of a figure. In `n` values spread evenly by chance between the
-/// least and the greatest, one of the `n - 1` gaps takes a share of `g` of the range or more with a probability of at most
-/// `(n - 1) (1 - g)^(n - 2)` (the union bound on uniform spacings; Pyke, "Spacings", Journal of the Royal Statistical
-/// Society B 27(3), 1965). The things are divided where that is at most [`CHANCE`], the gap is a quarter of the range at
-/// least, it is wider than the figure's resolution, and there are [`FEWEST`] things or more.
+/// A gap is the empty space between neighbouring values of a figure. If `n` values are spread evenly by chance
+/// between the least and the greatest, one of the `n - 1` gaps takes a share of `g` of the range or more with a
+/// probability of at most `(n - 1) (1 - g)^(n - 2)` (the union bound on uniform spacings; Pyke, "Spacings", Journal
+/// of the Royal Statistical Society B 27(3), 1965). The things are divided if this bound is at most [`CHANCE`], the
+/// gap is at least a quarter of the range and wider than the figure's resolution, and there are at least [`FEWEST`]
+/// things.
 pub(super) fn groups(count: usize, figures: &[Figure]) -> Vec<Group> {
     let mut found = Vec::new();
     let mut open = vec![Group { members: (0..count).collect(), set_apart_by: Vec::new() }];
@@ -52,13 +55,13 @@ pub(super) fn groups(count: usize, figures: &[Figure]) -> Vec<Group> {
 }
 
 struct Gap {
-    /// The last value before it.
+    /// The last value before the gap.
     below: f64,
-    /// Its width as a share of the range.
+    /// The width of the gap as a share of the range.
     share: f64,
 }
 
-/// The widest gap in a figure, if it is one.
+/// Returns the widest gap in a figure, if it is wide and improbable enough to count.
 fn gap(members: &[usize], figure: &Figure) -> Option<Gap> {
     if members.len() < FEWEST {
         return None;
@@ -73,7 +76,7 @@ fn gap(members: &[usize], figure: &Figure) -> Option<Gap> {
     is_gap.then_some(Gap { below, share })
 }
 
-/// A bound on the probability that chance leaves such a share of the range empty.
+/// Returns an upper bound of the probability that chance leaves this share of the range empty.
 fn probability(count: usize, share: f64) -> f64 {
     (count - 1) as f64 * libm::pow(1.0 - share, (count - 2) as f64)
 }

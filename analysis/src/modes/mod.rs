@@ -1,10 +1,9 @@
-//! The ways in which a campaign's tests fail: failing tests grouped by what went wrong, not by where they are in the space.
+//! Finds the failure modes of a campaign: groups failing tests by what went wrong, not by their place in the space.
 //!
-//! Two failures are of one mode if they violate the same requirements by the same part of their formulas, and the car
-//! touched the same object with the same side while doing the same (driving, braking or standing). What words tell no
-//! further apart, figures do: the
-//! critical time, the way that the car had come by then, and its speed. Where one of them leaves a gap the
-//! mode is two.
+//! Two failures are of the same mode if they violate the same requirements by the same part of their formulas, and
+//! the car touched the same object with the same side during the same motion (driving, braking or standing). Figures
+//! distinguish failures further: the critical time, the distance that the car had travelled by then, and its speed.
+//! If a figure leaves a gap, the mode is divided into two.
 
 mod gap;
 #[cfg(test)]
@@ -20,16 +19,16 @@ use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-/// A figure of a violation that divides modes.
+/// A figure of a violation by which modes are divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub enum CriticalFigure {
-    /// The time, in seconds.
+    /// The time of the violation, in seconds.
     #[serde(rename = "critical_time")]
     Time,
-    /// The way that the car had come by then, in metres.
+    /// The distance that the car had travelled at the time of the violation, in metres.
     #[serde(rename = "critical_travelled")]
     Travelled,
-    /// The speed of the car then, in m/s.
+    /// The speed of the car at the time of the violation, in m/s.
     #[serde(rename = "critical_speed")]
     Speed,
 }
@@ -45,7 +44,7 @@ impl CriticalFigure {
         }
     }
 
-    /// How much is no difference.
+    /// Returns the difference up to which two values of the figure count as equal.
     const fn resolution(self) -> f64 {
         match self {
             Self::Time => 0.5,
@@ -58,52 +57,54 @@ impl CriticalFigure {
 /// The failure modes of a campaign.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Modes {
-    /// How many tests failed.
+    /// The number of failing tests.
     pub failures: usize,
-    /// The ways in which they did, the most frequent first.
+    /// The failure modes, the most frequent first.
     pub modes: Vec<Mode>,
 }
 
-/// Failing tests in which the same went wrong.
+/// A failure mode, that is, a group of failing tests in which the same went wrong.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Mode {
-    /// What sets it apart, in a few words: `no-collision/pedestrian/left/braking`; `#2` where figures divide it further.
+    /// The name of the mode in a few words, such as `no-collision/pedestrian/left/braking`. It ends in `#1`, `#2` …
+    /// if parts of formulas or figures divide the mode further.
     pub name: String,
-    /// What happens, in a sentence.
+    /// A sentence about what happens.
     pub words: String,
-    /// How many tests fail so.
+    /// The number of failing tests of this mode.
     pub count: usize,
-    /// The index of a typical one: the one nearest to the medians of the figures.
+    /// The index of a typical test, which is the test nearest to the medians of the figures.
     pub representative: usize,
-    /// The index of the one that is worst.
+    /// The index of the worst test.
     pub worst: usize,
-    /// What they violate.
+    /// The requirements that the tests violate.
     pub violates: Vec<String>,
-    /// The part of each of these formulas on which its robustness depends, by the requirement's id, as far as is known.
+    /// The part of each violated formula on which the robustness depends, by the requirement's id, as far as it is
+    /// known.
     pub parts: Record<String>,
-    /// What the car touched, and how.
+    /// The contact of the car, if the car touched an object.
     pub contact: Option<Touch>,
-    /// The least and the greatest value of each figure that all its tests have.
+    /// The least and the greatest value of each figure that all tests of the mode have.
     pub figures: BTreeMap<CriticalFigure, [f64; 2]>,
-    /// Where they are in the space: from the least to the greatest value of a continuous parameter, all values of a
-    /// discrete one.
+    /// The place of the tests in the space, by the least and the greatest value of a continuous parameter and all
+    /// values of a discrete parameter.
     pub parameters: Record<ValueRange>,
-    /// Their indices.
+    /// The indices of the tests.
     pub trials: Vec<usize>,
 }
 
 /// A contact of the car under test.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Touch {
-    /// The name of the object.
+    /// The name of the object that the car touched.
     pub with: String,
-    /// What it is taken for.
+    /// The class of the object.
     #[serde(serialize_with = "in_a_word")]
     pub class: Class,
-    /// The side of the car.
+    /// The side of the car that touched the object.
     #[serde(serialize_with = "in_a_word")]
     pub face: Face,
-    /// What the car was doing.
+    /// The motion of the car at the contact (driving, braking or standing).
     #[serde(serialize_with = "in_a_word")]
     pub motion: ContactMotion,
 }
@@ -116,9 +117,9 @@ fn in_a_word<S: Serializer>(value: &impl Display, serializer: S) -> Result<S::Ok
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum ValueRange {
-    /// From here to there.
+    /// The least and the greatest value.
     Interval([f64; 2]),
-    /// All of them, in the order of the choice.
+    /// All values that occur, in the order of the parameter's choice.
     Values(Vec<Value>),
 }
 
@@ -143,17 +144,17 @@ impl Modes {
 }
 
 impl Touch {
-    /// How a trial ended, if the car touched anything.
+    /// Returns the contact with which a trial ended, if the car touched an object.
     pub fn of(trial: &Trial) -> Option<Self> {
         let Contact { with, class, face, motion, .. } = trial.contact()?.clone();
         Some(Self { with, class, face, motion })
     }
 }
 
-/// What failures have in common in words: what they violate, and what the car touched.
+/// The properties that the failures of a kind share: the violated requirements, and the contact.
 type Kind = (Vec<String>, Option<Touch>);
 
-/// The modes of trials of one kind.
+/// Divides the trials of one kind into modes.
 fn divided(log: &Log, kind: &Kind, trials: &[&Trial]) -> Vec<Mode> {
     let mut by_parts: BTreeMap<Vec<Option<&str>>, Vec<&Trial>> = BTreeMap::new();
     for trial in trials {
@@ -170,7 +171,7 @@ fn divided(log: &Log, kind: &Kind, trials: &[&Trial]) -> Vec<Mode> {
     modes
 }
 
-/// The modes of trials that words do not tell apart.
+/// Divides trials with the same requirements, contact and parts of formulas into modes by their figures.
 fn of_parts(
     log: &Log,
     (violates, contact): &Kind,
@@ -217,7 +218,7 @@ impl Touch {
     }
 }
 
-/// The figures that all trials have, of the requirement that was the first to be violated in most of them.
+/// Returns the figures that all trials have, for each trial at the requirement that it violated first.
 fn figures(violates: &[String], trials: &[&Trial]) -> Vec<(CriticalFigure, Vec<f64>)> {
     let time = |trial: &Trial, id: &str| trial.violation(id).map_or(f64::INFINITY, |violation| violation.time);
     let first = |trial: &Trial| violates.iter().min_by(|a, b| time(trial, a).total_cmp(&time(trial, b)));
@@ -228,8 +229,8 @@ fn figures(violates: &[String], trials: &[&Trial]) -> Vec<(CriticalFigure, Vec<f
     all.collect()
 }
 
-/// The one of some trials that comes nearest to the medians of the figures, by the figure in which it is farthest off,
-/// each in shares of its range; among equals the worst.
+/// Returns the trial that is nearest to the medians of the figures. The distance is that of the figure with the
+/// greatest difference, in shares of its range. Of equally near trials, the worst is chosen.
 fn typical(log: &Log, trials: &[&Trial], members: &[usize], figures: &[Figure]) -> usize {
     let scales: Vec<(f64, f64)> = figures
         .iter()
@@ -250,17 +251,17 @@ fn typical(log: &Log, trials: &[&Trial], members: &[usize], figures: &[Figure]) 
     members.iter().copied().min_by(rank).expect("a mode has a test")
 }
 
-/// The worst robustness in multiples of its scale: less is worse.
+/// Returns the worst robustness of a trial in multiples of its scale. A lower value is worse.
 fn severity(log: &Log, trial: &Trial) -> f64 {
     log.scales().worst(trial).map_or(0.0, |(_, robustness)| robustness)
 }
 
-/// The least and the greatest.
+/// Returns the least and the greatest value.
 fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], value| [least.min(value), most.max(value)])
 }
 
-/// Where some trials are in the space.
+/// Returns the place of some trials in the space.
 fn extents(log: &Log, trials: &[&Trial]) -> Record<ValueRange> {
     let extent = |name: &str, levels: Option<&[Value]>| {
         let scalars = trials.iter().filter_map(|trial| trial.test.get(name)).flat_map(Value::scalars);

@@ -1,4 +1,4 @@
-//! What happens in a failure mode, in words.
+//! Describes in words what happens in a failure mode.
 
 use super::{CriticalFigure, Mode, Touch};
 use paracosm_campaign::Trial;
@@ -6,23 +6,23 @@ use paracosm_engine::object::Class;
 use paracosm_engine::{ContactMotion, Face};
 use std::collections::BTreeMap;
 
-/// Speed in m/s below which what the car touched stood.
+/// The speed in m/s below which the other object counts as standing.
 const STANDING: f64 = 0.1;
 
-/// What the trials of a mode have in common.
+/// The facts that the trials of a mode share.
 pub(super) struct Story<'a> {
     pub violates: &'a [String],
-    /// The parts of their formulas that were violated.
+    /// The parts of the formulas that were violated, with the ids of the requirements.
     pub parts: &'a [(&'a str, &'a str)],
-    /// Whether these tell it from other modes.
+    /// `true` if the parts distinguish the mode from other modes.
     pub is_told_by_part: bool,
     pub ranges: &'a BTreeMap<CriticalFigure, [f64; 2]>,
-    /// Those of the ranges that set it apart.
+    /// The figures by which the mode was separated from others.
     pub apart: &'a [CriticalFigure],
 }
 
 impl Story<'_> {
-    /// A sentence about it, with what was touched and a typical trial.
+    /// Returns a sentence about the mode, with the contact and the speed of the other object in a typical trial.
     pub fn words(&self, contact: Option<&Touch>, typical: &Trial) -> String {
         let time = || self.range(CriticalFigure::Time).map(|range| format!("{} s after the start", span(range)));
         let place = || self.range(CriticalFigure::Travelled).map(|range| format!("after {} m", span(range)));
@@ -54,17 +54,18 @@ impl Story<'_> {
         self.ranges.get(&figure).copied()
     }
 
-    /// What of the formulas is not so.
+    /// Returns the parts of the formulas that are violated, in words.
     fn part(&self) -> Option<String> {
         by_parts(self.parts.iter().map(|(_, part)| *part))
     }
 }
 
-/// What there is to say of a mode, if anything.
+/// A function that describes a mode by one property, if the mode has this property.
 type Difference<'a> = dyn Fn(&Mode) -> Option<String> + 'a;
 
-/// Adds to the words that several modes share what tells these apart: what they violate, by which part of it, and when,
-/// where and how fast the car was; and where nothing of that does, their names.
+/// Makes the words of all modes different. If several modes share their words, it adds the properties in which they
+/// differ: the requirements, the parts of the formulas, the time, the place and the speed of the car, and, if none of
+/// these differ, the names.
 pub(super) fn tell_apart(modes: &mut [Mode]) {
     let figure = |mode: &Mode, figure| mode.figures.get(&figure).map(|at| span(*at));
     let differences: [&Difference; 6] = [
@@ -85,13 +86,13 @@ pub(super) fn tell_apart(modes: &mut [Mode]) {
     }
 }
 
-/// By which parts formulas are violated.
+/// Returns the violated parts of formulas in words.
 fn by_parts<'a>(parts: impl Iterator<Item = &'a str>) -> Option<String> {
     let parts: Vec<String> = parts.map(|part| format!("`{part}`")).collect();
     (!parts.is_empty()).then(|| format!("by {}", parts.join(" and ")))
 }
 
-/// How the car and the other meet, after what the car does.
+/// Describes how the car and the object meet, as the rest of a sentence about the car.
 fn meeting(contact: &Touch, typical: &Trial) -> String {
     let Touch { with, class, face, motion } = contact;
     let other =
@@ -114,7 +115,7 @@ fn meeting(contact: &Touch, typical: &Trial) -> String {
     }
 }
 
-/// A range with one decimal; a single number where there is no more to it.
+/// Returns a range with one decimal place, or a single number if both ends are written the same.
 fn span([least, most]: [f64; 2]) -> String {
     let short = |number: f64| {
         let text = format!("{number:.1}");

@@ -1,8 +1,9 @@
-//! Delta debugging: the fewest of some things that are needed.
+//! Implements delta debugging: finds the fewest things of a set that are needed.
 
-/// What is left of `items` when as many as possible are left out, so that leaving out any further one alone is refused:
-/// the algorithm `ddmin` of Zeller and Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE Transactions
-/// on Software Engineering 28(2), 2002. `suffices` says whether these are enough; of all items it is taken as said.
+/// Removes as many of `items` as possible and returns the rest, from which no further single item can be removed. The
+/// algorithm is `ddmin` of Zeller and Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE
+/// Transactions on Software Engineering 28(2), 2002. `suffices` checks whether some items are enough; all items
+/// together are assumed to be.
 pub(super) fn needed<E>(
     items: Vec<usize>,
     mut suffices: impl FnMut(&[usize]) -> Result<bool, E>,

@@ -1,22 +1,22 @@
-//! What a parameter of a test can be while it is made simpler: its nominal value, or a few values of its own.
+//! Represents the value of a parameter during shrinking: its nominal value, or a few values of its own.
 //!
-//! A signal of many coordinates may be one of fewer in disguise: a constant, or one with longer pieces or a lower degree.
-//! Here it is kept as the values that make that one, its knots, and written out only to be run.
+//! A signal with many coordinates may be equal to a signal with fewer: a constant, or a signal with longer pieces or
+//! a lower degree. Here the signal is kept as the knots that define the smaller signal, and expanded only to be run.
 
 use super::number::{Decimals, simpler};
 use paracosm_space::{Domain, Parameter, Shape, Value};
 use std::cmp::Ordering;
 
-/// The value of a parameter.
+/// The form of a parameter's value.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
-    /// The nominal one.
+    /// The nominal value.
     Nominal,
-    /// One of its own: a single knot of what is constant, as many as coordinates of a signal that is what it is.
+    /// A value of its own, as knots. A constant has one knot; a signal not simplified has all its coordinates.
     Own(Vec<Value>),
 }
 
-/// A parameter with the value to which it goes.
+/// A parameter with its nominal value, to which shrinking moves it.
 #[derive(Debug, Clone)]
 pub(super) struct Dimension<'a> {
     pub parameter: &'a Parameter,
@@ -24,12 +24,12 @@ pub(super) struct Dimension<'a> {
 }
 
 impl Dimension<'_> {
-    /// The form of a value of the parameter.
+    /// Returns the form of a value of the parameter.
     pub fn form(&self, value: &Value) -> Form {
         if self.value(&Form::Nominal) == *value { Form::Nominal } else { Form::Own(value.scalars().to_vec()) }
     }
 
-    /// The value that has this form.
+    /// Returns the value that has this form.
     pub fn value(&self, form: &Form) -> Value {
         match (form, self.parameter.signal) {
             (Form::Nominal, None) => self.nominal.clone(),
@@ -39,7 +39,7 @@ impl Dimension<'_> {
         }
     }
 
-    /// The nominal value of each of so many knots.
+    /// Returns the nominal value as this number of knots.
     pub fn nominal_knots(&self, count: usize) -> Vec<Value> {
         match self.parameter.signal {
             Some(shape) if self.nominal.scalars().len() > 1 => reduced(shape, self.nominal.scalars(), count),
@@ -47,7 +47,7 @@ impl Dimension<'_> {
         }
     }
 
-    /// The same signal, as nearly as that goes, with fewer knots.
+    /// Returns the same signal with fewer knots, as nearly as possible.
     pub fn with_knots(&self, knots: &[Value], count: usize) -> Vec<Value> {
         match self.parameter.signal {
             Some(shape) => reduced(shape, &self.expanded(shape, knots), count),
@@ -55,7 +55,8 @@ impl Dimension<'_> {
         }
     }
 
-    /// Which of two forms is simpler: nominal before all, then few knots, then many of them nominal, then simple ones.
+    /// Compares two forms by simplicity. The nominal value is simplest, then forms with fewer knots, then forms with
+    /// more nominal knots, then forms with simpler knots.
     pub fn compare(&self, a: &Form, b: &Form) -> Ordering {
         match (a, b) {
             (Form::Nominal, Form::Nominal) => Ordering::Equal,
@@ -69,7 +70,8 @@ impl Dimension<'_> {
         }
     }
 
-    /// How fine the numbers are written, or how late in their choice the levels stand, and how far all are from nominal.
+    /// Returns the sum of the precision of the numbers, or of the positions of the levels in their choice, and the
+    /// sum of the distances to the nominal values.
     fn cost(&self, knots: &[Value], nominal: &[Value]) -> (i32, f64) {
         let costs = knots.iter().zip(nominal).map(|(knot, nominal)| match &self.parameter.domain {
             _ if knot == nominal => (0, 0.0),
@@ -89,7 +91,7 @@ impl Dimension<'_> {
     }
 }
 
-/// Knots written out as so many coordinates of a signal of this shape. Numbers stay between those of the knots.
+/// Expands knots to this number of coordinates of a signal of this shape. Numbers stay between those of the knots.
 fn expanded(shape: Shape, knots: &[Value], count: usize) -> Vec<Value> {
     match shape {
         _ if knots.len() == count => knots.to_vec(),
@@ -106,7 +108,8 @@ fn expanded(shape: Shape, knots: &[Value], count: usize) -> Vec<Value> {
     }
 }
 
-/// A signal of this shape with fewer knots: means of what they replace, or points of the line through the coordinates.
+/// Returns a signal of this shape with fewer knots, which are means of the coordinates that a knot replaces, or
+/// points of the line through the coordinates.
 fn reduced(shape: Shape, coordinates: &[Value], count: usize) -> Vec<Value> {
     match shape {
         Shape::PiecewiseConstant { .. } => (0..count)
@@ -123,7 +126,7 @@ fn reduced(shape: Shape, coordinates: &[Value], count: usize) -> Vec<Value> {
     }
 }
 
-/// The mean of some numbers, within them; of words the first.
+/// Returns the mean of some numbers, between the least and the greatest; of words the first.
 fn mean(values: &[Value]) -> Value {
     let numbers = numbers(values);
     if numbers.len() < values.len() || values.iter().all(|value| *value == values[0]) {
@@ -139,7 +142,7 @@ fn numbers(values: &[Value]) -> Vec<f64> {
     values.iter().filter_map(Value::number).collect()
 }
 
-/// So many points, evenly spread, of the line through evenly spread values; its ends exactly.
+/// Returns this number of evenly spread points of the line through evenly spread values. The ends are exact.
 fn along(values: &[f64], count: usize) -> Vec<Value> {
     let (last, pieces) = (values.len() - 1, (count - 1).max(1));
     let point = |i: usize| {
@@ -151,7 +154,8 @@ fn along(values: &[f64], count: usize) -> Vec<Value> {
     (0..count).map(point).collect()
 }
 
-/// The same polynomial in the Bernstein basis of the next degree (Farin, "Curves and Surfaces for CAGD", section 6.1).
+/// Returns the same polynomial in the Bernstein basis of the next degree (Farin, "Curves and Surfaces for CAGD",
+/// section 6.1).
 fn elevated(coefficients: &[f64]) -> Vec<f64> {
     let degree = coefficients.len();
     let coefficient = |i: usize| match i {

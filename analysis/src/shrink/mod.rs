@@ -1,9 +1,11 @@
-//! The simplest test near a failing one that still fails: what is needed for the failure, and how little of it.
+//! Shrinks failing tests: finds the simplest test near a failing test that still fails, which shows what the failure
+//! needs.
 //!
-//! Parameters go back to their nominal values where the test still fails without them, numbers become round and as near
-//! to nominal as that goes, signals get fewer pieces. A test counts as failing if it violates every requirement that the
-//! first one did, as reducers of programs keep to one error; on the way the car may come to touch something else, or with
-//! another side, which is said, unless that is to [stay](Sameness) as it was. Shrinking is deterministic, and everything that it says has been run.
+//! Parameters return to their nominal values if the test still fails without them, numbers become round and as near
+//! to nominal as possible, and signals get fewer pieces. A test counts as failing if it violates every requirement
+//! that the first test violated, as reducers of programs keep to one error. The car may then touch another object, or
+//! with another side; the result reports this, unless the failure has to [stay](Sameness) in its mode. Shrinking is
+//! deterministic, and every result has been run.
 
 mod delta;
 mod form;
@@ -22,76 +24,76 @@ use serde::Serialize;
 use std::num::NonZeroUsize;
 use thiserror::Error;
 
-/// A failing test made as simple as it goes.
+/// A failing test that was made as simple as possible.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Shrunk {
     /// The index of the test in its campaign.
     pub index: usize,
-    /// What it violates, and the shrunk test as well.
+    /// The requirements that both the test of the campaign and the shrunk test violate.
     pub violates: Vec<String>,
-    /// How the test of the campaign fails, and how the shrunk one does, in words.
+    /// The failures of the test of the campaign and of the shrunk test, in words.
     pub failures: [String; 2],
-    /// Whether both fail in one mode: they violate the same by the same parts of their formulas, and the car touches the same
-    /// with the same side, doing the same.
+    /// `true` if both tests fail in one mode. They then violate the same requirements by the same parts of their
+    /// formulas, and the car touches the same object with the same side during the same motion.
     pub same_mode: bool,
-    /// What became of each open parameter.
+    /// The values of each open parameter before and after.
     pub parameters: Vec<Change>,
-    /// How many tests were run.
+    /// The number of tests that were run.
     pub runs: usize,
-    /// Whether every step was tried: where it is false the runs did not suffice. Where it is true no parameter and no two of
-    /// them can be set back to their nominal values without losing the failure, and no other step that was tried keeps it.
-    /// A simpler test that takes three steps at once may still fail.
+    /// `true` if every step was tried, `false` if the budget of runs did not suffice. If `true`, no parameter and no
+    /// two parameters can be set to their nominal values without losing the failure, and no other step that was tried
+    /// keeps the failure. A simpler test that takes three steps at once may still fail.
     pub minimal: bool,
-    /// The shrunk test with what became of it.
+    /// The trial of the shrunk test.
     pub trial: Trial,
 }
 
-/// An open parameter before and after.
+/// The values of an open parameter before and after shrinking.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Change {
-    /// Its name.
+    /// The name of the parameter.
     pub name: String,
-    /// The unit of its values.
+    /// The unit of the parameter's values.
     pub unit: Option<String>,
-    /// Its value in the test of the campaign.
+    /// The parameter's value in the test of the campaign.
     pub before: Value,
-    /// Its value in the shrunk test.
+    /// The parameter's value in the shrunk test.
     pub after: Value,
-    /// Whether that is the nominal value.
+    /// `true` if the value in the shrunk test is the nominal value.
     pub nominal: bool,
 }
 
-/// What of a failure is to stay as it was.
+/// The properties of a failure that shrinking keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sameness {
-    /// The requirements that are violated.
+    /// The violated requirements. The shrunk test violates at least these.
     Requirements,
-    /// Those and no others, by the same parts of their formulas, and what the car touches, with which side, and whether it
-    /// drives on, brakes or stands then.
+    /// The failure mode. This means the same violated requirements and no others, the same parts of their formulas,
+    /// and the same contact (the object, the side of the car, and whether the car drives, brakes or stands).
     Mode,
 }
 
-/// Why a test cannot be shrunk.
+/// A reason why a test cannot be shrunk.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ShrinkFlaw {
-    /// It did not fail.
+    /// The test did not fail.
     #[error("test {index} ended `{verdict}`, expected one that failed: there is nothing to shrink")]
     NoFailure {
-        /// Its index.
+        /// The index of the test.
         index: usize,
-        /// How it ended.
+        /// The verdict of the test.
         verdict: Verdict,
     },
-    /// It does not fail any more.
+    /// The test does not fail in the same way when it is run again.
     #[error(
         "test {index} violates {} in the log, but not when it is run again: it ended `{verdict}`", violates.join(", ")
     )]
     Passes {
-        /// Its index.
+        /// The index of the test.
         index: usize,
-        /// What it violates in the log.
+        /// The requirements that the test violates in the log.
         violates: Vec<String>,
-        /// How it ended now.
+        /// The verdict of the new run.
         verdict: Verdict,
     },
 }
@@ -99,10 +101,10 @@ pub enum ShrinkFlaw {
 impl Reason for ShrinkFlaw {}
 
 impl Shrunk {
-    /// Shrinks a failing trial of a campaign in at most so many runs.
+    /// Shrinks a failing trial of a campaign in at most `budget` runs.
     ///
     /// # Errors
-    /// The trial did not fail, or does not when it is run again; or the study cannot be run.
+    /// The trial did not fail, or does not fail in the same way when it is run again; or the study cannot be run.
     pub fn of(log: &Log, trial: &Trial, same: Sameness, budget: usize) -> Result<Self, Error> {
         let study = log.study();
         let violates: Vec<String> = trial.violated().map(str::to_owned).collect();
@@ -137,7 +139,7 @@ impl Shrunk {
             Ok::<_, Error>(fails)
         });
         let found = search.run()?;
-        // The last failing run need not be of the test that was found: bisection looks further.
+        // The last failing run may be of another test than the result, because bisection looks further.
         if last.test != found.test {
             last = run(&found.test)?;
         }
@@ -154,14 +156,14 @@ impl Shrunk {
             failures: [trial, &last].map(|trial| in_words(log, trial)),
             same_mode: same_mode(&last),
             parameters: parameters.collect(),
-            // The test itself was run as well.
+            // The first run, of the test itself, counts too.
             runs: found.runs + 1,
             minimal: found.complete,
             trial: last,
         })
     }
 
-    /// What is needed for the failure, in a sentence.
+    /// Returns a sentence that says which values the failure needs.
     pub fn sentence(&self) -> String {
         let needed: Vec<String> = self.parameters.iter().filter(|change| !change.nominal).map(Change::words).collect();
         let violates = self.violates.join(", ");
@@ -187,20 +189,21 @@ impl Change {
     }
 }
 
-/// In which way a trial fails: what it violates, by which parts, and what the car touches.
+/// Returns the mode in which a trial fails, which is the violated requirements, the violated parts of their formulas,
+/// and the contact.
 fn mode(trial: &Trial) -> (Vec<(&str, Option<&str>)>, Option<Touch>) {
     let part = |id| (id, trial.violation(id).map(|violation| violation.part.as_str()));
     (trial.violated().map(part).collect(), Touch::of(trial))
 }
 
-/// How a failing trial fails.
+/// Returns how a failing trial fails, in words.
 fn in_words(log: &Log, trial: &Trial) -> String {
     let modes = Modes::of(&log.with_trials(vec![trial.clone()])).modes;
     modes.into_iter().map(|mode| mode.words).collect()
 }
 
-/// The nominal values of the open parameters: those that the scenario declares, or what of the domain comes nearest to
-/// them.
+/// Returns the nominal values of the open parameters, which are those that the scenario declares, or the nearest in
+/// the domain.
 fn nominal(study: &Study) -> Values {
     let declared = study.program().and_then(|program| Ok(program.declare()?.parameters)).unwrap_or_default();
     let value = |parameter: &Parameter| {

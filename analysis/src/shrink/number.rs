@@ -1,11 +1,12 @@
-//! Which numbers are simple: those with few decimals, and among them the ones near the nominal value.
+//! Ranks numbers by simplicity: numbers with few decimals are simpler, and among those the numbers near the nominal
+//! value.
 //!
-//! What counts as few depends on the range of the parameter: in [0.5, 10] whole numbers are as simple as it gets, in
-//! [0.2, 0.8] tenths. The levels below are tenths of that, hundredths, and so on.
+//! How many decimals count as few depends on the range of the parameter: in [0.5, 10] whole numbers are the simplest,
+//! in [0.2, 0.8] tenths are. The next levels are tenths of that step, hundredths, and so on.
 
 use std::cmp::Ordering;
 
-/// The finest decimals that count as round, below the coarsest.
+/// The number of levels below the coarsest on which a number counts as round.
 const FINEST: i32 = 9;
 
 /// The decimal grids of an interval.
@@ -13,29 +14,30 @@ const FINEST: i32 = 9;
 pub(super) struct Decimals {
     lo: f64,
     hi: f64,
-    /// The power of ten of the coarsest grid: the greatest that is no more than half of the width.
+    /// The power of ten of the coarsest grid: the greatest power that is no more than half of the interval's width.
     coarsest: i32,
 }
 
 impl Decimals {
-    /// Those of the numbers from `lo` to `hi`.
+    /// Returns the grids of the interval from `lo` to `hi`.
     pub fn of(lo: f64, hi: f64) -> Self {
         let coarsest = libm::floor(libm::log10(0.5 * hi - 0.5 * lo)) as i32;
         Self { lo, hi, coarsest }
     }
 
-    /// How much more finely a number has to be written than the roundest of its range; less is simpler.
+    /// Returns the level of the coarsest grid that has this number. A lower level is simpler, and 0 is the simplest.
     pub fn level(&self, number: f64) -> i32 {
         let fits = |level: &i32| self.at(libm::round(number / self.step(*level)), *level) == number;
         (0..=FINEST).find(fits).unwrap_or(FINEST + 1)
     }
 
-    /// The distance from the nominal value below which numbers are not told apart by bisection.
+    /// Returns the distance below which bisection does not distinguish numbers.
     pub fn resolution(&self) -> f64 {
         self.step(2)
     }
 
-    /// For each level, from the roundest on, the first number of its grid that is no nearer to `goal` than `number` is.
+    /// Returns for each level, from the roundest, the first number of its grid that is not nearer to `goal` than
+    /// `number` is.
     pub fn beyond(&self, number: f64, goal: f64) -> impl Iterator<Item = f64> {
         let grids = *self;
         (0..=FINEST).filter_map(move |level| {
@@ -51,13 +53,13 @@ impl Decimals {
         self.at(1.0, level)
     }
 
-    /// A multiple of the step of a grid, as it is read where it is written in decimals.
+    /// Returns a multiple of the step of a grid, exactly as the decimal text of the multiple is read.
     fn at(&self, multiple: f64, level: i32) -> f64 {
         format!("{multiple:.0}e{}", self.coarsest - level).parse().unwrap_or(f64::NAN)
     }
 }
 
-/// The order of numbers by simplicity: round before fine, then near to the nominal value before far.
+/// Compares numbers by simplicity: first by level, then by the distance to the nominal value.
 pub(super) fn simpler((level, distance): (i32, f64), than: (i32, f64)) -> Ordering {
     level.cmp(&than.0).then(distance.total_cmp(&than.1))
 }

@@ -1,14 +1,14 @@
-//! The simplest test near a failing one that still fails, found by trying.
+//! Searches by trial for the simplest test near a failing test that still fails.
 //!
-//! Nothing is assumed of what makes a test fail; every step is confirmed by running it. First whole parameters go back to
-//! nominal, many at a time ([`needed`]). Then each of the others is made simple: signals become constant or have fewer
-//! knots, numbers come as near to nominal as bisection finds them failing and are then made round, choices go to an
-//! earlier level. That is repeated until nothing changes, which it does in the end: a step is taken only if it is
-//! [simpler](Dimension::compare).
+//! The search assumes nothing about the cause of the failure; it confirms every step by a run. First it sets whole
+//! parameters to nominal, many at a time ([`needed`]). Then it makes each of the other parameters simple: signals
+//! become constant or get fewer knots, numbers move as near to nominal as bisection finds them failing and are then
+//! made round, and choices move to an earlier level. The search repeats this until nothing changes. It always ends,
+//! because it takes a step only if the step is [simpler](Dimension::compare).
 //!
-//! Where values only fail together, as two that have to be alike, no step with one of them gets anywhere. So when single
-//! steps are at an end, steps with two parameters at once are tried, each to one of a few simpler forms; after one that goes,
-//! single steps again. What takes three at once is not found.
+//! If values fail only together (two values that have to be equal, say), no step with one of them succeeds. So when
+//! no single step succeeds, the search tries steps with two parameters at once, each to one of a few simpler forms;
+//! after a successful one it continues with single steps. It does not find steps that need three parameters at once.
 
 use super::delta::needed;
 use super::form::{Dimension, Form};
@@ -17,25 +17,25 @@ use paracosm_space::{Domain, Space, Value, Values};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// A search under way.
+/// A search that is running.
 pub(super) struct Shrinker<'a, F> {
     space: &'a Space,
     dimensions: Vec<Dimension<'a>>,
     fails: F,
     current: Vec<Form>,
-    /// The tests that were run, as they are written, with whether they failed.
+    /// The tests that were run, as JSON, and whether they failed.
     tried: BTreeMap<String, bool>,
     budget: usize,
     exhausted: bool,
 }
 
-/// What a search came to.
+/// The result of a search.
 #[derive(Debug)]
 pub(super) struct Simpler {
     pub test: Values,
-    /// The tests that were run.
+    /// The number of tests that were run.
     pub runs: usize,
-    /// Whether nothing simpler was left untried for want of runs.
+    /// `true` if no simpler test was left untried for lack of runs.
     pub complete: bool,
 }
 
@@ -43,7 +43,8 @@ impl<'a, F, E> Shrinker<'a, F>
 where
     F: FnMut(&Values) -> Result<bool, E>,
 {
-    /// A search from a failing test of the space, towards the nominal values of its parameters, in at most so many runs.
+    /// Makes a search from a failing test of the space towards the nominal values of its parameters, in at most
+    /// `budget` runs.
     pub fn new(space: &'a Space, nominal: &Values, test: &Values, budget: usize, fails: F) -> Self {
         let value = |values: &Values, name: &str| values.get(name).cloned().expect("a value for every parameter");
         let parameters = space.parameters().iter();
@@ -54,7 +55,7 @@ where
         Self { space, dimensions, fails, current, tried: BTreeMap::new(), budget, exhausted: false }
     }
 
-    /// Searches to the end.
+    /// Runs the search to its end.
     pub fn run(mut self) -> Result<Simpler, E> {
         loop {
             let before = self.current.clone();
@@ -77,7 +78,7 @@ where
         self.dimensions.iter().zip(forms).map(value).collect()
     }
 
-    /// Goes to these forms if that test fails.
+    /// Moves to these forms if their test fails.
     fn go(&mut self, forms: Vec<Form>) -> Result<bool, E> {
         let test = self.test(&forms);
         if !self.space.encode(&test).is_ok_and(|point| self.space.allows(&point)) {
@@ -99,7 +100,7 @@ where
         Ok(fails)
     }
 
-    /// Goes to this form of one parameter if it is simpler than what it is, and fails.
+    /// Moves one parameter to this form if the form is simpler than the current form and the test fails.
     fn go_with(&mut self, index: usize, form: Form) -> Result<bool, E> {
         if self.dimensions[index].compare(&form, &self.current[index]) != Ordering::Less {
             return Ok(false);
@@ -109,7 +110,7 @@ where
         self.go(forms)
     }
 
-    /// Sets as many parameters back to nominal as go.
+    /// Sets as many parameters as possible to nominal.
     fn reset_parameters(&mut self) -> Result<(), E> {
         let from = self.current.clone();
         let own = (0..from.len()).filter(|index| from[*index] != Form::Nominal).collect();
@@ -120,7 +121,7 @@ where
         Ok(())
     }
 
-    /// Makes one parameter simple.
+    /// Makes one parameter as simple as possible.
     fn simplify(&mut self, index: usize) -> Result<(), E> {
         self.take_fewer_knots(index)?;
         self.reset_knots(index)?;
@@ -140,13 +141,13 @@ where
         Ok(())
     }
 
-    /// Makes a signal constant, or one of fewer knots.
+    /// Makes a signal constant, or gives it fewer knots.
     fn take_fewer_knots(&mut self, index: usize) -> Result<(), E> {
         let Form::Own(knots) = self.current[index].clone() else { return Ok(()) };
         if knots.len() == 1 {
             return Ok(());
         }
-        // A constant: the mean, or any of the first few values.
+        // A constant signal: the mean, or one of the first few values.
         for value in self.dimensions[index].with_knots(&knots, 1).iter().chain(knots.iter().take(FEW)) {
             if self.go_with(index, Form::Own(vec![value.clone()]))? {
                 return Ok(());
@@ -162,7 +163,7 @@ where
         Ok(())
     }
 
-    /// Sets as many knots of a signal back to nominal as go.
+    /// Sets as many knots of a signal as possible to nominal.
     fn reset_knots(&mut self, index: usize) -> Result<(), E> {
         let Form::Own(knots) = self.current[index].clone() else { return Ok(()) };
         let nominal = self.dimensions[index].nominal_knots(knots.len());
@@ -180,7 +181,8 @@ where
         self.go_with(index, Form::Own(knots))
     }
 
-    /// Brings a number as near to nominal as it fails, by bisection, and from there away to the next round one.
+    /// Moves a number by bisection as near to nominal as the test fails, and from there away to the next round
+    /// number.
     fn simplify_number(&mut self, index: usize, knot: usize, decimals: Decimals) -> Result<(), E> {
         let Some(before) = self.number(index, knot) else { return Ok(()) };
         let knots = match &self.current[index] {
@@ -195,7 +197,7 @@ where
         let (mut passing, mut failing) = (goal, before);
         while (failing - passing).abs() > decimals.resolution() {
             let middle = 0.5 * passing + 0.5 * failing;
-            // On the way numbers may be less simple than where they began.
+            // During bisection numbers may be less simple than at its start.
             let mut forms = self.current.clone();
             if let Form::Own(knots) = &mut forms[index] {
                 knots[knot] = Value::Number(middle);
@@ -214,7 +216,7 @@ where
         Ok(())
     }
 
-    /// Makes two parameters simpler at once, if any two can be.
+    /// Makes two parameters simpler at once, if possible for any two.
     fn simplify_two(&mut self) -> Result<bool, E> {
         for second in 1..self.dimensions.len() {
             for first in 0..second {
@@ -230,14 +232,14 @@ where
         Ok(false)
     }
 
-    /// Simpler forms of two parameters, the simplest first.
+    /// Returns pairs of simpler forms of two parameters, the simplest first.
     fn pairs(&self, first: usize, second: usize) -> Vec<(Form, Form)> {
         let [one, other] = [first, second].map(|index| self.simpler_forms(index));
         one.iter().flat_map(|one| other.iter().map(|other| (one.clone(), other.clone()))).collect()
     }
 
-    /// A few forms of a parameter that are simpler than what it is: nominal, constant, an early level, or a round number
-    /// half as far from nominal.
+    /// Returns a few forms of a parameter that are simpler than the current form, such as nominal, constant, an early
+    /// level, or a round number half as far from nominal.
     fn simpler_forms(&self, index: usize) -> Vec<Form> {
         let dimension = &self.dimensions[index];
         let Form::Own(knots) = &self.current[index] else { return Vec::new() };
@@ -267,5 +269,5 @@ where
     }
 }
 
-/// Up to so many knots every number of them is tried, beyond that powers of two.
+/// The number of knots up to which every smaller number of knots is tried; beyond it, only powers of two are tried.
 const FEW: usize = 4;

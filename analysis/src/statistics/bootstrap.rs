@@ -1,19 +1,20 @@
-//! Intervals by resampling (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapter 13).
+//! Computes confidence intervals by resampling (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, chapter
+//! 13).
 
 use super::quantile;
 use super::random::SplitMix64;
 
-/// How often values are drawn anew; a thousand are enough for the ends of a 95 % interval.
+/// The number of resamples. A thousand are enough for the ends of a 95 % interval.
 pub const RESAMPLES: usize = 2_000;
 
-/// The 95 % percentile bootstrap interval of a statistic of `n` values.
+/// Returns the 95 % percentile bootstrap interval of a statistic of `n` values.
 ///
-/// `statistic` is given [`RESAMPLES`] lists of `n` indices below `n`, drawn with replacement; pairs stay pairs if it
-/// takes both sides at the same index. The interval lies between the 2.5 % and the 97.5 % quantile of what it says. The
-/// indices are drawn from a fixed seed: the same values always have the same interval.
+/// `statistic` receives [`RESAMPLES`] lists of `n` indices below `n`, drawn with replacement. Pairs stay pairs if
+/// `statistic` takes both sides at the same index. The interval lies between the 2.5 % and the 97.5 % quantile of the
+/// results. The indices are drawn with a fixed seed, so that the same values always have the same interval.
 ///
 /// # Panics
-/// There is no value.
+/// `n` is 0.
 pub fn bootstrap_interval(n: usize, mut statistic: impl FnMut(&[usize]) -> f64) -> [f64; 2] {
     let mut random = SplitMix64(0);
     let mut indices = vec![0; n];

@@ -1,10 +1,10 @@
-//! Confidence intervals of proportions and of means.
+//! Computes confidence intervals of proportions and of means.
 
 use paracosm_space::distribution::{beta_quantile, normal_quantile};
 
-/// The interval of Clopper and Pearson for a proportion of which `successes` of `n` independent trials were seen (The use
-/// of confidence or fiducial limits illustrated in the case of the binomial, Biometrika 26, 1934): it covers the truth at
-/// least as often as `confidence` says, whatever the truth.
+/// Returns the interval of Clopper and Pearson for a proportion, from `successes` among `n` independent trials (The
+/// use of confidence or fiducial limits illustrated in the case of the binomial, Biometrika 26, 1934). It contains
+/// the true proportion with a probability of at least `confidence`, whatever the true proportion is.
 ///
 /// # Panics
 /// There are more successes than trials.
@@ -13,17 +13,18 @@ pub fn clopper_pearson(successes: usize, n: usize, confidence: f64) -> [f64; 2] 
     let tail = (1.0 - confidence) / 2.0;
     let (k, rest) = (successes as f64, (n - successes) as f64);
     let lower = if successes == 0 { 0.0 } else { beta_quantile(k, rest + 1.0, tail) };
-    // By symmetry, for 1 less a small number has lost its digits.
+    // By symmetry: a quantile near 1 would lose digits.
     let upper = if successes == n { 1.0 } else { 1.0 - beta_quantile(rest, k + 1.0, tail) };
     [lower, upper]
 }
 
-/// Wilson's interval for a proportion of which `successes` of `n` independent trials were seen (Probable inference, the law of
-/// succession, and statistical inference, JASA 22, 1927): the proportions from which what was seen is no farther than the
-/// normal distribution allows. It is shorter than that of [`clopper_pearson`], and covers the truth as often in the mean.
+/// Returns Wilson's interval for a proportion, from `successes` among `n` independent trials (Probable inference, the
+/// law of succession, and statistical inference, JASA 22, 1927). It holds the proportions that the normal
+/// distribution allows for the observed successes. It is shorter than that of [`clopper_pearson`], and on average
+/// contains the true proportion with about the probability `confidence`.
 ///
 /// # Panics
-/// There are more successes than trials, or there is no trial.
+/// There are more successes than trials, or there are no trials.
 pub fn wilson(successes: usize, n: usize, confidence: f64) -> [f64; 2] {
     assert!(successes <= n && n > 0, "no more successes than trials, of which there are some");
     let (share, n) = (successes as f64 / n as f64, n as f64);
@@ -31,19 +32,19 @@ pub fn wilson(successes: usize, n: usize, confidence: f64) -> [f64; 2] {
     let shrunk = 1.0 / (1.0 + z * z / n);
     let middle = shrunk * (share + z * z / (2.0 * n));
     let half = shrunk * z * (share * (1.0 - share) / n + z * z / (4.0 * n * n)).sqrt();
-    // What is seen always or never leaves one end where it is; rounding must not move it.
+    // If the event occurs never or always, one end of the interval is 0 or 1. Rounding must not move it.
     let lower = if successes == 0 { 0.0 } else { middle - half };
     [lower, if share == 1.0 { 1.0 } else { middle + half }]
 }
 
-/// The number below which a share `p` of Student's t distribution with so many degrees of freedom lies, for `p` of at
-/// least a half (DLMF 8.17.26 turned around).
+/// Returns the quantile at `p` of Student's t distribution with `freedom` degrees of freedom, for `p` of at least 0.5
+/// (the inverse of DLMF 8.17.26).
 pub fn student_quantile(freedom: f64, p: f64) -> f64 {
     let x = beta_quantile(0.5, freedom / 2.0, 2.0 * p - 1.0);
     (freedom * x / (1.0 - x)).sqrt()
 }
 
-/// Mean and variance (n - 1) of at least two values.
+/// Returns the mean and the variance (with n - 1) of at least two values.
 fn moments(values: &[f64]) -> (f64, f64) {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
@@ -51,10 +52,10 @@ fn moments(values: &[f64]) -> (f64, f64) {
     (mean, squares / (n - 1.0))
 }
 
-/// Student's interval for the mean of a normal distribution of which these values were seen.
+/// Returns Student's interval for the mean of a normal distribution, from a sample of it.
 ///
 /// # Panics
-/// There are less than two values.
+/// There are fewer than two values.
 pub fn mean_interval(values: &[f64], confidence: f64) -> [f64; 2] {
     assert!(values.len() > 1, "at least two values");
     let n = values.len() as f64;
@@ -63,11 +64,11 @@ pub fn mean_interval(values: &[f64], confidence: f64) -> [f64; 2] {
     [mean - half, mean + half]
 }
 
-/// Cox's interval for the mean of a log-normal distribution of which these values were seen, with Student's quantile
+/// Returns Cox's interval for the mean of a log-normal distribution, from a sample of it, with Student's quantile
 /// (Olsson, Confidence intervals for the mean of a log-normal distribution, J. Statistics Education 13, 2005).
 ///
 /// # Panics
-/// There are less than two values, or one is not above 0.
+/// There are fewer than two values, or a value is not above 0.
 pub fn log_normal_mean_interval(values: &[f64], confidence: f64) -> [f64; 2] {
     assert!(values.len() > 1 && values.iter().all(|value| *value > 0.0), "at least two values above 0");
     let n = values.len() as f64;

@@ -1,14 +1,15 @@
-//! The log-rank test: whether what is waited for happens sooner in one group than in another.
+//! Implements the log-rank test, which tests whether an event happens sooner in one group than in another.
 //!
-//! Mantel (Evaluation of survival data and two new rank order statistics arising in its consideration, Cancer Chemotherapy
-//! Reports 50, 1966), after Mantel and Haenszel: at every time at which something happens, how often it happened in the
-//! first group is held against how often it would have, had chance alone chosen among all that were still waiting. Those
-//! whose time is only known to be longer count up to there, so that runs without a failure are not taken for slow ones.
+//! The source is Mantel (Evaluation of survival data and two new rank order statistics arising in its consideration,
+//! Cancer Chemotherapy Reports 50, 1966), after Mantel and Haenszel. At every time at which events happen, the test
+//! compares the number of events in the first group with the number expected if chance alone had chosen among all
+//! that were still waiting. A censored time counts up to its end, so that runs without a failure do not count as slow
+//! runs.
 
 use super::Lifetime;
 
-/// The two-sided p-value of the hypothesis that what is waited for is at any time as likely in one group as in the other,
-/// by the normal approximation; 1 where nothing can be said. It takes no notice of pairs.
+/// Returns the two-sided p-value of the hypothesis that the event is at any time equally likely in both groups, by
+/// the normal approximation; 1 if the data allow no conclusion. The test ignores pairs.
 pub fn log_rank_p(first: &[Lifetime], second: &[Lifetime]) -> f64 {
     let mut all: Vec<(Lifetime, bool)> = first.iter().map(|lifetime| (*lifetime, true)).collect();
     all.extend(second.iter().map(|lifetime| (*lifetime, false)));
@@ -20,7 +21,7 @@ pub fn log_rank_p(first: &[Lifetime], second: &[Lifetime]) -> f64 {
         let in_first = same.iter().filter(|(lifetime, is_first)| lifetime.happened && *is_first).count() as f64;
         let share = waiting_first / waiting;
         excess += in_first - happened * share;
-        // Of the hypergeometric distribution; who waits alone tells nothing.
+        // The variance of the hypergeometric distribution. A last single lifetime adds nothing.
         if waiting > 1.0 {
             variance += happened * share * (1.0 - share) * (waiting - happened) / (waiting - 1.0);
         }

@@ -1,8 +1,8 @@
-//! The statistics with which repeated measurements are compared.
+//! Provides the statistics by which repeated measurements are compared.
 //!
-//! The choice follows Arcuri and Briand, A hitchhiker's guide to statistical tests for assessing randomized algorithms
-//! in software engineering (STVR 24, 2014): no assumption of normality, effect sizes beside p-values, intervals beside
-//! point estimates, and a correction for many tests.
+//! The choice follows Arcuri and Briand, A hitchhiker's guide to statistical tests for assessing randomized
+//! algorithms in software engineering (STVR 24, 2014): no assumption of normality, effect sizes beside p-values,
+//! intervals beside point estimates, and a correction for many tests.
 
 mod bootstrap;
 mod interval;
@@ -21,11 +21,10 @@ pub use signed_rank::{MOST_EXACT, signed_rank_p};
 pub use survival::{Lifetime, Survival};
 pub use versus::{Versus, correct, median_of};
 
-/// The quantile of sorted values, between two of them in proportion (type 7 of Hyndman and Fan, Sample quantiles in
-/// statistical packages, The American Statistician 50, 1996).
+/// Returns the quantile at `q` of sorted values, interpolated linearly between two values (type 7 of Hyndman and Fan,
+/// Sample quantiles in statistical packages, The American Statistician 50, 1996).
 ///
-/// # Panics
-/// There is no value.
+/// `sorted` is empty.
 pub fn quantile(sorted: &[f64], q: f64) -> f64 {
     let at = q * (sorted.len() - 1) as f64;
     let below = at.floor() as usize;
@@ -33,31 +32,32 @@ pub fn quantile(sorted: &[f64], q: f64) -> f64 {
     sorted[below] + (at - below as f64) * (sorted[above] - sorted[below])
 }
 
-/// The median and the lower and the upper quartile, as [`quantile`] defines them.
+/// Returns the median, and the lower and the upper quartile, as [`quantile`] defines them.
 ///
 /// # Panics
-/// There is no value.
+/// `values` is empty.
 pub fn median_and_quartiles(values: &[f64]) -> (f64, [f64; 2]) {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     (quantile(&sorted, 0.5), [quantile(&sorted, 0.25), quantile(&sorted, 0.75)])
 }
 
-/// The effect size A12: how likely a value of `a` is larger than one of `b`, equal ones counting half (Vargha and
-/// Delaney, A critique and improvement of the CL common language effect size statistics of McGraw and Wong, J. Educ.
-/// Behav. Stat. 25, 2000). 0.5 says no difference; they call 0.56 small, 0.64 medium and 0.71 large, and likewise below.
+/// Returns the effect size A12. It is the probability that a value of `a` is larger than a value of `b`, where equal
+/// values count half (Vargha and Delaney, A critique and improvement of the CL common language effect size statistics
+/// of McGraw and Wong, J. Educ. Behav. Stat. 25, 2000). 0.5 means no difference; the authors call 0.56 small, 0.64
+/// medium and 0.71 large, and likewise below 0.5.
 ///
 /// # Panics
-/// A side has no value.
+/// `a` or `b` is empty.
 pub fn vargha_delaney(a: &[f64], b: &[f64]) -> f64 {
     assert!(!a.is_empty() && !b.is_empty(), "there is nothing to compare");
     let halves = |x: f64| b.iter().map(|y| if x > *y { 2 } else { usize::from(x == *y) }).sum::<usize>();
     a.iter().map(|x| halves(*x)).sum::<usize>() as f64 / (2 * a.len() * b.len()) as f64
 }
 
-/// P-values of tests that belong together, adjusted so that the chance of any false finding among them stays below the
-/// level that they are held against: the step-down procedure of Holm (A simple sequentially rejective multiple test
-/// procedure, Scand. J. Statist. 6, 1979).
+/// Returns the p-values of a family of tests, adjusted by the step-down procedure of Holm (A simple sequentially
+/// rejective multiple test procedure, Scand. J. Statist. 6, 1979). The probability of any false finding among the
+/// tests then stays below the significance level.
 pub fn holm(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|&a, &b| p[a].total_cmp(&p[b]));
@@ -70,8 +70,8 @@ pub fn holm(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-/// The exponent of the power law `y = c x^slope` through values above 0: the least-squares line of log y over log x.
-/// `None` with less than two different `x`.
+/// Returns the exponent of the power law `y = c x^slope` through points with values above 0. It is the slope of the
+/// least-squares line of log y over log x. `None` if there are fewer than two different `x`.
 pub fn power_law_slope(points: &[(f64, f64)]) -> Option<f64> {
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (libm::log(*x), libm::log(*y))).collect();
     let n = logs.len() as f64;

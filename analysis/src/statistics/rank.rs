@@ -1,21 +1,22 @@
-//! Correlation of ranks.
+//! Computes rank correlations.
 
-/// Spearman's rank correlation: Pearson's of the ranks, equal values sharing the mean of theirs (The proof and measurement
-/// of association between two things, Am. J. Psychol. 15, 1904). `None` where one side does not vary.
+/// Returns Spearman's rank correlation, which is Pearson's correlation of the ranks, where equal values share the
+/// mean of their ranks (The proof and measurement of association between two things, Am. J. Psychol. 15, 1904).
+/// `None` if a side does not vary.
 ///
 /// # Panics
-/// The sides are not of one length.
+/// `x` and `y` have different lengths.
 pub fn spearman(x: &[f64], y: &[f64]) -> Option<f64> {
     assert_eq!(x.len(), y.len(), "pairs have two sides");
     let (x, y) = (ranks(x), ranks(y));
-    // Whatever is shared, the mean rank is the middle one.
+    // Shared ranks do not change the mean rank.
     let middle = (x.len() + 1) as f64 / 2.0;
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - middle) * (b - middle)).sum::<f64>();
     let spread = product(&x, &x) * product(&y, &y);
     (spread > 0.0).then(|| (product(&x, &y) / spread.sqrt()).clamp(-1.0, 1.0))
 }
 
-/// The rank of each value, from 1.
+/// Returns the rank of each value, from 1.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));

@@ -1,16 +1,18 @@
-//! Wilcoxon's signed-rank test for pairs (Individual comparisons by ranking methods, Biometrics Bulletin 1, 1945).
+//! Implements Wilcoxon's signed-rank test for pairs (Individual comparisons by ranking methods, Biometrics Bulletin
+//! 1, 1945).
 //!
-//! Differences of 0 are dropped, as Wilcoxon did; equal absolute differences share the mean of their ranks. Given the
-//! ranks, every choice of signs is as likely where the pairs do not differ, so that the exact distribution of the sum of
-//! the positive ranks can be counted whether ranks are shared or not: twice a shared rank is a whole number (Lehmann,
-//! Nonparametrics, 1975, chapter 3).
+//! Differences of 0 are dropped, as Wilcoxon did; equal absolute differences share the mean of their ranks. If the
+//! pairs do not differ, every choice of signs is equally likely, given the ranks. So the exact distribution of the
+//! sum of the positive ranks can be counted, even if ranks are shared, because twice a shared rank is a whole number
+//! (Lehmann, Nonparametrics, 1975, chapter 3).
 
-/// Up to how many differences the distribution is counted; for more the normal distribution stands in.
+/// The greatest number of differences for which the distribution is counted. For more, it is approximated.
 pub const MOST_EXACT: usize = 50;
 
-/// The two-sided p-value of the hypothesis that differences are as likely above 0 as below, and as far: exact up to
-/// [`MOST_EXACT`] differences that are not 0, beyond by the normal approximation with corrections for ties and for
-/// continuity (Hollander, Wolfe and Chicken, Nonparametric Statistical Methods, 2014, section 3.1). 1 where all are 0.
+/// Returns the two-sided p-value of the hypothesis that the differences are symmetric around 0. It is exact up to
+/// [`MOST_EXACT`] differences that are not 0. Beyond, it uses the normal approximation with corrections for ties and
+/// for continuity (Hollander, Wolfe and Chicken, Nonparametric Statistical Methods, 2014, section 3.1). It is 1 if
+/// all differences are 0.
 pub fn signed_rank_p(differences: &[f64]) -> f64 {
     let mut different: Vec<f64> = differences.iter().copied().filter(|difference| *difference != 0.0).collect();
     different.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -23,20 +25,20 @@ pub fn signed_rank_p(differences: &[f64]) -> f64 {
     (2.0 * one_sided).min(1.0)
 }
 
-/// Twice the rank of each difference, sorted by their absolute values; equal ones share the mean.
+/// Returns twice the rank of each difference, from differences sorted by absolute value; equal ones share the mean.
 fn doubled_ranks(sorted: &[f64]) -> Vec<usize> {
     let mut ranks = Vec::with_capacity(sorted.len());
     for equal in sorted.chunk_by(|a, b| a.abs() == b.abs()) {
-        // The first of them has the rank len + 1, the last len + equal.
+        // The first of the equal differences has the rank len + 1, the last has len + equal.
         let doubled = 2 * ranks.len() + equal.len() + 1;
         ranks.extend(std::iter::repeat_n(doubled, equal.len()));
     }
     ranks
 }
 
-/// How likely a sum of ranks with random signs is at most `sum`.
+/// Returns the probability that a sum of ranks with random signs is at most `sum`.
 fn exact_tail(ranks: &[usize], sum: usize) -> f64 {
-    // How many choices of signs give each sum: at most 2^50, which a double holds exactly.
+    // The number of choices of signs that give each sum: at most 2^50, which a double holds exactly.
     let mut choices = vec![0.0; sum + 1];
     choices[0] = 1.0;
     for rank in ranks {
@@ -47,9 +49,9 @@ fn exact_tail(ranks: &[usize], sum: usize) -> f64 {
     choices.iter().sum::<f64>() / libm::exp2(ranks.len() as f64)
 }
 
-/// The same by the normal approximation. Ranks and sum are doubled.
+/// Returns the same probability as [`exact_tail`] by the normal approximation. The ranks and the sum are doubled.
 fn normal_tail(ranks: &[usize], sum: usize) -> f64 {
-    // With shared ranks the sum of their squares is what the correction for ties makes of n (n + 1) (2n + 1) / 6.
+    // With shared ranks, the sum of their squares is n (n + 1) (2n + 1) / 6 with the correction for ties.
     let (total, squares) = ranks.iter().map(|&r| r as f64).fold((0.0, 0.0), |(t, s), r| (t + r, s + r * r));
     let (mean, deviation) = (total / 2.0, (squares / 4.0).sqrt());
     let z = (sum as f64 + 1.0 - mean) / deviation;

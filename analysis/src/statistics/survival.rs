@@ -1,27 +1,29 @@
-//! Times until something happens, of which some are only known to be longer: runs that ended before it happened.
+//! Analyses times to an event, some of which are censored: the run ended before the event happened.
 //!
-//! What a run with so many tests does not find, one with more might: its time is *censored*. Leaving such runs out, or
-//! taking their ends for times, says too little; the estimator of Kaplan and Meier uses what is known of them
-//! (Nonparametric estimation from incomplete observations, JASA 53, 1958).
+//! A run with more tests might find a failure that a shorter run did not find: the time of the shorter run is
+//! *censored*. If such runs were left out, or if their ends counted as times of the event, the estimate would be too
+//! small. The estimator of Kaplan and Meier uses what is known about them (Nonparametric estimation from incomplete
+//! observations, JASA 53, 1958).
 
-/// A time, and whether it ended because what was waited for happened.
+/// A time to an event, or a censored time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lifetime {
-    /// How long was waited.
+    /// The time that was waited.
     pub time: f64,
-    /// Whether it happened then; if not, it would have happened later, or never.
+    /// `true` if the event happened at this time; `false` if it would have happened later, or never.
     pub happened: bool,
 }
 
-/// The share for which it has not happened, over time: a step function that begins with 1.
+/// A survival curve, which is the share of cases in which the event has not happened, over time. It is a step
+/// function that begins at 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survival {
-    /// The times at which it falls, in ascending order, and its value from then on.
+    /// The times at which the curve falls, in ascending order, each with the share from then on.
     pub steps: Vec<(f64, f64)>,
 }
 
 impl Survival {
-    /// The estimate from lifetimes. What happens at the time at which another is censored is taken to happen before.
+    /// Estimates the curve from lifetimes. If an event and a censoring have the same time, the event comes first.
     pub fn of(lifetimes: &[Lifetime]) -> Self {
         let mut sorted = lifetimes.to_vec();
         sorted.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -37,18 +39,19 @@ impl Survival {
         Self { steps }
     }
 
-    /// The share for which it has not happened after this time.
+    /// Returns the share of cases in which the event has not happened up to and including this time.
     pub fn at(&self, time: f64) -> f64 {
         self.steps.iter().take_while(|step| step.0 <= time).last().map_or(1.0, |step| step.1)
     }
 
-    /// When it has happened for one half; `None` if that is not known.
+    /// Returns the time at which the event has happened in half of the cases; `None` if this time is not known.
     pub fn median(&self) -> Option<f64> {
         self.steps.iter().find(|step| step.1 <= 0.5).map(|step| step.0)
     }
 
-    /// The restricted mean: how long is waited in the mean by who waits no longer than to the horizon, which is the area
-    /// under the curve up to there (Royston and Parmar, Restricted mean survival time, BMC Med. Res. Methodol. 13, 2013).
+    /// Returns the restricted mean, which is the mean waiting time if nobody waits longer than `horizon`. It is the
+    /// area under the curve up to `horizon` (Royston and Parmar, Restricted mean survival time, BMC Med. Res.
+    /// Methodol. 13, 2013).
     pub fn restricted_mean(&self, horizon: f64) -> f64 {
         let (mut area, mut from, mut share) = (0.0, 0.0, 1.0);
         for &(time, next) in self.steps.iter().take_while(|step| step.0 < horizon) {
@@ -59,7 +62,7 @@ impl Survival {
     }
 }
 
-/// Times as tables of patients have them: `6+` is one that is only known to be longer than 6.
+/// Reads lifetimes as tables of patients write them: `6+` is a time censored at 6.
 #[cfg(test)]
 pub(super) fn lifetimes(text: &str) -> Vec<Lifetime> {
     let of =

@@ -1,32 +1,33 @@
-//! One of several ways to do something, held against another over pairs. Lower values are better.
+//! Compares values with the values of a baseline, in pairs. Lower values are better.
 
 use super::{bootstrap_interval, holm, median_and_quartiles, quantile, signed_rank_p, vargha_delaney};
 use serde::Serialize;
 
-/// Values against those of a baseline, of which each has a partner made from the same seed.
+/// A comparison of values with those of a baseline. Each value has a partner in the baseline that was made with the
+/// same seed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Versus {
-    /// By what factor the values are larger than the baseline's.
+    /// The factor by which the values are larger than the baseline's.
     pub ratio: f64,
-    /// The 95 % bootstrap interval of that ratio over the pairs.
+    /// The 95 % bootstrap interval of the factor, over the pairs.
     pub interval: [f64; 2],
-    /// How likely a value is better than one of the baseline (Vargha and Delaney's A12).
+    /// The probability that a value is better than a value of the baseline (Vargha and Delaney's A12).
     pub better: f64,
     /// The p-value of Wilcoxon's signed-rank test of the differences of the pairs, two-sided.
     pub p: f64,
-    /// The same after Holm's correction for all comparisons that belong together.
+    /// The p-value after Holm's correction for all comparisons that belong together.
     pub p_holm: f64,
 }
 
 impl Versus {
-    /// By the median of the ratios of the pairs; the p-value is not corrected yet.
+    /// Compares by the median of the ratios of the pairs. The p-value is not corrected yet.
     pub fn of_medians(values: &[f64], base: &[f64]) -> Self {
         let ratios: Vec<f64> = values.iter().zip(base).map(|(value, base)| value / base).collect();
         let ratio = median_and_quartiles(&ratios).0;
         Self::of(values, base, ratio, bootstrap_interval(ratios.len(), |drawn| median_of(drawn, &ratios)))
     }
 
-    /// By the ratio of the means; the p-value is not corrected yet.
+    /// Compares by the ratio of the means. The p-value is not corrected yet.
     pub fn of_means(values: &[f64], base: &[f64]) -> Self {
         let all: Vec<usize> = (0..values.len()).collect();
         let sum = |drawn: &[usize], of: &[f64]| drawn.iter().map(|&index| of[index]).sum::<f64>();
@@ -40,7 +41,7 @@ impl Versus {
     }
 }
 
-/// Corrects the p-values of comparisons that belong together.
+/// Corrects the p-values of comparisons that belong together, by [`holm`].
 pub fn correct<'a>(compared: impl Iterator<Item = &'a mut Versus>) {
     let mut compared: Vec<&mut Versus> = compared.collect();
     let p: Vec<f64> = compared.iter().map(|versus| versus.p).collect();
@@ -49,7 +50,7 @@ pub fn correct<'a>(compared: impl Iterator<Item = &'a mut Versus>) {
     }
 }
 
-/// The median of the values at these indices.
+/// Returns the median of the values at these indices.
 pub fn median_of(indices: &[usize], values: &[f64]) -> f64 {
     let mut drawn: Vec<f64> = indices.iter().map(|&i| values[i]).collect();
     drawn.sort_unstable_by(f64::total_cmp);

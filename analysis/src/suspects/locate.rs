@@ -1,14 +1,16 @@
-//! The guilty combinations of a campaign's failing tests, by a few more tests.
+//! Locates the guilty combinations of a campaign's failing tests by a few further tests.
 //!
-//! A failing test of the campaign is changed towards a passing one, discrete value by discrete value; the continuous
-//! values stay those of the failing test. Where there are any, a passing test from which to start is therefore first
-//! made of the discrete values of a passing test and the continuous values of the failing one.
+//! The search changes a failing test of the campaign towards a passing test, one discrete value after the other. The
+//! continuous values stay those of the failing test. So if there are continuous parameters, the search first looks
+//! for a passing start: a test with the discrete values of a passing test and the continuous values of the failing
+//! test.
 //!
-//! Where several combinations are guilty, a test on the way may fail for another reason than the first, and values be
-//! located that are not the cause. Unless they explain all failures, they are therefore put into passing tests. One that
-//! still passes refutes them, and is a start from which they cannot be all that is found. What was found guilty is kept
-//! out of all later tests, as if a constraint forbade it. So it goes on from failure to failure, until each has a guilty
-//! combination or none can be found for it. No test is run twice, those of the campaign included.
+//! If several combinations are guilty, a test on the way may fail for another reason than the first test, and the
+//! located values may not be the cause. Therefore the search puts located values into passing tests, unless they
+//! explain all failures. If such a test still passes, it refutes the values. It is then a new start, from which the
+//! search must find more than these values. Later tests avoid all values found guilty, as if a constraint forbade
+//! them. So the search continues from failure to failure, until each failure has a guilty combination or none can be
+//! found for it. It runs no test twice, those of the campaign included.
 
 use super::Evidence;
 use super::location::{Conclusion, Location};
@@ -19,25 +21,25 @@ use paracosm_space::Values;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// A failure without a guilty combination.
+/// A failure for which no guilty combination was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Unexplained {
     /// The index of the failing trial.
     pub failing: usize,
-    /// Why it has none.
+    /// The reason why no guilty combination was found.
     pub why: Conclusion,
 }
 
 /// The guilty combinations of a campaign, as far as they were found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LocatedReport {
-    /// How many further tests there could be at most.
+    /// The greatest number of further tests that were allowed.
     pub limit: usize,
-    /// How many were run.
+    /// The number of further tests that were run.
     pub ran: usize,
-    /// One search after the other, each with a failing trial that had none of the values found guilty before.
+    /// The searches in order. Each began with a failing trial without any values that were found guilty before.
     pub locations: Vec<Location>,
-    /// The failing trials that have no guilty combination.
+    /// The failing trials without a guilty combination.
     pub unexplained: Vec<Unexplained>,
 }
 
@@ -46,11 +48,11 @@ impl JsonArtefact for LocatedReport {
 }
 
 impl LocatedReport {
-    /// Locates what is behind the failing trials; `run` runs a test, at most `limit` in all. `None` where there is
-    /// nothing to tell apart: no discrete parameter, no failing test or no passing one.
+    /// Locates the guilty combinations of the failing trials. `run` runs a test; it is called at most `limit` times.
+    /// The result is `None` if there are no discrete parameters, no failing tests or no passing tests.
     ///
     /// # Errors
-    /// A trial is none of the study's space, its constraints cannot be kept, or that of `run`.
+    /// A trial does not fit into the study's space, its constraints cannot be satisfied, or `run` returned an error.
     pub fn of(
         log: &Log,
         limit: usize,
@@ -60,7 +62,7 @@ impl LocatedReport {
         evidence.tells_apart().then(|| Self::by(&evidence, limit, run)).transpose()
     }
 
-    /// Locates what is behind the failures of tests of which some failed and some passed.
+    /// Locates the guilty combinations of tests, some of which failed and some of which passed.
     pub(super) fn by(
         evidence: &Evidence,
         limit: usize,
@@ -85,10 +87,10 @@ impl LocatedReport {
     }
 }
 
-/// The locations so far, each with the values to which it came: the located ones or, without a result, all of its test.
+/// The locations so far, each with its values: the located values or, without a result, all values of its test.
 struct Findings<'e> {
     evidence: &'e Evidence<'e>,
-    /// The failing tests that were looked into since a combination was found guilty.
+    /// The failing tests that were searched since the last combination was found guilty.
     tried: BTreeSet<usize>,
     locations: Vec<(Location, Pairs)>,
 }
@@ -99,14 +101,14 @@ impl Findings<'_> {
         guilty.map(|(_, values)| values)
     }
 
-    /// Failing tests without a guilty combination.
+    /// Returns the failing tests without a guilty combination.
     fn left(&self) -> impl Iterator<Item = usize> {
         let tests = &self.evidence.tests;
         let explained = move |test: usize| self.guilty().any(|values| tests[test].contains(values));
         (0..tests.len()).filter(move |&test| tests[test].failed && !explained(test))
     }
 
-    /// The failing test to look into next: one that has no values that led nowhere, if there is one.
+    /// Returns the failing test to search next: if possible, a test without the values of an unsuccessful search.
     fn next(&self) -> Option<usize> {
         let in_vain = || self.locations.iter().filter(|(location, _)| location.conclusion != Conclusion::Guilty);
         let is_alike = |test: usize| in_vain().any(|(_, values)| self.evidence.tests[test].contains(values));
@@ -114,7 +116,7 @@ impl Findings<'_> {
         left.iter().find(|&&test| !is_alike(test)).or(left.first()).copied()
     }
 
-    /// Takes out what was found about a failing test before.
+    /// Removes and returns what was found about a failing test before.
     fn take(&mut self, failing: usize) -> Option<Location> {
         let index = self.evidence.indices[failing];
         let position = self.locations.iter().position(|(location, _)| location.failing == index);
@@ -123,7 +125,7 @@ impl Findings<'_> {
 
     fn add(&mut self, failing: usize, location: (Location, Pairs)) {
         if location.0.conclusion == Conclusion::Guilty {
-            // With one combination less to lead it astray, another search may find more.
+            // With one combination fewer to mislead it, another search may find more.
             self.tried.clear();
         }
         self.tried.insert(failing);
@@ -133,7 +135,7 @@ impl Findings<'_> {
     fn unexplained(&self) -> Vec<Unexplained> {
         let why = |failing: usize| {
             let of_it = self.locations.iter().find(|(location, _)| location.failing == failing);
-            // Only the limit keeps a failing test from being looked into.
+            // Only the limit can prevent the search of a failing test.
             of_it.map_or(Conclusion::LimitReached, |(location, _)| location.conclusion.clone())
         };
         let left = self.left().map(|test| self.evidence.indices[test]);

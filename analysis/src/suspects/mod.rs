@@ -1,6 +1,7 @@
-//! Which values of discrete parameters are behind the failures of a campaign, by name.
+//! Finds the values of discrete parameters that are behind the failures of a campaign, and reports them by name.
 //!
-//! Only tests that failed or passed are evidence; what broke, was impossible or decided nothing is left out.
+//! Only tests that failed or passed are evidence. Tests with another verdict (`error`, `invalid`, `inconclusive`) are
+//! left out.
 
 mod locate;
 mod location;
@@ -17,48 +18,50 @@ use paracosm_space::rules::Rules;
 use paracosm_space::{Coordinate, Point, Space, Values};
 use serde::Serialize;
 
-/// How many suspects are listed at most.
+/// The greatest number of suspects that are listed.
 const MOST_LISTED: usize = 20;
 
-/// Combinations of so many values are looked at, or of more where the tests were to cover more together.
+/// The greatest number of values in a combination, unless the tests were made to cover more values together.
 const USUAL_SIZE: usize = 3;
 
-/// How many combinations of one size are looked at, counted for each failing test: some seconds of looking.
+/// The greatest number of combinations of one size, counted for each failing test, that are examined. This takes some
+/// seconds.
 const MOST_LOOKED_AT: f64 = 1e8;
 
-/// A combination of values that only failing tests have, and of which no part is such a combination.
+/// A suspect, which is a combination of values that only failing tests have, and has no smaller part like this.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NamedSuspect {
-    /// The values.
+    /// The values of the combination.
     pub values: Values,
-    /// How many tests have them; all of them failed.
+    /// The number of tests that have the values. All of them failed.
     pub failures: usize,
-    /// How suspect the values are on their own, from 0 to 1.
+    /// The suspicion against the values on their own, from 0 to 1.
     pub suspicion: f64,
 }
 
-/// What a campaign says about the combinations of discrete values behind its failures.
+/// The suspects of a campaign, which are combinations of discrete values that only failing tests have.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SuspectReport {
-    /// How many values a combination has at most: three, or as many as the tests were to cover together; fewer where
-    /// there are too many combinations to look at.
+    /// The greatest number of values in a combination. It is three, or the strength that the tests were made for if
+    /// that is greater; fewer if there are too many combinations to examine.
     pub size: usize,
-    /// How many suspects there are.
+    /// The number of suspects.
     pub found: u64,
-    /// The first of them, 20 at most: the smallest first, among these those that explain most failures.
+    /// The first suspects, 20 at most. The smallest come first, and among equally small suspects those that explain
+    /// most failures.
     pub ranked: Vec<NamedSuspect>,
-    /// Few suspects that together explain all failures but the unexplained ones.
+    /// A few suspects that together explain all failures but the unexplained ones.
     pub explanation: Vec<NamedSuspect>,
-    /// The indices of the failing trials that have no suspect combination.
+    /// The indices of the failing trials without a suspect combination.
     pub unexplained: Vec<usize>,
 }
 
 impl SuspectReport {
-    /// The suspects of a campaign; `None` where there is nothing to tell apart: no discrete parameter, no failing test
-    /// or no passing one.
+    /// Finds the suspects of a campaign; `None` if there are no discrete parameters, no failing tests or no passing
+    /// tests.
     ///
     /// # Errors
-    /// A trial is none of the study's space, or its constraints cannot be kept.
+    /// A trial does not fit into the study's space, or its constraints cannot be satisfied.
     pub fn of(log: &Log) -> Result<Option<Self>, Error> {
         let evidence = Evidence::of(log)?;
         if !evidence.tells_apart() {
@@ -112,8 +115,8 @@ impl<'a> Evidence<'a> {
         !self.rules.levels().is_empty() && 0 < failures && failures < self.tests.len()
     }
 
-    /// Of how many values combinations are looked at: as many as were to be covered together, or three, unless the
-    /// failing tests have too many combinations of them.
+    /// Returns the greatest number of values in a combination. It is the strength of the tests, and at least three;
+    /// it is smaller if the failing tests have too many combinations of that size.
     fn size(&self, strength: Option<usize>) -> usize {
         let parameters = self.rules.levels().len();
         let failures = self.tests.iter().filter(|test| test.failed).count();
@@ -125,7 +128,7 @@ impl<'a> Evidence<'a> {
         affordable.last().unwrap_or(1).min(strength.unwrap_or(USUAL_SIZE).max(USUAL_SIZE))
     }
 
-    /// The values of (parameter, level) pairs.
+    /// Returns the names and values of (parameter, level) pairs.
     fn named(&self, values: &[(usize, usize)]) -> Values {
         let discrete: Vec<Coordinate> = self.space.discrete().collect();
         values.iter().map(|&(coordinate, level)| named_level(&discrete, coordinate, level)).collect()

@@ -1,4 +1,4 @@
-//! The search for the guilty combination of one failing test after the other, with a memory of all tests.
+//! Searches for the guilty combinations of failing tests, one after the other, and remembers all tests.
 
 use super::Evidence;
 use super::location::{Conclusion, Location, TestOfLocation};
@@ -9,23 +9,23 @@ use paracosm_space::rules::{Clause, Literal, Rules};
 use paracosm_space::{Point, Values};
 use std::collections::HashMap;
 
-/// How many passing tests are tried as the start.
+/// The greatest number of passing tests that are tried as the start.
 const MOST_STARTS: usize = 3;
 
-/// How often a search begins anew after tests have refuted what it located.
+/// The greatest number of times that a search begins again after tests have refuted the located values.
 const MOST_RESTARTS: usize = 5;
 
-/// Into how many passing tests located values are put where they do not explain all failures.
+/// The number of passing tests into which located values are put if they do not explain all failures.
 const CONFIRMATIONS: usize = 2;
 
 /// (parameter, level) pairs.
 pub(super) type Pairs = Vec<(usize, usize)>;
 
-/// Why a search ends early.
+/// A reason why a search ends early.
 enum Stop {
     /// A test could not be run.
     Failed(Error),
-    /// There is no more to find.
+    /// There is nothing more to find.
     Ended(Conclusion),
 }
 
@@ -42,12 +42,12 @@ fn key(point: &Point) -> Key {
     (point.continuous.iter().map(|x| x.to_bits()).collect(), point.discrete.clone())
 }
 
-/// All searches of a campaign, with what is known from the tests so far.
+/// All searches of a campaign, with the tests that are known so far.
 pub(super) struct LocationSearch<'e, R> {
     evidence: &'e Evidence<'e>,
-    /// What further tests keep: the constraints, and that they have nothing that was found guilty.
+    /// The rules for further tests: the constraints, and that the tests have no combination that was found guilty.
     rules: Rules,
-    /// The tests that failed or passed: those of the campaign, then further ones.
+    /// The tests that failed or passed: first those of the campaign, then further ones.
     known: Vec<JudgedTest>,
     verdicts: HashMap<Key, Verdict>,
     run: R,
@@ -55,7 +55,7 @@ pub(super) struct LocationSearch<'e, R> {
     ran: usize,
 }
 
-/// One search, with its tests and those of earlier searches with the same failing test.
+/// A search, with its tests and the tests of earlier searches for the same failing test.
 struct Attempt {
     failing: usize,
     is_first: bool,
@@ -75,7 +75,7 @@ impl<'e, R> LocationSearch<'e, R> {
         Self { evidence, rules, known, verdicts, run, limit, ran: 0 }
     }
 
-    /// How many further tests were run.
+    /// Returns the number of further tests that were run.
     pub fn ran(&self) -> usize {
         self.ran
     }
@@ -93,25 +93,26 @@ impl<'e, R> LocationSearch<'e, R> {
         self.rules = Rules::new(levels, &constraints).expect("passing tests keep all of them");
     }
 
-    /// The conclusion from passing tests that have these values, if there are any.
+    /// Returns the conclusion that passing tests with these values refute them, if there are such tests.
     pub fn refuted(&self, values: &[(usize, usize)]) -> Option<Conclusion> {
         let passed: Vec<usize> = self.having(values, false).collect();
         let trials = self.trials(&passed);
         (!passed.is_empty()).then(|| Conclusion::Refuted { further: passed.len() - trials.len(), trials })
     }
 
-    /// The known tests that have these values and failed, or passed.
+    /// Returns the known tests that have these values and failed (or passed, if `failed` is `false`).
     fn having(&self, values: &[(usize, usize)], failed: bool) -> impl Iterator<Item = usize> {
         let fits = move |test: &JudgedTest| test.failed == failed && test.contains(values);
         self.known.iter().enumerate().filter(move |(_, test)| fits(test)).map(|(position, _)| position)
     }
 
-    /// Those of the known tests that are trials of the campaign, by their indices.
+    /// Returns the indices of those known tests that are trials of the campaign.
     fn trials(&self, known: &[usize]) -> Vec<usize> {
         known.iter().filter_map(|&test| self.evidence.indices.get(test).copied()).collect()
     }
 
-    /// Passing tests that have these values, those first that share least with another test; each choice of levels once.
+    /// Returns the passing tests that have these values, each choice of levels once, the tests least like `test`
+    /// first.
     fn unlike(&self, test: &[usize], values: &[(usize, usize)]) -> Vec<usize> {
         let shared = |other: usize| test.iter().zip(&self.known[other].levels).filter(|(a, b)| a == b).count();
         let mut found: Vec<usize> =
@@ -123,11 +124,11 @@ impl<'e, R> LocationSearch<'e, R> {
 }
 
 impl<R: FnMut(&Values) -> Result<Verdict, Error>> LocationSearch<'_, R> {
-    /// Looks for a guilty combination in a failing test that has none of the forbidden ones; `known` is what was found
-    /// about it before. Also the values to which it came.
+    /// Searches for a guilty combination in a failing test that has no forbidden combination. `known` is the result
+    /// of an earlier search. Returns the location, and the located values or, without a result, all values.
     ///
     /// # Errors
-    /// That of running a test.
+    /// The error of running a test.
     pub fn location(&mut self, failing: usize, known: Option<Location>) -> Result<(Location, Pairs), Error> {
         let is_first = known.is_none();
         let (tests, starting, confirming, restarts) =
@@ -172,7 +173,8 @@ impl<R: FnMut(&Values) -> Result<Verdict, Error>> LocationSearch<'_, R> {
             if restarts == MOST_RESTARTS {
                 return Ok((refuted, Some(located)));
             }
-            // A passing test that has the values is a start from which they cannot be all that is found.
+            // A passing test that has the values is a new start, from which the search must find more than these
+            // values.
             match self.start(attempt, &located.values) {
                 Ok(next) => start = next,
                 Err(Stop::Ended(_)) => return Ok((refuted, Some(located))),
@@ -183,8 +185,8 @@ impl<R: FnMut(&Values) -> Result<Verdict, Error>> LocationSearch<'_, R> {
         unreachable!("it ends with the last restart")
     }
 
-    /// The levels of the first passing test with these values that passes with the continuous values of the failing one,
-    /// too.
+    /// Returns the levels of the first passing test with these values that also passes with the continuous values of
+    /// the failing test.
     fn start(&mut self, attempt: &mut Attempt, values: &[(usize, usize)]) -> Result<Vec<usize>, Stop> {
         let mut starts = self.unlike(&self.evidence.tests[attempt.failing].levels, values);
         starts.truncate(MOST_STARTS);
@@ -206,7 +208,8 @@ impl<R: FnMut(&Values) -> Result<Verdict, Error>> LocationSearch<'_, R> {
         Ok(None)
     }
 
-    /// Locates between the failing test and a start; cautiously with values changed to no level that always failed.
+    /// Locates the combination between the failing test and a start. If `cautiously`, values are changed only to
+    /// levels with which a test has passed.
     fn between(&mut self, attempt: &mut Attempt, start: &[usize], cautiously: bool) -> Result<Combination, Stop> {
         let failing = &self.evidence.tests[attempt.failing].levels;
         let passes = |parameter, level| self.having(&[(parameter, level)], false).next().is_some();
@@ -219,7 +222,7 @@ impl<R: FnMut(&Values) -> Result<Verdict, Error>> LocationSearch<'_, R> {
         Ok(locator.located().expect("there are no more questions"))
     }
 
-    /// Puts located values into some passing tests, until one still passes.
+    /// Puts located values into some passing tests, until such a test still passes.
     fn confirm(&mut self, attempt: &mut Attempt, located: &Combination) -> Result<(), Stop> {
         let before = attempt.tests.len();
         for other in self.unlike(&self.evidence.tests[attempt.failing].levels, &[]).into_iter().take(10 * CONFIRMATIONS)
@@ -238,7 +241,7 @@ impl<R: FnMut(&Values) -> Result<Verdict, Error>> LocationSearch<'_, R> {
         Ok(())
     }
 
-    /// Whether the test with these levels and the continuous values of the failing one fails.
+    /// Checks whether the test with these levels and the continuous values of the failing test fails.
     fn fails(&mut self, attempt: &mut Attempt, levels: Vec<usize>) -> Result<bool, Stop> {
         let continuous = self.evidence.points[attempt.failing].continuous.clone();
         let point = Point { continuous, discrete: levels };

@@ -1,10 +1,10 @@
-//! Requirement by test: how many tests of a campaign kept each requirement and how many violated it, and what no test
-//! has tried.
+//! Traces requirements to tests: counts the tests of a campaign that satisfied or violated each requirement, and
+//! lists what no test has tried.
 //!
-//! A requirement *passed* in a test if it holds there and the test came to the situation that it is about; where it did not,
-//! the requirement was *not reached*, though nothing violated it. It is *undecided* where the test ended too early. Tests
-//! that broke or could not be built judge nothing. What is untested here is untested by these tests: nothing is said of
-//! what lies between two of them.
+//! A requirement *passed* in a test if it holds and the test came to the situation that the requirement is about. If
+//! the test did not come to this situation, the requirement was *not reached*, though nothing violated it. The
+//! requirement is *undecided* if the test ended too early. Tests that broke or could not be built judge nothing. What
+//! is untested here is untested by these tests only: nothing is said about the space between two tests.
 
 #[cfg(test)]
 mod tests;
@@ -19,41 +19,42 @@ use paracosm_space::Values;
 use serde::Serialize;
 use std::fmt;
 
-/// What the tests of a campaign say of its requirements, and what they leave untested.
+/// The results of a campaign for each requirement, and what its tests leave untested.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Traceability {
-    /// How many tests there are.
+    /// The number of tests.
     pub tests: usize,
-    /// Their indices, in order.
+    /// The indices of the tests, in order.
     pub indices: Vec<usize>,
-    /// How many of them broke or could not be built.
+    /// The number of tests that broke or could not be built.
     pub broken: usize,
-    /// The requirements in the order in which they are stated, then those that only the system knows.
+    /// The requirements in the order in which the study states them, then the requirements that only the system
+    /// knows.
     pub requirements: Vec<Traced>,
-    /// What was tried of each open parameter.
+    /// The values of each open parameter that no test has tried.
     pub parameters: Vec<Tried>,
-    /// The parameters that are the same in all tests.
+    /// The parameters with the same value in all tests.
     pub fixed: Values,
-    /// What of the operational design domain the tests are about, if anybody has said so.
+    /// The part of the operational design domain that the tests are about, if the study states it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub odd: Option<Odd>,
-    /// What is untested.
+    /// The list of what is untested.
     pub untested: Vec<Gap>,
 }
 
-/// What became of a requirement in a test.
+/// The result of a requirement in a test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Became {
-    /// It holds, and the test came to the situation that it is about.
+    /// The requirement holds, and the test came to the situation that the requirement is about.
     Passed,
-    /// It is violated.
+    /// The requirement is violated.
     Failed,
-    /// The test ended too early.
+    /// The requirement is undecided, because the test ended too early.
     Undecided,
-    /// It holds, but the test never came to the situation that it is about.
+    /// The requirement holds, but the test never came to the situation that the requirement is about.
     NotReached,
-    /// The test broke, could not be built, or said nothing of it.
+    /// The requirement was not judged, because the test broke, could not be built, or said nothing about it.
     NotJudged,
 }
 
@@ -69,59 +70,59 @@ impl fmt::Display for Became {
     }
 }
 
-/// A requirement with what became of it.
+/// A requirement with its results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Traced {
-    /// Its short name.
+    /// The short name of the requirement.
     pub id: String,
-    /// One sentence; empty where only the system knows.
+    /// The requirement as one sentence; empty if only the system knows it.
     pub text: String,
-    /// Where it comes from.
+    /// The source of the requirement.
     pub source: Option<String>,
-    /// How severe a violation is.
+    /// The severity of a violation.
     pub severity: Option<String>,
-    /// What is asked; empty where that is not known here.
+    /// The formula of the requirement; empty if it is not known here.
     pub formula: String,
-    /// The unit of its robustness.
+    /// The unit of the requirement's robustness.
     pub unit: String,
-    /// In how many tests it holds.
+    /// The number of tests in which the requirement passed.
     pub passed: usize,
-    /// In how many tests it is violated.
+    /// The number of tests in which the requirement is violated.
     pub failed: usize,
-    /// In how many tests it was left undecided.
+    /// The number of tests in which the requirement is undecided.
     pub undecided: usize,
-    /// How many tests that kept it never came to the situation that they are about.
+    /// The number of tests in which the requirement holds but was not reached.
     pub not_reached: usize,
     worst: Option<Least>,
-    /// The indices of the tests that violate it.
+    /// The indices of the tests that violate the requirement.
     pub violated_in: Vec<usize>,
-    /// What became of it in each test, in the order of the tests.
+    /// The result of the requirement in each test, in the order of the tests.
     pub by_test: Vec<Became>,
 }
 
-/// The least robustness with the index of the first test that has it.
+/// The least robustness, with the index of the first test that has it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 struct Least {
     index: usize,
     robustness: Number,
 }
 
-/// Something that is untested, and in what sense.
+/// Something that is untested, with the reason why.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Gap {
-    /// A requirement, a parameter, or an attribute of the design domain.
+    /// The name of a requirement, a parameter, or an attribute of the design domain.
     pub what: String,
-    /// Why it counts as untested.
+    /// The reason why it counts as untested.
     pub why: String,
 }
 
 impl Traced {
-    /// The least robustness, in its unit, with the index of the first test that has it.
+    /// Returns the least robustness, in the requirement's unit, with the index of the first test that has it.
     pub fn worst(&self) -> Option<(f64, usize)> {
         self.worst.and_then(|Least { index, robustness }| Some((robustness.0?, index)))
     }
 
-    /// A requirement of which none of so many tests has said anything yet.
+    /// Makes a requirement that none of `tests` tests has judged yet.
     fn new(study: &Study, id: &str, tests: usize) -> Self {
         let stated = study.requirement(id);
         let text = |text: fn(&StatedRequirement) -> &str| stated.map_or(String::new(), |r| text(r).to_owned());
@@ -143,7 +144,7 @@ impl Traced {
         }
     }
 
-    /// Adds what the test at a position says.
+    /// Adds the result of the test at this position.
     fn add(&mut self, position: usize, trial: &Trial, reached: bool) {
         let worth = trial.robustness(&self.id);
         let (became, count) = match worth {
@@ -163,7 +164,7 @@ impl Traced {
         }
     }
 
-    /// In what sense it is untested, if it is.
+    /// Returns the reason why the requirement is untested, if it is.
     fn gap(&self) -> Option<String> {
         let judged = self.passed + self.failed;
         if judged > 0 {
@@ -179,8 +180,8 @@ impl Traced {
     }
 }
 
-/// Whether each of these trials came to the situation that the tests are about. A scenario without such a premise never
-/// says that it did, but then no decided trial is inconclusive either.
+/// Checks for each trial whether it came to the situation that the tests are about. A scenario without such a premise
+/// never reports that it did, but then no decided trial is inconclusive either.
 fn reached(trials: &[&Trial]) -> Vec<bool> {
     let triggered = |trial: &Trial| trial.triggered() == Some(true);
     let decided = |trial: &Trial| trial.requirements().all(|id| trial.robustness(id).is_some());
@@ -190,10 +191,10 @@ fn reached(trials: &[&Trial]) -> Vec<bool> {
 }
 
 impl Traceability {
-    /// What the trials of a campaign say.
+    /// Traces the requirements of a campaign to its trials.
     ///
     /// # Errors
-    /// A trial is none of the study's space.
+    /// A trial does not fit into the study's space.
     pub fn of(log: &Log) -> Result<Self, Error> {
         let (study, trials) = (log.study(), log.trials());
         let (positions, judging): (Vec<usize>, Vec<&Trial>) =

@@ -1,21 +1,21 @@
-//! What tests have tried of each parameter: levels one by one, intervals by tenths.
+//! Finds what tests have left untried of each parameter: single levels, and tenths of intervals.
 
 use super::Gap;
 use paracosm_campaign::{Error, Study, Trial};
 use paracosm_space::{Coordinate, Value};
 use serde::Serialize;
 
-/// Into how many equal parts an interval is divided to see which of them no test is in.
+/// The number of equal parts of an interval, to see which parts have no test.
 const PARTS: usize = 10;
 
-/// What was not tried of a parameter, or of a coordinate of one that varies over time.
+/// The untried values of a parameter, or of a coordinate of a signal.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tried {
-    /// The coordinate.
+    /// The name of the coordinate.
     pub name: String,
-    /// The unit of its values.
+    /// The unit of the coordinate's values.
     pub unit: Option<String>,
-    /// The parts of an interval, whole tenths, without a test.
+    /// The parts of an interval without a test, in whole tenths of it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gaps: Vec<[f64; 2]>,
     /// The levels of a choice without a test.
@@ -24,7 +24,7 @@ pub struct Tried {
 }
 
 impl Tried {
-    /// What these trials have tried of the study's parameters.
+    /// Finds what these trials have left untried of the study's parameters.
     pub(super) fn of(study: &Study, trials: &[&Trial]) -> Result<Vec<Self>, Error> {
         let points = trials.iter().map(|trial| study.space().encode(&trial.test)).collect::<Result<Vec<_>, _>>()?;
         let (mut continuous, mut discrete) = (0, 0);
@@ -50,7 +50,7 @@ impl Tried {
         Ok(tried.collect())
     }
 
-    /// What was not tried, in words.
+    /// Returns the untried values in words.
     pub(super) fn untried(&self) -> Vec<Gap> {
         let unit = self.unit.as_ref().map(|unit| format!(" {unit}")).unwrap_or_default();
         let gaps = self.gaps.iter().map(|[from, to]| format!("nothing from {} to {}{unit}", short(*from), short(*to)));
@@ -59,7 +59,7 @@ impl Tried {
     }
 }
 
-/// Neighbouring parts without a test, as intervals of the coordinate's values.
+/// Returns the runs of neighbouring parts without a test, as intervals of the coordinate's values.
 fn untouched(coordinate: &Coordinate, parts: &[bool; PARTS]) -> Vec<[f64; 2]> {
     let at = |part: usize| coordinate.parameter.value_at(part as f64 / PARTS as f64);
     let mut gaps = Vec::new();
@@ -78,12 +78,12 @@ fn untouched(coordinate: &Coordinate, parts: &[bool; PARTS]) -> Vec<[f64; 2]> {
     gaps
 }
 
-/// A value in words.
+/// Returns a value in words.
 pub(super) fn words(value: &Value) -> String {
     value.number().map_or_else(|| value.to_string(), short)
 }
 
-/// A number with six decimals at most.
+/// Returns a number with at most six decimal places.
 fn short(number: f64) -> String {
     let text = format!("{number:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

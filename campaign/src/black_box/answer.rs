@@ -1,4 +1,4 @@
-//! What a system answers, read and checked.
+//! Reads and checks the answers of a system.
 
 use crate::json::Number;
 use crate::samples::TraceFlaw;
@@ -13,9 +13,9 @@ use thiserror::Error;
 /// The answer to a test.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Answer {
-    /// What happened, to its end.
+    /// The trace of the test, to its end.
     Trace(Trace),
-    /// The robustness of requirements by their ids.
+    /// The robustness of the requirements, with their ids.
     Robustness(Vec<(String, f64)>),
     /// The system could not do the test.
     NotDone {
@@ -24,13 +24,13 @@ pub enum Answer {
     },
 }
 
-/// What is expected of an answer, in words.
+/// The description of an expected answer, for messages.
 const EXPECTED: &str = "an answer as JSON, {\"index\": …} with `trace`, `robustness` or `error`";
 
-/// By how much of the sample period a time may be off.
+/// The greatest deviation of a time, as a share of the sample period.
 const TOLERANCE: f64 = 1e-3;
 
-/// How much of an answer is quoted, in characters.
+/// The number of characters of an answer that a message quotes.
 const QUOTED: usize = 40;
 
 #[derive(Deserialize)]
@@ -42,61 +42,62 @@ struct Line {
     error: Option<String>,
 }
 
-/// A sample of a signal: a truth is 1 or 0, and what has no value is NaN.
+/// A sample of a signal: `true` is 1, `false` is 0, and a missing value is NaN.
 #[derive(Clone, Copy)]
 struct Sample(f64);
 
-/// What keeps a line from being the answer to a test.
+/// The reason why a line is not the answer to a test.
 #[derive(Debug, Error)]
 pub enum AnswerFlaw {
-    /// It is no JSON, or JSON of another kind.
+    /// The line is not JSON, or is JSON of another form.
     #[error("found `{found}` in column {column} ({}), expected {EXPECTED}", words(.source))]
     NoAnswer {
-        /// What stands there.
+        /// The text that was found.
         found: String,
-        /// Where, in bytes from 1.
+        /// The place of the text, in bytes from 1.
         column: usize,
-        /// What the reader of JSON says.
+        /// The error of the JSON reader.
         source: serde_json::Error,
     },
-    /// It is the answer to another test.
+    /// The line is the answer to another test.
     #[error("found the answer to test {found}, expected that to test {expected}")]
     Index {
-        /// The test that it answers.
+        /// The index of the test in the answer.
         found: usize,
-        /// The test that was asked.
+        /// The index of the test that was asked.
         expected: usize,
     },
-    /// It says nothing.
+    /// The answer has only an index.
     #[error("found only an index, expected {EXPECTED}")]
     Empty,
-    /// It says several things.
+    /// The answer has several results.
     #[error("found several of `trace`, `robustness` and `error`, expected one")]
     Several,
-    /// A robustness is no number.
+    /// A robustness is not a number.
     #[error("the robustness of `{requirement}` is no number")]
     Robustness {
-        /// The requirement.
+        /// The id of the requirement.
         requirement: String,
     },
-    /// There is no robustness.
+    /// The answer has the robustness of no requirement.
     #[error("found the robustness of nothing, expected a requirement")]
     NoRobustness,
-    /// Its trace is none.
+    /// The trace of the answer is invalid.
     #[error(transparent)]
     Trace(#[from] TraceFlaw),
 }
 
 impl Answer {
-    /// Reads the answer to the test of this index.
+    /// Reads the answer to the test with this index.
     ///
     /// # Errors
-    /// The line is no such answer.
+    /// The line is not a valid answer to this test.
     pub fn read(line: &str, index: usize) -> Result<Self, AnswerFlaw> {
         let text = line.trim();
         let answer: Line = match serde_json::from_str(text) {
             Ok(answer) => answer,
-            // Some languages write numbers that JSON does not have. The error says where they stand.
+            // Some languages write numbers that JSON does not have. If the rest is not JSON either, the first error
+            // names the place.
             Err(error) => serde_json::from_str(&without_nan(text)).map_err(|_| no_answer(text, error))?,
         };
         if answer.index != index {
@@ -112,7 +113,7 @@ impl Answer {
     }
 }
 
-/// The line with infinities as JSON can have them, and with `null` for NaN, outside of words.
+/// Rewrites infinities in a form that JSON can have, and NaN as `null`, outside of quoted words.
 fn without_nan(text: &str) -> String {
     let parts = text.split('"').enumerate().map(|(place, part)| {
         if place % 2 == 1 {
@@ -124,12 +125,12 @@ fn without_nan(text: &str) -> String {
     parts.collect::<Vec<_>>().join("\"")
 }
 
-/// What is wrong with a line that is no answer: the place, if it is no JSON.
+/// Returns the error of a line that is not an answer, with the place if the line is not JSON.
 fn no_answer(text: &str, error: serde_json::Error) -> AnswerFlaw {
     let column = if error.is_data() { 1 } else { error.column() };
     // The column counts bytes from 1.
     let at = (0..column.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
-    // An error about the contents of JSON names no place when the JSON was read before.
+    // An error in the contents of parsed JSON has no place.
     let contents = serde_json::from_str(text).ok().and_then(|json| serde_json::from_value::<Line>(json).err());
     AnswerFlaw::NoAnswer {
         found: text[at..].chars().take(QUOTED).collect(),
@@ -138,7 +139,7 @@ fn no_answer(text: &str, error: serde_json::Error) -> AnswerFlaw {
     }
 }
 
-/// What is wrong with JSON; the place is said beside it.
+/// Returns the description of a JSON error without its place, which the message names separately.
 fn words(error: &serde_json::Error) -> String {
     match error.classify() {
         Category::Syntax => "it is no JSON".to_owned(),
@@ -184,7 +185,7 @@ fn read_trace(answer: &Record<Vec<Sample>>) -> Result<Trace, TraceFlaw> {
     Ok(trace)
 }
 
-/// The sample period of evenly spaced times from 0 on, in seconds.
+/// Returns the sample period of evenly spaced times from 0 on, in seconds.
 fn period(time: &[Sample]) -> Result<f64, TraceFlaw> {
     let [first, .., last] = time else {
         return Err(TraceFlaw::TooShort { samples: time.len() });
@@ -195,7 +196,7 @@ fn period(time: &[Sample]) -> Result<f64, TraceFlaw> {
     if let Some(at) = time.windows(2).position(|pair| pair[1].0 <= pair[0].0) {
         return Err(TraceFlaw::Falls { from: time[at].0, to: time[at + 1].0, sample: at + 1 });
     }
-    // Rounded to twelve digits, so that times that were added up give the period that was meant.
+    // Rounded to twelve digits, so that times from repeated addition give the intended period.
     let mean = last.0 / (time.len() - 1) as f64;
     let dt: f64 = format!("{mean:.11e}").parse().expect("a number as it was written");
     let uneven = |(tick, at): (usize, &Sample)| (at.0 - tick as f64 * dt).abs() > TOLERANCE * dt;

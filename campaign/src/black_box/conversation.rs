@@ -1,7 +1,7 @@
-//! A process that answers lines with lines.
+//! Talks to a process that answers each line with a line.
 //!
-//! Two threads stand between it and whoever waits, so that nothing that it does or leaves undone can hold up the
-//! campaign for longer than the time-out: one writes to it, one reads its answers.
+//! Two threads stand between the process and the campaign: one writes to the process, the other reads its answers.
+//! Whatever the process does or fails to do, it cannot delay the campaign for longer than the time-out.
 
 use crate::process::{self, ARRIVAL};
 use crate::{Problem, ProblemKind, Reason};
@@ -16,16 +16,16 @@ use thiserror::Error;
 /// The longest answer in bytes.
 const LONGEST_ANSWER: u64 = 1 << 28;
 
-/// How often a process that says nothing is looked after.
+/// The time between two checks of a process that does not answer.
 const PATIENCE: Duration = Duration::from_millis(20);
 
-/// What is read from a process.
+/// A line from a process, or an error in its output.
 enum Heard {
     Line(String),
     Noise(Noise),
 }
 
-/// What no answer can be.
+/// Output that cannot be an answer.
 #[derive(Debug, Error)]
 enum Noise {
     #[error("found a line without an end, expected an answer of at most {LONGEST_ANSWER} bytes")]
@@ -34,20 +34,20 @@ enum Noise {
     NoText,
 }
 
-/// A system that cannot be started.
+/// A system cannot be started.
 #[derive(Debug, Error)]
 #[error("cannot start the system `{program}`: {source}")]
 pub struct NotStarted {
-    /// The program.
+    /// The name of the program.
     pub program: String,
-    /// What the system said.
+    /// The error of the operating system.
     pub source: io::Error,
 }
 
 impl Reason for NotStarted {}
 
 pub(super) struct Process {
-    // Before the process, which may end by itself when nothing more is asked.
+    // Dropped before the process, which may end by itself when no more questions can come.
     questions: Sender<Vec<u8>>,
     heard: Receiver<Heard>,
     process: process::Process,
@@ -61,19 +61,20 @@ impl Process {
         let mut process = started.map_err(|source| NotStarted { program: words[0].clone(), source })?;
         let (mut stdin, stdout) = (process.stdin().expect("it is new"), process.stdout().expect("it is new"));
         let (questions, asked) = mpsc::channel::<Vec<u8>>();
-        // A process that does not listen is known by its silence; that a question was not heard says nothing more.
+        // A process that does not listen is noticed by its silence, so that an error in writing adds nothing.
         thread::spawn(move || asked.iter().try_for_each(|question| stdin.write_all(&question)));
         let (speaker, heard) = mpsc::channel();
         thread::spawn(move || hear(stdout, &speaker));
         Ok(Self { questions, heard, process, answered: false })
     }
 
-    /// Whether it has answered anything.
+    /// Returns `true` if the process has answered at least once.
     pub fn has_answered(&self) -> bool {
         self.answered
     }
 
-    /// The line with which it answers a question, or why there is none. Nobody waits for it once `stop` is set.
+    /// Sends a question and returns the line of the answer, or the reason why there is none. Stops waiting once `stop`
+    /// is set.
     pub fn ask(&mut self, question: &[u8], timeout: Duration, stop: &AtomicBool) -> Result<String, Problem> {
         let asked = Instant::now();
         // The thread that writes ends with the process, which is noticed below.
@@ -92,7 +93,7 @@ impl Process {
                 let message = format!("no answer within {} s", timeout.as_secs_f64());
                 return Err(Problem::new(ProblemKind::TimedOut, message));
             }
-            // Its children may hold its end of the pipe open.
+            // The children of the process may hold its end of the pipe open.
             if self.status().is_some() {
                 return match self.heard.recv_timeout(ARRIVAL) {
                     Ok(heard) => self.take(heard),
@@ -116,7 +117,7 @@ impl Process {
         self.process.status()
     }
 
-    /// How it ended without an answer.
+    /// Returns the problem of a process that ended without an answer.
     fn post_mortem(&mut self) -> Problem {
         let how = match self.process.ended() {
             Some(status) => format!("the system ended without an answer ({status})"),
@@ -125,13 +126,13 @@ impl Process {
         Problem::new(ProblemKind::Process, self.process.post_mortem(how))
     }
 
-    /// Ends it and all that it started, at once.
+    /// Ends the process and everything that it started, at once.
     pub fn kill(mut self) {
         self.process.end();
     }
 }
 
-/// Passes on what a process says line by line, until it says no more or nobody listens.
+/// Passes on the output of a process line by line, until it ends or nobody listens any more.
 fn hear(stdout: impl Read, speaker: &Sender<Heard>) {
     let mut stdout = BufReader::new(stdout);
     loop {
@@ -143,7 +144,7 @@ fn hear(stdout: impl Read, speaker: &Sender<Heard>) {
         let heard = match String::from_utf8(bytes) {
             Ok(line) if line.ends_with('\n') => Heard::Line(line),
             Ok(line) if line.len() as u64 == LONGEST_ANSWER => Heard::Noise(Noise::TooLong),
-            // A last line without an end is what is left of an answer.
+            // A last line without an end is part of an incomplete answer.
             Ok(_) => return,
             Err(_) => Heard::Noise(Noise::NoText),
         };

@@ -1,14 +1,14 @@
-//! Systems that others wrote, each test a question to a process: one line of JSON in, one line of JSON out.
+//! Tests external systems. Each test is a question to a process: one line of JSON in, one line of JSON out.
 //!
-//! `{"index":3,"test":{"throttle":[0.1,0.9],"brake":0}}` is asked, and answered with a trace
-//! (`{"index":3,"trace":{"time":[0,0.1],"speed":[0,0.2]}}`), with the robustness of requirements
-//! (`{"index":3,"robustness":{"stays-below":0.4}}`, negative where one is violated), or with an error
-//! (`{"index":3,"error":"diverged"}`). `answer.rs` says what is accepted, `conversation.rs` talks to a process.
+//! The question is `{"index":3,"test":{"throttle":[0.1,0.9],"brake":0}}`. The answer is a trace
+//! (`{"index":3,"trace":{"time":[0,0.1],"speed":[0,0.2]}}`), the robustness of requirements
+//! (`{"index":3,"robustness":{"stays-below":0.4}}`, negative if a requirement is violated), or an error
+//! (`{"index":3,"error":"diverged"}`). `answer.rs` checks the answers, and `conversation.rs` talks to a process.
 //!
-//! A process that does not answer, answers something else or ends is killed with all that it started. A test is only
-//! held against it if the process was new: what went wrong in one that had answered before may be the fault of its
-//! past, which depends on who worked on what. So such a test is asked once more of a new process, and a system whose
-//! answers depend on the test alone gives the same trials for any number of workers.
+//! A process that does not answer, gives a wrong answer or ends is killed with everything that it started. An error
+//! counts against a test only if the process was new: an error in a process that answered before may be due to earlier
+//! tests, which depend on the distribution of the work. Such a test is asked once more of a new process. A system whose
+//! answers depend only on the test thus gives the same trials for any number of workers.
 
 mod answer;
 mod conversation;
@@ -26,46 +26,46 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use thiserror::Error;
 
-/// A system that others wrote: the command that starts it.
+/// An external system, given by the command that starts it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BlackBox {
     /// The command, whose words are separated and quoted as in a shell.
     #[serde(rename = "system")]
     pub command: String,
-    /// How long it may take to answer, in seconds.
+    /// The time that the system may take to answer, in seconds.
     pub timeout: f64,
 }
 
-/// How long an answer may take where nothing is said, in seconds.
+/// The default time-out of an answer, in seconds.
 const TIMEOUT: f64 = 60.0;
 
 /// The longest time-out in seconds: a year.
 const LONGEST_TIMEOUT: f64 = 366.0 * 86400.0;
 
-/// A time-out in seconds, the usual where nothing is said.
+/// Returns a time-out in seconds, the default for `None`.
 ///
 /// # Errors
-/// It is no positive number of seconds.
+/// The time-out is not a positive number of seconds, or is longer than a year.
 pub fn checked_timeout(timeout: Option<f64>) -> Result<f64, TimeoutFlaw> {
     let seconds = timeout.unwrap_or(TIMEOUT);
     if seconds > 0.0 && seconds <= LONGEST_TIMEOUT { Ok(seconds) } else { Err(TimeoutFlaw { seconds }) }
 }
 
-/// A time-out that is none.
+/// The time-out is out of range.
 #[derive(Debug, Error)]
 #[error("the time-out is {seconds}, expected a number of seconds above 0, at most a year")]
 pub struct TimeoutFlaw {
-    /// What was given.
+    /// The time-out that was given.
     pub seconds: f64,
 }
 
-/// A command that starts no system.
+/// A command cannot start a system.
 #[derive(Debug, Error)]
 #[error("--system '{command}': {flaw}")]
 pub struct NoSystem {
     /// The command.
     pub command: String,
-    /// What is wrong with it.
+    /// The error in the command.
     pub flaw: CommandFlaw,
 }
 
@@ -73,10 +73,10 @@ impl Reason for TimeoutFlaw {}
 impl Reason for NoSystem {}
 
 impl BlackBox {
-    /// The system that is started with this command; it may take so many seconds for an answer, 60 where nothing is said.
+    /// Makes the system that this command starts; its time-out for an answer is in seconds, by default 60.
     ///
     /// # Errors
-    /// The command is empty or has a quote without an end; or the time is no positive number of seconds.
+    /// The command is empty or has a quote without an end; or the time-out is not positive or longer than a year.
     pub fn new(command: &str, timeout: Option<f64>) -> Result<Self, Error> {
         let system = Self { command: command.to_owned(), timeout: checked_timeout(timeout)? };
         system.words()?;
@@ -88,7 +88,7 @@ impl BlackBox {
     }
 }
 
-/// A system with a process of its own.
+/// A connection to a system in a process of its own.
 pub struct Connection {
     words: Vec<String>,
     timeout: Duration,
@@ -97,10 +97,10 @@ pub struct Connection {
 }
 
 impl Connection {
-    /// A connection on which nothing is waited for any more once `stop` is set.
+    /// Makes a connection that no longer waits for answers once `stop` is set.
     ///
     /// # Errors
-    /// The command was read from a file and is none.
+    /// The system was read from a file, and its command or its time-out is invalid.
     pub fn new(system: &BlackBox, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let system = BlackBox::new(&system.command, Some(system.timeout))?;
         let timeout = Duration::from_secs_f64(system.timeout);
@@ -110,7 +110,7 @@ impl Connection {
     /// Starts the process.
     ///
     /// # Errors
-    /// It cannot be started: there is no such program, say.
+    /// The process cannot be started, for example because the program does not exist.
     pub fn start(&mut self) -> Result<(), Error> {
         if self.process.is_none() {
             self.process = Some(Process::start(&self.words).map_err(Error::unavailable)?);
@@ -118,7 +118,7 @@ impl Connection {
         Ok(())
     }
 
-    /// The answer to a test, or why there is none.
+    /// Returns the answer to a test, or the problem if there is none.
     pub fn ask(&mut self, index: usize, test: &Values) -> Result<Answer, Problem> {
         let mut question = serde_json::to_vec(&Question { index, test }).expect("a test is always JSON");
         question.push(b'\n');

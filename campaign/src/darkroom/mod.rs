@@ -1,7 +1,7 @@
-//! Where the drivers of a campaign get their images: whose images are drawn when.
+//! Draws the images for the drivers of a campaign, and decides which images are drawn together.
 //!
-//! An image depends on its test, its moment, its camera and its number alone, and not on the images that are drawn with it:
-//! so a driver sees what a recording shows, and everything that waits to be drawn is drawn in one go.
+//! An image depends only on its test, its moment, its camera and its number, not on the images that are drawn with it.
+//! A driver therefore sees the same images as a recording shows, and all waiting images can be drawn together.
 
 use crate::study::{Appearances, ModelFlaw};
 use crate::{Error, Reason};
@@ -15,10 +15,10 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use thiserror::Error;
 
-/// What draws for the drivers of a campaign, on whatever threads they are.
+/// Draws images for the drivers of a campaign, on any number of threads.
 ///
-/// Who wants something drawn leaves an order and waits for the developer; who gets to it first draws all that was ordered
-/// by then, so that the more threads there are, the more is drawn at once.
+/// A thread that wants images leaves an order and waits for the developer. The first thread that gets the developer
+/// draws all orders that were left by then. The more threads there are, the more images are drawn at once.
 #[derive(Debug)]
 pub struct Darkroom {
     orders: Mutex<Vec<Order>>,
@@ -27,20 +27,20 @@ pub struct Darkroom {
     appearances: Appearances,
 }
 
-/// What somebody wants to see.
+/// An order for images, by one thread.
 #[derive(Debug)]
 struct Order {
     sights: Vec<Sight>,
     reply: Sender<Vec<Result<Frame, Undrawn>>>,
 }
 
-/// A driver that sees, and cannot be shown anything.
+/// The driver uses cameras, but no images can be drawn for it.
 #[derive(Debug, Error)]
 pub enum Blind {
-    /// It has a camera that cannot be.
+    /// A camera of the driver is invalid.
     #[error("the driver sees through cameras: {0}")]
     Camera(NoCamera),
-    /// There is nothing to draw with.
+    /// The machine has nothing to draw with.
     #[error("the driver sees through cameras, but {0}")]
     Nothing(RenderError),
 }
@@ -48,13 +48,13 @@ pub enum Blind {
 impl Reason for Blind {}
 impl Reason for NoCamera {}
 
-/// Why a driver was not shown what its cameras see.
+/// The reason why a driver did not get the images of its cameras.
 #[derive(Debug, Clone, Error)]
 pub enum NoImage {
-    /// There is nothing to draw with.
+    /// The machine has nothing to draw with.
     #[error("{0}")]
     Closed(Arc<Error>),
-    /// A camera cannot be.
+    /// A camera is invalid.
     #[error(transparent)]
     Camera(#[from] NoCamera),
     /// A model cannot be shown.
@@ -63,20 +63,20 @@ pub enum NoImage {
     /// An image cannot be drawn.
     #[error("camera `{camera}`, image {number}: {why}")]
     Undrawn {
-        /// The camera.
+        /// The name of the camera.
         camera: String,
-        /// Which of its images.
+        /// The number of the image among the images of the camera.
         number: u64,
-        /// Why.
+        /// The reason why the image was not drawn.
         why: Undrawn,
     },
 }
 
 impl Darkroom {
-    /// A darkroom for the cameras that a driver sees through, to which actors look so.
+    /// Opens a darkroom for the cameras of a driver, in which actors have these appearances.
     ///
     /// # Errors
-    /// There is nothing to draw with, or no such camera.
+    /// The machine has nothing to draw with, or a camera is invalid.
     pub fn open(cameras: &Cameras, appearances: &Appearances) -> Result<Self, Error> {
         Optics::of(cameras).map_err(Blind::Camera)?;
         let developer = Developer::new().map_err(|source| Error::unavailable(Blind::Nothing(source)))?;
@@ -85,8 +85,8 @@ impl Darkroom {
         Ok(Self { orders: Mutex::default(), developer, stages, appearances })
     }
 
-    /// What the drivers of these runs see of the moments that have arrived. What keeps an image from being drawn is told
-    /// of its run alone.
+    /// Returns the images that have arrived at the drivers of these runs. An image that cannot be drawn is an error of
+    /// its run alone.
     pub fn develop(&self, runs: &[&Run]) -> Vec<Result<Vec<Image>, NoImage>> {
         let seen: Vec<_> = runs.iter().map(|run| Seen::by(run, self)).collect();
         let colours = WantedImages { rgb: true, ..WantedImages::default() };
@@ -105,7 +105,7 @@ impl Darkroom {
         let mut drawn = developer.render(&sights).into_iter();
         drop(developer);
         for Order { sights, reply } in &orders {
-            // Who does not wait any more needs no answer.
+            // A thread that no longer waits needs no answer.
             let _ = reply.send(drawn.by_ref().take(sights.len()).collect());
         }
         drop(orders);
@@ -115,18 +115,18 @@ impl Darkroom {
 
 #[cfg(test)]
 impl Darkroom {
-    /// Loses the device that it draws with; `open` makes the next one.
+    /// Loses the device of the darkroom; `open` makes the next one.
     pub fn lose(&self, open: fn() -> Result<paracosm_render::Renderer, RenderError>) {
         self.developer.lock().unwrap_or_else(PoisonError::into_inner).lose(open);
     }
 }
 
-/// What has arrived from the eyes of a run.
+/// The moments that have arrived from the cameras of a run.
 struct Seen<'a> {
     stage: Arc<Stage>,
     cast: Cast,
     optics: Vec<Optics>,
-    /// Each with the place of its camera.
+    /// The moments, each with the index of its camera.
     moments: Vec<(usize, &'a Sample<Moment>)>,
 }
 
@@ -148,7 +148,7 @@ impl<'a> Seen<'a> {
         })
     }
 
-    /// The images of what was drawn of these moments, which comes next of all that was drawn.
+    /// Takes the frames of these moments from `drawn`, where they come next, and returns their images.
     fn images(&self, drawn: &mut impl Iterator<Item = Result<Frame, Undrawn>>) -> Result<Vec<Image>, NoImage> {
         let mine: Vec<_> = drawn.take(self.moments.len()).collect();
         let mut images = Vec::with_capacity(mine.len());

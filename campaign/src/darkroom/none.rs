@@ -1,4 +1,4 @@
-//! What stands in for the darkroom in a program that draws nothing.
+//! Replaces the darkroom in a program that is built without the renderer.
 
 use crate::study::{Appearances, WithoutCameras};
 use crate::{Error, Reason};
@@ -7,18 +7,18 @@ use paracosm_engine::sensor::{Cameras, Image};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// There is none.
+/// A darkroom that cannot exist.
 pub enum Darkroom {}
 
-/// Why a driver was not shown what its cameras see.
+/// The reason why a driver did not get the images of its cameras.
 #[derive(Debug, Clone, Error)]
 pub enum NoImage {
-    /// There is nothing to draw with.
+    /// The program has nothing to draw with.
     #[error("{0}")]
     Closed(Arc<Error>),
 }
 
-/// A driver that sees, where nothing draws.
+/// The driver uses cameras, but the program cannot draw images.
 #[derive(Debug, Error)]
 #[error("the driver sees through cameras ({}), and {WithoutCameras}", cameras.join(", "))]
 pub struct Blind {
@@ -29,12 +29,12 @@ pub struct Blind {
 impl Reason for Blind {}
 
 impl Darkroom {
-    /// Says so.
+    /// Returns an error: this program cannot draw images.
     pub fn open(cameras: &Cameras, _: &Appearances) -> Result<Self, Error> {
         Err(Error::unavailable(Blind { cameras: cameras.all.keys().cloned().collect() }))
     }
 
-    /// The images of nothing.
+    /// Returns no images, since there is no darkroom.
     pub fn develop(&self, _: &[&Run]) -> Vec<Result<Vec<Image>, NoImage>> {
         match *self {}
     }

@@ -1,10 +1,10 @@
-//! Drivers whose answers take effect later, as those of a computer that is slower than simulated time.
+//! Drivers whose answers take effect later, like those of a computer that is slower than simulated time.
 
 use paracosm_engine::driver::{Driver, Equipment, Fault};
 use paracosm_engine::sensor::{Image, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
 
-/// A driver, and the seconds from when it is asked to when its answer takes effect, beside its own.
+/// A driver with an additional latency: the seconds from a question to the time when its answer takes effect.
 pub(super) struct Late {
     pub driver: Box<dyn Driver>,
     pub latency: f64,

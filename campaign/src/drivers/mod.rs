@@ -1,10 +1,11 @@
-//! Drivers for one worker: those that come with the engine are made, those in a process of their own are asked for.
+//! The drivers of one worker: drivers of the engine are made here, and drivers in an external process are asked for.
 //!
-//! A driver is kept from one test to the next as long as all goes well. A driver in a process of its own begins a session
-//! for it, of which a server can have many. A test that ends in an error with a driver that has a past, or beside other
-//! tests, is not held against it: it is run again with a driver that is new, and alone. So a driver whose answers depend on
-//! the test alone gives the same trials for any number of workers. A server that somebody else has started cannot be
-//! started again, and what its end does to others is outside of that.
+//! A driver is kept from one test to the next as long as all goes well. For a driver in an external process, the worker
+//! opens a session; a server can have many sessions. If a test ends in an error with a driver that has run tests
+//! before, or that runs beside other tests, the error may not be due to the test. The test therefore runs again, alone
+//! and with a new driver. A driver whose answers depend only on the test thus gives the same trials for any number of
+//! workers. A server that somebody else started cannot be started again; the effects of its end on other tests are not
+//! covered by this rule.
 
 mod late;
 mod process;
@@ -22,51 +23,51 @@ use thiserror::Error;
 /// The drivers of a worker.
 pub struct Drivers<'a> {
     source: Source<'a>,
-    /// Whether they run in a process of their own.
+    /// True if the drivers run in an external process.
     external: bool,
-    /// Those that have nothing to do.
+    /// The drivers that are idle.
     idle: Vec<Box<dyn Driver>>,
     stop: Arc<AtomicBool>,
 }
 
-/// Where drivers come from.
+/// The source of new drivers.
 enum Source<'a> {
-    /// Each is made, or asked for at an address.
+    /// A function makes each driver here, or asks for it at an address.
     Made(Box<Make<'a>>),
     Process(Box<Launcher>),
 }
 
-/// Makes a driver.
+/// A function that makes a driver.
 type Make<'a> = dyn Fn() -> Result<Box<dyn Driver>, NoDriver> + Send + 'a;
 
-/// Why there is no driver for a test.
+/// The reason why there is no driver for a test.
 #[derive(Debug, Error)]
 pub enum NoDriver {
-    /// It cannot be made.
+    /// The driver cannot be made.
     #[error(transparent)]
     Made(#[from] Error),
-    /// Its process does not offer one.
+    /// The external process does not offer a driver.
     #[error(transparent)]
     Away(#[from] DriverAway),
 }
 
-/// Why a process offers no driver.
+/// The reason why an external process offers no driver.
 #[derive(Debug, Error)]
 pub enum DriverAway {
-    /// Its server does not offer one.
+    /// The server does not offer a driver.
     #[error("driver {address}: {source}")]
     Server {
         /// The address of the server.
         address: Address,
-        /// What is wrong.
+        /// The error of the connection.
         source: OpenError,
     },
-    /// Its command does not start one.
+    /// The command does not start a driver.
     #[error("driver `{command}`: {problem}")]
     Command {
-        /// The command.
+        /// The command that should start the driver.
         command: String,
-        /// What is wrong.
+        /// The problem with the process.
         problem: Problem,
     },
 }
@@ -94,7 +95,7 @@ impl From<NoDriver> for Problem {
 }
 
 impl Problem {
-    /// What is wrong where a server offers no driver.
+    /// Returns the problem of a server that offers no driver.
     fn unopened(error: &OpenError) -> Self {
         let cause = match error {
             OpenError::Unreachable | OpenError::UnknownHost => ProblemKind::Process,
@@ -106,10 +107,11 @@ impl Problem {
 }
 
 impl<'a> Drivers<'a> {
-    /// Drivers as they were chosen, none of which is made or asked for yet. None is waited for any more once `stop` is set.
+    /// Makes the source of the chosen drivers. Only a driver of the engine is made at once, as a check. Once `stop` is
+    /// set, nobody waits for external drivers.
     ///
     /// # Errors
-    /// The choice was read from a file, and there is no such driver or setting.
+    /// The choice was read from a file, and the driver or a setting of it does not exist.
     pub fn new(choice: &'a DriverChoice, stop: Arc<AtomicBool>) -> Result<Self, Error> {
         let (latency, ended) = (choice.latency(), stop.clone());
         let source = match choice.origin() {
@@ -131,20 +133,20 @@ impl<'a> Drivers<'a> {
         Ok(Self { source, external: true, idle: Vec::new(), stop })
     }
 
-    /// Drivers in this process.
+    /// Makes a source of drivers that run in this process.
     pub fn made_by(make: impl Fn() -> Result<Box<dyn Driver>, NoDriver> + Send + 'a) -> Self {
         Self { source: Source::Made(Box::new(make)), external: false, idle: Vec::new(), stop: Arc::default() }
     }
 
-    /// Whether there is one that has nothing to do.
+    /// Returns `true` if a driver is idle.
     pub fn any_idle(&self) -> bool {
         !self.idle.is_empty()
     }
 
-    /// A driver that has nothing to do, or a new one.
+    /// Returns an idle driver, or a new one.
     ///
     /// # Errors
-    /// There is none to be had: nobody listens at its address, say.
+    /// No driver can be made, for example because nobody listens at its address.
     pub fn hire(&mut self) -> Result<Box<dyn Driver>, NoDriver> {
         match (self.idle.pop(), &mut self.source) {
             (Some(driver), _) => Ok(driver),
@@ -153,19 +155,20 @@ impl<'a> Drivers<'a> {
         }
     }
 
-    /// Takes back a driver that has nothing to do any more.
+    /// Takes back a driver that has finished a test.
     pub fn dismiss(&mut self, driver: Option<Box<dyn Driver>>) {
         self.idle.extend(driver);
     }
 
-    /// Keeps no driver that has a past, if that could make a difference.
+    /// Drops the idle drivers if tests that they have run before could make a difference.
     pub fn renew(&mut self) {
         if self.external {
             self.idle.clear();
         }
     }
 
-    /// Whether a test that broke may be run again: it may be the fault of something else than the test.
+    /// Returns `true` if a test that broke may run again, because something other than the test may have caused the
+    /// error.
     pub fn gives_another_chance(&self) -> bool {
         self.external && !self.stop.load(Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! Drivers in a process that is started for them, and again when it has ended.
+//! Drivers in an external process, which is started when it is needed and again after it has ended.
 
 use super::{DriverAway, Late, NoDriver};
 use crate::process::Process;
@@ -15,17 +15,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Where a process is told to listen.
+/// The environment variable that tells a process the address to listen at.
 const ADDRESS: &str = "PARACOSM_ADDRESS";
 
 /// The ports that processes are told to listen at.
 const PORTS: Range<u16> = 20_000..32_000;
 
-/// How many times as long as for an answer a process may take to start: an interpreter that loads its packages, or a network,
-/// takes longer than to answer, the more so on a loaded machine.
+/// The time that a process may take to start, as a multiple of the time-out of an answer. Starting takes longer,
+/// because an interpreter loads its packages or its network, the more so on a loaded machine.
 const STARTING: u32 = 10;
 
-/// How often it is looked whether a process listens by now.
+/// The time between two checks that a process listens.
 const PATIENCE: Duration = Duration::from_millis(10);
 
 /// A command, and the process that it has started.
@@ -37,7 +37,7 @@ pub(super) struct Launcher {
     running: Option<Running>,
 }
 
-/// A process and where it listens. All its drivers know of it.
+/// A process with the address that it listens at. All drivers of the process share it.
 #[derive(Clone)]
 struct Running {
     process: Arc<Mutex<Process>>,
@@ -49,17 +49,17 @@ impl Launcher {
         Self { words, terms, latency, stop, running: None }
     }
 
-    /// A driver of the process, which is started if there is none.
+    /// Returns a driver of the process, which is started if it does not run.
     ///
     /// # Errors
-    /// It cannot be started, ends, does not listen, or is no driver.
+    /// The process cannot be started, ends, does not listen, or does not offer a driver.
     pub fn driver(&mut self) -> Result<Box<dyn Driver>, NoDriver> {
         let wrong = |problem: Problem| DriverAway::Command { command: shell_words::join(&self.words), problem };
         let running = match self.running.take().filter(Running::is_alive) {
             Some(running) => running,
             None => Running::start(&self.words).map_err(wrong)?,
         };
-        // What cannot be talked to is ended.
+        // If no session can be opened, the process is ended.
         let session = running.session(&self.terms, &self.stop).map_err(wrong)?;
         self.running = Some(running.clone());
         Ok(Box::new(Late { driver: Box::new(ProcessDriver { session, running }), latency: self.latency }))
@@ -86,7 +86,7 @@ impl Running {
         self.with(|process| process.status().is_none())
     }
 
-    /// A session, as soon as the process listens.
+    /// Opens a session as soon as the process listens.
     fn session(&self, terms: &Terms, stop: &Arc<AtomicBool>) -> Result<Session, Problem> {
         let (begun, limit) = (Instant::now(), terms.timeout.saturating_mul(STARTING));
         loop {
@@ -110,7 +110,7 @@ impl Running {
         }
     }
 
-    /// What happened to the process: it ended at some time, or, if it has not, something else. It is ended then.
+    /// Ends the process and says what happened to it: `when` it ended, or, if it had not ended, `otherwise`.
     fn post_mortem(&self, when: &str, otherwise: &str) -> String {
         self.with(|process| {
             let how = match process.ended() {
@@ -122,10 +122,11 @@ impl Running {
     }
 }
 
-/// A port of this machine that nobody listens at.
+/// Returns the address of a port of this machine at which nobody listens.
 ///
-/// It is none of those that systems give to whoever connects, from 32768 on: connecting to one of these where nobody listens
-/// yet may well meet oneself. Processes begin at different places, so that they seldom come upon the same port.
+/// The port lies below 32768, where the ports begin that the operating system gives to connecting clients: a client
+/// that connects to such a port before anybody listens there may connect to itself. Processes begin the search at
+/// different ports, so that they seldom choose the same port.
 fn free_address() -> io::Result<SocketAddr> {
     static TAKEN: AtomicU32 = AtomicU32::new(0);
     let mut found = Err(io::ErrorKind::AddrInUse.into());
@@ -147,7 +148,8 @@ struct ProcessDriver {
 }
 
 impl ProcessDriver {
-    /// Says what became of the process, if its end is why there is no answer. One that does not answer is ended.
+    /// Asks the driver. If there is no answer because the process is gone, the fault says what happened to the process.
+    /// A process whose connection is lost is ended.
     fn ask<T>(&mut self, question: impl FnOnce(&mut Session) -> Result<T, Fault>) -> Result<T, Fault> {
         question(&mut self.session).map_err(|fault| match self.session.is_lost() {
             true => Fault::of(FaultKind::Lost, self.running.post_mortem("without an answer", &fault.message)),

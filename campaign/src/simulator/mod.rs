@@ -1,8 +1,8 @@
-//! Runs the tests of a scenario: one by one, or many in lockstep where drivers see.
+//! Runs the tests of a scenario: one by one, or many in lockstep if drivers use cameras.
 //!
-//! Tests in lockstep go on to where their drivers wait for images, and what all their cameras have taken is drawn in one go.
-//! A test that is over makes room for the next one, so that there is always as much to draw as can be. None has anything to
-//! do with another, so that how many there are changes nothing but the speed.
+//! Tests in lockstep continue until their drivers wait for images. The images of all their cameras are then drawn
+//! together. When a test is over, the next one takes its place, so that as many images as possible are drawn at once.
+//! The tests do not influence each other; their number changes only the speed.
 
 mod ride;
 #[cfg(all(test, feature = "camera"))]
@@ -22,7 +22,7 @@ use std::slice;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A scenario, its drivers, and what draws for them.
+/// A scenario with its drivers, and the darkroom that draws images for them.
 pub struct Simulator<'a> {
     program: Program,
     model: VehicleModel,
@@ -32,8 +32,8 @@ pub struct Simulator<'a> {
 }
 
 impl<'a> Simulator<'a> {
-    /// A simulator of a scenario, whose drivers see what others draw for them, if anything, and are not waited for any more
-    /// once `stop` is set.
+    /// Makes a simulator of a scenario. Its drivers get the images of `darkroom`, if there is one. Once `stop` is set,
+    /// the simulator no longer waits for drivers.
     ///
     /// # Errors
     /// The scenario or the driver does not exist.
@@ -47,29 +47,29 @@ impl<'a> Simulator<'a> {
         Ok(Self { appearances: simulation.appearances().clone(), ..simulator })
     }
 
-    /// A simulator of a program, in which these drivers drive a car that this model moves.
+    /// Makes a simulator of a program, in which these drivers drive a car that this model moves.
     fn with(program: Program, model: VehicleModel, drivers: Drivers<'a>, darkroom: Option<Arc<Darkroom>>) -> Self {
         Self { program, model, drivers, appearances: Appearances::default(), darkroom }
     }
 
-    /// A test under way.
+    /// Begins a test.
     fn begin(&mut self, place: usize, test: Test<'_>) -> Ride {
         Ride::begin(place, &self.program, test, self.model, self.drivers.hire())
     }
 
-    /// Has a driver at hand, and what draws for it.
+    /// Prepares a driver, and a darkroom if the driver uses cameras.
     ///
     /// # Errors
-    /// There is no driver to be had, or it sees through cameras and there is nothing to draw with.
+    /// No driver can be made, or the driver uses cameras and there is no way to draw images.
     pub fn start(&mut self) -> Result<(), Error> {
         let cameras = self.eyes()?;
         if cameras.all.is_empty() { Ok(()) } else { self.open(&cameras).map(drop) }
     }
 
-    /// The cameras that its drivers see through, if any.
+    /// Returns the cameras of the drivers, if they have any.
     ///
     /// # Errors
-    /// There is no driver to be had.
+    /// No driver can be made.
     pub fn eyes(&mut self) -> Result<Cameras, NoDriver> {
         let mut driver = self.drivers.hire()?;
         let cameras = driver.equipment().cameras;
@@ -77,7 +77,7 @@ impl<'a> Simulator<'a> {
         Ok(cameras)
     }
 
-    /// What draws for its drivers, if they see.
+    /// Returns the darkroom that draws for the drivers, if they use cameras.
     pub fn darkroom(&self) -> Option<&Arc<Darkroom>> {
         self.darkroom.as_ref()
     }
@@ -90,9 +90,9 @@ impl<'a> Simulator<'a> {
         if is_doubtful { self.watch(test, None, |_| ()) } else { outcome }
     }
 
-    /// Runs a test, which is filmed with these cameras, with a look at the run whenever the driver is asked, and at the end.
+    /// Runs a test and films it with these cameras. `see` gets the run whenever the driver is asked, and at the end.
     pub fn watch(&mut self, test: Test<'_>, film: Option<Shutters>, see: impl FnMut(&Run)) -> Result<Outcome, Problem> {
-        // A test that has to be run again would be seen twice.
+        // If the test had to be run again, `see` would get it twice.
         self.drivers.renew();
         self.ride(test, film, see)
     }
@@ -111,8 +111,8 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// Runs the tests that the desk gives out, at most so many at a time, until `stopped`. What a test is, by its index,
-    /// `tests` says, and `judged` what comes of it.
+    /// Runs the tests that the desk gives out, at most `at_once` at a time, until `stopped`. `tests` returns the test
+    /// with an index, and `judged` makes a result of its outcome.
     pub fn run_in_lockstep<T>(
         &mut self,
         desk: &Desk<T>,
@@ -129,7 +129,7 @@ impl<'a> Simulator<'a> {
                 rides.push(self.begin(index, Test::new(&tests(index), space)));
             }
             rides.iter_mut().for_each(|ride| ride.go_on(|_| ()));
-            // What broke because it was stopped came to nothing.
+            // A test that broke because the campaign was stopped has no result.
             if rides.is_empty() || desk.is_closed() || stopped() {
                 return;
             }
@@ -147,14 +147,14 @@ impl<'a> Simulator<'a> {
         }
     }
 
-    /// What became of a test, with its place; its driver has nothing to do any more.
+    /// Returns the result of a test with its index, and makes its driver free for another test.
     fn dismiss(&mut self, ride: Ride) -> (usize, Result<Outcome, Problem>) {
         let (ended, driver) = ride.end();
         self.drivers.dismiss(driver);
         ended
     }
 
-    /// Draws what the drivers of these wait for.
+    /// Draws the images that the drivers of these tests wait for.
     fn draw(&mut self, rides: &mut [Ride]) {
         let runs: Vec<&Run> = rides.iter().filter_map(Ride::run).collect();
         let Some(first) = runs.first() else { return };
@@ -169,7 +169,7 @@ impl<'a> Simulator<'a> {
         waiting.zip(images).for_each(|(ride, images)| ride.show(images));
     }
 
-    /// What draws for its drivers.
+    /// Returns the darkroom of the drivers, and opens it if necessary.
     fn open(&mut self, cameras: &Cameras) -> Result<&Darkroom, Error> {
         match &mut self.darkroom {
             Some(darkroom) => Ok(darkroom),

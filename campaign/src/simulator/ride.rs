@@ -1,4 +1,4 @@
-//! One test under way: a run and its driver, on their way from image to image.
+//! A test that is being run: a run and its driver, as they go from image to image.
 
 use crate::darkroom::NoImage;
 use crate::drivers::NoDriver;
@@ -11,24 +11,24 @@ use paracosm_oracles::Verdict;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// The place of a test among the others, and how the test ended.
+/// The index of a test, and the result of the test.
 pub type TestEnd = (usize, Result<Outcome, Problem>);
 
-/// A test under way. A panic of the run or of its driver ends this one alone.
+/// A test that is being run. A panic of the run or of its driver ends this test alone.
 pub(super) struct Ride {
-    /// Which of the tests it is.
+    /// The index of the test.
     place: usize,
     driver: Option<Box<dyn Driver>>,
     run: Option<Run>,
-    /// What the driver is to be shown before it answers.
+    /// The images that the driver is to be shown before it answers.
     images: Vec<Image>,
-    /// Whether the run waits for the driver.
+    /// True if the run waits for the driver.
     asked: bool,
     outcome: Option<Result<Outcome, Problem>>,
 }
 
 impl Ride {
-    /// Lets a driver take its seat in the run of a test; without a driver, the test is over.
+    /// Begins the run of a test with a driver. Without a driver, the test is over.
     pub fn begin(
         place: usize,
         program: &Program,
@@ -52,15 +52,15 @@ impl Ride {
         ride
     }
 
-    /// Films it.
+    /// Films the run with these cameras.
     pub fn film(&mut self, cameras: Shutters) {
         if let Some(run) = &mut self.run {
             run.film(cameras);
         }
     }
 
-    /// Goes on until the driver waits for images or the test is over. `see` has a look whenever the driver is asked, and at
-    /// the end.
+    /// Continues until the driver waits for images or the test is over. `see` gets the run whenever the driver is
+    /// asked, and at the end.
     pub fn go_on(&mut self, see: impl FnMut(&Run)) {
         if self.outcome.is_none() {
             let went = catch_unwind(AssertUnwindSafe(|| self.until_images(see)));
@@ -89,17 +89,17 @@ impl Ride {
         }
     }
 
-    /// The run, if it goes on.
+    /// Returns the run, if the test is not over.
     pub fn run(&self) -> Option<&Run> {
         self.run.as_ref().filter(|_| self.outcome.is_none())
     }
 
-    /// Whether it has come to its end.
+    /// Returns `true` if the test is over.
     pub fn is_over(&self) -> bool {
         self.outcome.is_some()
     }
 
-    /// Gives the driver what it waits for, or says why there is nothing.
+    /// Gives the driver the images that it waits for, or ends the test with the reason why there are none.
     pub fn show(&mut self, images: Result<Vec<Image>, NoImage>) {
         match images {
             Ok(images) => self.images = images,
@@ -111,7 +111,8 @@ impl Ride {
         }
     }
 
-    /// How the test ended with its place, and the driver, unless that may be in any state.
+    /// Returns the result of the test with its index. Also returns the driver, unless the test broke and left it in an
+    /// unknown state.
     pub fn end(self) -> (TestEnd, Option<Box<dyn Driver>>) {
         let left = || Err(Problem::new(ProblemKind::Interrupted, "the test was left before its end"));
         let outcome = self.outcome.unwrap_or_else(left);
@@ -120,7 +121,7 @@ impl Ride {
     }
 }
 
-/// Whether a test came to nothing.
+/// Returns `true` if a test has no usable result.
 pub(super) fn is_broken(outcome: &Result<Outcome, Problem>) -> bool {
     outcome.as_ref().map_or(true, |outcome| outcome.verdict() == Verdict::Error)
 }

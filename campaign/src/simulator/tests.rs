@@ -3,41 +3,23 @@
 #[path = "../../../engine/render/tests/support/adapter.rs"]
 mod adapter;
 mod bends;
+mod quiet_road;
 
 use super::*;
 use crate::executor::{from_desk, pool};
 use crate::{Campaign, Sampling, Study, StudyBuilder, Trial, Worker};
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
 use paracosm_engine::sensor::{Image, Rig};
-use paracosm_engine::{
-    AutonomousVehicle, Briefing, Control, Environment, Monitor, Observation, RoadSegment, Scenario, simulate,
-};
+use paracosm_engine::{Briefing, Control, Observation, simulate};
 use paracosm_oracles::Verdict;
 use paracosm_render::{RenderError, Renderer};
+use quiet_road::QUIET;
 use std::num::NonZeroUsize;
 use std::sync::atomic::Ordering;
 
 /// Whether there is something to draw with; a note where there is not, unless somebody insists.
 fn can_draw() -> bool {
     adapter::unless_missing(paracosm_render::adapter()).is_some()
-}
-
-const QUIET: Program = Program::new("quiet-road", "a car alone on a road", quiet_road);
-
-fn quiet_road(s: &mut Scenario) {
-    let speed = s.interval("speed", 5.0..=15.0).unit("m/s");
-    let turned = s.interval("turned", -0.1..=0.1).unit("rad");
-    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
-    let light = s.nominal("light", 0.0..=1.0, 1.0);
-    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
-    let road = s.place(RoadSegment::new(200.0));
-    s.place(Environment::new().light(light).fog(fog).rain(rain));
-    let start = road.on_lane(1, 10.0);
-    let start = paracosm_engine::Pose { heading: start.heading + turned.value(), ..start };
-    let car = s.place(AutonomousVehicle::at(start).speed(speed.value()));
-    s.duration(3.0);
-    s.monitor(Monitor::lane_keeping(&car));
-    s.monitor(Monitor::progress(&car, 12.0));
 }
 
 fn builder(changes: &[(&str, f64)]) -> StudyBuilder {

@@ -1,4 +1,4 @@
-//! The actors of a study, which a model of a user's own may stand for.
+//! The actors of a study, each of which a model of the user may replace in images.
 
 use super::appearance::first_of;
 use super::{ModelFlaw, Study};
@@ -8,43 +8,43 @@ use paracosm_engine::{Run, Setup, Test};
 use paracosm_space::{Domain, Value, Values, did_you_mean, nearest};
 use thiserror::Error;
 
-/// Why an actor cannot be shown as a model.
+/// The reason why an actor cannot be shown as a model.
 #[derive(Debug, Error)]
 pub enum AppearanceFlaw {
-    /// There is no such actor.
+    /// The scenario has no such actor.
     #[error(
         "--model {actor}={file}: `{scenario}` has no actor `{actor}`{}; it has {}", did_you_mean(.nearest), all.join(", ")
     )]
     NoActor {
-        /// The actor.
+        /// The name of the actor.
         actor: String,
         /// The file of the model.
         file: String,
-        /// The scenario.
+        /// The name of the scenario.
         scenario: String,
-        /// An actor that was perhaps meant.
+        /// The name of an actor that was perhaps meant.
         nearest: Option<String>,
-        /// All actors; of those of one name, the first.
+        /// The names of all actors; of several actors with one name, only the first.
         all: Vec<String>,
     },
-    /// It has a model already.
+    /// The actor already has a model.
     #[error("--model {actor}={file}: it has another model already, {other}")]
     Twice {
-        /// The actor.
+        /// The name of the actor.
         actor: String,
-        /// The file of the model.
+        /// The file of the new model.
         file: String,
-        /// The file of its model.
+        /// The file of the model that the actor has.
         other: String,
     },
     /// The model cannot be used.
     #[error("--model {actor}={file}: {flaw}")]
     Model {
-        /// The actor.
+        /// The name of the actor.
         actor: String,
         /// The file of the model.
         file: String,
-        /// What is wrong with it.
+        /// The flaw of the model.
         flaw: ModelFlaw,
     },
 }
@@ -71,7 +71,8 @@ impl Study {
         }
     }
 
-    /// The bodies that tests have, by name: those of the nominal one, and those that open parameters add at their greatest.
+    /// Returns the bodies of tests, by name: those of the nominal test, and those that exist with the greatest values
+    /// of open parameters.
     fn actors(&self) -> Result<Vec<(String, Class)>, Error> {
         let (simulation, nominal) = (self.subject.scenario()?, self.nominal()?);
         let mut greatest = nominal.clone();

@@ -1,4 +1,5 @@
-//! Models of users' own that stand for actors, and which they are, so that nobody sees a test again with others.
+//! The models of users that replace actors in images, with their hashes, so that a test is never shown again with other
+//! models.
 
 #[cfg(feature = "camera")]
 mod model;
@@ -14,17 +15,17 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
-/// What actors look like to cameras, by their names, where it is not the usual.
+/// The models of actors, by the actors' names. Actors without an entry have their usual look.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Appearances(BTreeMap<String, Appearance>);
 
-/// The model of a glTF file.
+/// The model in a glTF file.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Appearance {
     file: String,
-    /// The hash of what is read of it: XXH3, 128 bits.
+    /// The hash of the model that was read: XXH3, 128 bits.
     hash: String,
     #[cfg(feature = "camera")]
     #[serde(skip)]
@@ -32,30 +33,30 @@ struct Appearance {
 }
 
 impl Appearances {
-    /// Whether all look as usual.
+    /// Returns `true` if all actors have their usual look.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Shows an actor as the model in a glTF file; gives the file of the model that it had, if it had one.
+    /// Shows an actor as the model in a glTF file. Returns the file of the model that the actor had before, if any.
     pub(super) fn show(&mut self, actor: &str, class: Class, file: &str) -> Result<Option<String>, ModelFlaw> {
         let before = self.0.insert(actor.to_owned(), Appearance::read(file, class)?);
         Ok(before.map(|before| before.file))
     }
 }
 
-/// A program that draws nothing.
+/// The program was built without the renderer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("this program draws nothing: it was built without the feature `camera`")]
 pub struct WithoutCameras;
 
-/// What keeps a file from being a model.
+/// The reason why a file cannot be used as a model.
 #[cfg(not(feature = "camera"))]
 pub type ModelFlaw = WithoutCameras;
 
 impl Reason for WithoutCameras {}
 
-/// The name of the first of those that are numbered under a name: of `tree` for `tree-2`.
+/// Returns the name of the first actor of a numbered series: `tree` for `tree-2`.
 pub(super) fn first_of(name: &str) -> &str {
     match name.rsplit_once('-') {
         Some((first, number)) if number.bytes().all(|byte| byte.is_ascii_digit()) => first,

@@ -1,4 +1,4 @@
-//! Collects what is wanted of a study, and checks all of it once.
+//! Collects the choices for a study, and checks them together.
 
 use super::driver::Wish;
 use super::parameters::ParameterMisuse;
@@ -12,7 +12,7 @@ use paracosm_oracles::Semantics;
 use paracosm_space::{Distribution, Domain, Parameter, Space, Value};
 use std::path::{Path, PathBuf};
 
-/// A study in the making. Methods only note what is wanted; [`build`](Self::build) checks it.
+/// Builds a study. The methods only note the choices; [`build`](Self::build) checks them.
 ///
 /// ```
 /// use paracosm_campaign::{Catalogue, Study};
@@ -89,41 +89,42 @@ impl StudyBuilder {
         }
     }
 
-    /// Tests a driver of `paracosm-fuzz list`; a server that listens at `grpc://HOST:PORT`; or a network: `cnn`, or the name of
-    /// a file that ends in `.onnx`.
+    /// Sets the driver under test: the name of a driver of `paracosm-fuzz list`; a server that listens at
+    /// `grpc://HOST:PORT`; or a network, which is `cnn` or a file whose name ends in `.onnx`.
     pub fn driver(mut self, name: &str) -> Self {
         self.driver = Some(Wish::Name(name.to_owned()));
         self
     }
 
-    /// Tests the driver that this command starts, once for each worker. It is told in `PARACOSM_ADDRESS` where to listen, as
-    /// HOST:PORT, and ends when its standard input does.
+    /// Sets a command that starts the driver under test, once for each worker. The variable `PARACOSM_ADDRESS` tells
+    /// the driver where to listen, as HOST:PORT. The driver should end when its standard input ends.
     pub fn driver_command(mut self, command: &str) -> Self {
         self.driver = Some(Wish::Command(command.to_owned()));
         self
     }
 
-    /// Tests a driver of one's own, which each worker makes for itself. Only this program can replay its tests.
+    /// Sets a driver of this program, which each worker makes for itself. Only this program can replay its tests.
     pub fn own_driver(mut self, name: &str, make: impl Fn() -> Box<dyn Driver> + Send + Sync + 'static) -> Self {
         self.driver = Some(Wish::own(name, make));
         self
     }
 
-    /// Changes a setting of the driver. A driver in a process of its own is told all settings but for two: `latency`, the seconds
-    /// from when it is asked to when its answer takes effect, and `seed`, the source of its chance and of its sensors' noise.
+    /// Changes a setting of the driver. A driver in an external process gets all settings except two: `latency`, the
+    /// seconds from a question to the time when its answer takes effect, and `seed`, the seed of its randomness and of
+    /// its sensors' noise.
     pub fn set_driver(mut self, setting: &str, value: f64) -> Self {
         self.driver_settings.push((setting.to_owned(), value));
         self
     }
 
-    /// Lets a driver in a process of its own take this many seconds for an answer, and ten times as long to start; without it,
-    /// 60.
+    /// Sets the time that a driver in an external process may take for an answer, in seconds; it may take ten times as
+    /// long to start. The default is 60.
     pub fn driver_timeout(mut self, seconds: f64) -> Self {
         self.driver_timeout = Some(seconds);
         self
     }
 
-    /// Lets this model move the car.
+    /// Sets the model that moves the car.
     pub fn vehicle(mut self, model: VehicleModel) -> Self {
         self.vehicle = Some(model);
         self
@@ -139,91 +140,94 @@ impl StudyBuilder {
         self.opened(name, Some(domain), None)
     }
 
-    /// Lets the tests vary a parameter over its domain or a part of it, and over time if a variation is given.
+    /// Lets the tests vary a parameter over its domain or a part of it, and, if a variation is given, over time.
     pub fn opened(mut self, name: &str, over: Option<Domain>, variation: Option<Variation>) -> Self {
         self.opened.push(Opened { name: name.to_owned(), over, variation });
         self
     }
 
-    /// Fixes a parameter at a value; a signal at a value or at a list of them.
+    /// Fixes a parameter at a value; a signal at a value or at a list of values.
     pub fn fix(mut self, name: &str, value: impl Into<Value>) -> Self {
         self.fixed.push((name.to_owned(), value.into()));
         self
     }
 
-    /// Distributes an open parameter so, where the probability of a failure is asked for.
+    /// Gives an open parameter a distribution, which estimates of the probability of failure use.
     pub fn distribute(mut self, name: &str, distribution: Distribution) -> Self {
         self.distributions.push((name.to_owned(), distribution));
         self
     }
 
-    /// Lets the tests vary settings of cameras that record them, after all other open parameters.
+    /// Lets the tests vary settings of the cameras that record them. These parameters come after all other open
+    /// parameters.
     pub fn open_cameras(mut self, settings: impl IntoIterator<Item = Parameter>) -> Self {
         self.cameras.extend(settings);
         self
     }
 
-    /// Shows an actor to cameras as the model in a glTF file, stretched to the actor's size: the car under test is `car`, all
-    /// others are called as in traces and messages. Actors of one name, `tree`, `tree-2` and so on, look like the first unless
-    /// they have a model of their own.
+    /// Shows an actor to cameras as the model in a glTF file, stretched to the actor's size. The ego vehicle is `car`;
+    /// other actors have their names in traces and messages. Actors of one name, `tree`, `tree-2` and so on, look like
+    /// the first one unless they have a model of their own.
     pub fn show(mut self, actor: &str, file: &str) -> Self {
         self.models.push((actor.to_owned(), file.to_owned()));
         self
     }
 
-    /// Asks the requirements of a TOML file of every trace, and keeps what it says of the design domain.
+    /// Judges every trace by the requirements of a TOML file, and keeps the design domain that the file states.
     pub fn require(mut self, path: &Path) -> Self {
         self.requirements.push(path.to_owned());
         self
     }
 
-    /// Keeps the table `[odd]` of a SPACE.toml, if it has one.
+    /// Keeps the table `[odd]` of a SPACE.toml, if the file has one.
     pub fn odd_of(mut self, path: &Path) -> Self {
         self.odd = Some(path.to_owned());
         self
     }
 
-    /// Asks this formula, too, of every trace: as `spec-1`, the next as `spec-2`, in no unit and without a scale.
+    /// Judges every trace by this formula as well. Its id is `spec-1`, that of the next formula `spec-2`; it has no
+    /// unit and no scale.
     pub fn spec(self, formula: &str) -> Self {
         self.spec_in(Semantics::Sampled, formula)
     }
 
-    /// The same by the samples or between them.
+    /// Judges every trace by this formula as [`spec`](Self::spec) does, with sampled or dense time.
     pub fn spec_in(mut self, time: Semantics, formula: &str) -> Self {
         self.specs.push((time, formula.to_owned()));
         self
     }
 
-    /// Chooses the tests so.
+    /// Sets the choice of tests.
     pub fn sampling(mut self, sampling: Sampling) -> Self {
         self.sampling = sampling;
         self
     }
 
-    /// Chooses the tests by this strategy.
+    /// Sets the strategy that chooses the tests.
     pub fn strategy(mut self, strategy: Strategy) -> Self {
         self.sampling.strategy = strategy;
         self
     }
 
-    /// Runs this many tests.
+    /// Sets the number of tests.
     pub fn budget(mut self, tests: usize) -> Self {
         self.sampling.budget = tests;
         self
     }
 
-    /// Takes all chance of the strategy from this seed; without one, Halton is the plain sequence.
+    /// Sets the seed of all randomness of the strategy. Without a seed, Halton is the plain sequence.
     pub fn seed(mut self, seed: u64) -> Self {
         self.sampling.seed = Some(seed);
         self
     }
 
-    /// The study.
+    /// Checks the choices and returns the study.
     ///
     /// # Errors
-    /// The program cannot be run; there is no such driver, setting, parameter or actor; a value is out of range; a parameter is
-    /// fixed twice; a file cannot be read or says what makes no sense; a formula is none of the study's signals; the budget or
-    /// the batch is 0; the strategy cannot do what is asked of it. The error names what was found and what was expected.
+    /// The program cannot be run; a driver, setting, parameter or actor does not exist; a value is out of range; a
+    /// parameter is fixed twice; a file cannot be read or makes no sense; a formula names signals that the study does
+    /// not have; the budget or the batch is 0; the strategy cannot do what is asked. The error names what was found and
+    /// what was expected.
     pub fn build(self) -> Result<Study, Error> {
         let (subject, space, requirements) = match &self.subject {
             Wanted::Scenario(program) => {
@@ -258,7 +262,7 @@ impl StudyBuilder {
         self.odd.iter().try_for_each(|path| study.odd_of_space(path))?;
         self.requirements.iter().try_for_each(|path| study.require(path))?;
         self.specs.iter().try_for_each(|(time, formula)| study.ask(*time, formula))?;
-        // The strategy says whether it can do what is asked of it.
+        // The strategy checks that it can do what is asked of it.
         study.generator(&[])?;
         Ok(study)
     }

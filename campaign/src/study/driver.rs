@@ -1,4 +1,5 @@
-//! Who drives: a driver that comes with the engine, a network, one in a process of its own, or one that the program brings.
+//! The choice of the driver: a driver of the engine, a network, a driver in an external process, or a driver of the
+//! program.
 
 use super::listed::{LATENCY, SEED};
 use super::network::{CLONED, Network, is_network};
@@ -14,10 +15,10 @@ use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
 
-/// The driver where nothing is said.
+/// The default driver.
 const USUAL: &str = "aeb";
 
-/// A driver with all its settings.
+/// The choice of a driver, with all its settings.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "Written")]
 pub struct DriverChoice {
@@ -26,37 +27,37 @@ pub struct DriverChoice {
     source: Source,
 }
 
-/// How a driver is made.
+/// The way in which a driver is made.
 #[derive(Debug, Clone, PartialEq)]
 enum Source {
-    /// By the engine, if it knows the name.
+    /// The engine makes the driver, if it knows the name.
     Engine,
     Network(Box<Network>),
     External(External),
     Own(Own),
 }
 
-/// A driver in a process of its own.
+/// A driver in an external process.
 #[derive(Debug, Clone, PartialEq)]
 struct External {
     by: By,
-    /// How long it may take to answer, in seconds.
+    /// The time that the driver may take to answer, in seconds.
     timeout: f64,
     origin: Origin,
 }
 
-/// Where drivers come from.
+/// The place where drivers are made.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Origin {
-    /// They are made in this process.
+    /// Drivers are made in this process.
     Here,
-    /// A server that somebody has started.
+    /// A server that somebody has started offers drivers.
     Server(Address, Terms),
-    /// A process that is started with these words.
+    /// A process that is started with these words offers drivers.
     Process(Vec<String>, Terms),
 }
 
-/// A driver as campaign.json has it.
+/// A driver in the form of campaign.json.
 #[derive(Serialize, Deserialize)]
 struct Written {
     name: String,
@@ -73,7 +74,7 @@ struct WrittenExternal {
     timeout: f64,
 }
 
-/// What the name of a driver in a process of its own is.
+/// The meaning of the name of a driver in an external process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum By {
@@ -81,7 +82,7 @@ enum By {
     Command,
 }
 
-/// Makes a driver that no list has.
+/// A function of the program that makes a driver.
 #[derive(Clone)]
 pub(super) struct Own(Arc<dyn Fn() -> Box<dyn Driver> + Send + Sync>);
 
@@ -97,14 +98,14 @@ impl PartialEq for Own {
     }
 }
 
-/// A driver that was asked for.
+/// A driver that the user asked for.
 #[derive(Debug, Clone)]
 pub(super) enum Wish {
-    /// One of a list, a network, or one at an address.
+    /// The name of a listed driver, a network, or the address of a server.
     Name(String),
-    /// The one that a command starts.
+    /// The command that starts the driver.
     Command(String),
-    /// One of the program's own.
+    /// A driver of the program, with its name.
     Own(String, Own),
 }
 
@@ -114,71 +115,77 @@ impl Wish {
     }
 }
 
-/// Why there is no such driver.
+/// The reason why a driver cannot be chosen or made.
 #[derive(Debug, Error)]
 pub enum DriverFlaw {
     /// No driver has that name.
     #[error("no driver is called `{name}`{}; `paracosm-fuzz list` shows them all", did_you_mean(.nearest))]
     Unknown {
-        /// The name.
+        /// The name that was asked for.
         name: String,
-        /// A name that was perhaps meant.
+        /// The name of a driver that was perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// The driver has no such setting, or it is out of range.
+    /// The driver has no such setting, or the setting is out of range.
     #[error("{0}; `paracosm-fuzz list` shows them all")]
     Setting(DriverError),
-    /// A network has one setting only.
+    /// A network has no other setting than `latency`.
     #[error("driver `{driver}` is a network and has no setting `{setting}`, only `{}`", LATENCY.name)]
     NetworkSetting {
-        /// The driver.
+        /// The name of the driver.
         driver: String,
-        /// The setting.
+        /// The name of the setting.
         setting: String,
     },
-    /// A setting of a driver in a process of its own is out of range.
+    /// A setting of a driver in an external process is out of range.
     #[error(
         "driver.{setting} is {value}, expected {} from {} to {}",
         if *whole { "a whole number" } else { "a number" }, range.0, range.1
     )]
     OutOfRange {
-        /// The setting.
+        /// The name of the setting.
         setting: &'static str,
-        /// Its value.
+        /// The value of the setting.
         value: f64,
-        /// Least and greatest value.
+        /// The least and the greatest value.
         range: (f64, f64),
-        /// Whether it has to be a whole number.
+        /// True if the setting has to be a whole number.
         whole: bool,
     },
-    /// A setting that is passed on is no number.
+    /// A setting that is passed on to the driver is not finite.
     #[error("driver.{setting} is {value}, expected a finite number")]
     NotFinite {
-        /// The setting.
+        /// The name of the setting.
         setting: String,
-        /// Its value.
+        /// The value of the setting.
         value: f64,
     },
-    /// The address is none.
+    /// The address is invalid.
     #[error("--driver {0}")]
     Address(AddressError),
-    /// The command is none.
+    /// The command is invalid.
     #[error("--driver-command '{command}': {flaw}")]
     Command {
-        /// The command.
+        /// The command of the driver.
         command: String,
-        /// What is wrong with it.
+        /// The error in the command.
         flaw: CommandFlaw,
     },
-    /// The time-out is none.
+    /// The time-out is out of range.
     #[error(transparent)]
     Timeout(#[from] TimeoutFlaw),
-    /// The driver has no time-out.
+    /// The driver is in an external process, and cannot be made in this one.
+    #[error("driver `{driver}` is in a process of its own, and cannot be made in this one")]
+    InAProcess {
+        /// The driver, by its address or its command.
+        driver: String,
+    },
+    /// The driver cannot have a time-out.
     #[error(
         "--timeout is for a --system, a --driver-command and a driver at an address, and `{driver}` is none of them"
     )]
     NoTimeout {
-        /// The driver.
+        /// The name of the driver.
         driver: String,
     },
 }
@@ -199,12 +206,12 @@ impl From<DriverError> for DriverFlaw {
 }
 
 impl DriverChoice {
-    /// The driver where nothing is said.
+    /// Returns the default driver.
     pub(super) fn usual() -> Self {
         Self::in_engine(USUAL, &[]).expect("it comes with the engine")
     }
 
-    /// The driver that was asked for, in a scenario, with changed settings and a time-out.
+    /// Returns the driver that the user asked for, in a scenario, with changed settings and a time-out.
     pub(super) fn new(
         wish: &Wish,
         changes: &[(String, f64)],
@@ -268,18 +275,16 @@ impl DriverChoice {
         Ok(Self { name: name.to_owned(), settings, source: Source::External(External { by, timeout, origin }) })
     }
 
-    /// Its name; of one in a process of its own, the address or the command.
+    /// Returns the name of the driver; for a driver in an external process, its address or its command.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// A new driver of this kind.
+    /// Makes a new driver of this choice.
     ///
     /// # Errors
-    /// The choice was read from a file and there is no such driver, network or setting.
-    ///
-    /// # Panics
-    /// The driver is in a process of its own.
+    /// The choice was read from a file, and the driver, network or setting does not exist; or the driver is in an
+    /// external process.
     pub fn build(&self) -> Result<Box<dyn Driver>, Error> {
         match &self.source {
             Source::Own(Own(make)) => Ok(make()),
@@ -289,22 +294,23 @@ impl DriverChoice {
                 let built = driver::find(&self.name).and_then(|found: &Descriptor| found.build(&settings));
                 Ok(built.map_err(DriverFlaw::from)?)
             }
-            Source::External(_) => panic!("a driver in a process of its own is not made here"),
+            Source::External(_) => Err(DriverFlaw::InAProcess { driver: self.name.clone() }.into()),
         }
     }
 
-    /// Whether it is in a process of its own.
+    /// Returns `true` if the driver is in an external process.
     pub fn is_external(&self) -> bool {
         matches!(self.source, Source::External(_))
     }
 
-    /// Seconds from when it is asked to when its answer takes effect, beside what the driver itself makes of time.
+    /// Returns the seconds from a question to the time when its answer takes effect, without the delays that the driver
+    /// itself models.
     pub fn latency(&self) -> f64 {
         let modelled = matches!(self.source, Source::External(_) | Source::Network(_));
         self.settings.get(LATENCY.name).copied().filter(|_| modelled).unwrap_or(0.0)
     }
 
-    /// Where it comes from.
+    /// Returns the place where the driver is made.
     pub fn origin(&self) -> &Origin {
         match &self.source {
             Source::External(external) => &external.origin,

@@ -1,39 +1,40 @@
-//! The formulas that are given beside the requirements of a scenario, checked against the signals that its traces have.
+//! The formulas that are given in addition to the requirements of a scenario, checked against the signals of its
+//! traces.
 
 use super::{StatedRequirement, Study, Subject};
 use crate::{Error, Reason};
 use paracosm_oracles::{EvaluationError, Formula, ParseError, Semantics, Trace};
 use thiserror::Error;
 
-/// A formula that no trace of a study can be asked.
+/// A formula cannot judge any trace of a study.
 #[derive(Debug, Error)]
 pub enum FormulaFlaw {
-    /// It is no formula.
+    /// The text is not a formula.
     #[error(transparent)]
     Parse(#[from] ParseError),
-    /// It speaks of a signal that the scenario does not have.
+    /// The formula names a signal that the scenario does not have.
     #[error("{source}; `paracosm-fuzz describe {scenario}` shows its signals")]
     Signal {
-        /// What is wrong.
+        /// The error in the formula.
         source: ParseError,
-        /// The scenario.
+        /// The name of the scenario.
         scenario: String,
     },
-    /// It cannot be evaluated.
+    /// The formula cannot be evaluated.
     #[error(transparent)]
     Evaluation(#[from] EvaluationError),
-    /// The world that says which signals there are cannot be built.
+    /// The world that shows which signals exist cannot be built.
     #[error(transparent)]
     World(#[from] Error),
 }
 
-/// A formula of `--spec` that no trace of a study can be asked.
+/// A formula of `--spec` cannot judge any trace of a study.
 #[derive(Debug, Error)]
 #[error("--spec {text}: {flaw}")]
 pub struct SpecFlaw {
-    /// The formula.
+    /// The text of the formula.
     pub text: String,
-    /// What is wrong with it.
+    /// The flaw of the formula.
     pub flaw: Box<FormulaFlaw>,
 }
 
@@ -41,7 +42,8 @@ impl Reason for FormulaFlaw {}
 impl Reason for SpecFlaw {}
 
 impl Study {
-    /// Asks this formula, too, of every trace: as `spec-1`, the next as `spec-2`, in no unit and without a scale.
+    /// Judges every trace by this formula as well. Its id is `spec-1`, that of the next formula `spec-2`; it has no
+    /// unit and no scale.
     pub(super) fn ask(&mut self, time: Semantics, text: &str) -> Result<(), SpecFlaw> {
         let formula = self.checked(text, time).map_err(|flaw| SpecFlaw { text: text.to_owned(), flaw: flaw.into() })?;
         let mut ids = (1..).map(|number| format!("spec-{number}"));
@@ -60,7 +62,7 @@ impl Study {
         Ok(())
     }
 
-    /// A formula that can be asked of this study's traces, as far as these are known.
+    /// Returns a formula that can judge this study's traces, as far as their signals are known.
     pub(super) fn checked(&self, text: &str, time: Semantics) -> Result<Formula, FormulaFlaw> {
         let formula: Formula = text.parse()?;
         let signals = self.signals()?;
@@ -72,7 +74,7 @@ impl Study {
             }
         }
         if time == Semantics::Dense {
-            // Its comparisons have to be straight between samples, whatever the signals are.
+            // Whatever the signals are, the formula's comparisons have to be linear between samples.
             let names: Vec<String> = formula.signals().into_iter().map(str::to_owned).chain([String::new()]).collect();
             let mut sample = Trace::new(1.0, names.clone());
             sample.record(&vec![0.0; names.len()]);
@@ -81,12 +83,13 @@ impl Study {
         Ok(formula)
     }
 
-    /// The requirements that were given with the study and have a formula, in order.
+    /// Returns the requirements that were given with the study and have a formula, in order.
     pub fn given(&self) -> impl Iterator<Item = &StatedRequirement> {
         self.requirements.iter().filter(|requirement| requirement.given && requirement.formula.is_some())
     }
 
-    /// Given formulas that look further ahead than a test of the scenario lasts, each with the part that does.
+    /// Returns the given formulas that look further ahead than a test of the scenario lasts, each with the part that
+    /// does so.
     pub fn outlasting(&self) -> Vec<(String, Formula)> {
         let Subject::Scenario(simulation) = &self.subject else { return Vec::new() };
         let part = |requirement: &StatedRequirement| {

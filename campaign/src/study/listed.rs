@@ -1,10 +1,10 @@
-//! The drivers that lists show: those of the engine, networks, and drivers in a process of their own.
+//! The drivers that lists show: those of the engine, networks, and drivers in an external process.
 
 use super::network::CLONED;
 use paracosm_engine::driver::{self, Descriptor, Setting};
 
-/// The settings that every driver in a process of its own has, which are not passed on to the driver as others are. Networks
-/// have the first of them.
+/// The settings that every driver in an external process has, and that are not passed on to the driver. Networks have
+/// only the first of them.
 pub(super) const LATENCY: Setting = Setting {
     name: "latency",
     default: 0.0,
@@ -17,36 +17,36 @@ pub(super) const SEED: Setting = Setting {
     name: "seed",
     default: 0.0,
     unit: "",
-    // Up to here every whole number is a float.
+    // Up to this limit, every whole number is exact as a float.
     range: (0.0, 9_007_199_254_740_992.0),
     whole: true,
     about: "where its chance and the noise of its sensors come from",
 };
 
-/// A driver as lists show it.
+/// A driver in the form in which lists show it.
 #[derive(Debug, Clone, Copy)]
 pub struct ListedDriver {
-    /// The name by which it is chosen.
+    /// The name by which the driver is chosen.
     pub name: &'static str,
-    /// What it does, in one line.
+    /// The description of the driver, in one line.
     pub about: &'static str,
-    /// The numbers that can be set.
+    /// The settings of the driver.
     pub settings: &'static [Setting],
 }
 
 impl ListedDriver {
-    /// A driver that comes with the engine.
+    /// Returns the entry of a driver that comes with the engine.
     pub const fn of(driver: &Descriptor) -> Self {
         Self { name: driver.name, about: driver.about, settings: driver.settings }
     }
 
-    /// All drivers that can be chosen: those of the engine, networks, and drivers in a process of their own.
+    /// Returns all drivers that can be chosen: those of the engine, networks, and drivers in an external process.
     pub fn all() -> impl Iterator<Item = Self> {
         driver::ALL.iter().map(|driver| Self::of(driver)).chain(ELSEWHERE)
     }
 }
 
-/// The drivers that are not made by the engine.
+/// The drivers that the engine does not make.
 const ELSEWHERE: [ListedDriver; 3] = [
     ListedDriver {
         name: CLONED,

@@ -1,7 +1,7 @@
-//! What is tested, how, and with what: a value that says all that it takes to run any of the tests again.
+//! Studies: the complete description of a campaign, from which each of its tests can be run again.
 //!
-//! A [`StudyBuilder`] is told what is wanted and checks it once. The [`Study`] that it gives never changes, and whatever a
-//! campaign learns stands beside it. [`StudyFile`](crate::StudyFile) is its form in `campaign.json`.
+//! A [`StudyBuilder`] collects the choices and checks them once. The [`Study`] that it makes never changes; the scales
+//! that a campaign learns are kept beside it. [`StudyFile`](crate::StudyFile) is its form in `campaign.json`.
 
 mod actors;
 mod appearance;
@@ -39,7 +39,7 @@ use paracosm_engine::{Program, Run, Setup, Test};
 use paracosm_generators::{Generator, GeneratorError};
 use paracosm_space::{Point, Space, Value, Values};
 
-/// A study: what is tested, the open parameters, what is asked of every test, and how tests are chosen.
+/// A study: the system under test, the open parameters, the requirements of every test, and the choice of tests.
 #[derive(Debug, Clone)]
 pub struct Study {
     made_by: Maker,
@@ -50,7 +50,7 @@ pub struct Study {
     sampling: Sampling,
 }
 
-/// The software that has written a study.
+/// The software that wrote a study.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Maker {
     pub(crate) version: String,
@@ -58,24 +58,25 @@ pub(crate) struct Maker {
 }
 
 impl Maker {
-    /// This software.
+    /// Returns this software.
     fn this() -> Self {
         Self { version: env!("CARGO_PKG_VERSION").to_owned(), target: TARGET.to_owned() }
     }
 }
 
 impl Study {
-    /// A study of a scenario; without further wishes its driver is `aeb`, its strategy `halton`, and it has 500 tests.
+    /// Begins a study of a scenario. By default the driver is `aeb`, the strategy `halton`, and the budget 500 tests.
     pub fn of(program: Program) -> StudyBuilder {
         StudyBuilder::of(program)
     }
 
-    /// A study of a system that others wrote, over this space; without further wishes by 500 tests of `halton`.
+    /// Begins a study of an external system over this space. By default the strategy is `halton`, and the budget 500
+    /// tests.
     pub fn of_system(system: BlackBox, space: Space) -> StudyBuilder {
         StudyBuilder::of_system(system, space)
     }
 
-    /// The study of a file, which other software may have written.
+    /// Makes the study of a file, which other software may have written.
     pub(crate) fn of_file(
         made_by: Maker,
         subject: Subject,
@@ -87,64 +88,65 @@ impl Study {
         Self { made_by, subject, space, requirements, odd, sampling }
     }
 
-    /// The software that has written it.
+    /// Returns the software that wrote the study.
     pub(crate) fn made_by(&self) -> &Maker {
         &self.made_by
     }
 
-    /// The scenario or the system that the tests are run on.
+    /// Returns the scenario or the system that the tests run on.
     pub fn subject(&self) -> &Subject {
         &self.subject
     }
 
-    /// The open parameters, which the tests vary.
+    /// Returns the space of the open parameters, which the tests vary.
     pub fn space(&self) -> &Space {
         &self.space
     }
 
-    /// What is asked of every run. A system that answers with robustness has requirements that are not known here.
+    /// Returns the requirements of every run. The requirements of a system that answers with robustness are not known
+    /// here.
     pub fn requirements(&self) -> &[StatedRequirement] {
         &self.requirements
     }
 
-    /// The requirement of this id, if it was known beforehand.
+    /// Returns the requirement with this id, if it is known before the campaign.
     pub fn requirement(&self, id: &str) -> Option<&StatedRequirement> {
         self.requirements.iter().find(|requirement| requirement.id == id)
     }
 
-    /// The part of the operational design domain that the tests are about, if anybody has said so.
+    /// Returns the part of the operational design domain that the tests are about, if it was stated.
     pub fn odd(&self) -> Option<&Odd> {
         self.odd.as_ref()
     }
 
-    /// How tests are chosen.
+    /// Returns the choice of tests.
     pub fn sampling(&self) -> &Sampling {
         &self.sampling
     }
 
-    /// What is tested, in a few words.
+    /// Returns a short description of the system under test.
     pub fn title(&self) -> String {
         self.subject.title()
     }
 
-    /// The values of the parameters that are not open.
+    /// Returns the values of the parameters that are not open.
     pub fn fixed(&self) -> &Values {
         self.subject.fixed()
     }
 
-    /// The program that is run.
+    /// Returns the program of the scenario.
     ///
     /// # Errors
-    /// The study is of a system that others wrote, or was read from a file and names a scenario that no catalogue has.
+    /// The study is that of an external system, or was read from a file and names a scenario that no catalogue has.
     pub fn program(&self) -> Result<&Program, Error> {
         Ok(self.subject.scenario()?.program()?)
     }
 
-    /// The signals that the trace of a test has, as far as they are known before it is run: those of the world with nominal
-    /// values. Nothing is known of a system.
+    /// Returns the signals of the trace of a test, as far as they are known before the test runs: those of the world
+    /// with nominal values. Returns `None` for an external system.
     ///
     /// # Errors
-    /// There is no such program, or it cannot build its nominal world.
+    /// The program does not exist, or cannot build its nominal world.
     pub fn signals(&self) -> Result<Option<Vec<String>>, Error> {
         let Subject::Scenario(simulation) = &self.subject else { return Ok(None) };
         let (program, values) = (simulation.program()?, self.nominal()?);
@@ -152,35 +154,36 @@ impl Study {
         Ok(Some(Run::new(program, Test::new(&values, &self.space), setup)?.signals().to_vec()))
     }
 
-    /// A generator of the study's tests, which complete the existing ones.
+    /// Makes a generator of the study's tests, which complete the existing ones.
     ///
     /// # Errors
-    /// The strategy cannot do what is asked of it.
+    /// The strategy cannot do what the study asks.
     pub fn generator(&self, existing: &[Point]) -> Result<Box<dyn Generator>, GeneratorError> {
         self.sampling.strategy.build(&self.sampling.request(&self.space, existing))
     }
 
-    /// A generator of the study's strategy that draws discrete values for every test rather than take the rows of a family.
+    /// Makes a generator of the study's strategy that draws discrete values for every test instead of using the rows of
+    /// a family.
     ///
     /// # Errors
-    /// As [`Study::generator`].
+    /// The same errors as [`Study::generator`].
     pub fn independent_generator(&self) -> Result<Box<dyn Generator>, GeneratorError> {
         self.sampling.strategy.build_independent(&self.sampling.request(&self.space, &[]))
     }
 
-    /// All values of a test that its world is built of: its own and the fixed ones.
+    /// Returns all values from which a test's world is built: its own values and the fixed ones.
     pub fn complete(&self, test: &Values) -> Values {
         let own = test.iter().filter(|(name, _)| parameters::is_of_world(name));
         own.chain(self.fixed().iter()).map(owned).collect()
     }
 
-    /// Whether this very software has written it, so that a replay has to give the same trace.
+    /// Returns `true` if exactly this software wrote the study, so that a replay has to give the same trace.
     pub fn is_of_this_software(&self) -> bool {
         let ended_early = matches!(&self.subject, Subject::Scenario(simulation) if simulation.stop_runs_early);
         self.made_by == Maker::this() && !ended_early
     }
 
-    /// The same study with its tests chosen otherwise.
+    /// Returns the same study with another choice of tests.
     ///
     /// # Errors
     /// The budget or the batch is 0.
@@ -189,18 +192,18 @@ impl Study {
         Ok(Self { sampling, ..self.clone() })
     }
 
-    /// The same study of another driver, with changed settings.
+    /// Returns the same study with another driver and changed settings.
     ///
     /// # Errors
-    /// As for [`StudyBuilder::driver`].
+    /// The same errors as for [`StudyBuilder::driver`].
     pub fn driven_by(&self, name: &str, settings: &[(String, f64)]) -> Result<Self, Error> {
         self.with_driver(&driver::Wish::Name(name.to_owned()), settings)
     }
 
-    /// The same study of a driver of one's own, as [`StudyBuilder::own_driver`].
+    /// Returns the same study with a driver of this program, as [`StudyBuilder::own_driver`] sets it.
     ///
     /// # Errors
-    /// The study is of no scenario.
+    /// The study is that of an external system.
     pub fn driven_by_own(
         &self,
         name: &str,
@@ -216,15 +219,15 @@ impl Study {
         Ok(study)
     }
 
-    /// The same study with nothing said of how its tests are chosen, how many there are and which part of the design domain
-    /// they are about: what a single test of it needs.
+    /// Returns the same study as a single test needs it: with a budget of one test and without a statement about the
+    /// design domain.
     pub(crate) fn of_one_test(&self) -> Self {
         let sampling = Sampling { budget: 1, stop_at_first: false, ..self.sampling.clone() };
         Self { odd: None, sampling, ..self.clone() }
     }
 
-    /// The study with the program of its scenario, if the catalogue has that. Scenarios that a catalogue does not have are
-    /// missed when a test is run.
+    /// Returns the study with the program of its scenario, if the catalogue has the scenario. If it does not, the first
+    /// test reports that.
     pub fn with_program_of(mut self, catalogue: &Catalogue) -> Self {
         if let Subject::Scenario(simulation) = &mut self.subject {
             simulation.look_for_program(catalogue, &self.space);

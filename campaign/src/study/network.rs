@@ -1,4 +1,5 @@
-//! A network that drives: which it is, so that a campaign is never continued or replayed with another.
+//! Networks as drivers, with the hash of their files, so that a campaign never continues or replays with another
+//! network.
 
 use crate::{Error, Reason};
 use paracosm_engine::driver::Driver;
@@ -7,13 +8,13 @@ use thiserror::Error;
 
 /// The name of the networks that come with the software, each for its scenarios.
 pub(super) const CLONED: &str = "cnn";
-/// What the names of files with networks end in.
+/// The ending of the names of network files.
 const ENDING: &str = ".onnx";
 
-/// A network.
+/// A network that drives.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Network {
-    /// The file that it is in, or the name of one that comes with the software.
+    /// The file of the network, or the name of a network that comes with the software.
     file: String,
     /// The hash of the file: XXH3, 128 bits.
     hash: String,
@@ -28,10 +29,10 @@ impl PartialEq for Network {
     }
 }
 
-/// Why there is no such network.
+/// The reason why a network cannot be used.
 #[derive(Debug, Error)]
 pub enum NetworkFlaw {
-    /// This program has no networks.
+    /// This program was built without networks.
     #[error(
         "driver `{driver}` is a network, and this program was built without them: build it with \
          `cargo build --release --features neural`"
@@ -40,52 +41,52 @@ pub enum NetworkFlaw {
         /// The driver.
         driver: String,
     },
-    /// The file is another one than it was.
+    /// The file has changed.
     #[error(
         "the network {file} has the hash {found}, expected {expected}: it is not the one that the campaign was run with"
     )]
     Changed {
         /// The file.
         file: String,
-        /// Its hash.
+        /// The hash of the file now.
         found: String,
-        /// The hash that it had.
+        /// The hash of the file when the campaign was run.
         expected: String,
     },
-    /// No network was taught for the scenario.
+    /// No network was trained for the scenario.
     #[error(
         "no network comes with the software that drives in `{scenario}`: driver `{CLONED}` drives in {}; a network of one's \
          own is --driver MODEL.onnx", known.join(", ")
     )]
     NotTaught {
-        /// The scenario.
+        /// The name of the scenario.
         scenario: String,
-        /// The scenarios for which there is one.
+        /// The scenarios for which there is a network.
         known: Vec<&'static str>,
     },
     /// No network of that name comes with the software.
     #[error("no network called `{file}` comes with this version of the software")]
     Unknown {
-        /// The name.
+        /// The name of the network.
         file: String,
     },
 }
 
 impl Reason for NetworkFlaw {}
 
-/// Whether a driver of this name is a network.
+/// Returns `true` if a driver's name is that of a network.
 pub(super) fn is_network(driver: &str) -> bool {
     driver == CLONED || driver.to_lowercase().ends_with(ENDING)
 }
 
 #[cfg(not(feature = "neural"))]
 impl Network {
-    /// The network that a driver's name stands for in a scenario.
+    /// Returns the network that a driver's name means in a scenario.
     pub fn of(driver: &str, _scenario: &str) -> Result<Self, Error> {
         Err(Self::missing(driver))
     }
 
-    /// A driver that does as it says.
+    /// Makes a driver that follows the network.
     pub fn driver(&self, name: &str) -> Result<Box<dyn Driver>, Error> {
         Err(Self::missing(name))
     }
@@ -97,7 +98,7 @@ impl Network {
 
 #[cfg(feature = "neural")]
 impl Network {
-    /// The network that a driver's name stands for in a scenario.
+    /// Returns the network that a driver's name means in a scenario.
     pub fn of(driver: &str, scenario: &str) -> Result<Self, Error> {
         let file = if driver == CLONED { cloned_for(scenario)?.name.to_owned() } else { driver.to_owned() };
         let contents = contents(driver, &file)?;
@@ -106,7 +107,7 @@ impl Network {
         Ok(network)
     }
 
-    /// A driver that does as it says.
+    /// Makes a driver that follows the network.
     pub fn driver(&self, name: &str) -> Result<Box<dyn Driver>, Error> {
         if self.model.get().is_none() {
             let contents = contents(name, &self.file)?;
@@ -127,7 +128,7 @@ impl Network {
     }
 }
 
-/// The network that comes with the software for a scenario.
+/// Returns the network that comes with the software for a scenario.
 #[cfg(feature = "neural")]
 fn cloned_for(scenario: &str) -> Result<paracosm_neural::Cloned, Error> {
     let all = paracosm_neural::CLONED;

@@ -1,9 +1,9 @@
-//! What of the operational design domain (ODD) a study's tests are about, as its owner states it: attribute by attribute
-//! what is varied, and by which parameters; what is fixed; what is excluded, and why.
+//! The part of the operational design domain (ODD) that a study's tests are about, as its owner states it. For each
+//! attribute it says by which parameters it is varied, what it is fixed at, or what is excluded and why.
 //!
-//! Attributes have whatever names their owner gives them; those of ISO 34503 and BSI PAS 1883 (scenery, environmental
-//! conditions, dynamic elements, and what is below them) are a good start. That a parameter is varied is checked; what
-//! words say is not.
+//! The owner may give attributes any names; those of ISO 34503 and BSI PAS 1883 (scenery, environmental conditions,
+//! dynamic elements, and their parts) are a good start. The software checks that the named parameters are varied; it
+//! does not check texts.
 
 use super::Study;
 use super::toml_file::TomlFile;
@@ -15,20 +15,20 @@ use std::path::Path;
 use thiserror::Error;
 use toml::Spanned;
 
-/// Attributes of the design domain by their names.
+/// The attributes of the design domain, by name.
 pub type Odd = Record<Attribute>;
 
-/// What becomes of an attribute in the tests.
+/// The treatment of an attribute of the design domain in the tests.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Attribute {
-    /// The open parameters by which it is varied.
+    /// The open parameters that vary the attribute.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub varied: Vec<String>,
-    /// What it is in all tests.
+    /// The value of the attribute in all tests.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub fixed: Option<String>,
-    /// What of it no test is about, and why.
+    /// The part of the attribute that no test covers, and the reason.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub excluded: Option<String>,
 }
@@ -36,7 +36,7 @@ pub struct Attribute {
 /// The table `[odd]` of a file.
 pub(super) type Written = BTreeMap<String, Spanned<WrittenAttribute>>;
 
-/// An attribute as it is written there.
+/// An attribute in the form of the file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WrittenAttribute {
@@ -46,42 +46,42 @@ pub(super) struct WrittenAttribute {
     excluded: Option<String>,
 }
 
-/// What is wrong with an attribute of the design domain.
+/// The error in an attribute of the design domain.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum OddFlaw {
-    /// Nothing is said of it.
+    /// The attribute has no entry.
     #[error("attribute `{attribute}`: expected `varied`, `fixed` or `excluded`")]
     Nothing {
-        /// The attribute.
+        /// The name of the attribute.
         attribute: String,
     },
-    /// It is said to be varied by a parameter that is fixed.
+    /// A parameter that should vary the attribute is fixed.
     #[error(
         "attribute `{attribute}`: `{parameter}` is not varied but {value} in all tests; --open {parameter} lets tests vary it"
     )]
     Fixed {
-        /// The attribute.
+        /// The name of the attribute.
         attribute: String,
-        /// The parameter.
+        /// The name of the parameter.
         parameter: String,
-        /// Its value.
+        /// The fixed value of the parameter.
         value: Value,
     },
-    /// It is said to be varied by what is no parameter.
+    /// A name in `varied` is not that of a parameter.
     #[error(
         "attribute `{attribute}`: the tests vary no `{parameter}`{}; they vary {}", did_you_mean(.nearest), open.join(", ")
     )]
     NotOpen {
-        /// The attribute.
+        /// The name of the attribute.
         attribute: String,
-        /// The parameter.
+        /// The name in `varied`.
         parameter: String,
-        /// A parameter that was perhaps meant.
+        /// The name of a parameter that was perhaps meant.
         nearest: Option<String>,
-        /// The open parameters.
+        /// The names of the open parameters.
         open: Vec<String>,
     },
-    /// Two files speak of the design domain.
+    /// Two files state the design domain.
     #[error("[odd] stands in the space as well, expected it once")]
     Twice,
 }
@@ -89,7 +89,7 @@ pub enum OddFlaw {
 impl Reason for OddFlaw {}
 
 impl Study {
-    /// Keeps the table `[odd]` of a SPACE.toml, if it has one.
+    /// Keeps the table `[odd]` of a SPACE.toml, if the file has one.
     pub(super) fn odd_of_space(&mut self, path: &Path) -> Result<(), Error> {
         #[derive(Deserialize)]
         struct Beside {

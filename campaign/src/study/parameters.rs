@@ -1,4 +1,4 @@
-//! Which parameters the tests of a study vary, and how.
+//! Opens and fixes the parameters of a study.
 
 use super::{Study, owned};
 use crate::{Error, Reason};
@@ -6,84 +6,84 @@ use paracosm_engine::{Declared, Test};
 use paracosm_space::{Distribution, Domain, Parameter, Shape, Space, Value, Values, did_you_mean, nearest};
 use thiserror::Error;
 
-/// What the names of settings of cameras that record tests begin with. They vary with the tests and stand in the log, but the
-/// world knows nothing of them.
+/// The prefix of the names of camera settings, for cameras that record tests. These settings vary with the tests and
+/// stand in the log, but do not belong to the world.
 const CAMERA: &str = "camera.";
 
-/// How an open parameter varies over time.
+/// The variation of an open parameter over time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Variation {
-    /// Not at all: a test has one value of it.
+    /// The parameter is constant during a test.
     Constant,
-    /// With a value for every tick.
+    /// The parameter has a value for every tick.
     PerTick,
-    /// In a shape with a few coordinates.
+    /// The parameter follows a shape that a few coordinates describe.
     Shape(Shape),
 }
 
-/// A parameter that cannot be opened or fixed so.
+/// A parameter cannot be opened or fixed in this way.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ParameterMisuse {
-    /// The scenario has none of that name.
+    /// The scenario has no parameter with that name.
     #[error("scenario `{scenario}` has no parameter `{name}`{}; it has {}", did_you_mean(.nearest), all.join(", "))]
     Unknown {
-        /// The scenario.
+        /// The name of the scenario.
         scenario: String,
-        /// The name.
+        /// The name that was given.
         name: String,
-        /// A name that was perhaps meant.
+        /// The name of a parameter that was perhaps meant.
         nearest: Option<String>,
-        /// All names.
+        /// The names of all parameters of the scenario.
         all: Vec<String>,
     },
-    /// It takes single values, and was given an interval.
+    /// The parameter takes single values, but was given an interval.
     #[error("parameter `{name}` takes {domain}, which is no interval")]
     NoInterval {
-        /// The name.
+        /// The name of the parameter.
         name: String,
-        /// What it takes.
+        /// The values that the parameter takes.
         domain: Domain,
     },
-    /// It was fixed twice, or fixed and opened.
+    /// The parameter was fixed twice, or fixed and opened.
     #[error("parameter `{name}` is set and opened, or set twice")]
     Twice {
-        /// The name.
+        /// The name of the parameter.
         name: String,
     },
-    /// It was given two distributions.
+    /// The parameter was given two distributions.
     #[error("parameter `{name}` is distributed twice")]
     DistributedTwice {
-        /// The name.
+        /// The name of the parameter.
         name: String,
     },
-    /// It is fixed, and was given a distribution.
+    /// The parameter is fixed, but was given a distribution.
     #[error("parameter `{name}` is fixed; --open {name} lets tests vary it")]
     Fixed {
-        /// The name.
+        /// The name of the parameter.
         name: String,
     },
-    /// It was the last open one.
+    /// The parameter is the last open one, and cannot be fixed.
     #[error("with `{name}` fixed no parameter is left open, so there is nothing to test")]
     LastOpen {
-        /// The name.
+        /// The name of the parameter.
         name: String,
     },
 }
 
 impl Reason for ParameterMisuse {}
 
-/// The name of the parameter that is a setting of a camera.
+/// Returns the name of the parameter that varies a setting of a camera.
 pub fn setting_name(camera: &str, setting: &str) -> String {
     format!("{CAMERA}{camera}.{setting}")
 }
 
-/// Whether a parameter is one of the world.
+/// Returns `true` if a parameter belongs to the world.
 pub(super) fn is_of_world(name: &str) -> bool {
     !name.starts_with(CAMERA)
 }
 
 impl Study {
-    /// Opens a parameter: lets the tests vary it, over its declared domain or over this part of it.
+    /// Opens a parameter, so that tests vary it over its declared domain or over this part of it.
     pub(super) fn open(&mut self, name: &str, over: Option<&Domain>) -> Result<(), Error> {
         let mut parameter = self.declared(name)?;
         if let Some(domain) = over {
@@ -122,7 +122,7 @@ impl Study {
         Ok(())
     }
 
-    /// Fixes a parameter at a value; a signal at a value or at a list of them.
+    /// Fixes a parameter at a value; a signal at a value or at a list of values.
     pub(super) fn fix(&mut self, name: &str, value: Value) -> Result<(), Error> {
         self.declared(name)?.check(&value)?;
         self.rebuild(name, None)?;
@@ -133,7 +133,7 @@ impl Study {
         Ok(())
     }
 
-    /// Distributes an open parameter so.
+    /// Gives an open parameter a distribution.
     pub(super) fn distribute(&mut self, name: &str, distribution: &Distribution) -> Result<(), Error> {
         if self.fixed().get(name).is_some() {
             return Err(ParameterMisuse::Fixed { name: name.to_owned() }.into());
@@ -142,13 +142,14 @@ impl Study {
         Ok(())
     }
 
-    /// Lets the tests vary settings of cameras that record them, after all other open parameters.
+    /// Lets the tests vary settings of the cameras that record them. These parameters come after all other open
+    /// parameters.
     pub(super) fn open_cameras(&mut self, settings: Vec<Parameter>) -> Result<(), Error> {
         self.space = Space::new(self.space.parameters().iter().cloned().chain(settings).collect())?;
         Ok(())
     }
 
-    /// A test with nominal values of the open parameters, and the values that are fixed.
+    /// Returns a test with nominal values of the open parameters, and with the fixed values.
     pub(super) fn nominal(&self) -> Result<Values, Error> {
         let mut test = self.program()?.declare()?.nominal();
         for (name, value) in self.fixed().iter() {
@@ -160,7 +161,7 @@ impl Study {
         Ok(test)
     }
 
-    /// Replaces the open parameter of a name, keeping the order in which the scenario declares parameters.
+    /// Replaces the open parameter with this name, and keeps the order in which the scenario declares parameters.
     fn rebuild(&mut self, name: &str, with: Option<Parameter>) -> Result<(), Error> {
         let declared = self.program()?.declare()?.parameters;
         let kept = self.space.parameters().iter().filter(|parameter| parameter.name != name).cloned();

@@ -1,38 +1,39 @@
-//! A requirement as a study states it: one of the scenario, or one that was given beside these.
+//! A requirement in the form in which a study states it: one of the scenario's own, or one that was given in addition.
 
 use paracosm_oracles::{Formula, Requirement, Semantics};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A requirement as a study states it.
+/// A requirement in the form in which a study states it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StatedRequirement {
-    /// The short name.
+    /// The short name of the requirement.
     pub id: String,
-    /// One sentence.
+    /// The requirement in one sentence.
     pub text: String,
-    /// The formula that every trace is to satisfy. `None` where it is not known here: the system under test judges itself by
-    /// it, or nobody does.
+    /// The formula that every trace should satisfy. `None` if the formula is not known here: the system under test
+    /// judges itself by it, or nobody does.
     #[serde(serialize_with = "write_formula", deserialize_with = "read_formula")]
     pub formula: Option<Formula>,
-    /// The unit of its robustness.
+    /// The unit of the robustness.
     pub unit: String,
-    /// How much robustness is a lot, in that unit; `None` where nobody said, and a search has to find out.
+    /// The scale of the robustness in that unit: a large robustness. `None` if no scale was stated, so that a search
+    /// has to learn it.
     pub scale: Option<f64>,
-    /// Where it comes from: a regulation, a specification, a hazard.
+    /// The source of the requirement: a regulation, a specification, a hazard.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub source: Option<String>,
-    /// How severe a violation is, in a word of whoever states it.
+    /// The severity of a violation, in a word chosen by the author.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub severity: Option<String>,
-    /// What is taken to happen between the samples of a trace.
+    /// The semantics of time: samples only, or also the time between them.
     #[serde(skip_serializing_if = "is_sampled", default)]
     pub time: Semantics,
-    /// Whether it is none of the scenario's own, but was given with the study.
+    /// True if the requirement was given with the study and is not the scenario's own.
     #[serde(skip_serializing_if = "std::ops::Not::not", default)]
     pub given: bool,
 }
 
-/// What is usual is not written down.
+/// Returns `true` for the default semantics, which is not written to files.
 fn is_sampled(time: &Semantics) -> bool {
     *time == Semantics::Sampled
 }

@@ -1,5 +1,5 @@
-//! `requirements.toml`: requirements as a test engineer keeps them, with the source that they come from and how severe
-//! a violation is. It may say what of the operational design domain the tests are about, too.
+//! Reads `requirements.toml`: requirements as a test engineer keeps them, with their source and the severity of a
+//! violation. The file may also state the part of the operational design domain that the tests are about.
 
 use super::odd::Written;
 use super::toml_file::TomlFile;
@@ -20,7 +20,7 @@ struct File {
     odd: Option<Written>,
 }
 
-/// A requirement as it is written there.
+/// A requirement in the form of the file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Entry {
@@ -34,7 +34,7 @@ struct Entry {
     time: Option<Semantics>,
 }
 
-/// What is wrong with a requirement of a file.
+/// The error in a requirement of a file.
 #[derive(Debug, Error)]
 pub enum RequirementFlaw {
     /// Two requirements have one id.
@@ -43,34 +43,34 @@ pub enum RequirementFlaw {
         /// The id.
         id: String,
     },
-    /// The id is no name.
+    /// The id is not a valid name.
     #[error("`id` is `{id}`, expected a word of letters, digits and - _ . : /")]
     Id {
         /// The id.
         id: String,
     },
-    /// The scenario says that itself.
+    /// The scenario already states this for its own requirement.
     #[error("requirement `{id}` is the scenario's, which has {claim} for it: leave it out, or take another id")]
     OfScenario {
         /// The id.
         id: String,
-        /// What the scenario says.
+        /// The entry that the scenario states.
         claim: &'static str,
     },
-    /// No trace can be asked its formula.
+    /// The formula cannot judge any trace.
     #[error("requirement `{id}`: {flaw}")]
     Formula {
         /// The id.
         id: String,
-        /// What is wrong.
+        /// The flaw of the formula.
         flaw: Box<FormulaFlaw>,
     },
-    /// Its scale is none.
+    /// The scale is not a positive number.
     #[error("requirement `{id}`: `scale` is {found}, expected a number above 0")]
     Scale {
         /// The id.
         id: String,
-        /// The scale.
+        /// The scale that was found.
         found: f64,
     },
 }
@@ -78,9 +78,9 @@ pub enum RequirementFlaw {
 impl Reason for RequirementFlaw {}
 
 impl Study {
-    /// Asks what a file says of every trace, and keeps what it says of the design domain. An id that is the study's own gives
-    /// that requirement a text, a source and a severity; another one needs a formula, without which nothing judges it unless
-    /// the system under test does.
+    /// Judges every trace by the requirements of a file, and keeps the design domain that the file states. If an id is
+    /// that of a requirement of the study, the file gives that requirement a text, a source and a severity. Any other
+    /// id needs a formula; without a formula nothing judges the requirement, unless the system under test does.
     pub(super) fn require(&mut self, path: &Path) -> Result<(), Error> {
         let source = TomlFile::read(path)?;
         let file: File = source.parse(&KEYS)?;
@@ -121,7 +121,7 @@ impl Study {
         }
     }
 
-    /// A requirement that is none of the study's own yet; or what is wrong with it, and where.
+    /// Returns a new requirement of the file; or the error in it, with its place.
     fn stated(&self, entry: Entry) -> Result<StatedRequirement, (usize, RequirementFlaw)> {
         let id = entry.id.into_inner();
         let time = entry.time.unwrap_or_default();
@@ -150,14 +150,14 @@ impl Study {
     }
 }
 
-/// The keys of the file: of its root, and of the tables below.
+/// The keys of the file: those of its root, and those of the tables below it.
 const KEYS: [(&str, &[&str]); 3] = [
     ("", &["requirement", "odd"]),
     ("requirement", &["id", "text", "source", "severity", "formula", "unit", "scale", "time"]),
     ("odd.*", &["varied", "fixed", "excluded"]),
 ];
 
-/// Whether a text is an id: ids are names of columns and metrics, and words of commands.
+/// Returns `true` if a text can be an id. Ids are names of columns and metrics, and words in commands.
 fn is_id(id: &str) -> bool {
     let fine = |c: char| c.is_alphanumeric() || "-_.:/".contains(c);
     !id.is_empty() && id.chars().all(fine)

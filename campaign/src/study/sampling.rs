@@ -1,4 +1,4 @@
-//! How the tests of a study are chosen.
+//! The choice of a study's tests: strategy, budget, seed and other options.
 
 use crate::Reason;
 use paracosm_coverage::Deadline;
@@ -7,10 +7,10 @@ use paracosm_space::{Point, Space};
 use std::fmt;
 use thiserror::Error;
 
-/// How many tests an adaptive strategy is asked for at a time where nothing is said.
+/// The default number of tests that an adaptive strategy is asked for at a time.
 const ADAPTIVE_BATCH: usize = 16;
 
-/// How many tests are chosen, and how.
+/// The choice of tests: their number, and the strategy with its options.
 ///
 /// ```
 /// use paracosm_campaign::Sampling;
@@ -24,30 +24,30 @@ const ADAPTIVE_BATCH: usize = 16;
 pub struct Sampling {
     /// The strategy that proposes tests.
     pub strategy: Strategy,
-    /// The rows by which discrete parameters are covered.
+    /// The family of rows that covers the discrete parameters.
     pub discrete: DiscreteFamily,
-    /// How many parameters are covered together; `None` is two.
+    /// The number of parameters that are covered together; `None` means two.
     pub k: Option<usize>,
-    /// The campaign ends when no row of discrete values has an empty box above this volume, or the budget is spent; the next
-    /// test goes to the row with the largest.
+    /// The largest allowed volume of an empty box in any row of discrete values. The campaign ends when no row has a
+    /// larger empty box, or the budget is spent; the next test goes to the row with the largest empty box.
     pub epsilon: Option<f64>,
-    /// The measure that the strategy `greedy` makes small; `None` is the usual one.
+    /// The measure that the strategy `greedy` minimises; `None` means the default.
     pub aim: Option<Aim>,
-    /// The index of a sequence's first point; `None` is the usual one.
+    /// The index of a sequence's first point; `None` means the default.
     pub skip: Option<u64>,
-    /// The source of all chance; `None` is the plain set where a strategy has one, and seed 0 elsewhere.
+    /// The seed of all randomness; `None` means the plain set of points if the strategy has one, otherwise seed 0.
     pub seed: Option<u64>,
-    /// How many tests the strategy is asked for at a time, which changes the tests of an adaptive one. `None` is 16 for an
-    /// adaptive strategy, and as many as fit in memory for others.
+    /// The number of tests that the strategy is asked for at a time; it changes the tests of an adaptive strategy.
+    /// `None` means 16 for an adaptive strategy, and as many as fit in memory for others.
     pub batch: Option<usize>,
-    /// How many tests are run at most.
+    /// The greatest number of tests that are run.
     pub budget: usize,
-    /// Whether the first test that violates a requirement, in the order of their indices, ends the campaign.
+    /// True if the first test that violates a requirement, in the order of the indices, ends the campaign.
     pub stop_at_first: bool,
 }
 
 impl Default for Sampling {
-    /// The strategy `halton`, 500 tests.
+    /// Returns the strategy `halton` with 500 tests.
     fn default() -> Self {
         Self {
             strategy: Strategy::usual(Purpose::Cover),
@@ -64,7 +64,7 @@ impl Default for Sampling {
     }
 }
 
-/// The strategy, with its seed if it has one.
+/// Writes the strategy, with its seed if it has one.
 impl fmt::Display for Sampling {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.seed {
@@ -74,13 +74,13 @@ impl fmt::Display for Sampling {
     }
 }
 
-/// Why tests cannot be chosen so.
+/// The reason why a choice of tests is invalid.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum SamplingFlaw {
-    /// No test is wanted.
+    /// The budget is 0.
     #[error("the budget is 0, expected at least 1 test")]
     NoBudget,
-    /// No test is asked for at a time.
+    /// The batch is 0.
     #[error("the batch is 0, expected at least 1 test")]
     NoBatch,
 }
@@ -88,7 +88,7 @@ pub enum SamplingFlaw {
 impl Reason for SamplingFlaw {}
 
 impl Sampling {
-    /// Checks what holds for all strategies.
+    /// Checks the options that all strategies share.
     pub(super) fn check(&self) -> Result<(), SamplingFlaw> {
         match self {
             Self { budget: 0, .. } => Err(SamplingFlaw::NoBudget),
@@ -97,12 +97,12 @@ impl Sampling {
         }
     }
 
-    /// How many tests the strategy is asked for at a time, where that matters.
+    /// Returns the number of tests that the strategy is asked for at a time, if it matters.
     pub fn batch_size(&self) -> Option<usize> {
         self.batch.or_else(|| self.strategy.is_adaptive().then_some(ADAPTIVE_BATCH))
     }
 
-    /// The request for a generator of tests of this space, beside existing tests.
+    /// Returns the request for a generator of tests of this space, given existing tests.
     pub fn request<'a>(&self, space: &'a Space, existing: &'a [Point]) -> Request<'a> {
         Request {
             space,

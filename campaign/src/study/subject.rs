@@ -1,4 +1,4 @@
-//! What the tests of a study are run on: a scenario of ours with a driver, or a system that others wrote.
+//! The subject of a study: a scenario with a driver, or an external system.
 
 use super::{Appearances, DriverChoice, StatedRequirement};
 use crate::{BlackBox, Catalogue, Error, Reason};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// What tests are run on.
+/// The scenario or the system that tests run on.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(
     untagged,
@@ -19,7 +19,7 @@ use thiserror::Error;
 pub enum Subject {
     /// A simulated world with the system under test in it.
     Scenario(Box<Simulation>),
-    /// A process.
+    /// A process that answers tests.
     System(BlackBox),
 }
 
@@ -32,7 +32,7 @@ pub struct Simulation {
     pub(super) driver: DriverChoice,
     #[serde(rename = "models", skip_serializing_if = "Appearances::is_empty", default)]
     pub(super) appearances: Appearances,
-    /// Whether runs ended as soon as all requirements were decided, as they could in older versions.
+    /// True if runs ended as soon as all requirements were decided, as older versions allowed.
     #[serde(skip_serializing_if = "std::ops::Not::not", default)]
     pub(super) stop_runs_early: bool,
     dt: f64,
@@ -41,28 +41,28 @@ pub struct Simulation {
     program: Source,
 }
 
-/// Where the program of a study comes from.
+/// The source of a study's program.
 #[derive(Debug, Clone, Default)]
 enum Source {
     Here(Program),
-    /// No catalogue has it.
+    /// No catalogue has the program.
     Missing(Arc<Error>),
-    /// Nobody has looked for it yet.
+    /// Nobody has looked for the program yet.
     #[default]
     Unknown,
 }
 
-/// A scenario that a study names and that cannot be had.
+/// The scenario that a study names is not available.
 #[derive(Debug, Error)]
 #[error("the campaign was run on the scenario `{scenario}`, which cannot be had here{}", why(.source))]
 pub struct MissingScenario {
-    /// Its name.
+    /// The name of the scenario.
     pub scenario: String,
-    /// Why, if anybody has looked for it.
+    /// The reason, if somebody has looked for the scenario.
     pub source: Option<Arc<Error>>,
 }
 
-/// A system in a place where only a scenario will do.
+/// A scenario is needed, but the subject is an external system.
 #[derive(Debug, Error)]
 #[error("the system `{command}` is no scenario, but that is what is asked of it here")]
 pub struct NoScenario {
@@ -77,14 +77,14 @@ fn why(source: &Option<Arc<Error>>) -> String {
     source.as_ref().map(|source| format!(": {source}")).unwrap_or_default()
 }
 
-/// A system has no fixed parameters.
+/// The fixed parameters of a system: it has none.
 static NOTHING_FIXED: Values = Values::EMPTY;
 
 impl Subject {
-    /// The scenario.
+    /// Returns the scenario.
     ///
     /// # Errors
-    /// It is a system that others wrote.
+    /// The subject is an external system.
     pub fn scenario(&self) -> Result<&Simulation, NoScenario> {
         match self {
             Self::Scenario(simulation) => Ok(simulation),
@@ -99,7 +99,7 @@ impl Subject {
         }
     }
 
-    /// What is tested, in a few words.
+    /// Returns a short description of the system under test.
     pub fn title(&self) -> String {
         match self {
             Self::Scenario(simulation) => format!("{}, driver {}", simulation.scenario, simulation.driver.name()),
@@ -107,7 +107,7 @@ impl Subject {
         }
     }
 
-    /// The values of the parameters that are not open.
+    /// Returns the values of the parameters that are not open.
     pub fn fixed(&self) -> &Values {
         match self {
             Self::Scenario(simulation) => &simulation.fixed,
@@ -117,7 +117,8 @@ impl Subject {
 }
 
 impl Simulation {
-    /// A program with nominal values and the driver `aeb`; its open parameters, and what it asks of its runs.
+    /// Makes the simulation of a program with nominal values and the driver `aeb`. Also returns its open parameters and
+    /// its requirements.
     pub(super) fn new(program: Program) -> Result<(Self, Space, Vec<StatedRequirement>), Error> {
         let Declaration { parameters, requirements, duration, dt } = program.declare()?;
         let (open, closed): (Vec<_>, Vec<_>) = parameters.into_iter().partition(|declared| declared.open);
@@ -137,27 +138,27 @@ impl Simulation {
         Ok((simulation, space, requirements.into_iter().map(StatedRequirement::from).collect()))
     }
 
-    /// The scenario's name.
+    /// Returns the name of the scenario.
     pub fn scenario(&self) -> &str {
         &self.scenario
     }
 
-    /// The model that moves the car.
+    /// Returns the model that moves the car.
     pub fn vehicle(&self) -> VehicleModel {
         self.vehicle
     }
 
-    /// The system under test.
+    /// Returns the driver, which is the system under test.
     pub fn driver(&self) -> &DriverChoice {
         &self.driver
     }
 
-    /// What actors look like to cameras.
+    /// Returns the models that replace actors in images.
     pub fn appearances(&self) -> &Appearances {
         &self.appearances
     }
 
-    /// The program that is run.
+    /// Returns the program of the scenario.
     ///
     /// # Errors
     /// The study was read from a file and names a scenario that no catalogue has.
@@ -170,14 +171,14 @@ impl Simulation {
         }
     }
 
-    /// Looks for the program of a study that was read from a file. Parameters that it has come to ask for since then are fixed
-    /// at their nominal values, which changes nothing.
+    /// Looks for the program of a study that was read from a file. Parameters that were added to the program since then
+    /// are fixed at their nominal values, which changes nothing.
     pub(super) fn look_for_program(&mut self, catalogue: &Catalogue, open: &Space) {
         self.program = match catalogue.find(&self.scenario) {
             Ok(program) => Source::Here(program),
             Err(error) => Source::Missing(Arc::new(error)),
         };
-        // If the scenario cannot be declared, its first test says why.
+        // If the scenario cannot be declared, the first test reports the reason.
         let declared = self.program().ok().and_then(|program| program.declare().ok());
         for declared in declared.into_iter().flat_map(|declaration| declaration.parameters) {
             let name = &declared.parameter.name;
@@ -187,17 +188,17 @@ impl Simulation {
         }
     }
 
-    /// The tick in seconds.
+    /// Returns the length of a tick in seconds.
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
-    /// How long a test takes in simulated seconds, unless a contact ends it.
+    /// Returns the simulated duration of a test in seconds, unless a contact ends it.
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// How many ticks a test takes, unless a contact ends it.
+    /// Returns the number of ticks of a test, unless a contact ends it.
     pub fn ticks(&self) -> usize {
         (self.duration / self.dt).round() as usize
     }

@@ -1,4 +1,4 @@
-//! A TOML file of a user: read with the lines and the nearest names that its errors are to say.
+//! Reads TOML files of users, with errors that name lines and suggest the nearest keys.
 
 use crate::{Error, Reason};
 use paracosm_space::{did_you_mean, nearest};
@@ -9,30 +9,30 @@ use thiserror::Error;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The text of a file, and where it stands.
+/// The text of a file, and its path.
 pub(super) struct TomlFile<'p> {
     path: &'p Path,
     text: String,
 }
 
-/// The keys that a table may have. The table of a name is that below the root; `NAME.*` are all tables below it, and the empty
-/// name is the root.
+/// The keys that tables may have. A name means the table with this name below the root; `NAME.*` means all tables below
+/// that table; the empty name means the root.
 pub(super) type Keys<'k> = [(&'k str, &'k [&'static str])];
 
-/// What is wrong with a TOML file.
+/// The error in a TOML file.
 #[derive(Debug, Error)]
 pub enum TomlFlaw {
-    /// A key that its table does not have.
+    /// A key is not one of the keys of its table.
     #[error("unknown field `{key}`, expected one of {}{}", quoted(.expected), did_you_mean(.nearest))]
     Key {
-        /// The key.
+        /// The unknown key.
         key: String,
-        /// The keys that its table may have.
+        /// The keys that the table may have.
         expected: Vec<&'static str>,
         /// A key that was perhaps meant.
         nearest: Option<&'static str>,
     },
-    /// It is no TOML, or a value is of another type.
+    /// The file is not TOML, or a value has another type.
     #[error("{}", .0.message())]
     Syntax(toml::de::Error),
 }
@@ -52,10 +52,10 @@ impl<'p> TomlFile<'p> {
         self.path
     }
 
-    /// The contents.
+    /// Returns the contents of the file.
     ///
     /// # Errors
-    /// They are no TOML or of another kind. A key that is unknown is named first.
+    /// The contents are not TOML or have another form. An unknown key is reported first.
     pub fn parse<T: DeserializeOwned>(&self, keys: &Keys<'_>) -> Result<T, Error> {
         toml::from_str(&self.text).map_err(|error| match self.unknown_key(keys) {
             Some((offset, flaw)) => self.at(offset, flaw),
@@ -66,12 +66,12 @@ impl<'p> TomlFile<'p> {
         })
     }
 
-    /// An error about what stands at a byte.
+    /// Makes an error about the text at a byte.
     pub fn at(&self, offset: usize, flaw: impl Reason) -> Error {
         Error::in_file(self.path, self.line(offset), flaw)
     }
 
-    /// The line, from 1, of a byte.
+    /// Returns the line, from 1, of a byte.
     fn line(&self, offset: usize) -> usize {
         self.text[..offset.min(self.text.len())].matches('\n').count() + 1
     }
@@ -94,7 +94,7 @@ impl<'p> TomlFile<'p> {
     }
 }
 
-/// A table, or those of an array.
+/// Returns a table, or the tables of an array.
 fn tables<'d>(value: &'d Spanned<DeValue<'d>>) -> impl Iterator<Item = &'d DeTable<'d>> {
     let array = match value.get_ref() {
         DeValue::Array(array) => array.iter().filter_map(|entry| entry.get_ref().as_table()).collect(),

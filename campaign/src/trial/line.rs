@@ -1,4 +1,4 @@
-//! A trial as a line of the log has it.
+//! A trial in the form of a line of the log.
 
 use super::metric::{UnknownWord, read};
 use super::{Metric, Problem, ProblemKind, Trial};
@@ -36,7 +36,7 @@ impl From<Trial> for Line {
             robustness: robustness.collect(),
             metrics: trial.metrics().into_iter().collect(),
             ticks: trial.ticks,
-            // That its world cannot be built is what the verdict says.
+            // If the world cannot be built, the verdict already says so.
             cause: cause.filter(|cause| !matches!(cause, ProblemKind::World | ProblemKind::Unstated)),
             error: trial.problem.map(|problem| problem.message),
             test: trial.test,

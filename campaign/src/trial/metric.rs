@@ -1,8 +1,9 @@
-//! What was measured of a test, as the flat list of names that logs and tables have.
+//! The measurements of a test, as the flat list of named metrics in logs and tables.
 //!
-//! Of a simulated run: `travelled` (m); of a contact `impact_speed` (the car's, m/s; 0 without one), `contact_face`,
-//! `contact_with`, `contact_class`, `contact_motion` and `other_speed` (the object's, m/s); `triggered`. Of every violated
-//! requirement ID: `critical_time.ID` (s), `critical_travelled.ID` (m), `critical_speed.ID` (m/s), `critical_part.ID`.
+//! A simulated run has `travelled` (m) and `triggered`; for a contact, `impact_speed` (of the ego vehicle, m/s; 0
+//! without a contact), `contact_face`, `contact_with`, `contact_class`, `contact_motion` and `other_speed` (of the
+//! object, m/s). Every violated requirement ID has `critical_time.ID` (s), `critical_travelled.ID` (m),
+//! `critical_speed.ID` (m/s) and `critical_part.ID`.
 
 use super::Trial;
 use crate::json::Number;
@@ -18,9 +19,9 @@ use std::fmt::{self, Display};
 pub enum Metric {
     /// A quantity.
     Number(f64),
-    /// Whether something happened.
+    /// A flag: `true` if something happened.
     Flag(bool),
-    /// One of a few words; `None` where none applies.
+    /// A word of a fixed list; `None` if no word applies.
     Word(Option<String>),
 }
 
@@ -60,7 +61,7 @@ impl<'de> Deserialize<'de> for Metric {
     }
 }
 
-/// All metrics of a trial, in the order in which logs have them.
+/// Returns all metrics of a trial, in the order of the log.
 pub(super) fn flat(trial: &Trial) -> Vec<(String, Metric)> {
     let mut metrics = Vec::new();
     if let Some(measured) = &trial.measured {
@@ -97,7 +98,8 @@ fn of_violation(Violation { time, travelled, speed, part }: &Violation) -> Vec<(
     numbers.chain([("critical_part", Metric::Word(Some(part.clone())))]).collect()
 }
 
-/// Reads a list of metrics: what was measured of a run, if all of that is there; each requirement's violation; and the rest.
+/// Reads a list of metrics. Returns the measurements of a run, if they are complete, and all other metrics; stores each
+/// requirement's violation in `judgements`.
 pub(super) fn read(
     metrics: Record<Metric>,
     judgements: &mut [Judgement],
@@ -133,7 +135,7 @@ pub(super) fn read(
     Ok((measured.clone(), others.map(|(name, metric)| (name.to_owned(), metric.clone())).collect()))
 }
 
-/// The metrics of a run, and what the metrics of a violation begin with.
+/// The metrics of a run, and the prefixes of the metrics of a violation.
 const RUN: [&str; 8] = [
     "travelled",
     "impact_speed",
@@ -170,7 +172,7 @@ fn contact(metrics: &Record<Metric>) -> Result<Option<Contact>, UnknownWord> {
     }))
 }
 
-/// A word of a metric that this version does not know.
+/// The word of a metric is not known to this version.
 #[derive(Debug, thiserror::Error)]
 #[error("metric `{metric}` is `{word}`, expected one of {}", expected.join(", "))]
 pub(super) struct UnknownWord {
@@ -179,7 +181,7 @@ pub(super) struct UnknownWord {
     expected: Vec<String>,
 }
 
-/// The one of these that a word means.
+/// Returns the value that a word means.
 fn among<T: Copy + Display>(all: &[T], (metric, word): (&'static str, &str)) -> Result<T, UnknownWord> {
     all.iter().find(|value| value.to_string() == word).copied().ok_or_else(|| UnknownWord {
         metric,

@@ -1,4 +1,4 @@
-//! One test with what became of it: a line of `trials.jsonl`.
+//! Trials: a test with its result, which is a line of `trials.jsonl`.
 
 mod line;
 mod metric;
@@ -12,40 +12,40 @@ use paracosm_space::{Record, Values};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A test with what became of it.
+/// A test with its result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "line::Line", into = "line::Line")]
 pub struct Trial {
-    /// Its position in the campaign, from 0.
+    /// The position of the test in the campaign, from 0.
     pub index: usize,
     /// The values of the open parameters.
     pub test: Values,
-    /// What became of it.
+    /// The verdict on the test.
     pub verdict: Verdict,
-    /// Why the verdict is `invalid` or `error`.
+    /// The reason for the verdict `invalid` or `error`.
     pub problem: Option<Problem>,
-    /// What became of each requirement, in the order in which they were judged.
+    /// The judgements of the requirements, in the order in which they were made.
     pub judgements: Vec<Judgement>,
-    /// What was measured; `None` where there was no simulated run.
+    /// The measurements; `None` if there was no simulated run.
     pub measured: Option<Measurements>,
     /// Metrics of other versions of the software.
     others: Record<Metric>,
-    /// The simulated ticks.
+    /// The number of simulated ticks.
     pub ticks: usize,
-    /// The fingerprint of its trace; `None` where there was none.
+    /// The fingerprint of the trace; `None` if there is no trace.
     pub trace_hash: Option<String>,
 }
 
-/// Why a test came to nothing.
+/// The reason why a test has no result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
-    /// What kind of problem it is.
+    /// The kind of the problem.
     pub kind: ProblemKind,
-    /// What happened, for people.
+    /// The description of the problem, for people.
     pub message: String,
 }
 
-/// Metrics of older versions that no test has any more.
+/// Metrics of older versions that tests no longer have.
 const RETIRED: [&str; 1] = ["ended_early"];
 
 fn owned((name, metric): (&str, &Metric)) -> (String, Metric) {
@@ -53,7 +53,7 @@ fn owned((name, metric): (&str, &Metric)) -> (String, Metric) {
 }
 
 impl Problem {
-    /// A problem of some kind, in words.
+    /// Makes a problem of a kind, with its description.
     pub fn new(kind: ProblemKind, message: impl Into<String>) -> Self {
         Self { kind, message: message.into() }
     }
@@ -69,49 +69,49 @@ impl fmt::Display for Problem {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ProblemKind {
-    /// Its world cannot be built; the verdict is `invalid`.
+    /// The world of the test cannot be built; the verdict is `invalid`.
     World,
-    /// The program cannot be run on such a test at all.
+    /// The program cannot run such a test at all.
     Program,
-    /// The world came to a state that is none.
+    /// The world reached an impossible state.
     State,
     /// The run panicked.
     Panic,
-    /// The driver cannot go on.
+    /// The driver cannot continue.
     Driver,
-    /// The driver could not be shown what its cameras see.
+    /// The driver could not be shown the images of its cameras.
     Camera,
-    /// The system says itself that it cannot do the test.
+    /// The system itself reports that it cannot do the test.
     System,
     /// The system or the driver cannot be started, or its process is gone.
     Process,
     /// The system or the driver did not answer in time.
     TimedOut,
-    /// The system or the driver answers what is no answer.
+    /// The answer of the system or the driver is not a valid answer.
     Answer,
     /// The system was judged by other requirements than in earlier tests.
     Requirements,
-    /// A formula does not fit the trace, and will fit no other trace of the same source.
+    /// A formula does not fit the trace, and will not fit any other trace of the same source.
     Misfit {
         /// The id of the requirement.
         requirement: String,
-        /// The sample period in seconds, if the time bounds of the formula do not fit that.
+        /// The sample period in seconds, if the time bounds of the formula do not fit the period.
         #[serde(skip_serializing_if = "Option::is_none", default)]
         period: Option<f64>,
     },
-    /// A formula cannot be asked of this trace; it may fit another one.
+    /// A formula cannot judge this trace, but may fit another one.
     Unasked {
         /// The id of the requirement.
         requirement: String,
     },
-    /// Nobody waited for the test any more.
+    /// The campaign no longer waited for the test.
     Interrupted,
-    /// The log of an older version does not say.
+    /// The log of an older version does not state the kind.
     Unstated,
 }
 
 impl ProblemKind {
-    /// The cause that a fault of a driver is.
+    /// Returns the kind of problem for a fault of a driver.
     pub fn of(fault: FaultKind) -> Self {
         match fault {
             FaultKind::Stated | FaultKind::Equipment => Self::Driver,
@@ -124,7 +124,7 @@ impl ProblemKind {
 }
 
 impl Trial {
-    /// The trial of a test that was judged so, without a trace.
+    /// Makes the trial of a test with this verdict and these judgements, without a trace.
     pub fn judged(index: usize, test: Values, verdict: Verdict, judgements: Vec<Judgement>) -> Self {
         Self {
             index,
@@ -139,12 +139,12 @@ impl Trial {
         }
     }
 
-    /// The trial of a test that broke.
+    /// Makes the trial of a test that broke.
     pub fn broken(index: usize, test: Values, problem: Problem) -> Self {
         Self { problem: Some(problem), ..Self::judged(index, test, Verdict::Error, Vec::new()) }
     }
 
-    /// The trial of a test that was simulated, and its trace.
+    /// Makes the trial of a simulated test, and returns it with its trace.
     pub fn simulated(index: usize, test: Values, outcome: Outcome) -> (Self, Option<Trace>) {
         let Outcome { ending, judgements, measured, trace } = outcome;
         let problem = Problem::of(&ending);
@@ -153,13 +153,13 @@ impl Trial {
         (trial, trace)
     }
 
-    /// The trial with a trace behind it.
+    /// Adds the length and the hash of a trace to the trial.
     pub fn traced(self, trace: &Trace) -> Self {
         // The first sample is the start, before any tick has passed.
         Self { ticks: trace.len() - 1, trace_hash: Some(trace.hash()), ..self }
     }
 
-    /// The robustness of a requirement in its unit; `None` where it was not decided.
+    /// Returns the robustness of a requirement in its unit; `None` if it was not decided.
     pub fn robustness(&self, requirement: &str) -> Option<f64> {
         self.judgement(requirement)?.robustness
     }
@@ -168,50 +168,51 @@ impl Trial {
         self.judgements.iter().find(|judgement| judgement.requirement == requirement)
     }
 
-    /// The ids of the requirements that it was judged by, in order; some may be undecided.
+    /// Returns the ids of the requirements that the trial was judged by, in order; some may be undecided.
     pub fn requirements(&self) -> impl Iterator<Item = &str> {
         self.judgements.iter().map(|judgement| judgement.requirement.as_str())
     }
 
-    /// Whether it violates this requirement. A robustness of 0 says so of a failure that no other requirement explains.
+    /// Returns `true` if the trial violates this requirement. A robustness of 0 counts as a violation only in a failing
+    /// trial in which no requirement has a negative robustness.
     pub fn violates(&self, requirement: &str) -> bool {
         let below = |id: &str| self.robustness(id).is_some_and(|robustness| robustness < 0.0);
         let is_zero = self.robustness(requirement) == Some(0.0);
         below(requirement) || is_zero && self.is_failure() && !self.requirements().any(below)
     }
 
-    /// The ids of the requirements that it violates, in order.
+    /// Returns the ids of the requirements that the trial violates, in order.
     pub fn violated(&self) -> impl Iterator<Item = &str> {
         self.requirements().filter(|id| self.violates(id))
     }
 
-    /// When and by which part of its formula a requirement is violated, as far as that is known.
+    /// Returns the time and the part of the formula at which a requirement is violated, as far as they are known.
     pub fn violation(&self, requirement: &str) -> Option<&Violation> {
         self.judgement(requirement)?.violation.as_ref()
     }
 
-    /// What the car under test touched.
+    /// Returns the contact of the ego vehicle with another object, if there was one.
     pub fn contact(&self) -> Option<&Contact> {
         self.measured.as_ref()?.contact.as_ref()
     }
 
-    /// Whether the situation that the test is about came about; `None` where nobody says.
+    /// Returns `true` if the situation that the test is about occurred; `None` if it is not known.
     pub fn triggered(&self) -> Option<bool> {
         self.measured.as_ref().map(|measured| measured.triggered)
     }
 
-    /// Everything that was measured as a flat list of names and metrics, in the order in which the log has it.
+    /// Returns all measurements as a flat list of names and metrics, in the order of the log.
     pub fn metrics(&self) -> Vec<(String, Metric)> {
         metric::flat(self)
     }
 
-    /// Why it came to nothing, in words.
+    /// Returns the reason why the test has no result, in words.
     pub fn error(&self) -> Option<&str> {
         self.problem.as_ref().map(|problem| problem.message.as_str())
     }
 
-    /// Whether a test that was logged so has come to the same again. Logs of older versions do not say of what kind a problem
-    /// is, and have metrics that no test has any more.
+    /// Returns `true` if this trial repeats the result of a logged one. Logs of older versions do not state the kind of
+    /// a problem, and have metrics that tests no longer have; these differences are ignored.
     pub fn repeats(&self, logged: &Self) -> bool {
         let mut logged = logged.clone();
         logged.others = logged.others.iter().filter(|(name, _)| !RETIRED.contains(name)).map(owned).collect();
@@ -223,19 +224,19 @@ impl Trial {
         *self == logged
     }
 
-    /// Whether it violates a requirement.
+    /// Returns `true` if the trial violates a requirement.
     pub fn is_failure(&self) -> bool {
         self.verdict == Verdict::Fail
     }
 
-    /// Whether it says anything of the place where it is: broken and impossible tests cover nothing.
+    /// Returns `true` if the trial covers its place in the space. Trials with the verdict `error` or `invalid` do not.
     pub fn covers(&self) -> bool {
         !matches!(self.verdict, Verdict::Error | Verdict::Invalid)
     }
 }
 
 impl Problem {
-    /// Why a simulated run came to nothing, if it did.
+    /// Returns the problem of a simulated run, if it has one.
     fn of(ending: &Ending) -> Option<Self> {
         let cause = match ending {
             Ending::Pass | Ending::Fail | Ending::Inconclusive => return None,

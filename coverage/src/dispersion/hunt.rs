@@ -1,14 +1,14 @@
 //! The search of the whole cube, on all cores and against the clock.
 //!
-//! What is small is done on one thread. The rest is split into parts that cores take from each other; they share a bar,
-//! the volume of the largest box found, but walk one and the same tree, so that volume and witness of an exact result do
-//! not depend on their number.
+//! A small search ends on one thread. A larger search is split into parts that cores take from each other. The parts
+//! share a bar, the volume of the largest box found, but walk one and the same tree. Volume and witness of an exact
+//! result therefore do not depend on the number of threads.
 //!
-//! Where the time is limited and the exact search is not done in a share of it, two things follow. A large neighbourhood
-//! search raises the lower end: it finds larger boxes than a depth-first search, which stays in one corner of the tree.
-//! Then the upper end is lowered by iterative deepening (after Korf, Depth-first iterative-deepening, Artificial
-//! Intelligence 27, 1985): a search that forgets what is below a goal proves that nothing is above it, in no memory to
-//! speak of, where a best-first search of the same tree fills gigabytes.
+//! If the time is limited and the exact search does not end in a share of it, two things follow. A large
+//! neighbourhood search raises the lower bound: it finds larger boxes than a depth-first search, which stays in one
+//! corner of the tree. Then iterative deepening lowers the upper bound (after Korf, Depth-first iterative-deepening,
+//! Artificial Intelligence 27, 1985): a search that forgets everything below a goal proves that nothing is above it.
+//! It takes almost no memory, whereas a best-first search of the same tree fills gigabytes.
 
 use super::search::{Bar, BoxSearch, Found, MOST_LISTED, Open};
 use super::side::{Side, inside, volume};
@@ -18,21 +18,22 @@ use crate::{Bracket, Deadline, PointSet};
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// How many boxes are explored on one thread before the rest is shared out: what is small is done by then.
+/// The number of boxes that are explored on one thread before the rest is shared out: a small search is done by then.
 const ALONE: usize = 2_000;
-/// Into how many parts the rest is shared out: enough for cores to be busy until the end.
+/// The number of parts in which the rest is shared out: enough to keep all cores busy until the end.
 const PARTS: usize = 256;
-/// The share of a time limit after which the search stops hoping to be exact and works on the upper end.
+/// The share of a time limit after which the search gives up being exact and works on the upper bound.
 const HOPE: f64 = 0.2;
-/// The share of what is left then that goes into a better lower end.
+/// The share of the remaining time that then goes into a better lower bound.
 const IMPROVEMENT: f64 = 0.2;
-/// From how many dimensions on it pays to look for a better lower end before anything else.
+/// The least number of dimensions for which it pays to improve the lower bound before anything else.
 const EARLY_IMPROVEMENT: usize = 4;
-/// How many attempts are made at that between two looks at the clock.
+/// The number of attempts to improve the lower bound between two looks at the clock.
 const ROUND: u64 = 64;
-/// In more dimensions the children of one box take gigabytes, and what is known is the widest slab.
+/// The greatest number of dimensions of a search: in more, the children of one box take gigabytes. The widest slab is
+/// then the result.
 const MOST_DIMS: usize = 1_500;
-/// How many boxes one attempt explores.
+/// The number of boxes that one attempt explores.
 const ATTEMPT: usize = 500;
 
 /// The search for the largest empty box on all cores.
@@ -41,24 +42,24 @@ pub(super) struct Hunt<'a> {
     /// The volume of the witness, for all threads to see.
     bar: Bar,
     witness: LargestEmptyBox,
-    /// What has not been explored to the end, the largest first.
+    /// The boxes that have not been explored to the end, the largest first.
     open: Vec<Open>,
-    /// No box that is left is larger.
+    /// The upper bound: no box that is left is larger.
     upper: f64,
-    /// How often a better witness was looked for.
+    /// The number of attempts so far to find a better witness.
     attempts: u64,
-    /// Whether some part could not be explored for lack of memory.
+    /// `true` if some part could not be explored for lack of memory.
     full: bool,
 }
 
 impl<'a> Hunt<'a> {
-    /// A search that has found the witness so far, and is for boxes larger than it and than `above`.
+    /// Makes a search for boxes larger than the witness found so far and larger than `above`.
     pub fn new(points: &'a PointSet, witness: LargestEmptyBox, above: f64) -> Self {
         let bar = Bar::new(witness.volume().max(above));
         Self { points, bar, witness, open: vec![Open::cube(points)], upper: 1.0, attempts: 0, full: false }
     }
 
-    /// Searches to the end, or until the deadline; `watch` sees the bracket close.
+    /// Searches to the end, or until the deadline. `watch` receives the bracket while it narrows.
     pub fn run(mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
         if self.points.dims() > MOST_DIMS {
             return Dispersion { volume: self.bracket(), witness: self.witness };
@@ -72,7 +73,7 @@ impl<'a> Hunt<'a> {
         watch(self.bracket());
         self.explore(0.0, deadline.part(HOPE));
         if self.full && deadline.left().is_none() {
-            // There is no end to wait for.
+            // There is no deadline to wait for.
             return Dispersion { volume: self.bracket(), witness: self.witness };
         }
         self.improve(deadline.part(IMPROVEMENT), watch);
@@ -80,8 +81,8 @@ impl<'a> Hunt<'a> {
         Dispersion { volume: self.bracket(), witness: self.witness }
     }
 
-    /// Whether no box is larger than `above`, for which the search was made; `None` if that was not known at the
-    /// deadline.
+    /// Checks that no box is larger than `above`, for which the search was made; `None` if the answer was not known
+    /// at the deadline.
     pub fn finds_none(mut self, above: f64, deadline: Deadline) -> Option<bool> {
         if self.points.dims() > MOST_DIMS {
             return (self.witness.volume() > above).then_some(false);
@@ -106,7 +107,7 @@ impl<'a> Hunt<'a> {
         done.into_iter().all(|done| done).then_some(true)
     }
 
-    /// What is known by now.
+    /// The bracket that is known by now.
     fn bracket(&self) -> Bracket {
         let lower = self.witness.volume();
         if self.open.is_empty() {
@@ -117,7 +118,7 @@ impl<'a> Hunt<'a> {
         Bracket { lower, upper }
     }
 
-    /// Explores a little on one thread: what is small is done by then.
+    /// Explores a little on one thread: a small search is done by then.
     fn begin(&mut self, deadline: Deadline) {
         let mut nodes = 0;
         let mut watch = Watch::new(deadline);
@@ -129,7 +130,7 @@ impl<'a> Hunt<'a> {
         self.split(0.0, deadline);
     }
 
-    /// Branches the largest open boxes until there are enough above a volume to share out, the largest first.
+    /// Branches the largest open boxes until there are enough boxes above a volume to share out, the largest first.
     fn split(&mut self, above: f64, deadline: Deadline) {
         self.open.sort_by(|a, b| a.volume.total_cmp(&b.volume));
         while let Some(largest) = self.open.last()
@@ -142,14 +143,14 @@ impl<'a> Hunt<'a> {
             if !self.step(|_| std::mem::take(&mut first)) {
                 break;
             }
-            // Children are fewer than 2 d and smaller than most: a sort of what is nearly sorted.
+            // The children are fewer than 2 d, and smaller than most boxes: the sort runs on a nearly sorted list.
             self.open.sort_by(|a, b| a.volume.total_cmp(&b.volume));
         }
         self.open.reverse();
         self.close(1.0);
     }
 
-    /// Explores the last of the open boxes while `go_on`; whether memory allowed for that.
+    /// Explores the last open box while `go_on` returns `true`. Returns `false` if memory ran out.
     fn step(&mut self, go_on: impl FnMut(usize) -> bool) -> bool {
         let Some(root) = self.open.pop() else { return true };
         let best = self.bar.get();
@@ -163,8 +164,8 @@ impl<'a> Hunt<'a> {
         !found.lost
     }
 
-    /// Explores all open boxes on all cores, down to a volume; whether that was done before the deadline. What is
-    /// done is closed, if nothing was left out that could be larger than the witness.
+    /// Explores all open boxes on all cores, down to a volume. Returns `true` if that was done before the deadline.
+    /// Boxes that are done are closed, if nothing was left out that could be larger than the witness.
     fn explore(&mut self, down_to: f64, deadline: Deadline) -> bool {
         let (floor, dims) = (self.bar.get(), self.points.dims());
         let bar = Bar::new(floor.max(down_to));
@@ -189,7 +190,7 @@ impl<'a> Hunt<'a> {
         let mut listed = 0;
         for (found, part) in found.into_iter().zip(&self.open) {
             listed += found.open.iter().map(|open| open.inside.len()).sum::<usize>();
-            // What is left of a part may take more memory than the part.
+            // The rest of a part may take more memory than the part.
             if found.lost || listed > MOST_LISTED {
                 left.push(part.clone());
             } else {
@@ -210,8 +211,8 @@ impl<'a> Hunt<'a> {
         done
     }
 
-    /// Looks for larger boxes near the witness: some of its ends go back to the walls of the cube, and the points that
-    /// come in are cut away anew in the best way (a large neighbourhood search).
+    /// Looks for larger boxes near the witness: moves some of its ends back to the walls of the cube, and cuts the
+    /// points that come in away again in the best way (a large neighbourhood search).
     fn improve(&mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) {
         while !self.open.is_empty() && !deadline.passed() {
             self.attempt(deadline);
@@ -219,7 +220,8 @@ impl<'a> Hunt<'a> {
         }
     }
 
-    /// A round of such attempts; whether it found a larger box. Each has a bar of its own, so that what it finds does not depend on the others.
+    /// Makes a round of such attempts. Returns `true` if it found a larger box. Each attempt has its own bar, so that
+    /// its result does not depend on the others.
     fn attempt(&mut self, deadline: Deadline) -> bool {
         let best = self.bar.get();
         let attempt = |search: &mut BoxSearch, seed: u64| {
@@ -248,7 +250,7 @@ impl<'a> Hunt<'a> {
         self.bar.get() > best
     }
 
-    /// The witness with some of its ends at the walls.
+    /// The witness with some of its ends moved to the walls.
     fn relaxed(&self, seed: u64) -> Open {
         // A multiplicative hash is random enough to choose ends by.
         let mut state = (seed + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -277,8 +279,8 @@ impl<'a> Hunt<'a> {
         Open { volume: volume(&sides), sides, inside }
     }
 
-    /// Forgets open boxes that are not larger than the witness, and lowers the upper end to the largest of the rest
-    /// and to what has been proved.
+    /// Forgets open boxes that are not larger than the witness. Lowers the upper bound to the largest of the other
+    /// boxes and to the bound that has been proved.
     fn close(&mut self, proved: f64) {
         let best = self.bar.get();
         self.open.retain(|open| open.volume > best);
@@ -286,9 +288,9 @@ impl<'a> Hunt<'a> {
         self.upper = self.upper.min(largest).min(proved.max(best)).max(best);
     }
 
-    /// Proves lower and lower upper ends, each by a search that goes down to it and forgets what is below: it takes
-    /// no memory to speak of, and what it does again in every pass is little, because each takes a few times as long
-    /// as the one before.
+    /// Proves lower and lower upper bounds. Each pass is a search down to its goal that forgets everything below the
+    /// goal, so that it takes almost no memory. A pass repeats the work of the earlier passes, but each takes a few
+    /// times as long as the one before, so that the repetition costs little.
     fn deepen(&mut self, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) {
         let mut passes: Vec<(f64, f64)> = Vec::new();
         while !self.open.is_empty() && !deadline.passed() {
@@ -305,10 +307,10 @@ impl<'a> Hunt<'a> {
     }
 }
 
-/// Which upper end to try to prove next, in the time that is left.
+/// The upper bound that the next pass should try to prove in the remaining time.
 ///
-/// The time grows as a power of the goal, which the last two passes tell; the next one is to take four times as long
-/// as the last, or the time that is left where a further one would not fit in.
+/// The time grows as a power of the goal. The last two passes give the exponent. The next pass should take four times
+/// as long as the last, or the remaining time if no further pass would fit in.
 fn next_goal(best: f64, upper: f64, passes: &[(f64, f64)], left: f64) -> f64 {
     let (low, high) = (libm::log(best), libm::log(upper));
     let goal = match passes {

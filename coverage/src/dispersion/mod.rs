@@ -1,25 +1,26 @@
 //! Dispersion: the largest open axis-parallel box in the unit cube that no point has entered.
 //!
-//! Every empty box is what is left of the cube after each point has been cut away along some axis, on one of its
-//! two sides. The search branches on that: it takes a point inside the box at hand, the pivot, and tries its
-//! `2d` cuts. A box without points inside is a candidate; one that is no larger than the best candidate is
-//! dropped. Three things keep this small:
+//! An empty box is what is left of the cube after each point has been cut away along some axis, on one of the box's
+//! two sides. The search branches on these cuts: it takes a point inside the current box, the pivot, and tries its
+//! `2d` cuts. A box without points inside is a candidate. A box that is no larger than the best candidate is dropped.
+//! Three things keep the search small:
 //!
 //! * Children are disjoint. The cuts of a pivot are tried in an order, and the child of a later cut carries the
-//!   constraint that the earlier ones were not made (`Side::kept`), so that no empty box is found twice. The larger a child, the later in the order and the more constrained it is.
-//! * The pivot is chosen well: the one whose children's volumes have the least sum of cubes. That prefers points
-//!   near the centre, and above all points that constraints and the best candidate leave few cuts.
+//!   constraint that the earlier cuts were not made (`Side::kept`), so that no empty box is found twice. Larger
+//!   children come later in the order and are more constrained.
+//! * The pivot is chosen well: it is the point whose children's volumes have the least sum of cubes. That prefers
+//!   points near the centre, and above all points to which constraints and the best candidate leave few cuts.
 //! * Volumes are products of differences, which floating-point rounding keeps monotone: a box inside another is
 //!   never computed to be larger. Pruning on computed volumes is exact, without tolerances.
 //!
-//! The search of one box (`search.rs`) is depth-first with a stack of its own, because boxes can be cut `n` deep; the
-//! larger children are explored first, which finds good candidates early. The search of the cube (`hunt.rs`) shares
-//! boxes out to all cores; under a time limit it gives up being exact in time to close in on the answer from both
-//! sides.
+//! The search of one box (`search.rs`) is depth-first with a stack of its own, because boxes can be cut `n` deep. It
+//! explores the larger children first, which finds good candidates early. The search of the cube (`hunt.rs`) shares
+//! boxes out to all cores. Under a time limit it gives up the exact search early enough to narrow the bracket from
+//! both sides.
 //!
-//! The pivots of a search that found nothing above a volume prove that there is nothing (`trail.rs`).
+//! If a search found nothing above a volume, its pivots prove that no box is larger (`trail.rs`).
 //!
-//! An interval needs no search, and rectangles have one of their own (`plane.rs`).
+//! One dimension needs no search, and two dimensions have a search of their own (`plane.rs`).
 
 mod hunt;
 mod plane;
@@ -49,24 +50,25 @@ impl Measure {
     });
 }
 
-/// The largest volume over the open axis-parallel boxes in `[0,1]^d` that hold none of the points. A point on a
-/// face of a box is not in it; of a set without points the largest is the cube, with volume 1 (Rote, Tichy,
-/// Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23, 1996).
+/// Computes the dispersion: the largest volume of an open axis-parallel box in `[0,1]^d` that holds none of the
+/// points. A point on a face of a box is not in the box. The dispersion of a set without points is 1, the volume of
+/// the cube (Rote, Tichy, Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling
+/// 23, 1996).
 ///
-/// Exact, in any dimension, unless `deadline` cuts the search short (in one dimension it never does), or from three
-/// dimensions on memory (some 200 MiB), which only many points on a curved surface need. Volume and witness of an exact
-/// result do not depend on the number of threads.
+/// The result is exact, in any dimension, unless `deadline` cuts the search short (in one dimension it never does).
+/// From three dimensions on, the limit of memory (some 200 MiB) can also cut it short, but only for many points on a
+/// curved surface. Volume and witness of an exact result do not depend on the number of threads.
 pub fn dispersion(points: &PointSet, deadline: Deadline) -> Dispersion {
     dispersion_watched(points, deadline, &mut |_| ())
 }
 
-/// The [`dispersion`], while `watch` sees the bracket close.
+/// Computes the [`dispersion`], and calls `watch` with the bracket while it narrows.
 pub fn dispersion_watched(points: &PointSet, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
     largest_above(points, f64::NEG_INFINITY, deadline, watch)
 }
 
-/// Whether the dispersion is at most `volume`; `None` if that was not known at the deadline. To know it takes less
-/// than to know the dispersion.
+/// Checks whether the dispersion is at most `volume`; `None` if the answer was not known at the deadline. This takes
+/// less time than to compute the dispersion.
 pub fn is_at_most(points: &PointSet, volume: f64, deadline: Deadline) -> Option<bool> {
     let slab = widest_slab(points);
     match points.dims() {
@@ -76,13 +78,13 @@ pub fn is_at_most(points: &PointSet, volume: f64, deadline: Deadline) -> Option<
     }
 }
 
-/// The dispersion, if it is not proved to be at most `above`.
+/// The dispersion; `None` if the search proves that it is at most `above`.
 pub(crate) fn larger_than(points: &PointSet, above: f64, deadline: Deadline) -> Option<Dispersion> {
     let found = largest_above(points, above, deadline, &mut |_| ());
     (found.volume.upper > above).then_some(found)
 }
 
-/// The dispersion, if it is more than `above`; otherwise some empty box, as if it were the largest.
+/// The dispersion if it is more than `above`; otherwise some empty box, reported as if it were the largest.
 fn largest_above(points: &PointSet, above: f64, deadline: Deadline, watch: &mut dyn FnMut(Bracket)) -> Dispersion {
     let slab = widest_slab(points);
     match points.dims() {
@@ -95,8 +97,8 @@ fn largest_above(points: &PointSet, above: f64, deadline: Deadline, watch: &mut 
     }
 }
 
-/// The widest gap between neighbouring coordinates along any axis, as a box across the whole cube: the candidate
-/// that the search starts from.
+/// The widest gap between neighbouring coordinates along any axis, as a box across the whole cube. The search starts
+/// from this candidate.
 fn widest_slab(points: &PointSet) -> LargestEmptyBox {
     let dims = points.dims();
     let gaps = (0..dims).flat_map(|axis| {

@@ -1,23 +1,24 @@
-//! The largest empty rectangle in the plane, in time and memory that no set of points can make large.
+//! Finds the largest empty rectangle in the plane, with bounded time and memory for every set of points.
 //!
-//! The search of many dimensions is quick where points are spread out, but on a circle or a hyperbola nearly every pair
-//! of points spans a rectangle as large as any. Here the square is divided and conquered (Chazelle, Drysdale, Lee,
-//! Computing the largest empty rectangle, SIAM J. Comput. 15, 1986): a rectangle lies to the left of a vertical line,
-//! to the right of it, or across; one that lies across it is above a horizontal line, below it, or across, and then
-//! holds the point where both meet. Around that point the points form a staircase upward and one downward, and a
-//! rectangle is made of a step of each:
+//! The search for many dimensions is quick if points are spread out. But on a circle or a hyperbola nearly every pair
+//! of points spans a rectangle as large as any other. This module divides and conquers the square (Chazelle,
+//! Drysdale, Lee, Computing the largest empty rectangle, SIAM J. Comput. 15, 1986). A rectangle lies to the left of a
+//! vertical line, to the right of it, or across it. A rectangle across it is above a horizontal line, below it, or
+//! across, and then holds the point where both lines meet. Around that point the points form one staircase upward and
+//! one downward, and a rectangle joins a step of each:
 //!
-//! * Where both its sides come from one staircase, the best step of the other is the farthest that leaves them alone.
-//! * Where each gives one side, the areas form an inverse Monge matrix, in which the best column moves one way from row
-//!   to row (Aggarwal, Suri, Fast algorithms for computing the largest empty rectangle, SoCG 1987). Which pairs of
-//!   steps these are is a band, which is cut into whole matrices as a segment tree would.
+//! * If both sides of the rectangle come from one staircase, the best step of the other staircase is the farthest
+//!   step that does not make the rectangle narrower.
+//! * If each staircase gives one side, the areas form an inverse Monge matrix, in which the best column moves one way
+//!   from row to row (Aggarwal, Suri, Fast algorithms for computing the largest empty rectangle, SoCG 1987). The
+//!   pairs of steps for which this holds are a band, which is cut into whole matrices as in a segment tree.
 //!
-//! What is no larger than the best so far is passed over. Areas are products of differences, which rounding keeps
-//! monotone, so that this is exact. The matrices are not inverse Monge to the last bit: columns that rounding may have
-//! misplaced are kept.
+//! Parts no larger than the best rectangle so far are passed over. Areas are products of differences, which rounding
+//! keeps monotone, so that this is exact. The matrices are not inverse Monge to the last bit: columns that rounding
+//! may have misplaced are kept.
 //!
-//! Of `n` points this takes `O(n log n)` memory at most, and `O(n log^4 n)` time, of which two logarithms are only for
-//! points that are arranged for it.
+//! `n` points take at most `O(n log n)` memory and `O(n log^4 n)` time. Two of these logarithms occur only for points
+//! that are arranged to cause them.
 
 use super::search::Bar;
 use super::{Dispersion, LargestEmptyBox};
@@ -25,14 +26,14 @@ use crate::bracket::Watch;
 use crate::{Bracket, Deadline, PointSet};
 use std::ops::Range;
 
-/// From how many points on a part of the work is shared with other cores.
+/// The number of points from which on a part of the work is shared with other cores.
 const SHARED: usize = 2_000;
 
 /// The search for the largest empty rectangle on all cores.
 pub(super) struct Plane {
     /// The points in the order of their second coordinate.
     points: Vec<[f64; 2]>,
-    /// Their first coordinates in order.
+    /// The first coordinates of the points, in ascending order.
     columns: Vec<f64>,
     /// The area of the largest rectangle, for all threads to see.
     bar: Bar,
@@ -40,10 +41,10 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// A search that has found the witness so far, and is for rectangles larger than it and than `above`.
+    /// Makes a search for rectangles larger than the witness found so far and larger than `above`.
     ///
     /// # Panics
-    /// The points have other than two coordinates.
+    /// The points do not have two coordinates.
     pub fn new(points: &PointSet, witness: LargestEmptyBox, above: f64) -> Self {
         let inside = |x: f64| 0.0 < x && x < 1.0;
         let points = points.iter().map(|point| [point[0], point[1]]);
@@ -65,8 +66,8 @@ impl Plane {
         Dispersion { volume: Bracket { lower, upper: left.map_or(lower, |left| left.max(lower)) }, witness }
     }
 
-    /// Whether no rectangle is larger than `above`, for which the search was made; `None` if that was not known at the
-    /// deadline.
+    /// Checks that no rectangle is larger than `above`, for which the search was made; `None` if the answer was not
+    /// known at the deadline.
     pub fn finds_none(self, above: f64, deadline: Deadline) -> Option<bool> {
         if self.witness.volume() > above {
             return Some(false);
@@ -78,8 +79,8 @@ impl Plane {
         left.is_none().then_some(true)
     }
 
-    /// The largest rectangle, if it is larger than the witness, and the area of the largest part that was left. It may
-    /// end as soon as there is one larger than `enough`.
+    /// The largest rectangle, if it is larger than the witness, and the area of the largest part that was left. The
+    /// search may end as soon as it finds a rectangle larger than `enough`.
     fn search(&self, deadline: Deadline, enough: f64) -> (Option<Rectangle>, Option<f64>) {
         let mut search = PlaneSearch::new(&self.bar, self.bar.get(), enough, deadline);
         search.strip(Rectangle { left: 0.0, right: 1.0, bottom: 0.0, top: 1.0 }, &self.columns, &self.points);
@@ -106,8 +107,8 @@ impl Rectangle {
     }
 }
 
-/// One end of rectangles that hold a point: where it is, and how far they may then reach to both sides, as far as the
-/// points on the way to this end are concerned. From step to step a staircase gets higher and no wider.
+/// One end of rectangles that hold a point: its coordinate, and how far these rectangles may reach to both sides past
+/// the points on the way to this end. From step to step a staircase gets higher and no wider.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     y: f64,
@@ -116,7 +117,7 @@ struct Step {
 }
 
 impl Step {
-    /// The rectangle from this end to another, on the other side of the point.
+    /// The rectangle from this end to another end on the other side of the point.
     fn to(&self, other: &Self) -> Rectangle {
         Rectangle {
             left: self.left.max(other.left),
@@ -134,11 +135,11 @@ impl Step {
 
 /// The search of a part, on one thread until it is large enough to be shared.
 struct PlaneSearch<'a> {
-    /// Parts with less than this do not matter any more.
+    /// The shared bar: parts with a smaller area do not matter any more.
     bar: &'a Bar,
-    /// Nor do those with no more than this: the area of the witness, or what it has to exceed.
+    /// The area of the witness, or the area that it must exceed: parts with no larger area do not matter either.
     best: f64,
-    /// The search may end when it has found more than this.
+    /// The area beyond which a rectangle ends the search.
     enough: f64,
     /// The first of the largest rectangles, in an order that does not depend on threads.
     witness: Option<Rectangle>,
@@ -155,7 +156,7 @@ impl<'a> PlaneSearch<'a> {
         Self { bar, best, enough, witness: None, left: None, deadline, watch, late: deadline.passed() }
     }
 
-    /// Whether a part no larger than `bound` is to be searched, which takes looking at `work` points.
+    /// Returns `true` if a part no larger than `bound` must be searched. The search looks at `work` points.
     fn enters(&mut self, bound: f64, work: usize) -> bool {
         let bar = self.bar.get();
         if bound <= self.best || bound < bar {
@@ -177,7 +178,7 @@ impl<'a> PlaneSearch<'a> {
         }
     }
 
-    /// Does two things, one after the other or at once, with the same result.
+    /// Does two things, one after the other or at the same time, with the same result.
     fn both(&mut self, size: usize, one: impl FnOnce(&mut Self) + Send, other: impl FnOnce(&mut Self) + Send) {
         if size < SHARED {
             one(self);
@@ -196,8 +197,8 @@ impl<'a> PlaneSearch<'a> {
         }
     }
 
-    /// Searches a part of full height, given the points inside in the order of their second coordinates and, by
-    /// themselves, their first coordinates in order.
+    /// Searches a part of full height. `points` are the points inside in the order of their second coordinates, and
+    /// `columns` are their first coordinates in ascending order.
     fn strip(&mut self, whole: Rectangle, columns: &[f64], points: &[[f64; 2]]) {
         if !self.enters(whole.area(), points.len()) {
             return;
@@ -221,8 +222,8 @@ impl<'a> PlaneSearch<'a> {
         );
     }
 
-    /// Searches the rectangles across a vertical line, given the points inside `whole` in the order of their second
-    /// coordinates.
+    /// Searches the rectangles across a vertical line. `points` are the points inside `whole` in the order of their
+    /// second coordinates.
     fn across(&mut self, whole: Rectangle, x: f64, points: &[[f64; 2]]) {
         if !self.enters(whole.area(), 1) {
             return;
@@ -245,7 +246,8 @@ impl<'a> PlaneSearch<'a> {
         );
     }
 
-    /// The steps from a point to an end of `whole`, past points in their order; those too narrow to matter are left out.
+    /// The steps from a point to an end of `whole`, past points in their order. Steps that are too narrow to matter
+    /// are left out.
     fn staircase<'p>(
         &mut self,
         whole: Rectangle,
@@ -285,7 +287,7 @@ impl<'a> PlaneSearch<'a> {
         self.band(up, down, 0..0);
     }
 
-    /// Those with both sides from one staircase.
+    /// Searches the rectangles with both sides from the staircase `inner`.
     fn within(&mut self, inner: &[Step], outer: &[Step]) {
         let mut reach = 0;
         for step in inner {
@@ -298,8 +300,8 @@ impl<'a> PlaneSearch<'a> {
         }
     }
 
-    /// Those with the left side from one of the rows, and the right side from one of the columns. Those with columns in
-    /// `done` have been searched; all rows have them.
+    /// Searches the rectangles with the left side from a row and the right side from a column. The columns in `done`,
+    /// which belong to all rows, have already been searched.
     fn band(&mut self, rows: &[Step], columns: &[Step], done: Range<usize>) {
         let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return };
         let begin = |row: &Step| columns.partition_point(|column| column.right > row.right);
@@ -323,7 +325,7 @@ impl<'a> PlaneSearch<'a> {
         }
     }
 
-    /// The same, where every row has every column: from row to row the best column only moves back.
+    /// Searches the same rectangles if every row has every column: from row to row the best column only moves back.
     fn matrix(&mut self, rows: &[Step], columns: &[Step]) {
         if rows.is_empty() || columns.is_empty() {
             return;
@@ -335,7 +337,7 @@ impl<'a> PlaneSearch<'a> {
         let middle = rows.len() / 2;
         let area = |column: &Step| rows[middle].across(column).area();
         let most = columns.iter().map(area).fold(0.0, f64::max);
-        // Of three roundings each of four areas can have lost one and a half epsilons, as shares of at most the bound.
+        // Four areas of three roundings each can have lost one and a half epsilons, as shares of at most the bound.
         let least = most - 8.0 * f64::EPSILON * bound;
         let first = columns.iter().position(|column| area(column) >= least).unwrap_or(0);
         let last = columns.iter().rposition(|column| area(column) >= least).unwrap_or(columns.len() - 1);
@@ -347,7 +349,7 @@ impl<'a> PlaneSearch<'a> {
     }
 }
 
-/// What no rectangle exceeds that has its left side from one of the rows and its right side from one of the columns.
+/// An upper bound on the area of a rectangle with its left side from a row and its right side from a column.
 fn largest(rows: &[Step], columns: &[Step]) -> f64 {
     let widest = rows[0].across(&columns[0]);
     let highest = rows[rows.len() - 1].to(&columns[columns.len() - 1]);

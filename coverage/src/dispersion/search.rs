@@ -1,9 +1,9 @@
-//! The depth-first search of one box: every empty box inside it that is larger than a bar.
+//! The depth-first search of one box: it finds every empty box inside that is larger than a bar.
 //!
-//! The tree is the same whatever the bar: which pivot is taken and what is promised to children does not depend on
-//! what has been found so far, only on the `reference` volume that is fixed beforehand. A bar that rises sooner
-//! or later, because another thread has found something, therefore leaves out more or less of one and the same tree,
-//! and the first largest box in its order is always the same.
+//! The tree does not depend on the bar. The choice of pivots and the promises to children do not depend on what has
+//! been found so far, only on the `reference` volume that is fixed beforehand. If another thread raises the bar
+//! sooner or later, the search therefore leaves out more or less of the same tree, and the first largest box in the
+//! order of the tree is always the same.
 
 use super::LargestEmptyBox;
 use super::side::{End, Side, inside, volume};
@@ -11,7 +11,7 @@ use crate::PointSet;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A volume that many threads raise. Non-negative floats are ordered as their bits are.
+/// A volume that many threads raise. Non-negative floats have the same order as their bits.
 #[derive(Debug)]
 pub(super) struct Bar(AtomicU64);
 
@@ -47,75 +47,75 @@ impl Open {
     }
 }
 
-/// A way to get rid of a point: an end of the box moves to it.
+/// A way to cut a point away: an end of the box moves to the point.
 #[derive(Debug, Clone, Copy)]
 struct Cut {
     axis: u32,
     end: End,
-    /// What is left of the box.
+    /// The volume of the rest of the box.
     volume: f64,
 }
 
-/// A box on the stack; its sides lie on a stack of their own.
+/// A box on the stack. Its sides lie on a stack of their own.
 struct Node {
     volume: f64,
-    /// Where the points inside the box that it was cut from are listed, and the axis of the cut, which is all that
-    /// they need be compared along.
+    /// The place where the points inside the parent box are listed, and the axis of the cut: the points need only be
+    /// compared along this axis.
     around: Range<usize>,
     cut: Option<u32>,
 }
 
-/// What a search came to.
+/// The result of a search.
 #[derive(Debug)]
 pub(super) struct Found {
     /// The first of the largest empty boxes above the bar, if there is one.
     pub witness: Option<LargestEmptyBox>,
-    /// What was not explored for lack of nodes.
+    /// The boxes that were not explored, because the search was ended.
     pub open: Vec<Open>,
-    /// Whether the search ended for lack of memory, and what is open is not all.
+    /// `true` if the search ended for lack of memory, so that `open` is incomplete.
     pub lost: bool,
 }
 
 impl Found {
-    /// Whether all was explored.
+    /// Returns `true` if all boxes were explored.
     pub fn is_done(&self) -> bool {
         self.open.is_empty() && !self.lost
     }
 }
 
-/// How many points the lists of a search may hold where nothing else is said: 64 MiB.
+/// The number of points that the lists of a search may hold by default: 64 MiB.
 pub(super) const MOST_LISTED: usize = 1 << 24;
 
 pub(super) struct BoxSearch<'a> {
     points: &'a PointSet,
-    /// The volume that pivots are chosen for: boxes below it are not expected to matter.
+    /// The volume for which pivots are chosen: smaller boxes are not expected to matter.
     reference: f64,
     nodes: Vec<Node>,
     sides: Vec<Side>,
-    /// The points inside each box, as a stack: a list outlives the lists of the boxes inside its own.
+    /// The points inside each box, as a stack: the list of a box stays while the boxes inside it are searched.
     lists: Vec<u32>,
     cuts: Vec<Cut>,
     /// One over the length of each side.
     scales: Vec<f64>,
-    /// The pivots in the order in which they were taken, where they are to be a proof.
+    /// The pivots in the order in which they were taken, if the search is to give a proof.
     trail: Option<Vec<u32>>,
-    /// How many points its lists may hold, and how many those of what it leaves open.
+    /// The number of points that the lists may hold, and the number that the lists of the open boxes may hold.
     most_listed: usize,
-    /// How many sides of boxes may wait.
+    /// The greatest number of sides of waiting boxes.
     most_sides: usize,
 }
 
 impl<'a> BoxSearch<'a> {
     pub fn new(points: &'a PointSet, reference: f64) -> Self {
         let (nodes, sides, lists, cuts, scales) = Default::default();
-        // A box and its children must fit in any case.
+        // A box and its children must always fit.
         let most_listed = MOST_LISTED.max(4 * points.len());
         let most_sides = (MOST_LISTED / 8).max(4 * points.dims() * points.dims());
         Self { points, reference, nodes, sides, lists, cuts, scales, trail: None, most_listed, most_sides }
     }
 
-    /// A search that can be followed without its arithmetic: it tries cuts in the order of the axes and remembers its
-    /// pivots.
+    /// Makes a search that can be repeated without its arithmetic: it tries cuts in the order of the axes and
+    /// remembers its pivots.
     pub fn with_trail(points: &'a PointSet, reference: f64) -> Self {
         Self { trail: Some(Vec::new()), ..Self::new(points, reference) }
     }
@@ -125,10 +125,11 @@ impl<'a> BoxSearch<'a> {
         self.trail.unwrap_or_default()
     }
 
-    /// Explores a box as long as `go_on`, which is told how many points each step looks at.
+    /// Explores a box as long as `go_on` returns `true`. `go_on` receives the number of points that each step looks
+    /// at.
     ///
-    /// Left out is what is below the shared bar, and what is at or below `floor`: boxes that large need not be found.
-    /// What this search finds raises both.
+    /// The search leaves out boxes below the shared bar, and boxes at or below `floor`. A box that it finds raises
+    /// both.
     pub fn explore(&mut self, root: &Open, shared: &Bar, floor: f64, mut go_on: impl FnMut(usize) -> bool) -> Found {
         let dims = self.points.dims();
         self.lists.clear();
@@ -164,7 +165,7 @@ impl<'a> BoxSearch<'a> {
                 best = node.volume;
                 shared.raise(best);
                 if self.trail.is_some() {
-                    // It does not lead to a proof.
+                    // A larger box means that there is no proof.
                     break;
                 }
             }
@@ -172,7 +173,7 @@ impl<'a> BoxSearch<'a> {
         found
     }
 
-    /// Leaves what waits on the stack, above a volume.
+    /// Moves the waiting boxes above a volume from the stack to `found.open`.
     fn leave(&mut self, above: f64, found: &mut Found) {
         let dims = self.points.dims();
         let mut listed = 0;
@@ -180,7 +181,7 @@ impl<'a> BoxSearch<'a> {
             if node.volume <= above {
                 continue;
             }
-            // The points are inside the box that it was cut from, so that only the cut need be compared.
+            // The points are inside the parent box, so that only the axis of the cut need be compared.
             let holds = |point: &&u32| {
                 let point = self.points.point(**point as usize);
                 node.cut.is_none_or(|axis| sides[axis as usize].holds(point[axis as usize]))
@@ -195,7 +196,7 @@ impl<'a> BoxSearch<'a> {
         }
     }
 
-    /// Puts the children of a box on the stack, if there is a point inside.
+    /// Puts the children of a box on the stack. Returns `false` if no point is inside the box.
     fn branch(&mut self, node: &Node, sides: &mut [Side], best: f64, shared: f64) -> bool {
         let list = self.list(node, sides);
         let Some(pivot) = self.pivot(list.clone(), sides) else { return false };
@@ -215,7 +216,7 @@ impl<'a> BoxSearch<'a> {
             sides[axis] = side;
         }
         if self.trail.is_none() {
-            // The largest comes last: most constrained, and on top of the stack.
+            // The largest comes last: it is the most constrained, and on top of the stack.
             self.cuts.sort_by(|a, b| a.volume.total_cmp(&b.volume));
         }
         for cut in &self.cuts {
@@ -231,7 +232,7 @@ impl<'a> BoxSearch<'a> {
         true
     }
 
-    /// Lists the points inside a box on top of those of the box that it was cut from.
+    /// Lists the points inside a box, after those of its parent box.
     fn list(&mut self, node: &Node, sides: &[Side]) -> Range<usize> {
         self.lists.truncate(node.around.end);
         let Some(axis) = node.cut else { return node.around.clone() };
@@ -248,7 +249,7 @@ impl<'a> BoxSearch<'a> {
 
     /// The listed point whose possible cuts leave the least sum of cubed volumes.
     ///
-    /// Shares of the box's volume serve to choose; whether a cut is worth exploring is decided by its volume.
+    /// The choice uses shares of the box's volume. Whether a cut is worth exploring is decided by its volume.
     fn pivot(&mut self, list: Range<usize>, sides: &[Side]) -> Option<usize> {
         let least = self.reference / volume(sides);
         self.scales.clear();

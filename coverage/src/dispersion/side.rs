@@ -1,13 +1,13 @@
-//! The sides of a box under search: where they end, and where they have promised to end or not to end.
+//! The sides of a box under search: where they end, and where empty boxes inside may end.
 
-/// A box along one axis, and what is known of the empty boxes that are looked for inside it.
+/// A box along one axis, with the constraints on the empty boxes that are searched inside it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Side {
     pub lower: f64,
     pub upper: f64,
-    /// Their lower ends are below this: cuts from there on were tried elsewhere.
+    /// The lower ends of the empty boxes are below this coordinate: other branches try the cuts from there on.
     lower_below: f64,
-    /// Their upper ends are above this.
+    /// The upper ends of the empty boxes are above this coordinate.
     upper_above: f64,
 }
 
@@ -19,7 +19,7 @@ pub(super) enum End {
 }
 
 impl Side {
-    /// A side with nothing promised.
+    /// Makes a side without constraints.
     pub fn between(lower: f64, upper: f64) -> Self {
         Self { lower, upper, lower_below: f64::INFINITY, upper_above: f64::NEG_INFINITY }
     }
@@ -28,12 +28,12 @@ impl Side {
         self.upper - self.lower
     }
 
-    /// Whether `x` lies strictly inside.
+    /// Returns `true` if `x` lies strictly inside the side.
     pub fn holds(&self, x: f64) -> bool {
         self.lower < x && x < self.upper
     }
 
-    /// Whether an end may move to `x`.
+    /// Returns `true` if an end may move to `x`.
     pub fn allows(&self, x: f64, end: End) -> bool {
         match end {
             End::Lower => x < self.lower_below,
@@ -41,7 +41,7 @@ impl Side {
         }
     }
 
-    /// The side with an end at `x`.
+    /// Returns the side with an end at `x`.
     pub fn moved(self, x: f64, end: End) -> Self {
         match end {
             End::Lower => Self { lower: x, ..self },
@@ -49,7 +49,7 @@ impl Side {
         }
     }
 
-    /// The side with the promise that this end does not reach `x`.
+    /// Returns the side with the constraint that this end does not reach `x`.
     pub fn kept(self, x: f64, end: End) -> Self {
         match end {
             End::Lower => Self { lower_below: self.lower_below.min(x), ..self },
@@ -58,12 +58,12 @@ impl Side {
     }
 }
 
-/// Volumes are products of differences in the order of the axes, which rounding keeps monotone.
+/// The volume of a box: the product of differences in the order of the axes, which rounding keeps monotone.
 pub(super) fn volume(sides: &[Side]) -> f64 {
     sides.iter().map(Side::length).product()
 }
 
-/// Whether a point lies strictly inside a box.
+/// Returns `true` if a point lies strictly inside a box.
 pub(super) fn inside(point: &[f64], sides: &[Side]) -> bool {
     sides.iter().zip(point).all(|(side, x)| side.holds(*x))
 }

@@ -1,10 +1,10 @@
 //! The search of the whole cube, on all cores and against the clock.
 //!
-//! Rounds take the open boxes with the largest bounds and explore each a little, all with the same best place; what
-//! they find is put together in their order. What is computed therefore does not depend on the number of threads. When
-//! the open boxes take too much memory, the rounds go on depth first: each of the largest is explored down to a goal,
-//! and forgets what is below (iterative deepening after Korf, Artificial Intelligence 27, 1985). That brings its bound
-//! to the goal and takes no memory to speak of.
+//! Each round takes the open boxes with the largest bounds and explores each a little, all with the same best place.
+//! The results are put together in the order of the boxes, so that they do not depend on the number of threads. If
+//! the open boxes take too much memory, the rounds go on depth first: each of the boxes with the largest bounds is
+//! explored down to a goal and forgets what is below it (iterative deepening after Korf, Artificial Intelligence 27,
+//! 1985). That lowers the box's bound to the goal and takes almost no memory.
 
 use super::search::{BallSearch, Centre, Open, Outcome, same_as};
 use super::tree::{Tree, squared_distance};
@@ -13,16 +13,16 @@ use crate::{Bracket, Deadline, PointSet};
 use rayon::prelude::*;
 use std::collections::BinaryHeap;
 
-/// How many climbs precede the search, and the share of the time they may take.
+/// The number of climbs before the search, and the share of the time that they may take.
 const CLIMBS: u32 = 128;
 const TIME_FOR_CLIMBS: f64 = 0.1;
-/// How many boxes are explored in a round, and how far each.
+/// The number of boxes that a round explores, and how many boxes each of them may become.
 const ROUND: usize = 128;
 const BOXES: usize = 8;
-/// How many bytes the open boxes may take, and what the allocator adds to each.
+/// The number of bytes that the open boxes may take, and the allocator's overhead for each.
 const MOST_BYTES: usize = 80 << 20;
 const ALLOCATION: usize = 16;
-/// What a goal leaves of the largest bound; with less than twice that to go, the goal is the end.
+/// The next goal as a share of the largest bound. If two such steps reach the end, the goal is the end.
 const GOAL: f64 = 0.99;
 
 /// The search for the largest empty ball on all cores.
@@ -30,15 +30,15 @@ pub(super) struct Hunt<'a> {
     points: &'a PointSet,
     tree: Tree,
     best: Centre,
-    /// Where something better may be.
+    /// The boxes that may hold a better place.
     open: BinaryHeap<Open>,
-    /// How many open boxes there may be before the search goes on depth first.
+    /// The greatest number of open boxes before the search goes on depth first.
     most_open: usize,
     deadline: Deadline,
 }
 
 impl<'a> Hunt<'a> {
-    /// A search that has looked at the middle and at two corners of the cube. There has to be a point.
+    /// Makes a search that has looked at the middle and at two corners of the cube. There must be a point.
     pub fn new(points: &'a PointSet, deadline: Deadline) -> Self {
         let tree = Tree::new(points);
         let sides: Box<[Side]> = vec![Side { lower: 0.0, upper: 1.0 }; points.dims()].into();
@@ -82,8 +82,7 @@ impl<'a> Hunt<'a> {
         }
     }
 
-    /// Explores the boxes with the largest bounds as far as they are above a goal, and puts them back as no larger than
-    /// that.
+    /// Explores the boxes with the largest bounds down to a goal, and puts them back with the goal as their bound.
     fn deepen(&mut self) {
         let end = self.bar();
         let bound = self.open.peek().map_or(end, |open| open.bound);
@@ -98,7 +97,7 @@ impl<'a> Hunt<'a> {
         }
     }
 
-    /// Some open boxes with the largest bounds, above a squared distance.
+    /// Takes some open boxes with the largest bounds, all above a squared distance.
     fn take_above(&mut self, bar: f64) -> Vec<Open> {
         let above =
             std::iter::from_fn(|| self.open.peek().is_some_and(|open| open.bound > bar).then(|| self.open.pop()));
@@ -112,7 +111,7 @@ impl<'a> Hunt<'a> {
         open.into_par_iter().with_max_len(1).map_init(new_search, explore).collect()
     }
 
-    /// What is no larger need not be looked for.
+    /// The squared distance up to which a box need not be searched.
     fn bar(&self) -> f64 {
         same_as(self.best.squared, self.points.dims())
     }
@@ -134,7 +133,7 @@ impl<'a> Hunt<'a> {
     }
 }
 
-/// The place where a climb starts: one coordinate in five is an end, on average.
+/// The place where a climb starts: on average, one coordinate in five is at an end of its axis.
 fn start(dims: usize, number: u32) -> Vec<f64> {
     // The mixing of splitmix64 (Steele, Lea, Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
     let mut state = u64::from(number);

@@ -1,30 +1,32 @@
-//! How far from its nearest point a place in a box can be, at most.
+//! Bounds the distance between a place in a box and its nearest point.
 //!
-//! For weights of some points that sum to 1, the squared distance of a place from its nearest point is no more than the
-//! weighted mean of its squared distances from all. That mean is a sum over the axes of convex functions of one
-//! coordinate, so that its largest value in a box is the sum of the larger of its two values at the ends, axis by axis.
-//! All of it is sums of squares: rounding takes away a few ulps relatively, and the bound is certain whatever the weights.
+//! For weights of some points that sum to 1, the squared distance of a place from its nearest point is at most the
+//! weighted mean of its squared distances from all these points. That mean is a sum over the axes of convex functions
+//! of one coordinate. Its largest value in a box is therefore the sum, axis by axis, of the larger of its two values
+//! at the ends. All terms are squares: rounding takes away a few ulps relatively, and the bound is certain for any
+//! weights.
 //!
-//! The best weights are the solution of a linear program. Between the ends of the box the squares are replaced by their
-//! secants (Falk, Soland, An algorithm for separable nonconvex programming problems, Management Science 15, 1969). In
-//! `z` of `[0,1]^d` that measures the box, the squared distance from point i then is a linear function `h_i(z)`. The
-//! largest `min h_i(z)` over the box is the best bound, and the multipliers of the `h_i` are the weights. The secants of
-//! all points lie above the squares by the same `sum (width_k)^2 z_k (1 - z_k)`. Two things follow:
+//! The best weights are the solution of a linear program. Between the ends of the box the squares are replaced by
+//! their secants (Falk, Soland, An algorithm for separable nonconvex programming problems, Management Science 15,
+//! 1969). In coordinates `z` of `[0,1]^d` relative to the box, the squared distance from point i is then a linear
+//! function `h_i(z)`. The largest `min h_i(z)` over the box is the best bound, and the multipliers of the `h_i` are
+//! the weights. The secants of all points lie above the squares by the same `sum (width_k)^2 z_k (1 - z_k)`. Two
+//! things follow:
 //!
-//! * The dual simplex method (Lemke, The dual method of solving the linear programming problem, Naval Research Logistics
-//!   Quarterly 1, 1954) wants the most violated row, which is that of the point nearest to the place at hand. The tree
-//!   finds it, and the rows need not be listed.
-//! * A solution that is held by points and faces of the cube alone is a vertex of the Voronoi diagram in the cube, to the
-//!   last digits.
+//! * The dual simplex method (Lemke, The dual method of solving the linear programming problem, Naval Research
+//!   Logistics Quarterly 1, 1954) needs the most violated row. It is the row of the point nearest to the current
+//!   place. The tree finds it, so that the rows need not be listed.
+//! * A solution that is held only by points and faces of the cube is a vertex of the Voronoi diagram in the cube, to
+//!   the last digits.
 
 use super::tree::{Nearest, Tree};
 use crate::bracket::Watch;
 
-/// Where the method stops, as it does on its own unless rounding makes it go in circles.
+/// The method ends after so many pivots per row. It ends on its own earlier, unless rounding makes it go in circles.
 const MOST_PIVOTS_PER_ROW: usize = 16;
-/// How far beyond an end of the box, as a share of its width, the solution may be.
+/// The distance that the solution may be beyond an end of the box, as a share of the box's width.
 const BEYOND_END: f64 = 1e-12;
-/// By how much a row has to be violated, and how large a pivot has to be; rows have entries of about 1.
+/// The least violation of a row that counts, and the least pivot. The entries of a row are about 1.
 const VIOLATION: f64 = 1e-15;
 const PIVOT: f64 = 1e-11;
 
@@ -50,29 +52,29 @@ enum Row {
     End { axis: usize, upper: bool },
 }
 
-/// The relaxation of one box after the other, with room for it.
+/// The relaxation of one box after the other, with its working memory.
 #[derive(Debug)]
 pub(super) struct Relaxation<'a> {
     tree: &'a Tree,
-    /// The rows that hold with equality, one per axis and one more.
+    /// The rows that hold with equality: one per axis, and one more.
     rows: Vec<Row>,
-    /// The inverse of their matrix, column by column. The last variable is the height, the others are `z`.
+    /// The inverse of the matrix of `rows`, column by column. The last variable is the height, the others are `z`.
     inverse: Vec<f64>,
-    /// The place where they meet.
+    /// The place where the rows meet.
     solution: Vec<f64>,
     /// The row that enters, and its products with the columns.
     entering: Vec<f64>,
     products: Vec<f64>,
-    /// Heights are relative to this and in units of `unit`.
+    /// Heights are relative to `zero` and in units of `unit`.
     zero: f64,
     unit: f64,
-    /// The points with a weight.
+    /// The points with a positive weight, and their weights.
     weights: Vec<(u32, f64)>,
-    /// Per axis, the larger of the two ends' weighted means.
+    /// For each axis, the larger of the weighted means at the two ends.
     tops: Vec<f64>,
     /// The place of the solution, in the box.
     pub place: Vec<f64>,
-    /// Room for the tree.
+    /// Working memory for the tree.
     beyond: Vec<f64>,
 }
 
@@ -95,8 +97,8 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// What the squared distance of no place in the box from its nearest point exceeds. Ends as soon as that is no more
-    /// than `bar`, or when the time is over.
+    /// An upper bound on the squared distance between a place in the box and its nearest point. The method ends as
+    /// soon as the bound is at most `bar`, or when the time is over.
     pub fn solve(&mut self, sides: &[Side], bar: f64, watch: &mut Watch) -> f64 {
         self.start(sides);
         let first = self.bound(sides);
@@ -122,13 +124,13 @@ impl<'a> Relaxation<'a> {
                     Row::Point(point)
                 }
             };
-            // To pivot is to go through a square matrix.
+            // A pivot goes through a square matrix.
             if !self.enter(entering, sides) || watch.passed_after(self.rows.len()) {
                 break;
             }
         }
         self.go_to_solution(sides);
-        // The first is certain not to be far off in a tiny box, whatever rounding makes of the others.
+        // In a tiny box the first bound is certain to be close, whatever rounding does to the others.
         self.bound(sides).min(first)
     }
 
@@ -137,8 +139,8 @@ impl<'a> Relaxation<'a> {
         self.tree.nearest(&self.place, &mut self.beyond).squared
     }
 
-    /// Where along an axis nothing of the box that was solved last has a larger squared distance than `bar`, for all
-    /// that the weights say. `side` is that of the box, or less.
+    /// The interval along an axis in which the weights prove that no place of the last solved box has a squared
+    /// distance above `bar`. `side` is the side of that box, or a part of it.
     pub fn hole(&self, axis: usize, side: Side, bar: f64) -> Option<Side> {
         let others: f64 = (0..self.tops.len()).filter(|other| *other != axis).map(|other| self.tops[other]).sum();
         let at = |x: f64| self.mean_square(axis, x);
@@ -149,12 +151,12 @@ impl<'a> Relaxation<'a> {
         }
         let reach = room.sqrt();
         let hole = Side { lower: (centre - reach).max(side.lower), upper: (centre + reach).min(side.upper) };
-        // The mean is convex: what holds at both ends holds between them.
+        // The mean is convex: if a bound holds at both ends, it holds between them.
         let is_below = |x: f64| (others + at(x)) * (1.0 + self.margin()) <= bar;
         (hole.lower < hole.upper && is_below(hole.lower) && is_below(hole.upper)).then_some(hole)
     }
 
-    /// Starts with the point nearest to the middle, and the ends of the box that are furthest from it.
+    /// Starts with the point nearest to the middle, and with the ends of the box that are furthest from it.
     fn start(&mut self, sides: &[Side]) {
         let dims = sides.len();
         for (x, side) in self.place.iter_mut().zip(sides) {
@@ -184,7 +186,7 @@ impl<'a> Relaxation<'a> {
         self.inverse[dims * size + dims] = 1.0;
     }
 
-    /// Puts the row of a point in `entering`; its right side.
+    /// Puts the row of a point in `entering`, and returns its right side.
     fn row_of_point(&mut self, point: u32, sides: &[Side]) -> f64 {
         let point = self.tree.point(point);
         let mut at_lower = 0.0;
@@ -202,7 +204,7 @@ impl<'a> Relaxation<'a> {
         self.zero + self.unit * self.solution[self.solution.len() - 1]
     }
 
-    /// The end of the box that the solution is furthest beyond.
+    /// The end of the box that the solution violates most.
     fn violated_end(&self) -> Option<Row> {
         let (mut most, mut violated) = (BEYOND_END, None);
         for (axis, &z) in self.solution[..self.tops.len()].iter().enumerate() {
@@ -220,8 +222,8 @@ impl<'a> Relaxation<'a> {
         }
     }
 
-    /// Makes a violated row hold with equality, in place of the first whose multiplier that would make negative; whether
-    /// there was anything to do.
+    /// Makes a violated row hold with equality, in place of the first row whose multiplier would become negative.
+    /// Returns `false` if there was nothing to do.
     fn enter(&mut self, row: Row, sides: &[Side]) -> bool {
         let size = self.solution.len();
         let right = match row {
@@ -290,8 +292,8 @@ impl<'a> Relaxation<'a> {
         self.weights.iter().map(square).sum()
     }
 
-    /// More than rounding takes away from a bound, relatively: a few ulps for each square, and one for each term of the
-    /// two sums and of that of the weights.
+    /// A relative margin above the loss of a bound by rounding: a few ulps for each square, one for each term of the
+    /// two sums, and one for each term of the sum of the weights.
     fn margin(&self) -> f64 {
         (3 * self.solution.len() + 16) as f64 * f64::EPSILON
     }

@@ -5,14 +5,15 @@ use super::tree::Tree;
 use crate::Deadline;
 use crate::bracket::Watch;
 
-/// How much longer a distance may be than another one, as a share of it, and count as no longer.
+/// The share by which a distance may be longer than another one and still counts as no longer.
 const SAME: f64 = 1e-12;
-/// A box is relaxed again where that takes away more than this share of it, but no more often than that.
+/// A box is relaxed again while a relaxation takes away more than this share of it, up to this number of times in
+/// all.
 const WORTHWHILE: f64 = 0.2;
 const MOST_RELAXATIONS: usize = 4;
-/// A cut through the solution leaves no less than this share of the side to both.
+/// The least share of a side that a cut through the solution leaves to either part.
 const LEAST_SHARE: f64 = 0.1;
-/// What is left of the step of a climb that got no further, and the share of the distance where that ends.
+/// The factor for the step of a climb that got no further, and the share of the distance at which the climb ends.
 const SHORTER: f64 = 0.3;
 const SHORTEST_STEP: f64 = 0.02;
 
@@ -30,10 +31,10 @@ impl Centre {
     }
 }
 
-/// A box that may hold a place further from all points than any that was found.
+/// A box that may hold a place that is further from all points than any place found so far.
 #[derive(Debug, Clone)]
 pub(super) struct Open {
-    /// The squared distance that none of its places exceeds.
+    /// The squared distance that no place of the box exceeds.
     pub bound: f64,
     pub sides: Box<[Side]>,
 }
@@ -58,17 +59,17 @@ impl Ord for Open {
     }
 }
 
-/// What a search came to.
+/// The result of a search.
 #[derive(Debug)]
 pub(super) struct Outcome {
     /// The best place, if it is better than the one that was known.
     pub found: Option<Centre>,
-    /// What is left to explore.
+    /// The boxes that are left to explore.
     pub open: Vec<Open>,
 }
 
-/// The largest squared distance that counts as no larger than another one. The distances may differ by a little of the
-/// other, and by what two places differ by that round to neighbouring floating-point numbers along every axis.
+/// The largest squared distance that counts as no larger than `squared`. It allows for a small share of the distance,
+/// and for the difference between two places that round to neighbouring floating-point numbers along every axis.
 pub(super) fn same_as(squared: f64, dims: usize) -> f64 {
     let rounding = 2.0 * f64::EPSILON * (dims as f64).sqrt();
     let distance = squared.sqrt() * (1.0 + SAME) + rounding;
@@ -81,7 +82,7 @@ pub(super) struct BallSearch<'a> {
     dims: usize,
     /// The relaxation of the box at hand.
     relaxation: Relaxation<'a>,
-    /// That of the box around the place from which a climb goes on.
+    /// The relaxation of the box around the place from which a climb goes on.
     climbing: Relaxation<'a>,
     watch: Watch,
     /// The square of the largest distance that is known.
@@ -95,8 +96,8 @@ impl<'a> BallSearch<'a> {
         Self { dims: tree.dims(), relaxation, climbing, watch: Watch::new(deadline), best: 0.0, found: None }
     }
 
-    /// Explores boxes depth first, no more than `most` of them, as far as they may hold something larger than `goal` and
-    /// than `best`, both squared.
+    /// Explores boxes depth first, at most `most` of them. It leaves out boxes that hold no place above `goal` and
+    /// `best`, both squared.
     pub fn explore(&mut self, root: Open, best: f64, goal: f64, most: usize) -> Outcome {
         self.best = best;
         let mut open = vec![root];
@@ -114,7 +115,7 @@ impl<'a> BallSearch<'a> {
         Outcome { found: self.found.take(), open }
     }
 
-    /// What the squared distance of no place in a box exceeds, as far as there is time to say.
+    /// An upper bound on the squared distances of the places in a box, as good as the time allows.
     pub fn bound(&mut self, sides: &[Side]) -> f64 {
         self.relaxation.solve(sides, 0.0, &mut self.watch)
     }
@@ -137,12 +138,12 @@ impl<'a> BallSearch<'a> {
         from
     }
 
-    /// What is no larger need not be looked for.
+    /// The squared distance up to which a box need not be searched.
     fn bar(&self, goal: f64) -> f64 {
         same_as(self.best, self.dims).max(goal)
     }
 
-    /// Bounds a box, and puts what is left of it on the stack in two parts.
+    /// Bounds a box, and puts the rest of it on the stack in two parts.
     fn branch(&mut self, mut cell: Open, goal: f64, open: &mut Vec<Open>) {
         let mut bar = self.bar(goal);
         for _ in 0..MOST_RELAXATIONS {
@@ -164,8 +165,9 @@ impl<'a> BallSearch<'a> {
         open.extend(self.cut(cell, bar));
     }
 
-    /// Takes away ends of the box where nothing is above the bar (range reduction: Ryoo, Sahinidis, A branch-and-reduce
-    /// approach to global optimization, J. Global Optimization 8, 1996); whether that was worthwhile.
+    /// Takes away ends of the box that hold nothing above the bar (range reduction: Ryoo, Sahinidis, A
+    /// branch-and-reduce approach to global optimization, J. Global Optimization 8, 1996). Returns `true` if that was
+    /// worthwhile.
     fn shrink(&self, cell: &mut Open, bar: f64) -> bool {
         let mut left = 1.0;
         for (axis, side) in cell.sides.iter_mut().enumerate() {
@@ -181,8 +183,8 @@ impl<'a> BallSearch<'a> {
         left < 1.0 - WORTHWHILE
     }
 
-    /// Cuts the box in two through the solution, more or less, along the axis where the relaxation is most off there.
-    /// Where nothing along that axis is above the bar is left out.
+    /// Cuts the box in two near the solution, along the axis where the relaxation is most inexact there. An interval
+    /// of that axis where nothing is above the bar is left out.
     ///
     /// There is always something to cut: a box whose sides are neighbouring numbers is not above the bar, because `same_as`
     /// allows for them.

@@ -1,12 +1,13 @@
-//! Nearest points by a k-d tree (Bentley, Multidimensional binary search trees used for associative searching,
-//! Comm. ACM 18, 1975), with the distance to a part of the tree kept up to date axis by axis (Arya, Mount, Algorithms
+//! Finds nearest points by a k-d tree (Bentley, Multidimensional binary search trees used for associative searching,
+//! Comm. ACM 18, 1975). The distance to a part of the tree is kept up to date axis by axis (Arya, Mount, Algorithms
 //! for fast vector quantization, DCC 1993).
 
 use crate::PointSet;
 
-/// Parts of the tree with no more points are not divided.
+/// The number of points up to which a part of the tree is not divided.
 const LEAF: usize = 8;
-/// How many points of a part tell along which axis it is widest, at least: all of them would take longer than the rest.
+/// The least number of points that are used to find the widest axis of a part: to use all of them would take too
+/// long.
 const SAMPLE: usize = 64;
 
 /// Points in the order of the tree: the middle one of a part divides it along its widest axis.
@@ -14,18 +15,18 @@ const SAMPLE: usize = 64;
 pub(super) struct Tree {
     dims: usize,
     coordinates: Vec<f64>,
-    /// Per point that divides a part, along which axis.
+    /// For each point that divides a part, the axis along which it divides.
     axes: Vec<u32>,
 }
 
-/// The point next to a place.
+/// The point nearest to a place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Nearest {
-    /// Its position in the tree.
+    /// The position of the point in the tree.
     pub point: u32,
-    /// The square of its distance.
+    /// The squared distance of the point from the place.
     pub squared: f64,
-    /// How many points were looked at.
+    /// The number of points that the search looked at.
     pub looked_at: usize,
 }
 
@@ -46,7 +47,8 @@ impl Tree {
         &self.coordinates[point as usize * self.dims..][..self.dims]
     }
 
-    /// The point nearest to a place, which may lie outside of the cube. `beyond` is room for a number per axis.
+    /// Finds the point nearest to a place, which may lie outside the cube. `beyond` is working memory, a number per
+    /// axis.
     pub fn nearest(&self, place: &[f64], beyond: &mut [f64]) -> Nearest {
         beyond.fill(0.0);
         let nearest = Nearest { point: 0, squared: f64::INFINITY, looked_at: 0 };
@@ -56,7 +58,7 @@ impl Tree {
     }
 }
 
-/// Brings the points of a part in the order of the tree.
+/// Brings the points of a part into the order of the tree.
 fn divide(points: &PointSet, order: &mut [u32], axes: &mut [u32]) {
     if order.len() <= LEAF {
         return;
@@ -79,17 +81,17 @@ fn divide(points: &PointSet, order: &mut [u32], axes: &mut [u32]) {
     divide(points, &mut upper[1..], &mut upper_axes[1..]);
 }
 
-/// A search for the nearest point on its way.
+/// A search for the nearest point, while it runs.
 struct Query<'a> {
     tree: &'a Tree,
     place: &'a [f64],
-    /// Per axis, how far the place is from the part that is being visited.
+    /// For each axis, the distance between the place and the part that is being visited.
     beyond: &'a mut [f64],
     nearest: Nearest,
 }
 
 impl Query<'_> {
-    /// Visits the part from `first` to `end`, whose points are no nearer than the root of `squared`.
+    /// Visits the part from `first` to `end`. The squared distance of its points is at least `squared`.
     fn visit(&mut self, first: usize, end: usize, squared: f64) {
         if end - first <= LEAF {
             (first..end).for_each(|point| self.look_at(point));
@@ -121,7 +123,7 @@ impl Query<'_> {
     }
 }
 
-/// The square of the distance of two places.
+/// The square of the distance between two places.
 pub(super) fn squared_distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }

@@ -1,12 +1,12 @@
-//! The number of different combinations that tests contain.
+//! Counts the different combinations that tests contain.
 
 use rayon::prelude::*;
 
-/// The levels of tests, a bit for each level of each parameter, as their non-zero words.
+/// The levels of tests as bits, one bit for each level of each parameter. Only the non-zero words are stored.
 struct Bits {
     /// The first bit of each parameter, and the end of the last.
     first: Vec<usize>,
-    /// Where the words of each test begin, and the end of the last.
+    /// The position of each test's first word, and the end of the last test.
     begin: Vec<usize>,
     words: Vec<(u32, u64)>,
 }
@@ -33,7 +33,7 @@ impl Bits {
         Self { first, begin, words }
     }
 
-    /// How many levels of the parameters from `next` on the tests have.
+    /// The number of different levels of the parameters from `next` on that the tests have.
     fn levels_from(&self, next: usize, tests: &[usize], seen: &mut [u64]) -> u64 {
         let start = self.first[next] / 64;
         let first_mask = u64::MAX << (self.first[next] % 64);
@@ -48,8 +48,8 @@ impl Bits {
     }
 }
 
-/// The number of combinations of levels of `k` parameters that the tests contain; no test comes twice. Any
-/// test contains the one combination of none.
+/// The number of combinations of levels of `k` parameters that the tests contain. The tests must be distinct. For `k
+/// = 0` any test contains the empty combination.
 pub(super) fn covered(levels: &[usize], k: usize, tests: &[&[usize]]) -> u64 {
     if k == 0 {
         return u64::from(!tests.is_empty());
@@ -74,7 +74,7 @@ impl Counting<'_> {
         vec![0; self.bits.first[self.parameters].div_ceil(64)]
     }
 
-    /// The number of combinations of `k` of the parameters from `next` on.
+    /// The number of combinations of `k` of the parameters from `next` on that the tests contain.
     fn covered(&self, next: usize, k: usize, tests: &mut [usize], seen: &mut [u64]) -> u64 {
         match (tests.len(), k) {
             (0, _) => 0,
@@ -84,7 +84,7 @@ impl Counting<'_> {
         }
     }
 
-    /// The number of combinations of `k` parameters of which this one is the first.
+    /// The number of combinations of `k` parameters whose first parameter is `parameter`.
     fn covered_with(&self, parameter: usize, k: usize, tests: &mut [usize], seen: &mut [u64]) -> u64 {
         let level = |test: usize| self.tests[test][parameter];
         tests.sort_unstable_by_key(|&test| level(test));
@@ -93,7 +93,7 @@ impl Counting<'_> {
     }
 }
 
-/// n choose k; the callers' numbers of combinations fit.
+/// n choose k; the numbers that callers need fit in `u64`.
 fn choices(n: u64, k: u64) -> u64 {
     (0..k).fold(1, |choices, i| choices * (n - i) / (i + 1))
 }

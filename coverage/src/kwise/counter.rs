@@ -1,18 +1,18 @@
-//! k-wise coverage kept up to date while tests arrive.
+//! Keeps k-wise coverage up to date while tests arrive.
 
 use super::{KwiseError, advance, check, valid};
 use paracosm_space::rules::Rules;
 
-/// How many words the bits of a counter may take: 64 mebibytes.
+/// The largest number of words that the bits of a counter may take: 64 mebibytes.
 const MOST_WORDS: u128 = 1 << 23;
 
-/// Which valid combinations of k levels the tests so far contain.
+/// Counts which valid combinations of k levels the tests so far contain.
 ///
-/// The combinations of k - 1 parameters are numbered; each has a bit for every level of every later parameter.
+/// Each combination of levels of k - 1 parameters has a bit for every level of every later parameter.
 #[derive(Debug, Clone)]
 pub struct KwiseCounter {
     rules: Rules,
-    /// The parameters that are counted, in ascending order, and their numbers of levels.
+    /// The parameters that are counted, in ascending order. `levels` has their numbers of levels.
     members: Vec<usize>,
     levels: Vec<usize>,
     k: usize,
@@ -25,23 +25,23 @@ pub struct KwiseCounter {
 }
 
 impl KwiseCounter {
-    /// A counter of the combinations of `k` parameters that no test has reached yet.
+    /// Makes a counter of the combinations of `k` parameters, before the first test.
     ///
     /// # Errors
-    /// `k` is 0 or more than there are parameters, a parameter has no level, or there are too many combinations:
+    /// `k` is 0 or more than the number of parameters, a parameter has no level, or there are too many combinations:
     /// their bits would take more than 64 MiB.
     pub fn new(rules: &Rules, k: usize) -> Result<Self, KwiseError> {
         let all: Vec<usize> = (0..rules.levels().len()).collect();
         Self::among(rules, &all, k)
     }
 
-    /// A counter of the combinations of `k` of some parameters, in ascending order.
+    /// Makes a counter of the combinations of `k` of the given parameters, which are in ascending order.
     ///
     /// # Errors
     /// As [`KwiseCounter::new`].
     ///
     /// # Panics
-    /// There is no such parameter.
+    /// A given parameter does not exist.
     pub fn among(rules: &Rules, parameters: &[usize], k: usize) -> Result<Self, KwiseError> {
         if k == 0 {
             return Err(KwiseError::Strength { k, parameters: parameters.len() });
@@ -68,7 +68,8 @@ impl KwiseCounter {
         Ok(counter)
     }
 
-    /// Calls for each choice of k - 1 members, by their places, with a later one, and the words of the later ones' bits.
+    /// Calls for each choice of k - 1 members that have a later member: with their places, and the range of words of
+    /// the later members' bits.
     fn each_head(&self, mut call: impl FnMut(&[usize], (usize, usize))) {
         let parameters = self.members.len();
         let mut set: Vec<usize> = (0..self.k - 1).collect();
@@ -83,7 +84,8 @@ impl KwiseCounter {
         }
     }
 
-    /// Calls with the word of `seen` and the bits there for all combinations of a test.
+    /// Calls for each word of `seen` that holds combinations of the test: with the word's position and the test's
+    /// bits in it.
     fn each_word(&self, test: &[usize], mut call: impl FnMut(usize, u64)) {
         let test: Vec<usize> = self.members.iter().map(|&member| test[member]).collect();
         let mut bits = vec![0u64; self.first[test.len()].div_ceil(64)];
@@ -104,10 +106,10 @@ impl KwiseCounter {
         });
     }
 
-    /// How many valid combinations a test would add; none for a test that violates a constraint.
+    /// Returns the number of valid combinations that a test would add; 0 for a test that violates a constraint.
     ///
     /// # Errors
-    /// The test is none of this space.
+    /// The test does not belong to this space.
     pub fn gain(&self, test: &[usize]) -> Result<u64, KwiseError> {
         check(self.rules.levels(), self.tests, test)?;
         let mut gain = 0;
@@ -117,10 +119,11 @@ impl KwiseCounter {
         Ok(gain)
     }
 
-    /// Adds a test, and says how many valid combinations are new; a test that violates a constraint covers none.
+    /// Adds a test, and returns the number of valid combinations that are new. A test that violates a constraint
+    /// covers none.
     ///
     /// # Errors
-    /// The test is none of this space.
+    /// The test does not belong to this space.
     pub fn add(&mut self, test: &[usize]) -> Result<u64, KwiseError> {
         check(self.rules.levels(), self.tests, test)?;
         self.tests += 1;
@@ -138,12 +141,12 @@ impl KwiseCounter {
         Ok(self.covered - before)
     }
 
-    /// The number of valid combinations.
+    /// Returns the number of valid combinations.
     pub fn valid(&self) -> u64 {
         self.valid
     }
 
-    /// The number of valid combinations that the tests so far contain.
+    /// Returns the number of valid combinations that the tests so far contain.
     pub fn covered(&self) -> u64 {
         self.covered
     }

@@ -1,16 +1,16 @@
-//! The first valid combinations that no test contains.
+//! Lists the first valid combinations that no test contains.
 
 use super::{MISSING_LISTED, advance};
 use paracosm_space::rules::{Companions, Rules};
 
-/// The missing combinations of k - 1 parameters with one later parameter each.
+/// A combination of levels of k - 1 parameters that is missing together with levels of later parameters.
 struct Head {
     levels: Vec<(usize, usize)>,
     /// The missing levels of later parameters, a bit each.
     missing: Vec<u64>,
 }
 
-/// The first [`MISSING_LISTED`] valid combinations of `k` of the members that none of the valid tests contains; the
+/// The first [`MISSING_LISTED`] valid combinations of `k` of the members that none of the valid tests contains. The
 /// members are in ascending order.
 pub(super) fn first_missing(
     rules: &Rules,
@@ -21,7 +21,7 @@ pub(super) fn first_missing(
     if k == 0 {
         return if tests.is_empty() { vec![Vec::new()] } else { Vec::new() };
     }
-    // The bits of the members come first, so that those of the later ones are all after those of the earlier.
+    // The bits of the members come first, so that the bits of later members follow those of earlier members.
     let others = (0..rules.levels().len()).filter(|parameter| members.binary_search(parameter).is_err());
     let order: Vec<usize> = members.iter().copied().chain(others).collect();
     let mut companions = Companions::new(rules, &order);
@@ -53,8 +53,8 @@ pub(super) fn first_missing(
     }
 }
 
-/// The combinations of levels of some parameters that are missing with a level of a later parameter, whose bit is below
-/// the `end`.
+/// The combinations of levels of the parameters in `set` that are missing with a level of a later parameter, for
+/// later parameters whose bits are below `end`.
 fn heads(companions: &mut Companions, rules: &Rules, set: &[usize], end: usize, tests: &[&[usize]]) -> Vec<Head> {
     let key = |test: &[usize]| set.iter().map(|&parameter| test[parameter]).collect::<Vec<_>>();
     let mut shown: Vec<(Vec<usize>, &[usize])> = tests.iter().map(|test| (key(test), *test)).collect();

@@ -1,11 +1,11 @@
-//! How many of the valid combinations of discrete values the tests contain.
+//! Counts how many of the valid combinations of discrete values the tests contain.
 //!
-//! A set of tests covers k-wise if every choice of k parameters shows every valid combination of their levels in
-//! some test; tests that violate a constraint show nothing. The tests are parted by the levels of one parameter
-//! after the other; those that agree in k - 1 parameters show together so many combinations with one more as
-//! different levels of it, and these are counted a machine word at a time (`count`). The valid combinations are
-//! counted without being listed ([`Rules::count`]). Where values are negative, each kind of tests has combinations of its
-//! own ([`demand`](paracosm_space::demand)), and their numbers are added up.
+//! A set of tests covers k-wise if, for every choice of k parameters, every valid combination of their levels occurs
+//! in some test. Tests that violate a constraint do not count. The tests are divided by the levels of one parameter
+//! after the other. Tests that agree in k - 1 parameters show as many combinations with one more parameter as they
+//! have different levels of it. These levels are counted a machine word at a time (`count`). The valid combinations
+//! are counted without being listed ([`Rules::count`]). If some values are negative, each kind of tests has its own
+//! combinations ([`demand`](paracosm_space::demand)), and their numbers are added up.
 
 mod count;
 mod counter;
@@ -15,13 +15,14 @@ pub use counter::KwiseCounter;
 
 use crate::measure::{Compare, Computation, Descriptor, Measure};
 use paracosm_space::demand::TestKind;
+use paracosm_space::plural;
 use paracosm_space::rules::Rules;
 use std::cmp::Ordering;
 use thiserror::Error;
 
 impl Measure {
-    /// The share of combinations of k discrete parameters that are covered, and for which epsilon the tests are
-    /// (k, epsilon)-covering.
+    /// The share of combinations of k discrete parameters that the tests cover, and the epsilon for which the tests
+    /// are (k, epsilon)-covering.
     pub const K_WISE: Self = Self::of(&Descriptor {
         name: "k-wise",
         key: "discrete",
@@ -34,86 +35,86 @@ impl Measure {
     });
 }
 
-/// How many missing combinations are listed at most.
+/// The largest number of missing combinations that are listed.
 pub const MISSING_LISTED: usize = 20;
 
-/// The largest number of k-wise combinations that is counted: 2^33, a gibibyte of bits.
+/// The largest number of k-wise combinations that can be counted: 2^33, a gibibyte of bits.
 const MOST_TUPLES: u128 = 1 << 33;
 
-/// What a set of tests covers k-wise.
+/// The k-wise coverage of a set of tests.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KwiseCoverage {
-    /// All valid combinations of levels of k parameters.
+    /// The number of valid combinations of levels of k parameters.
     pub valid: u64,
-    /// Those of them that some test contains.
+    /// The number of valid combinations that some test contains.
     pub covered: u64,
-    /// The first [`MISSING_LISTED`] valid ones that no test contains, as (parameter, level) indices: sets of
-    /// parameters in lexicographic order, then levels in lexicographic order.
+    /// The first [`MISSING_LISTED`] valid combinations that no test contains, as (parameter, level) indices: ordered
+    /// by their sets of parameters, then by their levels, both lexicographically.
     pub missing: Vec<Vec<(usize, usize)>>,
-    /// The share of the valid combinations of *all* parameters that are tested; none where constraints entangle
-    /// too many parameters for them to be counted.
+    /// The share of the valid combinations of *all* parameters that are tested. `None` if constraints join too many
+    /// parameters, so that these combinations cannot be counted.
     pub combinations: Option<f64>,
     /// The positions of the tests that violate a constraint and so cover nothing.
     pub invalid: Vec<usize>,
 }
 
 impl KwiseCoverage {
-    /// The share of the combinations that some test contains, 1 for a k-wise covering family.
+    /// Returns the share of the valid combinations that some test contains: 1 for a k-wise covering family.
     pub fn ratio(&self) -> f64 {
         if self.valid == 0 { 1.0 } else { self.covered as f64 / self.valid as f64 }
     }
 }
 
-/// Why k-wise coverage cannot be counted.
+/// The reason why k-wise coverage cannot be counted.
 #[derive(Debug, Error, PartialEq)]
 pub enum KwiseError {
-    /// There are no sets of k parameters.
+    /// k is 0 or more than the number of parameters.
     #[error("k is {k}, expected 1 to {parameters}, the number of parameters")]
     Strength {
-        /// The k asked for.
+        /// The requested k.
         k: usize,
         /// The number of parameters.
         parameters: usize,
     },
-    /// A parameter that no test can have.
+    /// A parameter has no level, so that no test exists.
     #[error("parameter {0} has no level")]
     NoLevel(usize),
-    /// More valid combinations than can be counted.
+    /// There are more valid combinations than can be counted.
     #[error("there are {found} valid combinations of {k} parameters, more than the {MOST_TUPLES} that can be counted")]
     TooMany {
-        /// The k asked for.
+        /// The requested k.
         k: usize,
-        /// The number of combinations; `u128::MAX` stands for at least as many.
+        /// The number of combinations; `u128::MAX` stands for this number or more.
         found: u128,
     },
-    /// More valid combinations than a counter keeps.
+    /// A counter would need too much memory for the valid combinations.
     #[error("to keep count of the combinations of {k} parameters takes {mebibytes} MiB, more than 64")]
     Memory {
-        /// The k asked for.
+        /// The requested k.
         k: usize,
-        /// The memory needed.
+        /// The memory that the counter needs, in MiB.
         mebibytes: u128,
     },
-    /// A test with too many or too few levels.
-    #[error("test {index} has {found} levels, expected {expected}")]
+    /// A test has too many or too few levels.
+    #[error("test {index} has {}, expected {expected}", plural(*found, "level"))]
     Ragged {
-        /// The test's position, from 0.
+        /// The position of the test, from 0.
         index: usize,
-        /// How many levels it has.
+        /// The number of levels of the test.
         found: usize,
         /// The number of parameters.
         expected: usize,
     },
-    /// A level that the parameter does not have.
+    /// A test has a level that the parameter does not have.
     #[error("test {index}, parameter {parameter}: level {found}, expected one below {levels}")]
     Level {
-        /// The test's position, from 0.
+        /// The position of the test, from 0.
         index: usize,
-        /// The parameter's position, from 0.
+        /// The position of the parameter, from 0.
         parameter: usize,
-        /// The level found.
+        /// The level of the test.
         found: usize,
-        /// How many levels the parameter has.
+        /// The number of levels of the parameter.
         levels: usize,
     },
 }
@@ -133,8 +134,8 @@ pub enum KwiseError {
 /// ```
 ///
 /// # Errors
-/// `k` is 0 or more than there are parameters, a parameter has no level, there are more than 2^33 valid
-/// combinations, or a test is none of this space.
+/// `k` is 0 or more than the number of parameters, a parameter has no level, there are more than 2^33 valid
+/// combinations, or a test does not belong to this space.
 pub fn kwise_coverage<'a>(
     rules: &Rules,
     k: usize,
@@ -144,14 +145,15 @@ pub fn kwise_coverage<'a>(
     coverage_of_kinds(&[TestKind::of(rules)], &all, k, tests)
 }
 
-/// Counts the valid combinations of levels of `k` of some parameters that tests of several kinds contain. A combination
-/// counts where a test of its kind has it.
+/// Counts the valid combinations of levels of `k` of the given parameters that tests of several kinds contain. A
+/// combination counts if a test of its kind contains it.
 ///
 /// # Errors
 /// As [`kwise_coverage`].
 ///
 /// # Panics
-/// There is no kind, the kinds are of different spaces, or the parameters are not some of them in ascending order.
+/// There is no kind, the kinds belong to different spaces, or `parameters` are not positions of parameters in
+/// ascending order.
 pub fn coverage_of_kinds<'a>(
     kinds: &[TestKind],
     parameters: &[usize],
@@ -201,13 +203,13 @@ pub fn coverage_of_kinds<'a>(
     Ok(coverage)
 }
 
-/// Sets of parameters in lexicographic order, then levels.
+/// Orders combinations by their sets of parameters, then by their levels, both lexicographically.
 fn by_parameters(a: &[(usize, usize)], b: &[(usize, usize)]) -> Ordering {
     let parameters = |tuple: &[(usize, usize)]| tuple.iter().map(|pair| pair.0).collect::<Vec<_>>();
     parameters(a).cmp(&parameters(b)).then_with(|| a.cmp(b))
 }
 
-/// The number of combinations of levels of `k` of the members that the tests contain; no test comes twice.
+/// The number of combinations of levels of `k` of the members that the tests contain. The tests must be distinct.
 fn covered(levels: &[usize], members: &[usize], k: usize, tests: &[&[usize]]) -> u64 {
     if members.len() == levels.len() {
         return count::covered(levels, k, tests);
@@ -220,7 +222,7 @@ fn covered(levels: &[usize], members: &[usize], k: usize, tests: &[&[usize]]) ->
     count::covered(&levels, k, &parts.iter().map(Vec::as_slice).collect::<Vec<_>>())
 }
 
-/// The number of valid combinations of k of some parameters, where it can be worked with.
+/// The number of valid combinations of levels of k of the given parameters, if it can be counted.
 fn valid(rules: &Rules, parameters: &[usize], k: usize) -> Result<u64, KwiseError> {
     if k > parameters.len() {
         return Err(KwiseError::Strength { k, parameters: parameters.len() });
@@ -235,7 +237,7 @@ fn valid(rules: &Rules, parameters: &[usize], k: usize) -> Result<u64, KwiseErro
     Ok(found as u64)
 }
 
-/// Whether a test is one of the space.
+/// Checks that a test belongs to the space.
 pub(crate) fn check(levels: &[usize], index: usize, test: &[usize]) -> Result<(), KwiseError> {
     if test.len() != levels.len() {
         return Err(KwiseError::Ragged { index, found: test.len(), expected: levels.len() });
@@ -248,7 +250,7 @@ pub(crate) fn check(levels: &[usize], index: usize, test: &[usize]) -> Result<()
     }
 }
 
-/// The combination with that mixed-radix number; the last parameter's level is its lowest digit.
+/// The combination of levels of `set` with this mixed-radix number. The last parameter's level is the lowest digit.
 pub(crate) fn tuple(levels: &[usize], set: &[usize], mut index: usize) -> Vec<(usize, usize)> {
     let mut tuple: Vec<_> = set.iter().map(|&p| (p, 0)).collect();
     for (parameter, level) in tuple.iter_mut().rev() {
@@ -258,7 +260,7 @@ pub(crate) fn tuple(levels: &[usize], set: &[usize], mut index: usize) -> Vec<(u
     tuple
 }
 
-/// Moves on to the next set of as many parameters in lexicographic order; false after the last.
+/// Changes `set` to the next set of the same size, in lexicographic order. Returns `false` after the last set.
 pub(crate) fn advance(set: &mut [usize], parameters: usize) -> bool {
     let k = set.len();
     let Some(i) = (0..k).rev().find(|&i| set[i] < parameters - k + i) else { return false };

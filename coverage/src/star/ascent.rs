@@ -1,8 +1,8 @@
-//! Large differences by local search: from a random box, one side after the other goes to its best position,
-//! until no side can do better. Where threshold accepting (Gnewuch, Wahlstrom, Winzen, A new randomized
-//! algorithm to approximate the star discrepancy based on threshold accepting, SIAM J. Numer. Anal. 50, 2012)
-//! tries a few neighbours, this looks at all positions of a side at once: that takes no longer than counting the
-//! points of one box.
+//! Finds large differences by local search: from a random box, one side after the other moves to its best position,
+//! until no side can do better. Threshold accepting (Gnewuch, Wahlstrom, Winzen, A new randomized algorithm to
+//! approximate the star discrepancy based on threshold accepting, SIAM J. Numer. Anal. 50, 2012) tries a few
+//! neighbours. This search looks at all positions of a side at once, which takes no longer than counting the points
+//! of one box.
 
 use super::cell::BoxKind;
 use super::sides::Sides;
@@ -11,24 +11,25 @@ use crate::Deadline;
 /// A local search over the boxes of some points.
 pub(super) struct Ascent<'a> {
     sides: &'a Sides<'a>,
-    /// Per side, the points in the order of their coordinates.
+    /// For each side, the points in the order of their coordinates.
     orders: Vec<Vec<u32>>,
-    /// The box that is being moved, and along how many sides each point is outside.
+    /// The current box, and for each point the number of sides along which it is outside the box.
     positions: Vec<f64>,
     outside: Vec<u32>,
 }
 
 impl<'a> Ascent<'a> {
-    /// More coordinates than that are left to the other search: sorting them takes memory.
+    /// The greatest number of coordinates for ascents: to sort more takes too much memory, so the other search works
+    /// alone.
     const MOST_COORDINATES: usize = 1 << 26;
-    /// With no more coordinates than that, an ascent takes no time to speak of, and is made even if there is none.
+    /// The number of coordinates up to which an ascent takes almost no time. It is then made even if no time is left.
     const FEW_COORDINATES: usize = 1 << 16;
 
     pub(super) fn new(sides: &'a Sides<'a>) -> Self {
         Self { sides, orders: Vec::new(), positions: vec![0.0; sides.count()], outside: vec![0; sides.points()] }
     }
 
-    /// The largest difference found by the ascents with these numbers, until the deadline.
+    /// The largest difference that the ascents with these numbers find until the deadline.
     pub(super) fn run(&mut self, ascents: std::ops::Range<usize>, deadline: Deadline) -> f64 {
         let coordinates = self.sides.points() * self.sides.count();
         if coordinates > Self::MOST_COORDINATES {
@@ -60,7 +61,7 @@ impl<'a> Ascent<'a> {
         order
     }
 
-    /// Takes a random box whose volume is spread evenly, more or less.
+    /// Takes a random box whose volume is roughly evenly distributed.
     fn start(&mut self, random: &mut SplitMix, kind: BoxKind) {
         let dims = self.sides.count() / self.sides.per_axis();
         for axis in 0..dims {
@@ -78,7 +79,7 @@ impl<'a> Ascent<'a> {
         }
     }
 
-    /// Moves sides until all are where they are best or the deadline has passed, and says how large the difference is.
+    /// Moves sides until each is at its best position or the deadline has passed. Returns the difference.
     fn climb(&mut self, kind: BoxKind, deadline: Deadline) -> f64 {
         let mut best = f64::NEG_INFINITY;
         let mut unmoved = 0;
@@ -98,7 +99,7 @@ impl<'a> Ascent<'a> {
         best
     }
 
-    /// The best position of a side while the others stay, and the difference there.
+    /// The best position of a side while the others stay, and the difference at this position.
     fn best_position(&self, side: usize, kind: BoxKind) -> (f64, f64) {
         let sides = self.sides;
         let mut positions = self.positions.clone();
@@ -157,7 +158,7 @@ impl<'a> Ascent<'a> {
     }
 }
 
-/// Whether a coordinate is outside of a box along a side.
+/// Returns `true` if a coordinate is outside a box along a side.
 fn beyond(coordinate: f64, position: f64, kind: BoxKind) -> bool {
     match kind {
         BoxKind::Open => coordinate >= position,

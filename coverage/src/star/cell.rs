@@ -1,13 +1,13 @@
-//! Cells of boxes, and what no box of a cell exceeds.
+//! Cells of boxes, and upper bounds on the value of their boxes.
 
 use super::sides::{Sides, above_0};
 
-/// Which of the two differences is searched.
+/// The kind of difference that is searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum BoxKind {
-    /// Volume less the share of points inside, of open boxes.
+    /// Open boxes: the volume less the share of points inside.
     Open,
-    /// Share of points, with those on the faces, less volume, of closed boxes.
+    /// Closed boxes: the share of points, with those on the faces, less the volume.
     Closed,
 }
 
@@ -15,59 +15,60 @@ pub(super) enum BoxKind {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Undecided {
     point: u32,
-    /// Along how many sides.
+    /// The number of sides along which the point is undecided.
     sides: u32,
-    /// The sum of these sides, modulo 2^32: where there is but one, it is that one.
+    /// The sum of the numbers of these sides, modulo 2^32. If there is only one side, the sum is its number.
     sum: u32,
 }
 
-/// The boxes whose sides are between `lower` and `upper`: `lower < position <= upper` for open boxes and
-/// `lower <= position < upper` for closed ones. In both, a point is inside along a side where its coordinate is
-/// `<= lower`, and outside where it is `>= upper`.
+/// The boxes whose sides are between `lower` and `upper`: `lower < position <= upper` for open boxes and `lower <=
+/// position < upper` for closed boxes. In both, a point is inside along a side if its coordinate is `<= lower`, and
+/// outside if it is `>= upper`.
 #[derive(Debug, Clone)]
 pub(super) struct Cell {
     lower: Vec<f64>,
     upper: Vec<f64>,
     inside: usize,
     undecided: Vec<Undecided>,
-    /// No box of the cell has more.
+    /// The upper bound: no box of the cell has a larger value.
     pub(super) bound: f64,
 }
 
-/// What the relaxation says of a cell.
+/// The result of the relaxation of a cell.
 pub(super) enum Relaxed {
-    /// It has no box above the threshold.
+    /// The cell has no box above the threshold.
     Nothing,
-    /// This is the largest value of its boxes.
+    /// The largest value of the cell's boxes.
     Solved(f64),
-    /// No box has more than the cell's bound, which is now this low.
+    /// The relaxation has lowered the cell's bound, but the cell is not solved.
     Bounded,
 }
 
-/// How the undecided points went into the profiles.
+/// The result of filling the profiles with the undecided points.
 struct Profiled {
-    /// Whether some are undecided along several sides.
+    /// `true` if some points are undecided along several sides.
     several: bool,
-    /// How many times points were counted that had been counted along another side.
+    /// The number of times that a point was counted again along another side.
     again: usize,
 }
 
-/// More steps than this, some hundredths of a second, are not spent on one relaxation: cutting the cell gets further.
+/// The greatest number of steps of a relaxation, some hundredths of a second. Beyond that it is better to cut the
+/// cell.
 const MOST_STEPS: usize = 1 << 26;
 
-/// How many times points may be counted again, as a multiple of the number of points that matters.
+/// The greatest number of repeated counts, as a multiple of the number of points that matters.
 const AGAIN_PER_BUDGET: usize = 3;
 
-/// Room for the relaxation.
+/// Working memory of the relaxation.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
-    /// Per side: the positions that take in (open) or leave out (closed) 0, 1, 2, .. of its points.
+    /// For each side: the positions that take in (open) or leave out (closed) 0, 1, 2, .. of its points.
     profiles: Vec<Vec<f64>>,
-    /// Per number of points, the most extreme volume over the axes so far.
+    /// For each number of points, the most extreme volume over the axes so far.
     volumes: Vec<f64>,
     widths: Vec<f64>,
     next: Vec<f64>,
-    /// Coordinates among which a cut is chosen.
+    /// The coordinates among which a cut is chosen.
     coordinates: Vec<f64>,
 }
 
@@ -80,7 +81,7 @@ impl Cell {
             BoxKind::Open => {
                 (vec![f64::NEG_INFINITY; sides.count()], (0..sides.count()).map(|side| sides.end(side)).collect())
             }
-            // A closed box that no point supports on a side can be shrunk there.
+            // If no point supports a side of a closed box, the box can be shrunk there.
             BoxKind::Closed => ((0..sides.count()).map(least).collect(), vec![f64::INFINITY; sides.count()]),
         };
         let mut cell = Self { lower, upper, inside: 0, undecided: Vec::new(), bound: 1.0 };
@@ -91,12 +92,12 @@ impl Cell {
         cell
     }
 
-    /// How many numbers the cell consists of.
+    /// The number of numbers in the cell.
     pub(super) fn size(&self) -> usize {
         self.undecided.len() + self.lower.len()
     }
 
-    /// Decides the undecided points anew.
+    /// Decides again which of the undecided points are inside or outside.
     fn sort_out(&mut self, sides: &Sides) {
         let (lower, upper, inside) = (&self.lower, &self.upper, &mut self.inside);
         self.undecided.retain_mut(|undecided| {
@@ -116,7 +117,7 @@ impl Cell {
         });
     }
 
-    /// What follows from the cell's largest and smallest box alone.
+    /// The bound that follows from the cell's largest and smallest box alone.
     fn simple_bound(&self, sides: &Sides, kind: BoxKind) -> f64 {
         match kind {
             BoxKind::Open => sides.volume(&self.upper) - sides.share(self.inside),
@@ -124,9 +125,9 @@ impl Cell {
         }
     }
 
-    /// Takes away the ends of the cell where no box is above the threshold, as long as that decides points.
+    /// Takes away the ends of the cell that hold no box above the threshold, as long as that decides points.
     fn shrink(&mut self, sides: &Sides, kind: BoxKind, threshold: f64) {
-        // Far more than the rounding of a product and two quotients.
+        // The margin is far more than the rounding of a product and two quotients.
         let margin = (sides.count() + 8) as f64 * 4.0 * f64::EPSILON;
         loop {
             self.bound = self.bound.min(self.simple_bound(sides, kind));
@@ -167,17 +168,18 @@ impl Cell {
         }
     }
 
-    /// Shrinks the cell and bounds it by its relaxation, in which the sides have nothing to do with each other:
-    /// what counts is how many points each takes in. A point that is undecided along one side counts there. One
-    /// that is so along several counts
-    /// * for closed boxes along the side that it would cost most: it is inside only if all take it in;
-    /// * for open boxes along all, less the times it is counted again, if no box above the threshold leaves it
-    ///   out twice, and else not at all: it is outside at least where exactly one side leaves it out.
+    /// Shrinks the cell and bounds it by its relaxation. In the relaxation the sides are independent: only the number
+    /// of points that each side takes in (or leaves out) counts. A point that is undecided along one side counts
+    /// along this side. A point that is undecided along several sides counts
+    /// * for closed boxes: along the side where it costs most, because it is inside only if all sides take it in;
+    /// * for open boxes: along all these sides, less the repeated counts, if no box above the threshold leaves it out
+    ///   along two sides; otherwise it does not count. The point is certainly outside if exactly one side leaves it
+    ///   out.
     ///
-    /// The best choice of positions for each number of points follows by dynamic programming over the axes
-    /// (Dobkin, Eppstein, Mitchell, Computing the discrepancy with applications to supersampling patterns, ACM
-    /// Trans. Graphics 15, 1996, who subdivide until no point is undecided along several sides). Without such
-    /// points it is no relaxation.
+    /// The best choice of positions for each number of points follows by dynamic programming over the axes (Dobkin,
+    /// Eppstein, Mitchell, Computing the discrepancy with applications to supersampling patterns, ACM Trans. Graphics
+    /// 15, 1996, who subdivide until no point is undecided along several sides). If there are no points that are
+    /// undecided along several sides, the bound is exact.
     pub(super) fn relax(&mut self, sides: &Sides, kind: BoxKind, threshold: f64, scratch: &mut Scratch) -> Relaxed {
         self.shrink(sides, kind, threshold);
         if self.bound <= threshold {
@@ -196,7 +198,7 @@ impl Cell {
         }
         let (inside, all) = (self.inside, self.inside + self.undecided.len());
         let values = scratch.volumes.iter().enumerate().map(|(count, volume)| match kind {
-            // A box that takes in fewer than were counted again would be below the threshold anyway.
+            // A box that takes in fewer points than the repeated counts would be below the threshold anyway.
             BoxKind::Open => volume - sides.share((inside + count).saturating_sub(again)),
             BoxKind::Closed => sides.share(all - count) - volume,
         });
@@ -208,12 +210,12 @@ impl Cell {
         if several { Relaxed::Bounded } else { Relaxed::Solved(value) }
     }
 
-    /// Fills the profiles.
+    /// Fills the profiles with the undecided points.
     fn profile(&self, sides: &Sides, kind: BoxKind, budget: usize, threshold: f64, scratch: &mut Scratch) -> Profiled {
         scratch.profiles.resize_with(sides.count(), Vec::new);
         scratch.profiles.iter_mut().for_each(Vec::clear);
         let mut profiled = Profiled { several: false, again: 0 };
-        // The ratio of volumes below which an open box is not above the threshold.
+        // The ratio of volumes at or below which an open box is not above the threshold.
         let margin = (sides.count() + 8) as f64 * 4.0 * f64::EPSILON;
         let least = (threshold + sides.share(self.inside)) / sides.volume(&self.upper) * (1.0 - margin);
         for undecided in &self.undecided {
@@ -260,8 +262,8 @@ impl Cell {
         profiled
     }
 
-    /// Whether no open box that keeps the share `least` of the largest one's volume leaves a point out along two
-    /// sides.
+    /// Returns `true` if no open box with at least the share `least` of the largest box's volume leaves a point out
+    /// along two sides.
     fn is_cut_away_once(&self, sides: &Sides, point: usize, least: f64) -> bool {
         let (mut first, mut second) = (0.0, 0.0);
         for side in 0..sides.count() {
@@ -279,7 +281,7 @@ impl Cell {
         first * second <= least
     }
 
-    /// The undecided side along which taking in a point widens the smallest box most.
+    /// The undecided side along which the smallest box must widen most to take in a point.
     fn costliest(&self, sides: &Sides, point: usize) -> usize {
         let (mut most, mut costliest) = (f64::NEG_INFINITY, 0);
         for side in 0..sides.count() {
@@ -295,7 +297,7 @@ impl Cell {
         costliest
     }
 
-    /// From the profiles of the sides to the volumes.
+    /// Computes the volumes from the profiles of the sides.
     fn combine(
         &self,
         sides: &Sides,
@@ -327,7 +329,7 @@ impl Cell {
     /// Cuts the cell in two, below and above a coordinate.
     pub(super) fn split(mut self, sides: &Sides, kind: BoxKind, scratch: &mut Scratch) -> [Self; 2] {
         let (side, at) = self.cut(sides, scratch);
-        // Below the cut, points at it and beyond are outside; the others stay as undecided as they were.
+        // Below the cut, points at the cut and beyond are outside. The other points stay as undecided as they were.
         let below_it = |undecided: &&Undecided| sides.coordinate(undecided.point as usize, side) < at;
         let mut below = Self {
             lower: self.lower.clone(),
@@ -337,7 +339,7 @@ impl Cell {
             bound: self.bound,
         };
         below.upper[side] = at;
-        // Above it, points up to it are inside along this side, and then perhaps along all.
+        // Above the cut, points up to it are inside along this side, and then perhaps along all sides.
         let (from, inside) = (self.lower[side], &mut self.inside);
         self.undecided.retain_mut(|undecided| {
             let coordinate = sides.coordinate(undecided.point as usize, side);
@@ -355,8 +357,9 @@ impl Cell {
         [below, self]
     }
 
-    /// Where to cut: the side along which most points are undecided that are so along several, at their median. Where
-    /// there are none such, but too many for a relaxation, all undecided ones count.
+    /// The side and the coordinate of a cut: the side with the most points that are undecided along several sides, at
+    /// the median of these points. If there are no such points, but too many points for a relaxation, all undecided
+    /// points count.
     fn cut(&self, sides: &Sides, scratch: &mut Scratch) -> (usize, f64) {
         let least = if self.undecided.iter().any(|undecided| undecided.sides > 1) { 2 } else { 1 };
         let several = || self.undecided.iter().filter(|undecided| undecided.sides >= least);
@@ -373,7 +376,8 @@ impl Cell {
     }
 }
 
-/// `result[i + j] = join(a[i], b[j])`, the best where there are several, for sums up to `budget`.
+/// Sets `result[i + j] = join(a[i], b[j])` for sums up to `budget`. If several pairs have the same sum, the best
+/// counts.
 fn convolve(
     a: &[f64],
     b: &[f64],

@@ -1,13 +1,13 @@
 //! Branch and bound over cells of boxes.
 //!
-//! Cells are cut until their relaxation is exact or says that they hold nothing above the best value. Tasks
-//! explore cells depth first, each with a stack of its own, of which it gives half away while a thread is idle.
-//! What is found does not depend on the order: bounds and values are computed by monotone operations, so that
-//! the result is the largest computed value of all boxes, wherever it is found.
+//! Cells are cut until their relaxation is exact or shows that they hold nothing above the best value. Tasks explore
+//! cells depth first. Each task has its own stack, and gives half of it away while a thread is idle. The result does
+//! not depend on the order: bounds and values are computed by monotone operations, so that the result is the largest
+//! computed value of all boxes, wherever it is found.
 //!
-//! Depth first alone is a poor way to close a bracket, for it leaves large cells for last. Against a deadline
-//! the search therefore proves one upper bound after the other: a pass drops what a target bounds, and a pass
-//! that comes to its end has proved its target. Only the cells that are open on the way to one cell are kept.
+//! Depth first alone narrows a bracket badly, because it leaves large cells for last. With a deadline the search
+//! therefore proves one upper bound after the other: a pass drops all cells whose bound is at most a target, and a
+//! pass that ends has proved its target. Only the open cells on the way to one cell are kept.
 
 use super::ascent::Ascent;
 use super::cell::{BoxKind, Cell, Relaxed, Scratch};
@@ -17,26 +17,26 @@ use crate::{Bracket, Deadline};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// How many ascents precede the search; more cost more than they save.
+/// The number of ascents before the search; more cost more time than they save.
 const ASCENTS: usize = 64;
-/// The share of the time in which the search tries to come to its end without proving bounds on the way.
+/// The share of the time in which the search tries to end without proving bounds on the way.
 const TIME_TO_THE_END: f64 = 0.2;
-/// The share of what is left then in which ascents raise the lower bound.
+/// The share of the remaining time in which ascents then raise the lower bound.
 const TIME_FOR_ASCENTS: f64 = 0.15;
-/// Of the way from the best value to the bound, how much the next pass leaves: it takes some two or three times as
-/// long as the last. When that would be too long, the second.
+/// The target of the next pass, as a share of the way from the best value to the bound. With the first share a pass
+/// takes some two or three times as long as the last pass. If that would take too long, the second share is used.
 const NEXT_TARGET: [f64; 2] = [0.76, 0.9];
-/// How many numbers the stack of a task may hold: some 200 MiB.
+/// The number of numbers that the stack of a task may hold: some 200 MiB.
 const MOST_NUMBERS: usize = 1 << 24;
 
-/// The largest difference between volume and share of points over the boxes that `sides` describes.
+/// The largest difference between volume and share of points, over the boxes that `sides` describes.
 pub(crate) fn largest_difference(sides: &Sides, deadline: Deadline) -> Bracket {
     let best = Ascent::new(sides).run(0..ASCENTS, deadline.part(TIME_FOR_ASCENTS));
     let first = Pass::over(sides, best, best, deadline.part(TIME_TO_THE_END));
     if first.left <= first.best {
         return Bracket::exact(first.best);
     }
-    // Without a limit it was memory that ended the pass.
+    // Without a time limit, it was memory that ended the pass.
     let ascents = ASCENTS..if deadline.left().is_some() { usize::MAX } else { 16 * ASCENTS };
     let mut best = Ascent::new(sides).run(ascents, deadline.part(TIME_FOR_ASCENTS)).max(first.best);
     let mut upper = first.left;
@@ -64,13 +64,13 @@ pub(crate) fn largest_difference(sides: &Sides, deadline: Deadline) -> Bracket {
 /// A pass over all boxes.
 struct Pass<'a> {
     sides: &'a Sides<'a>,
-    /// Cells without boxes above it are dropped.
+    /// The value above which a cell must hold boxes; other cells are dropped.
     target: f64,
     deadline: Deadline,
     stopped: AtomicBool,
-    /// How many tasks are at work.
+    /// The number of tasks at work.
     tasks: AtomicUsize,
-    /// The largest value that some box has.
+    /// The largest value of a box so far.
     best: Most,
     /// The largest bound of a cell that was left unexplored.
     left: Most,
@@ -79,7 +79,7 @@ struct Pass<'a> {
 /// What a pass has found.
 struct Outcome {
     best: f64,
-    /// What no box exceeds.
+    /// The upper bound: no box exceeds it.
     left: f64,
 }
 
@@ -144,7 +144,7 @@ impl<'a> Pass<'a> {
     }
 }
 
-/// A number that threads raise together. Numbers that are not negative have the order of their bits.
+/// A number that threads raise together. Non-negative numbers have the same order as their bits.
 struct Most(AtomicU64);
 
 impl Most {

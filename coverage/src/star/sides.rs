@@ -1,14 +1,14 @@
-//! Boxes as the positions of their free sides, so that one search serves anchored boxes and all boxes.
+//! Boxes as the positions of their free sides, so that one search serves both anchored boxes and all boxes.
 //!
-//! A side's position says how far the box reaches in the side's direction: `y` for an upper side at `y`, `-a`
-//! for a lower side at `a`. Points have coordinates of the same kind, and a box holds a point where the point's
-//! coordinate is below the position on every side. Negation is exact, and sums and products of floating-point
-//! numbers are monotone: a box inside another is never computed to be larger, and what is pruned by a computed
-//! bound is no more than the computed value of any box that was dropped.
+//! A side's position says how far the box reaches in the side's direction: `y` for an upper side at `y`, `-a` for a
+//! lower side at `a`. Points have coordinates of the same kind. A box holds a point if the point's coordinate is
+//! below the position on every side. Negation is exact, and sums and products of floating-point numbers are monotone:
+//! a box inside another is never computed to be larger, and a computed bound is at least the computed value of every
+//! box that it drops.
 
 use crate::PointSet;
 
-/// A set of points as the free sides of boxes see it.
+/// A set of points, seen from the free sides of boxes.
 pub(crate) struct Sides<'a> {
     points: &'a PointSet,
     anchored: bool,
@@ -25,7 +25,7 @@ impl<'a> Sides<'a> {
         Self { points, anchored: false }
     }
 
-    /// How many free sides a box has.
+    /// The number of free sides of a box.
     pub(super) fn count(&self) -> usize {
         self.points.dims() * self.per_axis()
     }
@@ -38,7 +38,7 @@ impl<'a> Sides<'a> {
         self.points.len()
     }
 
-    /// A point's coordinate in the direction of a side.
+    /// The coordinate of a point in the direction of a side.
     pub(super) fn coordinate(&self, point: usize, side: usize) -> f64 {
         let point = self.points.point(point);
         if self.anchored {
@@ -48,12 +48,12 @@ impl<'a> Sides<'a> {
         if side % 2 == 1 { x } else { -x }
     }
 
-    /// The farthest position that lies in the cube.
+    /// The farthest position in the cube.
     pub(super) fn end(&self, side: usize) -> f64 {
         if self.anchored || side % 2 == 1 { 1.0 } else { 0.0 }
     }
 
-    /// How wide a box is along an axis; nothing where its sides have passed each other.
+    /// The width of a box along an axis; 0 if its sides have passed each other.
     pub(super) fn width(&self, axis: usize, positions: &[f64]) -> f64 {
         if self.anchored { positions[axis] } else { above_0(positions[2 * axis] + positions[2 * axis + 1]) }
     }
@@ -68,12 +68,12 @@ impl<'a> Sides<'a> {
         (0..self.points.dims()).filter(|axis| *axis != without).map(|axis| self.width(axis, positions)).product()
     }
 
-    /// How far a side may go at most for the box to have a width along the side's axis.
+    /// The farthest position of a side at which the box has this width along the side's axis.
     pub(super) fn position(&self, side: usize, width: f64, positions: &[f64]) -> f64 {
         if self.anchored { width } else { width - positions[side ^ 1] }
     }
 
-    /// A number of points as a share of all.
+    /// A number of points, as a share of all points.
     pub(super) fn share(&self, count: usize) -> f64 {
         count as f64 / self.points.len() as f64
     }

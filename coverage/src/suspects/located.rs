@@ -1,4 +1,4 @@
-//! What a search for the guilty ends with, held against all other tests.
+//! The result of a search for the guilty combination, and its comparison with all other tests.
 
 use super::JudgedTest;
 use super::partial::Partial;
@@ -7,36 +7,38 @@ use paracosm_space::rules::Rules;
 /// A combination whose values are all needed for a failing test to fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Located {
-    /// Its (parameter, level) pairs, parameters in ascending order.
+    /// The (parameter, level) pairs of the combination, in ascending order of parameters.
     pub values: Vec<(usize, usize)>,
-    /// Those of its values that the constraints tie to others of them, so that no valid test could tell which of them
+    /// The values of the combination that constraints tie to each other, so that no valid test can show which of them
     /// are needed.
     pub undivided: Vec<(usize, usize)>,
-    /// A failing test that has these values of the first failing test and, but for values that follow from them by the
-    /// constraints or were cleared, no others.
+    /// A failing test that contains the combination. Its other values differ from those of the first failing test,
+    /// except for values that follow by the constraints or were cleared.
     pub witness: Vec<usize>,
-    /// How many tests were asked for.
+    /// The number of tests that the search asked for.
     pub tests: usize,
-    /// How many tests are enough for one guilty combination of that size, k (ceil(log2 N) + 1) for k of N values; none
-    /// where constraints kept the questions from halving what was in doubt, so that nothing was promised.
+    /// The number of tests that is enough for one guilty combination of this size: k (ceil(log2 N) + 1) for k of N
+    /// values. `None` if constraints kept the questions from halving the values in doubt, so that no number is
+    /// promised.
     pub bound: Option<usize>,
 }
 
-/// How a located combination stands before other tests. Positions are among those.
+/// The agreement of a located combination with other tests. Positions are positions among these tests.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Standing {
-    /// It explains all of them: every one that contains it failed, every other one passed.
+    /// The combination explains all tests: every test that contains it failed, and every other test passed.
     Sole,
-    /// All that contain it failed, but so did these, which do not: there is more than one cause.
+    /// All tests that contain the combination failed, but the tests at these positions failed without it: there is
+    /// more than one cause.
     OneOfSeveral(Vec<usize>),
-    /// These contain it and passed: it is not the cause by itself. Several causes misled the search, or failures depend
-    /// on something else.
+    /// The tests at these positions contain the combination and passed, so that it is not the cause by itself.
+    /// Several causes misled the search, or failures depend on something else.
     Refuted(Vec<usize>),
 }
 
 impl Located {
-    /// A valid test that has these values and otherwise, as far as constraints allow, the levels of another test. Where
-    /// that one passes, a pass of this one refutes the values, and a failure speaks for them.
+    /// Makes a valid test with the located values and otherwise, as far as constraints allow, the levels of another
+    /// test. If the other test passes, a pass of the new test refutes the values, and a failure speaks for them.
     ///
     /// # Panics
     /// The values were not located under these rules, or the other test has too few levels.
@@ -48,7 +50,7 @@ impl Located {
         partial.complete(other)
     }
 
-    /// Whether other tests agree with it.
+    /// Compares the located combination with other tests.
     ///
     /// # Panics
     /// A test has too few levels.

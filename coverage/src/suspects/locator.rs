@@ -1,14 +1,16 @@
-//! Finding the guilty combination in a failing test by asking for few more tests.
+//! Finds the guilty combination in a failing test by asking for few more tests.
 //!
-//! As in Zhang and Zhang, "Characterizing failure-causing parameter interactions by adaptive testing" (ISSTA 2011):
-//! between a failing test and a passing one that keeps some of its values, a guilty value is found by halving the
-//! values in which they differ; then what was found is kept and everything else changed, and if that passes, another
-//! guilty value is looked for in the same way. If one combination of k of the N values is guilty, each of k values
-//! takes at most ceil(log2 N) tests to be found, and one for the question whether it was the last.
+//! The method is that of Zhang and Zhang, "Characterizing failure-causing parameter interactions by adaptive testing"
+//! (ISSTA 2011). Between a failing test and a passing test that keeps some of its values, a guilty value is found by
+//! halving the values in which they differ. Then the guilty values are kept and all others are changed. If that test
+//! passes, another guilty value is searched in the same way. If one combination of k of the N values is guilty, each
+//! of the k values takes at most ceil(log2 N) tests to be found, and one test for the question whether it was the
+//! last.
 //!
-//! A value counts as kept or changed, whatever it is changed to; that leaves room for constraints. Every test that is
-//! asked for keeps them. Where they leave no test that halves the values in doubt, the most even part is asked about,
-//! and where they leave none that parts them at all, the values stay together.
+//! A value is either kept or changed; it does not matter to which level it is changed. That leaves room for
+//! constraints, which every test satisfies. If the constraints allow no test that halves the values in doubt, the
+//! test with the most even division is used. If they allow no test that divides the values at all, the values stay
+//! together.
 
 use super::Located;
 use super::partial::Partial;
@@ -16,33 +18,33 @@ use crate::kwise::{KwiseError, check};
 use paracosm_space::rules::Rules;
 use thiserror::Error;
 
-/// Why nothing can be located.
+/// The reason why a search for a guilty combination cannot begin.
 #[derive(Debug, Error, PartialEq)]
 pub enum LocateError {
-    /// A test is none of this space; the failing one is test 0, the passing one test 1.
+    /// A test does not belong to this space: test 0 is the failing test, test 1 the passing test.
     #[error(transparent)]
     Test(#[from] KwiseError),
-    /// A test that violates a constraint.
+    /// A test violates a constraint.
     #[error("the {role} test violates a constraint")]
     Invalid {
-        /// The test: `failing` or `passing`.
+        /// The role of the test: `failing` or `passing`.
         role: &'static str,
     },
-    /// A test cannot both fail and pass.
+    /// The failing test and the passing test are the same.
     #[error("the failing test and the passing test are the same")]
     Same,
 }
 
-/// What is known of a value of the failing test.
+/// The state of knowledge about a value of the failing test.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
-    /// Some failing test is without it: not guilty.
+    /// The value is not guilty: some failing test does not have it.
     Cleared,
-    /// Some of these are guilty: a test without them passed.
+    /// At least one of the doubted values is guilty: a test without them passed.
     Doubted,
-    /// Perhaps guilty: the test without the doubted ones kept it.
+    /// The value may be guilty: the passing test without the doubted values kept it.
     Waiting,
-    /// Guilty.
+    /// The value is guilty.
     Guilty,
 }
 
@@ -50,13 +52,13 @@ enum Role {
 #[derive(Debug, Clone)]
 struct Question {
     test: Vec<usize>,
-    /// The values in doubt that it changes.
+    /// The values in doubt that the test changes.
     changed: Vec<usize>,
-    /// The values in doubt that it keeps.
+    /// The values in doubt that the test keeps.
     kept: Vec<usize>,
 }
 
-/// Finds the guilty combination: asks for a test, is told how it went, and asks again.
+/// Finds the guilty combination: asks for a test, is told its result, and asks again.
 ///
 /// ```
 /// use paracosm_space::rules::Rules;
@@ -77,7 +79,7 @@ pub struct Locator<'r> {
     rules: &'r Rules,
     /// The failing test whose values are in question.
     accused: Vec<usize>,
-    /// The levels that values may be changed to, those of the passing test first.
+    /// For each parameter, the levels that its value may be changed to; the level of the passing test comes first.
     others: Vec<Vec<usize>>,
     /// The last test that failed.
     failing: Vec<usize>,
@@ -85,27 +87,28 @@ pub struct Locator<'r> {
     undivided: Vec<usize>,
     question: Option<Question>,
     tests: usize,
-    /// Whether all questions so far took as few tests as promised.
+    /// `true` if all questions so far took as few tests as promised.
     as_promised: bool,
 }
 
 impl<'r> Locator<'r> {
-    /// Begins with a failing test and a passing one.
+    /// Begins a search with a failing test and a passing test.
     ///
     /// # Errors
-    /// One of them is none of this space or violates a constraint, or they are the same.
+    /// A test does not belong to this space or violates a constraint, or both tests are the same.
     pub fn new(rules: &'r Rules, failing: &[usize], passing: &[usize]) -> Result<Self, LocateError> {
         Self::cautious(rules, failing, passing, |_, _| true)
     }
 
-    /// [`Locator::new`], with values changed only to those of the passing test and to levels that are `safe`: `safe` is
-    /// asked with a parameter and a level of it. What constraints force is not asked about.
+    /// Begins a search as [`Locator::new`], but changes values only to the levels of the passing test and to levels
+    /// that are `safe`. `safe` receives a parameter and one of its levels. It is not asked about levels that
+    /// constraints force.
     ///
-    /// Where several combinations are guilty, a value may be part of one and the level it is changed to of another. A
-    /// value that has no safe level to be changed to is kept, and not held to be guilty.
+    /// This helps if several combinations are guilty: a value may be part of one combination, and the level that it
+    /// is changed to part of another. A value without a safe level is kept, and is not reported as guilty.
     ///
     /// # Errors
-    /// As `new`.
+    /// As [`Locator::new`].
     pub fn cautious(
         rules: &'r Rules,
         failing: &[usize],
@@ -142,12 +145,12 @@ impl<'r> Locator<'r> {
         Ok(locator)
     }
 
-    /// The test to be run next; none when the search is over.
+    /// Returns the test to be run next; `None` when the search is over.
     pub fn question(&self) -> Option<&[usize]> {
         self.question.as_ref().map(|question| question.test.as_slice())
     }
 
-    /// How the test in question went.
+    /// Tells the result of the test in question.
     ///
     /// # Panics
     /// The search is over.
@@ -163,11 +166,11 @@ impl<'r> Locator<'r> {
             question.changed.iter().for_each(|&value| self.roles[value] = Role::Doubted);
         }
         self.advance();
-        // That was to be the end, but constraints had kept it from changing all that can be changed.
+        // This test was to be the last, but constraints had kept it from changing all values that can be changed.
         self.as_promised &= !(failed && was_last && self.question.is_some());
     }
 
-    /// The guilty combination, when the search is over.
+    /// Returns the guilty combination when the search is over; `None` before.
     pub fn located(&self) -> Option<Located> {
         if self.question.is_some() {
             return None;
@@ -213,16 +216,17 @@ impl<'r> Locator<'r> {
         }
     }
 
-    /// A test that keeps the guilty values and changes all waiting ones that can be changed; none if none can be.
+    /// A test that keeps the guilty values and changes all waiting values that can be changed; `None` if no value can
+    /// be changed.
     fn without_waiting(&self) -> Option<Question> {
         let mut partial = self.keeping(&[Role::Guilty]);
         let change = |&value: &usize| partial.choose_other(value, self.accused[value], &self.others[value]);
         let (changed, kept): (Vec<usize>, Vec<usize>) = self.with(Role::Waiting).into_iter().partition(change);
-        // What cannot be changed is completed as it is: it has no other level.
+        // A value that cannot be changed is completed unchanged: it has no other level.
         (!changed.is_empty()).then(|| Question { test: partial.complete(&self.failing), changed, kept })
     }
 
-    /// A test that keeps guilty and waiting values and changes half of the doubted ones, or nearly; none if every
+    /// A test that keeps guilty and waiting values and changes about half of the doubted values; `None` if every
     /// valid test changes all of them or none.
     fn parting(&self, doubted: &[usize]) -> Option<Question> {
         let keeping = self.keeping(&[Role::Guilty, Role::Waiting]);
@@ -239,7 +243,7 @@ impl<'r> Locator<'r> {
             }
             best = Some(question);
         }
-        // If any two can be parted, one of these questions does it.
+        // If any two values can be separated, one of these questions does so.
         best.or_else(|| {
             let pairs = doubted.iter().flat_map(|&keep| doubted.iter().map(move |&change| (keep, change)));
             pairs.filter(|(keep, change)| keep != change).find_map(|(keep, change)| {
@@ -250,8 +254,8 @@ impl<'r> Locator<'r> {
         })
     }
 
-    /// A test that changes the first half of the doubted values in this order, and of the others as few as possible;
-    /// `keep` is kept before anything is changed. None if it parts nothing.
+    /// A test that changes the first half of the doubted values in this order, and as few as possible of the others.
+    /// `keep` is kept before anything is changed. `None` if the test changes all of the values or none.
     fn change_first(&self, mut partial: Partial, order: &[usize], keep: Option<usize>) -> Option<Question> {
         let mut changed = Vec::new();
         let mut kept: Vec<usize> = keep.into_iter().collect();
@@ -270,12 +274,12 @@ impl<'r> Locator<'r> {
                 kept.push(value);
             }
         }
-        // What could not be chosen has no other level to be completed to.
+        // A value that could not be chosen has no other level to be completed to.
         let parts = !changed.is_empty() && !kept.is_empty();
         parts.then(|| Question { test: partial.complete(&self.failing), changed, kept })
     }
 
-    /// The levels of the values in these roles.
+    /// A partial test with the levels of the values in these roles.
     fn keeping(&self, roles: &[Role]) -> Partial<'r> {
         let mut partial = Partial::new(self.rules);
         for value in (0..self.roles.len()).filter(|&value| roles.contains(&self.roles[value])) {
@@ -296,7 +300,7 @@ impl Question {
         self.changed.len().max(self.kept.len())
     }
 
-    /// Whether either answer leaves no more in doubt than halving does.
+    /// Returns `true` if either answer leaves no more values in doubt than halving does.
     fn is_even(&self) -> bool {
         self.larger_part() <= (self.changed.len() + self.kept.len()).next_power_of_two() / 2
     }

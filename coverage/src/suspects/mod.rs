@@ -1,8 +1,8 @@
-//! Which combinations of discrete values are behind the failures.
+//! Finds the combinations of discrete values that may cause the failures.
 //!
-//! A combination is *suspect* if some failing test contains it and no passing test does, and it is named only if
-//! nothing smaller within it is suspect already. Suspects follow from the tests there are ([`suspects`]); which of
-//! them is guilty, further tests decide ([`Locator`]).
+//! A combination is *suspect* if some failing test contains it, no passing test contains it, and no smaller part of
+//! it is suspect. [`suspects`] finds the suspects in the tests that there are. Further tests decide which suspect is
+//! guilty ([`Locator`]).
 
 mod located;
 mod locator;
@@ -18,68 +18,70 @@ use search::{SuspectSearch, Visitor};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-/// So many suspects are kept, and looked for anew where there are more.
+/// The number of suspects that are kept. If there are more, they are searched again when they are needed.
 const KEPT: usize = 1 << 14;
 
 /// A test that failed or passed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JudgedTest {
-    /// A level for each parameter.
+    /// The level of each parameter.
     pub levels: Vec<usize>,
-    /// Whether it failed.
+    /// `true` if the test failed.
     pub failed: bool,
 }
 
 impl JudgedTest {
-    /// Whether it has all of these (parameter, level) pairs.
+    /// Returns `true` if the test has all of these (parameter, level) pairs.
     pub fn contains(&self, values: &[(usize, usize)]) -> bool {
         values.iter().all(|&(parameter, level)| self.levels[parameter] == level)
     }
 }
 
-/// A combination that failing tests contain and passing ones do not, and of which no part is such a combination.
+/// A combination that failing tests contain and passing tests do not, while no part of it has this property.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Suspect {
-    /// Its (parameter, level) pairs, parameters in ascending order.
+    /// The (parameter, level) pairs of the combination, in ascending order of parameters.
     pub values: Vec<(usize, usize)>,
-    /// How many failing tests contain it; all that contain it failed.
+    /// The number of failing tests that contain the combination. No other tests contain it.
     pub failures: usize,
-    /// How suspect its values are on their own: of the tests with one value the share that failed, by Laplace's rule
-    /// (failed + 1) / (all + 2), on average over the values. Values that are together by chance have the share that
-    /// all tests have; those of a guilty combination have more.
+    /// The suspicion: how suspect the single values are. For each value it takes the share of failed tests among the
+    /// tests with this value, by Laplace's rule (failed + 1) / (all + 2); the suspicion is the average over the
+    /// values. Values that are together by chance have about the share of all tests. The values of a guilty
+    /// combination have a higher share.
     pub suspicion: f64,
 }
 
 impl Suspect {
-    /// Smaller ones come first, then those that explain more failures, then those of the higher suspicion, then the
-    /// lexicographic order of their values decides.
+    /// Orders suspects: first by size, the smaller before the larger; then by the failures that they explain, more
+    /// before fewer; then by suspicion, higher before lower; then by the lexicographic order of their values.
     fn order(&self, other: &Self) -> Ordering {
         let by_size = self.values.len().cmp(&other.values.len()).then(other.failures.cmp(&self.failures));
         by_size.then(other.suspicion.total_cmp(&self.suspicion)).then_with(|| self.values.cmp(&other.values))
     }
 }
 
-/// What tests say about the combinations behind the failures.
+/// The suspects that tests show.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Suspects {
-    /// The first of them: the smallest, among these those that explain most failures, among these those of the
-    /// highest suspicion.
+    /// The first suspects in the order of their ranks: by size, the smallest first; then by explained failures, the
+    /// most first; then by suspicion, the highest first.
     pub ranked: Vec<Suspect>,
-    /// How many there are in all.
+    /// The number of all suspects.
     pub found: u64,
-    /// Few suspects that together explain all failures that can be explained: the one that explains most of what is
-    /// left, again and again (Chvátal's greedy set cover, at most ln n + 1 times as many as needed for n failures).
+    /// A few suspects that together explain all failures that can be explained. Each is the suspect that explains
+    /// most of the failures that are left (Chvátal's greedy set cover, at most ln n + 1 times as many as needed for n
+    /// failures).
     pub explanation: Vec<Suspect>,
-    /// The positions of the failing tests that contain no suspect of that size.
+    /// The positions of the failing tests that contain no suspect of at most the given size.
     pub unexplained: Vec<usize>,
-    /// The positions of the tests that violate a constraint and so say nothing.
+    /// The positions of the tests that violate a constraint and are therefore ignored.
     pub invalid: Vec<usize>,
 }
 
-/// Finds the suspects of at most `size` values; the first `most` of them are listed.
+/// Finds the suspects of at most `size` values, and lists the first `most` of them.
 ///
-/// Where no test failed or none passed, nothing tells combinations apart and there are no suspects. It takes memory
-/// for the tests and for what is listed only.
+/// If no test failed or no test passed, combinations cannot be told apart and there are no suspects. The search takes
+/// memory only for the tests and the listed suspects.
 ///
 /// ```
 /// use paracosm_space::rules::Rules;
@@ -94,7 +96,7 @@ pub struct Suspects {
 /// ```
 ///
 /// # Errors
-/// `size` is 0 or more than there are parameters, or a test is none of this space.
+/// `size` is 0 or more than the number of parameters, or a test does not belong to this space.
 pub fn suspects(rules: &Rules, tests: &[JudgedTest], size: usize, most: usize) -> Result<Suspects, KwiseError> {
     let levels = rules.levels();
     if size == 0 || size > levels.len() {
@@ -123,8 +125,8 @@ pub fn suspects(rules: &Rules, tests: &[JudgedTest], size: usize, most: usize) -
     Ok(Suspects { ranked, found, explanation, unexplained, invalid })
 }
 
-/// Few suspects that explain what can be explained, and the failures that are left. Where not all suspects are given,
-/// they are looked for each time.
+/// A few suspects that explain the failures that can be explained, and the failures that are left. If not all
+/// suspects are given, they are searched each time.
 fn explain(search: &SuspectSearch, all: Option<&[Suspect]>) -> (Vec<Suspect>, Vec<u64>) {
     let mut left = search.failing();
     let mut explanation: Vec<Suspect> = Vec::new();
@@ -169,7 +171,7 @@ impl Visitor for Ranking {
     }
 }
 
-/// Keeps the suspect that explains most of the failures in question, the first in order among equals.
+/// Keeps the suspect that explains most of the given failures; among equals, the first in the order of ranks.
 struct Greatest(Option<(usize, Suspect)>);
 
 impl Visitor for Greatest {

@@ -1,8 +1,8 @@
-//! A test that is chosen level by level, and can always be completed.
+//! A test that is chosen level by level and can always be completed.
 
 use paracosm_space::rules::Rules;
 
-/// Levels of some parameters that some valid test has.
+/// Levels of some parameters, such that some valid test has all of them.
 #[derive(Debug, Clone)]
 pub(super) struct Partial<'r> {
     rules: &'r Rules,
@@ -10,12 +10,13 @@ pub(super) struct Partial<'r> {
 }
 
 impl<'r> Partial<'r> {
-    /// Nothing chosen yet.
+    /// Makes a partial test without any level.
     pub fn new(rules: &'r Rules) -> Self {
         Self { rules, levels: vec![None; rules.levels().len()] }
     }
 
-    /// Chooses a level of a parameter, if some valid test has it with those chosen before.
+    /// Chooses a level of a parameter, if some valid test has it together with the levels chosen before. Returns
+    /// `true` if so.
     pub fn choose(&mut self, parameter: usize, level: usize) -> bool {
         self.levels[parameter] = Some(level);
         let group = self.rules.group_of(parameter);
@@ -26,12 +27,13 @@ impl<'r> Partial<'r> {
         fits
     }
 
-    /// Chooses a level other than this one, the first of these that may be.
+    /// Chooses the first possible level of `levels` other than `than`. Returns `true` if there is one.
     pub fn choose_other(&mut self, parameter: usize, than: usize, levels: &[usize]) -> bool {
         levels.iter().any(|&level| level != than && self.choose(parameter, level))
     }
 
-    /// The test, every parameter without a level at the preferred one or, if that may not be, at the first that may.
+    /// Completes the test: a parameter without a level gets the preferred level or, if that is impossible, the first
+    /// possible level.
     pub fn complete(mut self, preferred: &[usize]) -> Vec<usize> {
         for (parameter, &level) in preferred.iter().enumerate() {
             if self.levels[parameter].is_none() && !self.choose(parameter, level) {

@@ -1,17 +1,18 @@
-//! Listing suspects without keeping them: depth first over the values of ascending parameters.
+//! Lists suspects without storing them, by a depth-first search over the values of ascending parameters.
 //!
-//! The tests with a value are a set of bits, those with a combination the intersection of its values' sets. A
-//! combination grows while passing tests contain it and stops where no failing test does; so only what failing tests
-//! contain is ever looked at.
+//! The tests with a value are a set of bits. The tests with a combination are the intersection of its values' sets. A
+//! combination grows while passing tests contain it, and stops if no failing test contains it. So the search only
+//! looks at combinations that failing tests contain.
 
 use super::{JudgedTest, Suspect};
 
-/// What is done with suspects.
+/// A receiver of suspects.
 pub(super) trait Visitor {
-    /// Whether suspects of this size or more that so many of the failures in question contain, or fewer, matter.
+    /// Returns `true` if a suspect with at least `size` values matters that at most `explained` of the given failures
+    /// contain.
     fn wants(&self, size: usize, explained: usize) -> bool;
 
-    /// Takes a suspect that so many of the failures in question contain.
+    /// Receives a suspect that `explained` of the given failures contain.
     fn see(&mut self, suspect: Suspect, explained: usize);
 }
 
@@ -23,7 +24,7 @@ struct Item {
     passed: Vec<u64>,
 }
 
-/// The values that failing tests have, parameter by parameter and in ascending order of levels.
+/// The values that failing tests have, by parameters and in ascending order of levels.
 pub(super) struct SuspectSearch {
     size: usize,
     items: Vec<Item>,
@@ -55,7 +56,7 @@ pub(super) fn ones(bits: &[u64]) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Sets `target` to the intersection; how many bits are left.
+/// Sets `target` to the intersection of `a` and `b`. Returns the number of bits that are set.
 fn intersect(target: &mut [u64], a: &[u64], b: &[u64]) -> usize {
     let words = target.iter_mut().zip(a.iter().zip(b));
     words
@@ -67,7 +68,7 @@ fn intersect(target: &mut [u64], a: &[u64], b: &[u64]) -> usize {
 }
 
 impl SuspectSearch {
-    /// The suspects of at most `size` values that the tests show.
+    /// Prepares the search for suspects of at most `size` values in the tests.
     pub fn new<'a>(parameters: usize, size: usize, tests: impl Iterator<Item = &'a JudgedTest>) -> Self {
         let (failing, passing): (Vec<&JudgedTest>, Vec<&JudgedTest>) = tests.partition(|test| test.failed);
         let mut items = Vec::new();
@@ -98,14 +99,14 @@ impl SuspectSearch {
         Self { size, items, first, of_failure, passing: passing.len() }
     }
 
-    /// All failing tests.
+    /// The set of all failing tests.
     pub fn failing(&self) -> Vec<u64> {
         let mut all = zeros(self.of_failure.len());
         (0..self.of_failure.len()).for_each(|failure| set(&mut all, failure));
         all
     }
 
-    /// The failing tests among these that contain the (parameter, level) pairs.
+    /// The given failing tests that contain the (parameter, level) pairs.
     pub fn containing(&self, failures: &[u64], values: &[(usize, usize)]) -> Vec<u64> {
         let mut containing = failures.to_vec();
         for item in values.iter().map(|&(parameter, level)| self.item(parameter, level)) {
@@ -132,7 +133,7 @@ impl SuspectSearch {
         Suspect { values, failures, suspicion }
     }
 
-    /// Shows each suspect that one of the given failures contains.
+    /// Shows each suspect that at least one of the given failures contains.
     pub fn visit(&self, failures: &[u64], visitor: &mut impl Visitor) {
         let mut passing = zeros(self.passing);
         (0..self.passing).for_each(|pass| set(&mut passing, pass));
@@ -141,7 +142,7 @@ impl SuspectSearch {
         self.grow(0, &mut Vec::new(), &mut sets, visitor);
     }
 
-    /// Adds an item of a parameter from `from` on; `sets` are the tests with what is chosen, and room for more.
+    /// Adds an item of a parameter from `from` on. `sets` holds the tests with the chosen items, and room for more.
     fn grow(
         &self,
         from: usize,
@@ -170,7 +171,7 @@ impl SuspectSearch {
         }
     }
 
-    /// The items of a parameter that some of the failures have; where that is cheaper, all that there are.
+    /// The items of a parameter that at least one of the failures has; all items if that is cheaper.
     fn present(&self, parameter: usize, failures: &[u64]) -> Vec<usize> {
         let all = self.first[parameter]..self.first[parameter + 1];
         if all.len() <= count(failures) {
@@ -182,8 +183,8 @@ impl SuspectSearch {
         items
     }
 
-    /// Whether some passing test contains the items without the first of them, without the second, and so on; that
-    /// one contains them without the last is known.
+    /// Checks that a passing test contains the items without the first, a passing test contains them without the
+    /// second, and so on. It is already known that a passing test contains them without the last.
     fn is_minimal(&self, items: &[usize]) -> bool {
         let together = |without: usize, word: usize| {
             let others = items.iter().enumerate().filter(|(place, _)| *place != without);

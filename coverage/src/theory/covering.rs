@@ -1,21 +1,23 @@
-//! How many rows every covering array has at least, by what is proved of parameters without constraints.
+//! Lower bounds on the number of rows of every covering array, from theorems about parameters without constraints.
 //!
-//! An array of strength t over parameters with given numbers of levels contains one over fewer of the parameters, and by
-//! joining levels one over fewer levels. So whatever is known of equally many levels says something of any parameters.
+//! A covering array of strength t contains a covering array of any subset of its parameters. If levels are joined, it
+//! becomes a covering array over fewer levels. A bound for parameters with equally many levels therefore gives a
+//! bound for any parameters.
 
-/// No covering array of strength `strength` over parameters with so many levels, in any order, has fewer rows. What
-/// exceeds `u128` saturates.
+/// Returns a lower bound on the number of rows of any covering array of strength `strength` over parameters with
+/// these numbers of levels, in any order. A number beyond `u128` saturates.
 ///
-/// It is the largest of
-/// - the product of the `strength` largest numbers of levels: that many combinations stand in as many rows;
-/// - `v` times what strength `strength - 1` asks of the other parameters, for a parameter of `v` levels: the rows with one
-///   of its levels are an array of the others;
-/// - for each `v`, over the parameters with at least `v` levels, joined to `v`: what is known of strength 2
-///   (Kleitman, Spencer, Families of k-independent sets, Discrete Mathematics 6, 1973, and Katona, Two applications of
-///   Sperner type theorems, Periodica Mathematica Hungarica 3, 1973, which is exact for `v = 2`; Poljak, Tuza, On the
-///   maximum number of qualitatively independent partitions, Journal of Combinatorial Theory A 51, 1989; Stevens, Moura,
-///   Mendelsohn, Lower bounds for transversal covers, Designs, Codes and Cryptography 15, 1998; Tarry, Le problème des 36
-///   officiers, 1900) and 3 (Bush, Orthogonal arrays of index unity, Annals of Mathematical Statistics 23, 1952).
+/// The bound is the largest of these:
+/// - the product of the `strength` largest numbers of levels: each of these combinations needs a row of its own;
+/// - for a parameter of `v` levels, `v` times the bound of strength `strength - 1` for the other parameters: the rows
+///   with one of the `v` levels are a covering array of the other parameters;
+/// - for each `v`, the known bounds for the parameters with at least `v` levels, joined to `v`, at strength 2
+///   (Kleitman, Spencer, Families of k-independent sets, Discrete Mathematics 6, 1973, and Katona, Two applications
+///   of Sperner type theorems, Periodica Mathematica Hungarica 3, 1973, which is exact for `v = 2`; Poljak, Tuza, On
+///   the maximum number of qualitatively independent partitions, Journal of Combinatorial Theory A 51, 1989; Stevens,
+///   Moura, Mendelsohn, Lower bounds for transversal covers, Designs, Codes and Cryptography 15, 1998; Tarry, Le
+///   problème des 36 officiers, 1900) and at strength 3 (Bush, Orthogonal arrays of index unity, Annals of
+///   Mathematical Statistics 23, 1952).
 ///
 /// # Panics
 /// `strength` is not in 1 to the number of parameters.
@@ -26,50 +28,53 @@ pub fn fewest_rows(levels: &[usize], strength: usize) -> u128 {
     sorted(&levels, strength)
 }
 
-/// As [`fewest_rows`], of the most levels first.
+/// As [`fewest_rows`], but `levels` must be in descending order.
 fn sorted(levels: &[usize], strength: usize) -> u128 {
     let product = levels[..strength].iter().fold(1u128, |product, &v| product.saturating_mul(v as u128));
     if strength == 1 {
         return product;
     }
     let derived = (levels[0] as u128).saturating_mul(sorted(&levels[1..], strength - 1));
-    // Where the next has fewer levels, as many as this parameter has can be had up to here.
+    // If the next parameter has fewer levels, `end` parameters have at least as many levels as the last of them.
     let ends = (strength..=levels.len()).filter(|&end| levels.get(end) != Some(&levels[end - 1]));
     let alike = ends.map(|parameters| uniform(parameters, levels[parameters - 1], strength));
     alike.fold(product.max(derived), u128::max)
 }
 
-/// What so many parameters of `v` levels each ask for.
+/// The bound for so many parameters of `v` levels each.
 fn uniform(parameters: usize, v: usize, strength: usize) -> u128 {
     match strength {
         _ if v < 2 => 1,
         2 => of_pairs(parameters, v),
         _ => {
             let derived = (v as u128).saturating_mul(uniform(parameters - 1, v, strength - 1));
-            // With v^3 rows each triple stands in one; odd v allows v + 1 such columns (Bush).
+            // With v^3 rows each triple of levels stands in exactly one row. An odd v allows at most v + 1 such
+            // columns (Bush).
             let odd = strength == 3 && v >= 3 && v % 2 == 1 && parameters - 2 >= v;
             derived.max(if odd { cube(v).saturating_add(1) } else { 0 })
         }
     }
 }
 
-/// The same at strength 2.
+/// The bound of `uniform` at strength 2.
 fn of_pairs(parameters: usize, v: usize) -> u128 {
     let square = (v as u128).saturating_mul(v as u128);
     if v == 2 {
-        // The columns are subsets of the rows of which all four parts are inhabited, and only so many are.
+        // Each column is a subset of the rows. Two columns divide the rows into four parts, of which none may be
+        // empty: only this many subsets allow that.
         return (4..).find(|&rows| choose(rows - 1, rows.div_ceil(2)) >= parameters as u128).expect("it grows");
     }
-    // The two smallest classes of each column have at most 2N/v rows together. They are disjoint and meet those of any
-    // other column, and so do they with their roles exchanged: by the theorem of Bollobás on pairs of sets, twice as many
-    // pairs as there are columns ask for (2N/v choose N/v).
+    // In each column, the two smallest classes of rows have at most 2N/v rows together. They are disjoint, and each
+    // of them meets those of any other column. The same holds with the two classes exchanged. By the theorem of
+    // Bollobás on pairs of sets, twice as many pairs as there are columns need (2N/v choose N/v).
     let classes = (2u128..).find(|&m| choose(m, m / 2) >= 2 * parameters as u128).expect("it grows");
     let partitions = (classes.saturating_mul(v as u128)).div_ceil(2);
     let beyond_orthogonal = match parameters {
-        // More columns than v + 1 cannot show each pair once. They do not with one row more either: in each column one
-        // level stands in v + 1 rows, the others in v, and some row has at most two entries of the former kind. Each of
-        // its entries shares its row with v - 1 others, or v, which are all different but for one that those two have in
-        // common: more than the v^2 other rows that there are.
+        // More than v + 1 columns cannot show each pair exactly once. One more row than v^2 is not enough either: in
+        // each column one level then stands in v + 1 rows and the others in v rows, and some row has at most two
+        // entries of the former kind. Each entry of this row occurs in v - 1 or v other rows. These rows are all
+        // different, except for one that the two entries of the former kind may share: together they are more than
+        // the v^2 other rows.
         _ if parameters - 2 >= v => 2,
         // No two Latin squares of order 6 are orthogonal.
         _ if v == 6 && parameters >= 4 => 1,
@@ -82,7 +87,7 @@ fn cube(v: usize) -> u128 {
     (v as u128).saturating_pow(3)
 }
 
-/// The binomial coefficient; what exceeds `u128` on the way saturates.
+/// The binomial coefficient; a value beyond `u128` on the way saturates.
 fn choose(n: u128, k: u128) -> u128 {
     (0..k).try_fold(1u128, |product, i| Some(product.checked_mul(n - i)? / (i + 1))).unwrap_or(u128::MAX)
 }

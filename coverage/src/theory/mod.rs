@@ -1,7 +1,7 @@
-//! What is known about a set of tests before any test is drawn.
+//! Bounds on the number of tests, which are known before any test is drawn.
 //!
-//! [`rows`] has the bounds for the discrete half of a test set, [`points`] those for the continuous half; [`covering`] says
-//! what every covering array needs.
+//! [`rows`] has the bounds for the discrete parameters of a set of tests, [`points`] has the bounds for the
+//! continuous parameters, and [`covering`] has lower bounds for every covering array.
 
 pub mod covering;
 pub mod points;

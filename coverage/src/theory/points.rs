@@ -1,19 +1,20 @@
-//! How many points a dispersion asks for.
+//! The number of points that a given dispersion needs.
 //!
-//! Three kinds of answers, never to be mixed up: no set of fewer points has it ([`needed_by_any_set`]), so many points
-//! of this set have it ([`enough_of_halton`], [`enough_of_hammersley`], [`enough_of_sobol`]), and so many random points
-//! have it with this probability ([`enough_at_random`]). Above three dimensions the latter two are far more than is
-//! needed: of Halton's points in five dimensions 739,200 are enough for 0.1 by the bound, and 141 by measurement.
+//! There are three kinds of answers, which must not be mixed up. No set of fewer points reaches the dispersion
+//! ([`needed_by_any_set`]). So many points of a given set reach it ([`enough_of_halton`], [`enough_of_hammersley`],
+//! [`enough_of_sobol`]). So many random points reach it with a given probability ([`enough_at_random`]). Above three
+//! dimensions the latter two are far more than is needed: for 0.1 in five dimensions, the bound asks for 739,200 of
+//! Halton's points, and by measurement 141 are enough.
 //!
-//! All take the number of dimensions and the dispersion `epsilon` that is not to be exceeded, answer `None` where the
-//! number is beyond `u64`, and panic if `dims` is 0 or `epsilon` not in `(0, 1)`.
+//! All functions take the number of dimensions and the dispersion `epsilon` that must not be exceeded. They return
+//! `None` if the number of points does not fit in `u64`, and panic if `dims` is 0 or `epsilon` is not in `(0, 1)`.
 
-/// No set of fewer points has a dispersion of at most `epsilon`.
+/// Returns a lower bound on the number of points: no set of fewer points has a dispersion of at most `epsilon`.
 ///
-/// A set of `n` points leaves a box of volume `1/(n+1)`, for `d >= 2` one of `5/(4(n+5))` (Dumitrescu, Jiang, On the
-/// largest empty axis-parallel box amidst n points, Algorithmica 66, 2013), and one of `log2 d / (4(n + log2 d))`
-/// (Aistleitner, Hinrichs, Rudolf, On the size of the largest empty box amidst a point set, Discrete Appl. Math. 230,
-/// 2017).
+/// Any set of `n` points leaves an empty box of volume `1/(n+1)`. For `d >= 2` it also leaves a box of volume
+/// `5/(4(n+5))` (Dumitrescu, Jiang, On the largest empty axis-parallel box amidst n points, Algorithmica 66, 2013)
+/// and a box of volume `log2 d / (4(n + log2 d))` (Aistleitner, Hinrichs, Rudolf, On the size of the largest empty
+/// box amidst a point set, Discrete Appl. Math. 230, 2017).
 pub fn needed_by_any_set(dims: usize, epsilon: f64) -> Option<u64> {
     check(dims, epsilon);
     let log = libm::log2(dims as f64);
@@ -25,25 +26,28 @@ pub fn needed_by_any_set(dims: usize, epsilon: f64) -> Option<u64> {
     whole((slabs.max(plane).max(many) * (1.0 - 1e-12)).ceil().max(0.0))
 }
 
-/// So many consecutive points of the Halton sequence, from any index on, have a dispersion of at most `epsilon`:
-/// `2^d p_1 ... p_d / n`, with the first `d` primes (Rote, Tichy, Quasi-Monte Carlo methods and the dispersion of point
-/// sequences, Math. Comput. Modelling 23, 1996).
+/// Returns a number of consecutive points of the Halton sequence that is enough for a dispersion of at most
+/// `epsilon`, from any index on. The dispersion of `n` points is at most `2^d p_1 ... p_d / n`, with the first `d`
+/// primes (Rote, Tichy, Quasi-Monte Carlo methods and the dispersion of point sequences, Math. Comput. Modelling 23,
+/// 1996).
 pub fn enough_of_halton(dims: usize, epsilon: f64) -> Option<u64> {
     check(dims, epsilon);
     whole((doubled_primes(dims) / epsilon).ceil())
 }
 
-/// A Hammersley set of so many points has a dispersion of at most `epsilon`: `2^(d-1) p_1 ... p_(d-1) / n` (as
-/// [`enough_of_halton`]). It is true of the set that is made for `n` points, not of the beginning of a longer one.
+/// Returns a number of points for which a Hammersley set has a dispersion of at most `epsilon`. The dispersion of `n`
+/// points is at most `2^(d-1) p_1 ... p_(d-1) / n` (source: [`enough_of_halton`]). This holds for the set that is
+/// made for `n` points, not for the beginning of a longer set.
 pub fn enough_of_hammersley(dims: usize, epsilon: f64) -> Option<u64> {
     check(dims, epsilon);
     whole((doubled_primes(dims - 1) / epsilon).ceil())
 }
 
-/// The first so many points of the Sobol sequence, a power of two, have a dispersion of at most `epsilon`: a
-/// `(t,m,d)`-net in base 2 has at most `2^d 2^(d-1+t) / n`, and the quality parameter `t` of the sequence in `d`
-/// dimensions is at most the sum of the degrees of its primitive polynomials, each less 1 (Sobol, On the distribution of
-/// points in a cube and the approximate evaluation of integrals, USSR Comput. Math. Math. Phys. 7, 1967).
+/// Returns a power of two, a number of first points of the Sobol sequence that have a dispersion of at most
+/// `epsilon`. The dispersion of a `(t,m,d)`-net in base 2 is at most `2^d 2^(d-1+t) / n`. The quality parameter `t`
+/// of the sequence in `d` dimensions is at most the sum of the degrees of its primitive polynomials, each less 1
+/// (Sobol, On the distribution of points in a cube and the approximate evaluation of integrals, USSR Comput. Math.
+/// Math. Phys. 7, 1967).
 pub fn enough_of_sobol(dims: usize, epsilon: f64) -> Option<u64> {
     check(dims, epsilon);
     let t = sobol_quality(dims)?;
@@ -53,17 +57,18 @@ pub fn enough_of_sobol(dims: usize, epsilon: f64) -> Option<u64> {
     if m < 64.0 { Some(1 << m as u64) } else { None }
 }
 
-/// So many uniformly random points have a dispersion of at most `epsilon` with probability at least `1 - delta`:
+/// Returns a number of uniformly random points that have a dispersion of at most `epsilon` with probability at least
+/// `1 - delta`:
 ///
 /// ```text
 /// P(dispersion > epsilon) <= (M(M+1)/2)^d (1 - epsilon + 2d/M)^n     for any whole M > 2d/epsilon,
 /// ```
 ///
-/// since a box of volume epsilon holds a box of a grid of `M` cells a side that is smaller by at most `2d/M`. The `M` that
-/// asks for least is searched for; the bound holds for whichever is found.
+/// The reason: a box of volume epsilon holds a box of a grid with `M` cells a side whose volume is smaller by at most
+/// `2d/M`. The bound holds for every `M`; the function searches for the `M` that needs the fewest points.
 ///
 /// # Panics
-/// As the others, and if `delta` is not in `(0, 1)`.
+/// As for the other functions of this module; also if `delta` is not in `(0, 1)`.
 pub fn enough_at_random(dims: usize, epsilon: f64, delta: f64) -> Option<u64> {
     check(dims, epsilon);
     assert!(delta > 0.0 && delta < 1.0, "delta is {delta}, expected a number between 0 and 1");
@@ -74,7 +79,8 @@ pub fn enough_at_random(dims: usize, epsilon: f64, delta: f64) -> Option<u64> {
         let boxes = d * (libm::log(m) + libm::log(m + 1.0) - std::f64::consts::LN_2);
         (boxes - libm::log(delta)) / -libm::log1p(2.0 * d / m - epsilon)
     };
-    // With few cells the grid wastes volume, with many there are too many boxes: a valley in between.
+    // Few cells make a coarse grid, which wastes volume. Many cells make too many boxes. The best number is in
+    // between.
     let found = (1..400).map(|step| points(libm::exp2(f64::from(step) / 20.0))).fold(f64::INFINITY, f64::min);
     whole(found.ceil())
 }
@@ -86,8 +92,8 @@ fn doubled_primes(dims: usize) -> f64 {
     primes.take(dims.min(200)).map(|prime| 2.0 * f64::from(prime)).product()
 }
 
-/// The sum over the first `dims` dimensions of the degrees of their primitive polynomials over GF(2), each less 1; the
-/// first dimension has none. `None` where the polynomials are of more than 30 degrees.
+/// The sum over the first `dims` dimensions of the degrees of their primitive polynomials over GF(2), each less 1.
+/// The first dimension has no polynomial. `None` if a polynomial has a degree above 30.
 fn sobol_quality(dims: usize) -> Option<u64> {
     let mut left = dims as u64 - 1;
     let mut sum = 0;
@@ -103,7 +109,7 @@ fn sobol_quality(dims: usize) -> Option<u64> {
     None
 }
 
-/// How many numbers up to `n` have no factor in common with it.
+/// The number of integers up to `n` that have no factor in common with `n`.
 fn totient(mut n: u64) -> u64 {
     let mut coprime = n;
     let mut factor = 2;
@@ -124,7 +130,7 @@ fn check(dims: usize, epsilon: f64) {
     assert!(epsilon > 0.0 && epsilon < 1.0, "epsilon is {epsilon}, expected a number between 0 and 1");
 }
 
-/// A number that a `u64` holds.
+/// Converts a number to `u64`, if it fits.
 fn whole(number: f64) -> Option<u64> {
     (number < u64::MAX as f64).then_some(number as u64)
 }

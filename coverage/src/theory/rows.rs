@@ -1,37 +1,39 @@
-//! How many random rows cover the discrete parameters k-wise.
+//! The number of random rows that cover the discrete parameters k-wise.
 //!
 //! The proof of the paper's Proposition 3.2 is a union bound over the combinations that could be missed, rounded to a
-//! formula one can remember; here are both, the formula as it is printed and the bound behind it, which also serves
-//! parameters with more than two levels, and constraints: rows are then drawn from those tests that keep them, and
-//! every combination counts with its own probability.
+//! simple formula. This module has both: the formula as it is printed, and the bound behind it. The bound also serves
+//! parameters with more than two levels, and constraints. Rows are then drawn from the tests that satisfy the
+//! constraints, and every combination counts with its own probability.
 
 use paracosm_space::rules::{Rules, UniformTests};
 use std::collections::BTreeMap;
 
-/// The number of uniformly random rows of `{0,1}^parameters` that Proposition 3.2 of the paper asks for, to be a
-/// k-wise covering family with probability at least `1 - delta`: `2^k (k ln N - ln delta)`, not rounded.
+/// Returns the number of uniformly random rows of `{0,1}^parameters` that Proposition 3.2 of the paper asks for, so
+/// that they are a k-wise covering family with probability at least `1 - delta`: `2^k (k ln N - ln delta)`, not
+/// rounded.
 ///
-/// The formula comes from `ln(1 - 2^-k) <= -2^-k` and `C(N,k) 2^k <= N^k`. The second does not hold for small
-/// `N`: at `N = k = 1`, `delta = 0.9` it asks for 0.21, that is for one row, which cannot hold both values.
-/// [`RandomRows::family_size`] is the number that can be relied on.
+/// The formula comes from `ln(1 - 2^-k) <= -2^-k` and `C(N,k) 2^k <= N^k`. The second inequality does not hold for
+/// small `N`: at `N = k = 1`, `delta = 0.9` the formula asks for 0.21, and one row cannot hold both values. Use
+/// [`RandomRows::family_size`] for a number that is always sufficient.
 pub fn proposition_3_2(parameters: usize, k: usize, delta: f64) -> f64 {
     let k = k as f64;
     libm::exp2(k) * (k * libm::log(parameters as f64) - libm::log(delta))
 }
 
-/// Uniformly random rows, each one of all tests that keep the constraints, and what can be promised of them.
+/// Uniformly random rows, drawn from all tests that satisfy the constraints, and the probability that they cover
+/// k-wise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RandomRows {
     parameters: usize,
     k: usize,
-    /// Whether they are rows of the paper's Proposition 3.2: two levels each, and no constraints.
+    /// `true` if the rows are those of the paper's Proposition 3.2: two levels each, and no constraints.
     of_the_paper: bool,
     combinations: Combinations,
 }
 
 impl RandomRows {
-    /// Random rows that are to have all valid combinations of levels of `k` parameters; none where constraints
-    /// entangle too many parameters for probabilities to be known.
+    /// Describes random rows that should contain all valid combinations of levels of `k` parameters. Returns `None`
+    /// if constraints join too many parameters, so that the probabilities cannot be computed.
     ///
     /// # Panics
     /// `k` is not in 1 to the number of parameters, or a parameter has no level.
@@ -44,17 +46,18 @@ impl RandomRows {
         Some(Self { parameters: levels.len(), k, of_the_paper, combinations })
     }
 
-    /// A probability that is not exceeded: that one of the valid combinations is in none of `rows` rows. It is the
-    /// union bound, or 1 where that says nothing:
+    /// Returns an upper bound on the probability that at least one valid combination is in none of `rows` rows. It is
+    /// the union bound, or 1 if the union bound is larger:
     ///
     /// ```text
     /// sum over all valid combinations of  (1 - p)^rows,      p = the probability of the combination in one row.
     /// ```
     ///
-    /// Without constraints p is 1/P_S for each of the P_S combinations of a set S of k parameters. Where there are
-    /// more than 16,384 different p (a hundred parameters, each with another number of levels), or constraints make
-    /// more than 1,024 among parameters that they join, these are rounded down, by less than 1 % for each factor of a p.
-    /// What does not fit in a float is rounded up, and what fits is exact: a `delta` that is the very sum is kept.
+    /// Without constraints p is 1/P_S for each of the P_S combinations of a set S of k parameters. The values of p
+    /// are rounded down, by less than 1 % for each factor of a p, if there are more than 16,384 different values (a
+    /// hundred parameters, each with another number of levels), or if the parameters that constraints join have more
+    /// than 1,024 different values. A number that does not fit in a float is rounded up, and a number that fits is
+    /// exact: a `delta` that equals the sum is met.
     pub fn missed(&self, rows: u64) -> f64 {
         if rows == 0 {
             return 1.0;
@@ -65,14 +68,15 @@ impl RandomRows {
         self.combinations.iter().map(missed).fold(0.0, sum_above).min(1.0)
     }
 
-    /// The least number of rows for which the union bound promises all valid combinations with probability at least
-    /// `1 - delta`: for which [`RandomRows::missed`] is at most `delta`. `u64::MAX` where the number does not fit.
+    /// Returns the least number of rows for which the union bound guarantees all valid combinations with probability
+    /// at least `1 - delta`, that is, for which [`RandomRows::missed`] is at most `delta`. Returns `u64::MAX` if the
+    /// number does not fit.
     ///
     /// # Panics
     /// `delta` is not in `(0, 1)`.
     pub fn union_bound(&self, delta: f64) -> u64 {
         assert!(delta > 0.0 && delta < 1.0, "delta is {delta}, expected a number between 0 and 1");
-        // No row covers nothing, so 0 never is enough.
+        // Without rows nothing is covered, so 0 is never enough.
         let (mut short, mut long) = (0, 1);
         while self.missed(long) > delta {
             if long == u64::MAX {
@@ -91,11 +95,12 @@ impl RandomRows {
         long
     }
 
-    /// How many rows make a k-wise covering family with probability at least `1 - delta`.
+    /// Returns the number of rows that are a k-wise covering family with probability at least `1 - delta`.
     ///
-    /// For parameters with two levels each and no constraints this is the paper's [`proposition_3_2`], which users of
-    /// the paper expect, though it asks for more than is needed; where it asks for too little it is raised to the
-    /// union bound. For anything else, of which the paper says nothing, it is the union bound.
+    /// For parameters with two levels each and no constraints it is the number of the paper's [`proposition_3_2`],
+    /// which users of the paper expect, although that is more than needed. If the formula asks for too few rows, the
+    /// number is raised to the union bound. In all other cases, which the paper does not treat, it is the union
+    /// bound.
     ///
     /// # Panics
     /// As [`RandomRows::union_bound`].
@@ -109,15 +114,15 @@ impl RandomRows {
     }
 }
 
-/// `1 - 1/odds`, of odds that are at least 1, or the next float above it.
+/// `1 - 1/odds`, or the next float above it; `odds` is at least 1.
 fn complement_above(odds: f64) -> f64 {
     let complement = (odds - 1.0) / odds;
-    // What is left of a division that was not exact, and odds too large to take 1 from, are exact in one operation.
+    // The remainder of an inexact division is exact in one operation, and so are odds too large to take 1 from.
     let is_exact = odds - 1.0 + 1.0 == odds && libm::fma(complement, odds, 1.0 - odds) >= 0.0;
     if is_exact { complement } else { complement.next_up().min(1.0) }
 }
 
-/// `base` to the power of `exponent`, of numbers from 0 to 1, and not below it: the exact power where it fits.
+/// An upper bound on `base` to the power of `exponent`, for `base` from 0 to 1: the exact power if it fits.
 fn power_above(mut base: f64, mut exponent: u64) -> f64 {
     let mut power = 1.0;
     while exponent > 0 {
@@ -130,10 +135,10 @@ fn power_above(mut base: f64, mut exponent: u64) -> f64 {
     power
 }
 
-/// The product of numbers that are not negative, or the next float above it.
+/// The product of two non-negative numbers, or the next float above it.
 fn product_above(a: f64, b: f64) -> f64 {
     let product = a * b;
-    // Where the product is too small for its remainder to be a float, nobody knows whether it is exact.
+    // If the product is so small that its remainder is not a float, it may be inexact.
     let is_tiny = product < 1e-250 && a > 0.0 && b > 0.0;
     if is_tiny || libm::fma(a, b, -product) > 0.0 { product.next_up() } else { product }
 }
@@ -141,18 +146,19 @@ fn product_above(a: f64, b: f64) -> f64 {
 /// The sum of two numbers, or the next float above it.
 fn sum_above(a: f64, b: f64) -> f64 {
     let sum = a + b;
-    // What rounding took away (Knuth's sum of two floats with its remainder).
+    // The part that rounding took away (Knuth's sum of two floats with its remainder).
     let rest = sum - a;
     if (a - (sum - rest)) + (b - rest) > 0.0 { sum.next_up() } else { sum }
 }
 
-/// How many combinations there are by their odds, 1 to how many: the bits of floats, which sort as the floats do.
+/// The number of combinations for each value of the odds `1/p`. The key holds the bits of the odds, which sort as the
+/// floats do.
 type Combinations = BTreeMap<u64, f64>;
 
-/// The valid combinations of k parameters.
+/// Counts the valid combinations of k parameters by their odds.
 ///
-/// There may be far more than can be listed, but few different odds: parameter by parameter, and group by group,
-/// combinations are counted by size and odds.
+/// There may be far too many to list, but there are few different odds. So combinations are counted by size and odds,
+/// parameter by parameter and group by group.
 fn combinations(rules: &Rules, tests: &UniformTests, k: usize) -> Combinations {
     let mut by_size = vec![Combinations::new(); k + 1];
     by_size[0].insert(1.0_f64.to_bits(), 1.0);
@@ -175,7 +181,7 @@ fn combinations(rules: &Rules, tests: &UniformTests, k: usize) -> Combinations {
     by_size.swap_remove(k)
 }
 
-/// Joins combinations with those of further parameters, of 1, 2, .. of them.
+/// Joins combinations with the combinations of further parameters, which have 1, 2, .. of them.
 fn multiply(by_size: &mut [Combinations], further: &[Combinations]) {
     for size in (1..by_size.len()).rev() {
         let (smaller, larger) = by_size.split_at_mut(size);
@@ -193,14 +199,14 @@ fn multiply(by_size: &mut [Combinations], further: &[Combinations]) {
     }
 }
 
-/// How many different odds are told apart.
+/// The largest number of different odds that are told apart.
 const MOST_ODDS: usize = 1 << 14;
 
-/// The same among parameters that constraints join.
+/// The largest number of different odds that are told apart among the parameters that constraints join.
 const MOST_ODDS_OF_A_GROUP: usize = 1 << 10;
 
-/// The same combinations with odds rounded up to eight binary digits. What the union bound sums grows with the odds:
-/// the bound stays one.
+/// The same combinations with odds rounded up to eight binary digits. The union bound grows with the odds, so that it
+/// stays an upper bound.
 fn rounded_up(combinations: &Combinations) -> Combinations {
     const DROPPED: u64 = (1 << (f64::MANTISSA_DIGITS - 8)) - 1;
     let mut rounded = Combinations::new();

@@ -1,18 +1,18 @@
-//! The networks that come with the software, each taught by the study that is named in its recipe (see the README beside
-//! the weights).
+//! The networks that come with the software. The recipe of each network names the study that taught it (see the README
+//! beside the weights).
 
 /// A network that was taught to drive in some scenarios.
 #[derive(Debug, Clone, Copy)]
 pub struct Cloned {
-    /// Its name, that of its file.
+    /// The name of the network, which is also the name of its file.
     pub name: &'static str,
-    /// The scenarios that it was taught for.
+    /// The scenarios that the network was taught for.
     pub scenarios: &'static [&'static str],
-    /// The file.
+    /// The contents of the ONNX file.
     pub contents: &'static [u8],
 }
 
-/// All of them.
+/// All networks that come with the software.
 pub const CLONED: &[Cloned] = &[
     Cloned {
         name: "follow",

@@ -1,4 +1,4 @@
-//! A network that has learnt as a file in the ONNX format.
+//! Writes a trained network as a file in the ONNX format.
 
 use crate::network::{CONVOLUTIONS, DENSE, LEAK, MIDDLE, Network, SPEED_SCALE};
 use burn::prelude::Tensor;
@@ -11,11 +11,11 @@ use tract_onnx::pb::{
     ValueInfoProto, type_proto,
 };
 
-/// The version of the format, and that of its operations.
+/// The version of the ONNX format, and the version of its set of operations.
 const FORMAT: i64 = 8;
 const OPERATIONS: i64 = 13;
 
-/// The file. `story` says where the network comes from.
+/// Returns the contents of the ONNX file of a network. `story` says where the network comes from.
 pub fn onnx(network: &Network, [width, height]: [u32; 2], story: &str) -> Vec<u8> {
     let mut file = File::default();
     file.constant("middle", &[], vec![MIDDLE]);
@@ -97,7 +97,7 @@ impl File {
         });
     }
 
-    /// Adds what was learnt; its name.
+    /// Adds a tensor that was learnt, and returns its name.
     fn tensor<const D: usize>(&mut self, name: &str, tensor: Tensor<D>) -> String {
         let shape = tensor.dims();
         let data = tensor.into_data();
@@ -110,7 +110,7 @@ fn attribute(name: &str, ints: Vec<i64>) -> AttributeProto {
     AttributeProto { name: name.to_owned(), r#type: AttributeType::Ints as i32, ints, ..AttributeProto::default() }
 }
 
-/// The slope of a rectifier below zero.
+/// Makes the attribute for the slope of a rectifier below zero.
 fn leak() -> AttributeProto {
     AttributeProto {
         name: "alpha".to_owned(),

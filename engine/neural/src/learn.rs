@@ -1,7 +1,8 @@
 //! Behavioural cloning: a network learns to answer as an expert did, image by image.
 //!
-//! All chance, that of the first weights and that of the order of the lessons, comes from the recipe's seed. It learns on
-//! the processor: what it comes to is then the same, bit for bit, in every run on a machine, which no graphics card promises.
+//! All randomness comes from the recipe's seed: the first weights and the order of the lessons. The network learns on
+//! the processor, because its result is then the same, bit for bit, in every run on a machine. No graphics card
+//! promises this.
 
 use crate::export::onnx;
 use crate::model::planes;
@@ -14,48 +15,48 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
-/// What an expert did when it saw something.
+/// The observation and the control of an expert at one moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lesson {
-    /// Which run it is from: what is learnt is examined on runs that nothing was learnt from.
+    /// The number of the run that the lesson is from. Lessons of held-out runs examine the network and do not teach it.
     pub run: usize,
     /// The image, three bytes a pixel.
     pub rgb: Vec<u8>,
     /// The car's speed in m/s.
     pub speed: f32,
-    /// Steering and throttle.
+    /// The expert's steering and throttle.
     pub control: [f32; 2],
 }
 
-/// How a network learns.
+/// The settings of the training of a network.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recipe {
-    /// Pixels across and down of the images.
+    /// The size of the images in pixels, across and down.
     pub resolution: [u32; 2],
-    /// Where all chance comes from.
+    /// The seed of all randomness.
     pub seed: u64,
-    /// Lessons at a time.
+    /// The number of lessons in a batch.
     pub batch: usize,
-    /// Adam's step at first and at last, between which it falls evenly.
+    /// The first and the last step size of Adam. The step size falls evenly between them.
     pub rates: [f64; 2],
-    /// How much an error of the steering and one of the throttle count, squared.
+    /// The weights of the squared errors of the steering and of the throttle.
     pub weights: [f32; 2],
-    /// Every so-many-th run is held out, if any is.
+    /// The distance between held-out runs: 5 means that every 5th run is held out. `None` holds out no run.
     pub held_out: Option<usize>,
 }
 
-/// How far a network has come.
+/// The errors of a network after an epoch of its training.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// How often it has seen all lessons.
+    /// The number of times that the network has seen all lessons.
     pub epoch: usize,
-    /// The weighted mean square error while it learnt.
+    /// The weighted mean square error during the epoch.
     pub loss: f64,
-    /// The root mean square error of steering and throttle on the runs that are held out.
+    /// The root mean square errors of steering and throttle on the held-out runs. `None` if no run is held out.
     pub held_out: Option<[f64; 2]>,
 }
 
-/// A network and what it learns with.
+/// A network in training, with its optimiser and its source of randomness.
 pub struct Learner {
     recipe: Recipe,
     device: Device,
@@ -65,10 +66,10 @@ pub struct Learner {
 }
 
 impl Learner {
-    /// A network that knows nothing.
+    /// Makes a network with random weights.
     ///
     /// # Panics
-    /// The images are smaller than 33 x 33, or the recipe holds out every 0th run or learns 0 lessons at a time.
+    /// The images are smaller than 33 x 33, or the recipe holds out every 0th run or has batches of 0 lessons.
     pub fn new(recipe: Recipe) -> Self {
         assert!(
             recipe.resolution.iter().zip(SMALLEST).all(|(size, least)| *size >= least),
@@ -81,7 +82,7 @@ impl Learner {
         Self { recipe, device, network, optimiser: AdamConfig::new().init(), chance }
     }
 
-    /// Goes through the lessons this many times.
+    /// Trains the network on all lessons, `epochs` times, and calls `show` after each epoch.
     ///
     /// # Panics
     /// There is no lesson to learn from, or an image has another size than the recipe says.
@@ -104,7 +105,7 @@ impl Learner {
         }
     }
 
-    /// One step of Adam (Kingma and Ba 2015); the loss before it.
+    /// Makes one step of Adam (Kingma and Ba 2015) and returns the loss before it.
     fn step(&mut self, batch: &[&Lesson], rate: f64) -> f64 {
         let (images, speeds, controls) = tensors(batch, self.recipe.resolution, &self.device);
         let answers = self.network.forward(images, speeds);
@@ -116,7 +117,7 @@ impl Learner {
         f64::from(loss.into_scalar::<f32>())
     }
 
-    /// The root mean square errors on some lessons.
+    /// Returns the root mean square errors of steering and throttle on some lessons. `None` if there are no lessons.
     fn examine(&self, lessons: &[&Lesson]) -> Option<[f64; 2]> {
         let network = self.network.valid();
         let device = Device::flex();
@@ -130,8 +131,8 @@ impl Learner {
         (!lessons.is_empty()).then(|| squares.map(|sum| (sum / lessons.len() as f64).sqrt()))
     }
 
-    /// What it has learnt, as the contents of an ONNX file that [`Model`](crate::Model) reads. `story` says where it comes
-    /// from.
+    /// Returns the network as the contents of an ONNX file that [`Model`](crate::Model) reads. `story` says where the
+    /// network comes from.
     pub fn onnx(&self, story: &str) -> Vec<u8> {
         onnx(&self.network.valid(), self.recipe.resolution, story)
     }

@@ -1,11 +1,11 @@
-//! Drivers that learn: networks that drive by a camera, and how they are taught.
+//! Drivers that learn: networks that drive by a camera, and the training of such networks.
 //!
-//! Whatever drives is a file in the ONNX format, whoever made it: `Model` reads it, `Pilot` puts it at the wheel
-//! (feature `onnx`), and what `learn::Learner` teaches a network (feature `train`) is written as such a file, too, so
-//! that there is one way to drive by a network. Without the features there is nothing but this page, and none of the heavy
-//! dependencies is built.
+//! A network that drives is a file in the ONNX format, whoever made it. `Model` reads the file and `Pilot` drives with
+//! it (feature `onnx`). `learn::Learner` trains a network and writes such a file, too (feature `train`), so there is
+//! one way to drive by a network. Without these features the crate is empty, and none of the heavy dependencies is
+//! built.
 //!
-//! # What a model is asked and answers
+//! # The inputs and outputs of a model
 //!
 //! | tensor | shape | meaning |
 //! | --- | --- | --- |
@@ -13,9 +13,22 @@
 //! | input 2, may be left out | 1 x 1, float | the car's speed in m/s |
 //! | output | 1 x 2, float | steering from -1, right, to 1, left; throttle from -1, full brakes, to 1, full power |
 //!
-//! Names do not matter, a first dimension may be left open, and answers beyond the ends are taken for the ends. Height and
-//! width, from 8 to 1024 pixels, are those of the camera that the driver mounts: it looks ahead from behind the windscreen,
-//! 74 degrees across, ten times a second, and the model is asked once for every image.
+//! The names of the tensors do not matter. The first dimension may be left open. Answers beyond the ends of a range
+//! count as the ends. The driver's camera has the model's height and width, from 8 to 1024 pixels. The camera looks
+//! ahead from behind the windscreen, 74 degrees across, ten times a second. The driver asks the model once for every
+//! image.
+//!
+//! ```
+//! # #[cfg(feature = "onnx")] {
+//! use paracosm_neural::{CLONED, Model, Pilot};
+//!
+//! let follow = CLONED.iter().find(|network| network.name == "follow").expect("the network comes with the crate");
+//! let model = Model::read(follow.contents)?;
+//! println!("images of {:?} pixels", model.resolution());
+//! let driver = Pilot::new(model);
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #[cfg(feature = "onnx")]
 mod cloned;

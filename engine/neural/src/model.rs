@@ -1,4 +1,4 @@
-//! A network in a file of the ONNX format, run in process.
+//! Reads a network from an ONNX file and runs it in this process.
 
 use paracosm_engine::sensor::Image;
 use std::io::Cursor;
@@ -10,48 +10,48 @@ use tract_onnx::prelude::{
 };
 use tract_onnx::tract_hir::infer::Factoid;
 
-/// The fewest and the most pixels each way.
+/// The smallest and the greatest height and width of an image, in pixels.
 const PIXELS: (usize, usize) = (8, 1024);
 
-/// Why a file is no driver.
+/// An error in a file that should hold a network that drives.
 #[derive(Debug, Error)]
 pub enum ModelError {
-    /// It is not in the format, or has operations that are not known.
+    /// The file is not in the ONNX format, or has operations that are not known.
     #[error("cannot be read as an ONNX model: {source:#}")]
     Unreadable {
-        /// What is wrong with it.
+        /// The error of the ONNX reader.
         source: TractError,
     },
-    /// It has tensors that a driver has not.
+    /// The inputs or outputs of the network do not fit a driver.
     #[error("{what} is {found}, expected {expected}")]
     Shape {
-        /// Which tensor.
+        /// The name of the tensor, in words.
         what: &'static str,
-        /// What it is.
+        /// The type and shape of the tensor in the file.
         found: String,
-        /// What it should be.
+        /// The type and shape that a driver needs.
         expected: &'static str,
     },
 }
 
-/// Why a network does not answer.
+/// An error of a network that was asked for an answer.
 #[derive(Debug, Error)]
 pub enum AnswerError {
-    /// An image of another size than the network takes.
+    /// The image has another size than the network takes.
     #[error("the image has {found} bytes, expected {expected}")]
     ImageSize {
-        /// How many bytes it has.
+        /// The number of bytes of the image.
         found: usize,
-        /// How many it should have.
+        /// The number of bytes that the network takes.
         expected: usize,
     },
     /// The network cannot be run.
     #[error("the network cannot be run: {source:#}")]
     Run {
-        /// Why.
+        /// The error of the ONNX runtime.
         source: TractError,
     },
-    /// Steering or throttle is missing.
+    /// Steering or throttle is missing in the network's answer.
     #[error("the network gives fewer than two numbers")]
     TooFewNumbers,
 }
@@ -60,7 +60,7 @@ const IMAGE: &str = "1 x 3 x height x width, float, with height and width from 8
 const SPEED: &str = "1 x 1, float: the speed";
 const ANSWER: &str = "1 x 2, float: steering and throttle";
 
-/// A network that drives; copies share its weights.
+/// A network that drives. Copies share its weights.
 #[derive(Debug, Clone)]
 pub struct Model {
     plan: Arc<TypedRunnableModel>,
@@ -70,10 +70,10 @@ pub struct Model {
 }
 
 impl Model {
-    /// The network in a file with these contents.
+    /// Reads a network from the contents of an ONNX file.
     ///
     /// # Errors
-    /// They are no such file, or a network with other inputs and outputs than a driver's.
+    /// The contents are no ONNX file, or the network has other inputs and outputs than a driver's.
     pub fn read(contents: &[u8]) -> Result<Self, ModelError> {
         let unreadable = |source: TractError| ModelError::Unreadable { source };
         let mut model = tract_onnx::onnx().model_for_read(&mut Cursor::new(contents)).map_err(unreadable)?;
@@ -103,15 +103,16 @@ impl Model {
         Ok(Self { plan, width, height, asks_for_speed: inputs == 2 })
     }
 
-    /// Pixels across and down of the images that it is shown.
+    /// Returns the size in pixels, across and down, of the images that the network takes.
     pub fn resolution(&self) -> [u32; 2] {
         [self.width as u32, self.height as u32]
     }
 
-    /// Steering and throttle for an image of its resolution at a speed in m/s, as the network has it.
+    /// Returns the network's steering and throttle for an image of its resolution and a speed in m/s. The numbers are
+    /// not clamped.
     ///
     /// # Errors
-    /// The network cannot be run on it.
+    /// The image has another size, the network cannot be run, or it gives fewer than two numbers.
     pub fn answer(&self, image: &Image, speed: f64) -> Result<[f32; 2], AnswerError> {
         let (found, expected) = (image.rgb.len(), 3 * self.width * self.height);
         if found != expected {
@@ -131,7 +132,7 @@ impl Model {
     }
 }
 
-/// Plane by plane, from 0 to 1: what a network is shown of an image.
+/// Converts an image to the form that a network takes: colour plane by colour plane, each number from 0 to 1.
 pub(crate) fn planes(rgb: &[u8]) -> Vec<f32> {
     let mut planes = Vec::with_capacity(rgb.len());
     for channel in 0..3 {
@@ -140,7 +141,7 @@ pub(crate) fn planes(rgb: &[u8]) -> Vec<f32> {
     planes
 }
 
-/// Pixels down and across.
+/// Returns the height and the width in pixels of the images that a model takes.
 fn image_size(model: &InferenceModel) -> Result<(usize, usize), ModelError> {
     let fine = |pixels: usize| (PIXELS.0..=PIXELS.1).contains(&pixels);
     match dimensions(model, 0).as_deref() {
@@ -151,7 +152,7 @@ fn image_size(model: &InferenceModel) -> Result<(usize, usize), ModelError> {
     }
 }
 
-/// The dimensions of an input of floats as far as they are known.
+/// Returns the known dimensions of an input of floats. `None` if the input is not of floats or its rank is not known.
 fn dimensions(model: &InferenceModel, input: usize) -> Option<Vec<Option<usize>>> {
     let fact = model.input_fact(input).ok()?;
     if fact.shape.rank().concretize().is_none() || fact.datum_type.concretize() != Some(DatumType::F32) {

@@ -1,5 +1,6 @@
-//! The network: that of Bojarski et al., "End to End Learning for Self-Driving Cars" (2016), five convolutions and three
-//! dense layers, for images that may be smaller than its 200 x 66, with the speed beside what the convolutions find.
+//! The architecture of the network: that of Bojarski et al., "End to End Learning for Self-Driving Cars" (2016), with
+//! five convolutions and three hidden dense layers. Images may be smaller than the paper's 200 x 66. The speed is a
+//! further input of the dense layers.
 
 use burn::module::Module;
 use burn::nn::conv::{Conv2d, Conv2dConfig};
@@ -10,8 +11,8 @@ use burn::tensor::activation::{leaky_relu, tanh};
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-/// A convolution: channels that come out, pixels of the kernel each way, pixels from one place to the next, and zeros
-/// around the image. The zeros let half of the image's size suffice; the source has none.
+/// A convolution: the number of its output channels, the size of its kernel, the stride and the padding, in pixels. The
+/// padding with zeros makes half of the paper's image size suffice; the paper pads nothing.
 #[derive(Debug, Clone, Copy)]
 pub struct Convolution {
     pub channels: usize,
@@ -24,7 +25,7 @@ const fn convolution(channels: usize, kernel: usize, stride: usize, padding: usi
     Convolution { channels, kernel, stride, padding }
 }
 
-/// The five.
+/// The five convolutions of the network.
 pub const CONVOLUTIONS: [Convolution; 5] = [
     convolution(24, 5, 2, 0),
     convolution(36, 5, 2, 0),
@@ -32,19 +33,19 @@ pub const CONVOLUTIONS: [Convolution; 5] = [
     convolution(64, 3, 1, 1),
     convolution(64, 3, 1, 0),
 ];
-/// Numbers that come out of the dense layers: three that are hidden, then steering and throttle.
+/// The numbers of outputs of the dense layers: three hidden layers, then steering and throttle.
 pub const DENSE: [usize; 4] = [100, 50, 10, 2];
-/// What is taken off every colour, which is from 0 to 1.
+/// The number that is subtracted from every colour, which is from 0 to 1.
 pub const MIDDLE: f32 = 0.5;
-/// What the speed in m/s is multiplied by.
+/// The factor for the speed in m/s.
 pub const SPEED_SCALE: f32 = 0.05;
 
-/// The slope of the rectifiers below zero, so that none of them ever dies.
+/// The slope of the rectifiers below zero. With it no rectifier ever stops learning.
 pub const LEAK: f32 = 0.1;
-/// How much smaller the last layer begins, so that its answers are near zero at first.
+/// The factor for the first weights of the last layer, so that the first answers are near zero.
 const TIMID: f32 = 0.1;
 
-/// The fewest pixels across and down that leave something after the five.
+/// The smallest image, in pixels across and down, that leaves something after the five convolutions.
 pub const SMALLEST: [u32; 2] = [33, 33];
 
 #[derive(Module, Debug)]
@@ -53,7 +54,7 @@ pub struct Network {
     pub dense: Vec<Linear>,
 }
 
-/// How many numbers the convolutions make of an image of this resolution.
+/// Returns how many numbers the convolutions make of an image of this resolution.
 fn found([width, height]: [u32; 2]) -> usize {
     let size = |pixels: u32| {
         let after = |size: usize, layer: &Convolution| (size + 2 * layer.padding - layer.kernel) / layer.stride + 1;
@@ -63,7 +64,7 @@ fn found([width, height]: [u32; 2]) -> usize {
 }
 
 impl Network {
-    /// A network for images of this resolution that has learnt nothing yet (He et al., "Delving Deep into Rectifiers",
+    /// Makes a network for images of this resolution, with random weights (He et al., "Delving Deep into Rectifiers",
     /// 2015).
     pub fn new(resolution: [u32; 2], chance: &mut Pcg64, device: &Device) -> Self {
         let mut weights = |count: usize, inputs: usize| -> Vec<f32> {
@@ -83,7 +84,7 @@ impl Network {
             channels = out;
             made
         });
-        // The speed is one more.
+        // The speed is one more input.
         let mut inputs = found(resolution) + 1;
         let dense = DENSE.map(|out| {
             let mut made = LinearConfig::new(inputs, out).init(device);
@@ -99,7 +100,7 @@ impl Network {
         Self { convolutions: convolutions.into(), dense: dense.into() }
     }
 
-    /// Steering and throttle, a row for each image.
+    /// Returns steering and throttle, a row for each image.
     pub fn forward(&self, images: Tensor<4>, speeds: Tensor<2>) -> Tensor<2> {
         let mut seen = images - MIDDLE;
         for layer in &self.convolutions {

@@ -1,21 +1,21 @@
-//! A network at the wheel.
+//! A driver whose controls a network gives.
 
 use crate::Model;
 use paracosm_engine::driver::{Driver, Equipment, Fault, FaultKind};
 use paracosm_engine::sensor::{CameraSpec, Cameras, Image, Rig};
 use paracosm_engine::{Briefing, Control, Observation};
 
-/// Seconds between two images, and between two questions.
+/// The seconds between two images, and between two questions to the driver.
 pub const PERIOD: f64 = 0.1;
 
-/// A driver that does as its model says.
+/// A driver that does what its model answers.
 #[derive(Debug, Clone)]
 pub struct Pilot {
     model: Model,
     newest: Option<Image>,
 }
 
-/// The camera that networks look through, with this many pixels across and down.
+/// Returns the camera that networks look through, with this many pixels across and down.
 pub fn camera(resolution: [u32; 2]) -> CameraSpec {
     CameraSpec {
         resolution,
@@ -29,7 +29,7 @@ pub fn camera(resolution: [u32; 2]) -> CameraSpec {
 }
 
 impl Pilot {
-    /// A driver by this model.
+    /// Makes a driver that asks this model.
     pub fn new(model: Model) -> Self {
         Self { model, newest: None }
     }
@@ -58,7 +58,7 @@ impl Driver for Pilot {
     }
 
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault> {
-        // Whoever sees nothing yet does nothing.
+        // Before the first image arrives the driver lets the car roll.
         let Some(image) = &self.newest else { return Ok(Control::default()) };
         let [steering, throttle] = self
             .model

@@ -1,39 +1,41 @@
-//! What the height of the sun does to daylight: low light is faint and warm, and after sunset the air goes dark from above.
+//! Computes the effect of the sun's height on daylight: low light is faint and warm, and after sunset the air goes dark
+//! from above.
 //!
-//! The sun's rays pass more air the lower it stands, and air scatters blue out of them first. Everything is told relative
-//! to the sun of [`USUAL`], where by construction nothing changes.
+//! The lower the sun, the more air its rays pass, and air scatters blue light out of them first. All results are
+//! relative to the sun at [`USUAL`], for which they are 1 by construction.
 
-/// The elevation that colours are given for, in radians: that of [`Air::default`](crate::Air::default).
+/// The elevation for which colours are given, in radians: that of [`Atmosphere::default`](crate::Atmosphere::default).
 const USUAL: f32 = 0.9;
 /// Vertical optical depth of clear air for red, green and blue light, of 0.610, 0.550 and 0.465 micrometres:
 /// 0.008735 wavelength^-4.08 (Leckner, The spectral distribution of solar radiation at the earth's surface, Solar Energy
 /// 20, 1978).
 const DEPTHS: [f64; 3] = [0.06564, 0.10014, 0.19862];
-/// The radius of the earth over the height by which air thins to 1/e, 6371 km and 8 km.
+/// The radius of the earth (6371 km) divided by the height by which air thins to 1/e (8 km).
 const EARTH: f64 = 6371.0 / 8.0;
 
-/// Daylight of a clear sky, as shares of what it is under the usual sun.
+/// The daylight of a clear sky, as shares of the daylight under the usual sun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Daylight {
-    /// Of the sun's rays, for red, green and blue.
+    /// The light of the sun's rays, for red, green and blue.
     pub sun: [f32; 3],
-    /// Of the air at the horizon.
+    /// The light of the air at the horizon.
     pub horizon: [f32; 3],
-    /// Of the sky above. It dims and keeps its hue: ozone takes out what would make it grey (Hulburt 1953).
+    /// The light of the sky above. It dims and keeps its hue, because ozone absorbs the light that would make it grey
+    /// (Hulburt 1953).
     pub zenith: f32,
-    /// Of what comes from all around.
+    /// The light that comes from all around.
     pub around: [f32; 3],
-    /// How much of the air above is not in the shadow of the earth, from 0 to 1: all of it until sunset.
+    /// The share of the air above that is not in the shadow of the earth, from 0 to 1: 1 until sunset.
     pub risen: f32,
 }
 
 impl Daylight {
-    /// With the sun so many radians above the horizon.
+    /// Returns the daylight with the sun at this elevation, in radians above the horizon.
     pub fn of(elevation: f32) -> Self {
         let (air, usual) = (air_mass(elevation), air_mass(USUAL));
         let below = f64::from(-elevation).max(0.0);
-        // A sun that is d below the horizon lights what is higher than R d^2 / 2 above, and what is higher than R d^2 / 8
-        // where one looks towards it.
+        // If the sun is d below the horizon, it lights the air above the height R d^2 / 2; in the direction of the sun,
+        // the air above R d^2 / 8.
         let lit = |part: f64| libm::exp(-EARTH * part * below * below);
         let (above, aside) = (lit(0.5), lit(0.125));
         let scattered = DEPTHS.map(|depth| column(depth * air) / column(depth * usual));
@@ -49,14 +51,15 @@ impl Daylight {
     }
 }
 
-/// How much air the sun's rays pass, 1 from the zenith (Kasten and Young, Revised optical air mass tables and approximation
-/// formula, Applied Optics 28, 1989). Below the horizon, where the formula ends, it is that at the horizon.
+/// Returns the air mass that the sun's rays pass, 1 from the zenith (Kasten and Young, Revised optical air mass tables
+/// and approximation formula, Applied Optics 28, 1989). The formula ends at the horizon; below it, the value at the
+/// horizon is used.
 fn air_mass(elevation: f32) -> f64 {
     let up = f64::from(elevation).max(0.0);
     1.0 / (libm::sin(up) + 0.50572 * libm::pow(up.to_degrees() + 6.07995, -1.6364))
 }
 
-/// What is left of rays on average over the depth that they pass: the mean of exp(-x) for x from 0 to `depth`.
+/// Returns the mean share of rays that is left over a depth: the mean of exp(-x) for x from 0 to `depth`.
 fn column(depth: f64) -> f64 {
     -libm::expm1(-depth) / depth
 }

@@ -1,35 +1,36 @@
-//! Boxes around things: on the image from the pixels they have, in space from their meshes.
+//! Boxes around things: on the image, from their pixels, and in space, from their meshes.
 
 use crate::frame::Extent;
 use crate::{Camera, Frame, Instance, Scene};
 use nalgebra::{Isometry3, Point2, Point3, Vector3};
 use std::collections::BTreeMap;
 
-/// A thing on the image.
+/// The box of a thing on the image, with its class and its occlusion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Box2 {
-    /// The pixels of it that are seen.
+    /// The pixels of the thing that are visible.
     pub visible: Extent,
-    /// The class that most of them have; `None` where the frame has no classes.
+    /// The class that most of the pixels have; `None` if the frame has no classes.
     pub semantic: Option<u8>,
-    /// How much of it other things hide, from 0 to 1, measured in pixels; `None` where the frame does not say which it
-    /// would have alone.
+    /// The share of the thing that other things hide, from 0 to 1, measured in pixels; `None` if the frame does not
+    /// hold the pixels that the thing would have alone.
     pub occlusion: Option<f64>,
 }
 
-/// A thing in space.
+/// The box of a thing in space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Box3 {
     /// The id of the thing.
     pub id: u16,
-    /// From the coordinates of the box, whose origin is its middle, to those of the camera.
+    /// The transformation from the box's coordinates, whose origin is the middle of the box, to the camera's
+    /// coordinates.
     pub pose: Isometry3<f64>,
-    /// How long it is along its own axes, in metres.
+    /// The length of the box along each of its own axes, in metres.
     pub size: Vector3<f64>,
 }
 
-/// The boxes of all things with an id that have a pixel in the frame, in the order of their ids; `None` where the frame
-/// has no instances.
+/// Returns the boxes of all things with an id that have a pixel in the frame, in the order of their ids; `None` if the
+/// frame has no instances.
 pub fn boxes(frame: &Frame) -> Option<Vec<Box2>> {
     let instance = frame.instance.as_ref()?;
     let mut extents = BTreeMap::<u16, (Extent, [u32; 256])>::new();
@@ -58,8 +59,9 @@ fn most_frequent(classes: &[u32; 256]) -> u8 {
     (0..=255).rev().max_by_key(|class| classes[usize::from(*class)]).unwrap_or_default()
 }
 
-/// The boxes of all things of the scene with an id, in the order of their ids, before a camera on what is here. A thing
-/// of several instances has a box around all of them, which is turned as the first of them is.
+/// Returns the boxes of all things of the scene that have an id, in the order of their ids, as seen by a camera on a
+/// `carrier` with this pose. A thing of several instances has one box around all of them, which is turned like the
+/// first instance.
 pub fn boxes_in_space(scene: &Scene, camera: &Camera, carrier: &Isometry3<f64>) -> Vec<Box3> {
     let mut things = BTreeMap::<u16, Vec<&Instance>>::new();
     for instance in scene.instances.iter().filter(|instance| instance.id != 0) {
@@ -82,7 +84,7 @@ const EMPTY: (Point3<f64>, Point3<f64>) = (
     Point3::new(-f64::INFINITY, -f64::INFINITY, -f64::INFINITY),
 );
 
-/// The corners of an instance's mesh, in the world.
+/// Returns the corners of an instance's mesh, in the world.
 fn corners_of(instance: &Instance) -> impl Iterator<Item = Point3<f64>> + use<'_> {
     let pose: Isometry3<f64> = instance.pose.cast();
     let scale = Vector3::from(instance.scale).cast::<f64>();
@@ -94,8 +96,8 @@ fn corners_of(instance: &Instance) -> impl Iterator<Item = Point3<f64>> + use<'_
 }
 
 impl Box3 {
-    /// The eight corners in the camera's coordinates; the lowest bit of the index says whether it is the front one, the
-    /// second whether it is to the left, the third whether it is above.
+    /// Returns the eight corners in the camera's coordinates. The lowest bit of an index is 1 for a front corner, the
+    /// second bit for a left corner, the third bit for an upper corner.
     pub fn corners(&self) -> [Point3<f64>; 8] {
         std::array::from_fn(|index| {
             let side = |axis: usize| if index >> axis & 1 == 1 { 0.5 } else { -0.5 };
@@ -103,7 +105,7 @@ impl Box3 {
         })
     }
 
-    /// Where the corners are on the image, `None` for those that are not before the camera.
+    /// Returns the places of the corners on the image; `None` for a corner that is not in front of the camera.
     pub fn projected(&self, camera: &Camera) -> [Option<Point2<f64>>; 8] {
         self.corners().map(|corner| camera.project(&corner))
     }

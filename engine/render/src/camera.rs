@@ -1,11 +1,11 @@
-//! The pinhole: which pixel sees which way.
+//! The pinhole camera: the direction in which each pixel looks.
 
 use crate::CameraError;
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
 use paracosm_engine::sensor::CameraSpec;
 
-/// A pinhole camera and where it is mounted. Its own axes are x forward, y to the left, z up; pixels are counted from
-/// the upper left corner of the image to the right and down, and the middle of the first is at (0.5, 0.5).
+/// A pinhole camera and its mount. Its own axes are x forward, y to the left, z up. Pixels are counted from the upper
+/// left corner of the image to the right and down; the middle of the first pixel is at (0.5, 0.5).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
     width: u32,
@@ -16,11 +16,11 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// Nothing nearer than this along the camera's axis is drawn, in metres.
+    /// The least distance along the camera's axis at which things are drawn, in metres.
     pub const NEAR: f64 = 0.1;
 
-    /// A camera with so many pixels across and down, a focal length and the width of its sensor in millimetres, at the
-    /// origin of what carries it, looking forward.
+    /// Makes a camera at the origin of its carrier that looks forward, with a resolution in pixels, and the focal
+    /// length and the width of the sensor in millimetres.
     ///
     /// # Errors
     /// There are no pixels, or a length is not finite and positive.
@@ -36,10 +36,10 @@ impl Camera {
         Ok(Self { width, height, focal_length, sensor_width, mount: Isometry3::identity() })
     }
 
-    /// The camera of a description, at its place on what carries it.
+    /// Makes the camera of a description, mounted at the described place on its carrier.
     ///
     /// # Errors
-    /// There are no pixels, a length is not finite and positive, or a number of its place is not finite.
+    /// There are no pixels, a length is not finite and positive, or a number of the mount is not finite.
     pub fn of(spec: &CameraSpec) -> Result<Self, CameraError> {
         let [width, height] = spec.resolution;
         let [yaw, pitch, roll] = spec.yaw_pitch_roll.map(f64::to_radians);
@@ -47,8 +47,8 @@ impl Camera {
         camera.mounted(Point3::from(spec.position), yaw, pitch, roll)
     }
 
-    /// The same camera, mounted elsewhere on what carries it: its place in metres, and how it is turned by yaw (to the
-    /// left), then pitch (downwards), then roll (to the right) in radians, as ISO 8855 has them.
+    /// Returns the same camera, mounted elsewhere on its carrier: at a place in metres, turned by yaw (to the left),
+    /// then pitch (downwards), then roll (to the right) in radians, as in ISO 8855.
     ///
     /// # Errors
     /// A number is not finite.
@@ -60,47 +60,47 @@ impl Camera {
         Ok(Self { mount: Isometry3::from_parts(Translation3::from(place.coords), turn), ..self })
     }
 
-    /// Pixels across.
+    /// Returns the width of the image in pixels.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Pixels down.
+    /// Returns the height of the image in pixels.
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// From the camera's coordinates to those of what carries it.
+    /// Returns the transformation from the camera's coordinates to those of its carrier.
     pub fn mount(&self) -> &Isometry3<f64> {
         &self.mount
     }
 
-    /// The focal length in pixels, which are square.
+    /// Returns the focal length in pixels, which are square.
     pub fn focal_pixels(&self) -> f64 {
         self.focal_length * f64::from(self.width) / self.sensor_width
     }
 
-    /// The angle between the left and the right edge of the image, in radians.
+    /// Returns the angle between the left and the right edge of the image, in radians.
     pub fn field_of_view(&self) -> f64 {
         2.0 * libm::atan(self.sensor_width / (2.0 * self.focal_length))
     }
 
-    /// Which way a place on the image looks, in the camera's coordinates; 1 long along x.
+    /// Returns the direction in which a place on the image looks, in the camera's coordinates; its x is 1.
     pub fn ray(&self, pixel: Point2<f64>) -> Vector3<f64> {
         let middle = self.middle();
         let focal = self.focal_pixels();
         Vector3::new(1.0, (middle.x - pixel.x) / focal, (middle.y - pixel.y) / focal)
     }
 
-    /// Where on the image a point in the camera's coordinates is seen; nowhere if it is nearer than [`Self::NEAR`] or
-    /// behind. It may be beside the image.
+    /// Returns the place on the image of a point in the camera's coordinates; `None` if the point is nearer than
+    /// [`Self::NEAR`] or behind the camera. The place may be outside the image.
     pub fn project(&self, point: &Point3<f64>) -> Option<Point2<f64>> {
         let middle = self.middle();
         let scale = self.focal_pixels() / point.x;
         (point.x >= Self::NEAR).then(|| Point2::new(middle.x - point.y * scale, middle.y - point.z * scale))
     }
 
-    /// The camera's own pose in the world when what carries it is here.
+    /// Returns the camera's own pose in the world, given the pose of its carrier.
     pub fn pose(&self, carrier: &Isometry3<f64>) -> Isometry3<f64> {
         carrier * self.mount
     }

@@ -1,14 +1,14 @@
-//! Draws sights: many at once, whatever they belong to.
+//! Draws many scenes at once, whatever runs they belong to.
 
 use crate::{Adapter, Box3, Camera, Exposure, Frame, RenderError, Renderer, Sight, View, ViewError, WantedImages};
 use rayon::prelude::*;
 use thiserror::Error;
 
-/// How many pixels are drawn at once, so that large images do not fill the memory, and how many images at most.
+/// The most pixels, and the most images, that are drawn at once, so that large images do not fill the memory.
 const PIXELS: usize = 1 << 22;
 const IMAGES: usize = 64;
 
-/// How many images of so many pixels are drawn at once.
+/// Returns how many images of `pixels` pixels each are drawn at once.
 pub fn at_once(pixels: usize) -> usize {
     (PIXELS / pixels.max(1)).clamp(1, IMAGES)
 }
@@ -16,19 +16,20 @@ pub fn at_once(pixels: usize) -> usize {
 /// A moment that was drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rendering {
-    /// All that was asked for; its colours are those that the camera gives.
+    /// The images that were asked for; the colours are those that the camera gives.
     pub frame: Frame,
-    /// The things in front of the camera.
+    /// The boxes of all things of the scene with an id, in the camera's coordinates, if the images of things alone were
+    /// wanted.
     pub boxes: Vec<Box3>,
 }
 
-/// Why a moment was not drawn.
+/// The reason why a moment was not drawn.
 #[derive(Debug, Clone, Error)]
 pub enum Undrawn {
-    /// The camera was within a thing, which the car ran into, and there was nothing to see.
+    /// The camera was inside a thing with which the car had collided, so that nothing was visible.
     #[error("the camera was within a thing (id {0})")]
     Inside(u16),
-    /// It cannot be drawn.
+    /// The view cannot be drawn.
     #[error(transparent)]
     View(ViewError),
     /// The graphics device failed.
@@ -36,37 +37,37 @@ pub enum Undrawn {
     Device(#[from] RenderError),
 }
 
-/// Draws with an adapter.
+/// Draws scenes and develops them to the images that cameras give.
 #[derive(Debug)]
 pub struct Developer {
     renderer: Renderer,
-    /// Makes another one in its place.
+    /// Makes a new renderer if the device is lost.
     open: fn() -> Result<Renderer, RenderError>,
 }
 
 impl Developer {
-    /// One with the best adapter of this machine.
+    /// Makes a developer with the best adapter of this machine.
     ///
     /// # Errors
-    /// There is no adapter, or it does not let itself be used.
+    /// There is no adapter, or it cannot be opened.
     pub fn new() -> Result<Self, RenderError> {
         Ok(Self { renderer: Renderer::new()?, open: Renderer::new })
     }
 
-    /// What it draws with.
+    /// Returns the adapter that the developer draws with.
     pub fn adapter(&self) -> &Adapter {
         self.renderer.adapter()
     }
 
-    /// Whether images of such a camera are small enough for the adapter, whatever there is to see.
+    /// Checks that images of a camera are small enough for the adapter, whatever the scene.
     ///
     /// # Errors
-    /// They are not.
+    /// The images are too large.
     pub fn check_size(&self, camera: &Camera, wanted: WantedImages) -> Result<(), ViewError> {
         self.renderer.check_size(camera, wanted)
     }
 
-    /// Draws all these on all cores, in their order.
+    /// Draws all exposures on all cores, in their order.
     pub fn draw(&mut self, exposures: &[Exposure<'_>], wanted: WantedImages) -> Vec<Result<Rendering, Undrawn>> {
         let sights: Vec<Sight> = exposures.par_iter().map(|exposure| exposure.sight(wanted)).collect();
         let frames = self.render(&sights.iter().collect::<Vec<_>>());
@@ -77,7 +78,7 @@ impl Developer {
         all.map(picture).collect()
     }
 
-    /// Draws what is there, before any lens.
+    /// Draws the scenes, before any effect of a lens.
     pub fn render(&mut self, sights: &[&Sight]) -> Vec<Result<Frame, Undrawn>> {
         let mut drawn: Vec<Option<Result<Frame, Undrawn>>> = sights.iter().map(|_| None).collect();
         let mut left: Vec<usize> = (0..sights.len()).collect();
@@ -95,7 +96,8 @@ impl Developer {
         drawn.into_iter().map(|frame| frame.expect("each was drawn or could not be")).collect()
     }
 
-    /// Where the device fails, each is drawn by itself, so that only those fail that have to.
+    /// Draws views with the same outputs. If the device fails, each view is drawn alone, so that only the views at
+    /// fault fail.
     fn render_alike(&mut self, views: &[View<'_>], wanted: WantedImages) -> Vec<Result<Frame, Undrawn>> {
         match self.renderer.render(views, wanted) {
             Ok(frames) => frames.into_iter().map(|frame| frame.map_err(undrawn)).collect(),
@@ -103,7 +105,7 @@ impl Developer {
         }
     }
 
-    /// A device that is lost gives way to a new one.
+    /// Draws one view, with a new device if the old one fails.
     fn render_alone(&mut self, view: &View<'_>, wanted: WantedImages) -> Result<Frame, Undrawn> {
         let view = std::slice::from_ref(view);
         let frames = self.renderer.render(view, wanted).or_else(|_| {
@@ -113,7 +115,7 @@ impl Developer {
         frames?.remove(0).map_err(undrawn)
     }
 
-    /// Loses its device, for tests of those who draw with it; `open` makes the next one.
+    /// Loses the device, for tests of the code that draws with it; `open` makes the next renderer.
     #[doc(hidden)]
     pub fn lose(&mut self, open: fn() -> Result<Renderer, RenderError>) {
         self.renderer.lose();
@@ -128,7 +130,7 @@ fn undrawn(error: ViewError) -> Undrawn {
     }
 }
 
-/// Divides these into portions that are drawn at once, by how many pixels each has.
+/// Divides images into portions that are drawn at once, by the number of pixels of each image.
 fn portions(all: &[usize], pixels: impl Fn(usize) -> usize) -> Vec<&[usize]> {
     let mut portions = Vec::new();
     let mut left = all;

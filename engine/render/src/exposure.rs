@@ -1,45 +1,46 @@
-//! A moment before a camera: the scene to draw for it, and the image after its lens.
+//! A moment of a run in front of a camera: the scene to draw, and the image after the lens.
 
 use crate::lens::Rain;
 use crate::{Atmosphere, Box3, Camera, Cast, Frame, Optics, Scene, Stage, View, WantedImages, boxes_in_space};
 use nalgebra::{Isometry3, Point3, Vector3};
 use paracosm_engine::sensor::Moment;
 
-/// The id of the car under test.
+/// The id of the ego vehicle.
 const OWN: u16 = 1;
-/// How high head lamps are, in metres.
+/// The height of the head lamps above the ground, in metres.
 const LAMPS: f64 = 0.6;
 
-/// A moment that a camera is to draw.
+/// A moment of a run that a camera is to draw.
 #[derive(Clone, Copy)]
 pub struct Exposure<'a> {
-    /// The roads and what stands beside them.
+    /// The roads and everything that stands beside them.
     pub stage: &'a Stage,
-    /// The shapes of the bodies.
+    /// The bodies that are shown as models of the user, by their indices.
     pub cast: &'a Cast,
-    /// Where all bodies are, and the weather.
+    /// The states of all bodies at this moment, and the weather.
     pub moment: &'a Moment,
     /// The camera.
     pub optics: &'a Optics,
-    /// Which of the camera's images it is.
+    /// The number of this image among the images of the camera.
     pub number: u64,
 }
 
-/// A scene before a camera, ready to be drawn.
+/// A scene in front of a camera, ready to be drawn.
 #[derive(Debug)]
 pub struct Sight {
     scene: Scene,
     camera: Camera,
     pose: Isometry3<f64>,
     head_lamps: Point3<f64>,
-    /// What is left out: the car itself, of which a camera within it would see the inside.
+    /// The id of the thing that is not drawn: the ego vehicle, if the camera is inside it and would see its inner
+    /// sides.
     without: Option<u16>,
     /// The outputs that the renderer has to draw.
     pub(crate) wanted: WantedImages,
 }
 
 impl Exposure<'_> {
-    /// The scene to draw for these outputs. Colours come with shadows.
+    /// Returns the scene to draw for the outputs in `wanted`. Colours include shadows.
     pub fn sight(&self, wanted: WantedImages) -> Sight {
         let plain = self.optics.is_plain() && self.moment.weather.rain <= 0.0;
         let Moment { bodies, weather, .. } = self.moment;
@@ -59,20 +60,21 @@ impl Exposure<'_> {
         }
     }
 
-    /// Where the car is that carries the camera.
+    /// Returns the pose of the car that carries the camera.
     fn carrier(&self) -> Isometry3<f64> {
         let pose = &self.moment.bodies[0].pose;
         Isometry3::new(Vector3::new(pose.position.x, pose.position.y, 0.0), Vector3::z() * pose.heading)
     }
 
-    /// The rain before the camera.
+    /// Returns the rain in front of the camera.
     fn rain(&self) -> Rain {
         let Moment { bodies, weather, .. } = self.moment;
         let camera = self.optics.camera.pose(&self.carrier());
         Rain::new(weather.rain_rate(), &Atmosphere::of(weather), &camera, &bodies[0].velocity.push(0.0))
     }
 
-    /// Whether the camera is within the box of the car, or so near that parts of the car would be too near to be drawn.
+    /// Returns `true` if the camera is within the box of the car, or so near that parts of the car are too near to be
+    /// drawn.
     fn is_within_the_car(&self) -> bool {
         let body = &self.moment.bodies[0].body;
         let (half, place) = (body.outline.half_extent(), self.optics.camera.mount().translation.vector);
@@ -80,7 +82,7 @@ impl Exposure<'_> {
         along(place.x, half.x) && along(place.y, half.y) && place.z <= body.height + Camera::NEAR
     }
 
-    /// A drawn frame, with the colours that the camera gives.
+    /// Returns the drawn frame with the colours that the camera gives, after rain, lens and sensor.
     pub fn through_lens(&self, mut frame: Frame) -> Frame {
         if frame.linear.is_some() {
             self.rain().fall(&mut frame, &mut self.optics.chance("rain", self.number));
@@ -92,7 +94,7 @@ impl Exposure<'_> {
 }
 
 impl Sight {
-    /// The scene as the renderer takes it.
+    /// Returns the scene in the form that the renderer takes.
     pub fn view(&self) -> View<'_> {
         View {
             without: self.without,
@@ -101,12 +103,12 @@ impl Sight {
         }
     }
 
-    /// The number of pixels of an image.
+    /// Returns the number of pixels of an image.
     pub fn pixels(&self) -> usize {
         self.camera.width() as usize * self.camera.height() as usize
     }
 
-    /// The things in front of the camera, where boxes are wanted.
+    /// Returns the boxes of the things in the scene, or nothing if the images of things alone are not wanted.
     pub fn boxes(&self) -> Vec<Box3> {
         if !self.wanted.alone {
             return Vec::new();

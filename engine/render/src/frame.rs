@@ -1,38 +1,38 @@
-//! What was seen.
+//! A frame: the images of one view, as the renderer returns them.
 
 use crate::{Camera, Semantic};
 use nalgebra::Point2;
 
-/// The images of one view. All are rows from the top, pixels from the left.
+/// The images of one view. All images are stored in rows from the top, with pixels from the left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// With what it was seen.
+    /// The camera that took the images.
     pub camera: Camera,
     /// Red, green and blue of each pixel, in sRGB.
     pub rgb: Option<Vec<u8>>,
     /// Red, green and blue of each pixel in linear light; a white surface in full sun is about 1.
     pub linear: Option<Vec<f32>>,
-    /// Radial depth: metres from the pinhole to what the middle of the pixel sees; infinite where it sees the sky.
+    /// The radial depth: metres from the pinhole to the point that the middle of the pixel sees; infinite for the sky.
     pub depth: Option<Vec<f32>>,
-    /// The number of the [`Semantic`] class.
+    /// The number of the [`Semantic`] class of each pixel.
     pub semantic: Option<Vec<u8>>,
-    /// The id of the thing ([`crate::Instance::id`]), 0 for what belongs to nothing in particular.
+    /// The id of the thing at each pixel ([`crate::Instance::id`]); 0 for no particular thing.
     pub instance: Option<Vec<u16>>,
-    /// The pixels that each thing would have if it were alone, in the order of their ids; 0 is not among them, nor
-    /// what is not on the image.
+    /// The pixels that each thing would have if it were alone, in the order of the ids, without the id 0 and without
+    /// things that are outside the image.
     pub alone: Option<Vec<Extent>>,
 }
 
-/// Which pixels a thing has.
+/// The pixels of a thing: their number and their bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Extent {
     /// The id of the thing.
     pub id: u16,
-    /// How many they are.
+    /// The number of pixels.
     pub pixels: u32,
-    /// The least column and row.
+    /// The least column and the least row.
     pub min: [u32; 2],
-    /// The greatest column and row.
+    /// The greatest column and the greatest row.
     pub max: [u32; 2],
 }
 
@@ -58,17 +58,18 @@ impl Extent {
 }
 
 impl Frame {
-    /// Pixels across.
+    /// Returns the width of the images in pixels.
     pub fn width(&self) -> u32 {
         self.camera.width()
     }
 
-    /// Pixels down.
+    /// Returns the height of the images in pixels.
     pub fn height(&self) -> u32 {
         self.camera.height()
     }
 
-    /// Planar depth, if there is depth: metres along the camera's axis to what the middle of the pixel sees.
+    /// Returns the planar depth, if the frame has depth: metres along the camera's axis to the point that the middle of
+    /// the pixel sees.
     pub fn planar_depth(&self) -> Option<Vec<f32>> {
         let depth = self.depth.as_ref()?;
         let forward = |(index, radial): (usize, &f32)| {
@@ -79,7 +80,7 @@ impl Frame {
         Some(depth.iter().enumerate().map(forward).collect())
     }
 
-    /// The classes in CARLA's colours, if there are any: red, green and blue of each pixel.
+    /// Returns the classes in CARLA's colours, if the frame has classes: red, green and blue of each pixel.
     pub fn semantic_colours(&self) -> Option<Vec<u8>> {
         Some(self.semantic.as_ref()?.iter().flat_map(|class| Semantic::colour_of(*class)).collect())
     }

@@ -1,14 +1,29 @@
-//! What cameras see of a world.
+//! Draws images of a simulated world as its cameras see it.
 //!
-//! A [`Scene`] is what there is to see at one moment: [`Mesh`]es and where they stand, the light and the fog. It knows nothing of
-//! how it is drawn. A [`View`] is a [`Camera`]'s look at a scene; a [`Renderer`] draws many of them at once, with or without a
-//! graphics card, and each becomes a [`Frame`]: colours, depth, classes, and things.
+//! A [`Scene`] holds everything that is visible at one moment: [`Mesh`]es, their places, the light and the fog. A scene
+//! does not depend on how it is drawn. A [`View`] is a [`Camera`] looking at a scene. A [`Renderer`] draws many views
+//! at once, with or without a graphics card, and returns a [`Frame`] for each: colours, depth, semantic classes and
+//! instances.
 //!
-//! [`Optics`] makes a camera of its description, by the table [`camera_settings`]; an [`Exposure`] is a moment of a run before
-//! it, and a [`Developer`] draws many of them.
+//! [`Optics`] makes a camera from its description, by the table [`camera_settings`]. An [`Exposure`] is a moment of a
+//! run that a camera is to draw. A [`Developer`] draws many exposures.
 //!
-//! Coordinates are the engine's: x along the road, y to its left, z up, in metres. A mesh stands on z = 0, faces along
-//! x, and has its middle over the origin.
+//! Coordinates are those of the engine, in metres: x along the road, y to the left, z up. A mesh stands on z = 0 and
+//! faces along x; its middle is over the origin.
+//!
+//! ```no_run
+//! use nalgebra::Isometry3;
+//! use paracosm_engine::road::CrossIntersection;
+//! use paracosm_render::{Atmosphere, Camera, Renderer, Stage, View, WantedImages};
+//!
+//! let stage = Stage::of(&*CrossIntersection::new().build()?);
+//! let scene = stage.scene_of([], Atmosphere::default());
+//! let camera = Camera::new(640, 480, 6.0, 7.2)?;
+//! let view = View::new(&scene, &camera, Isometry3::translation(0.0, 0.0, 1.5));
+//! let wanted = WantedImages { rgb: true, shadows: true, ..WantedImages::default() };
+//! let frames = Renderer::new()?.render(&[view], wanted)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod atmosphere;
 mod boxes;

@@ -1,12 +1,13 @@
-//! How bright it is: from the few numbers of an [`Air`] to the light that surfaces get.
+//! Computes the light that surfaces receive from the few numbers of an [`Atmosphere`].
 //!
-//! Light is linear, and 1 is about what a white surface sends back in full sun. Nothing adapts to the dark: that, like
-//! all else that lenses and sensors do, is for those who make a sensor's image of a frame.
+//! Light is linear, and 1 is about the light that a white surface reflects in full sun. Nothing adapts to the dark.
+//! Adaptation, like all other effects of lenses and sensors, is left to the code that makes a sensor's image of a
+//! frame.
 
 use crate::atmosphere::Daylight;
 use crate::{Atmosphere, ViewError};
 
-/// A colour, or the light of three colours: red, green and blue, linear.
+/// A colour, or light of three colours: red, green and blue, linear.
 type Rgb = [f32; 3];
 
 const SUN: Rgb = [0.86, 0.82, 0.75];
@@ -14,36 +15,36 @@ const SKY: Rgb = [0.34, 0.38, 0.44];
 const GROUND: Rgb = [0.17, 0.16, 0.15];
 const HAZE: Rgb = [0.70, 0.75, 0.80];
 const ZENITH: Rgb = [0.17, 0.34, 0.68];
-/// What is left of the light of the sky in the night.
+/// The light of the sky that is left at night.
 const NIGHT: Rgb = [0.010, 0.011, 0.014];
 
-/// The light that surfaces get.
+/// The light that surfaces receive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Light {
-    /// Onto a surface that faces the sun.
+    /// The light of the sun onto a surface that faces the sun.
     pub sun: Rgb,
-    /// From all around onto a surface that faces up.
+    /// The light from all around onto a surface that faces up.
     pub sky: Rgb,
-    /// From all around onto a surface that faces down.
+    /// The light from all around onto a surface that faces down.
     pub ground: Rgb,
-    /// What is seen straight up.
+    /// The light that is visible straight up.
     pub zenith: Rgb,
-    /// How much lamps shine, from 0 to 1.
+    /// The brightness of lamps, from 0 to 1.
     pub lamps: f32,
 }
 
 impl Atmosphere {
-    /// What the air itself looks like, in linear light: the colour of the horizon, and of what is hidden by fog. Fog
-    /// turns the light `l` of what is `d` metres away into `l t + colour (1 - t)` with `t = exp(-extinction d)`
-    /// (Koschmieder). It is pale and warm under a low sun, and goes dark after sunset.
+    /// Returns the colour of the air in linear light: the colour of the horizon, and of everything that fog hides. Fog
+    /// turns the light `l` of a point at `d` metres into `l t + colour (1 - t)` with `t = exp(-extinction d)`
+    /// (Koschmieder). The colour is pale and warm under a low sun, and goes dark after sunset.
     pub fn colour(&self) -> [f32; 3] {
         dimmed(times(HAZE, Daylight::of(self.sun_elevation).horizon), self.light, 0.5)
     }
 
     pub(crate) fn lit(&self) -> Light {
         let daylight = Daylight::of(self.sun_elevation);
-        // Below the horizon there is no sun; it comes up within 3 degrees. Shadows on level ground go with it: there even
-        // the full sun of 3 degrees adds a few hundredths to what the sky sends.
+        // There is no sun below the horizon; it comes up within 3 degrees. Shadows on level ground fade with it: even
+        // the full sun at 3 degrees adds only a few hundredths to the light of the sky there.
         let risen = (libm::sinf(self.sun_elevation) * 20.0).clamp(0.0, 1.0) * self.light;
         Light {
             sun: times(SUN, daylight.sun).map(|colour| risen * colour),
@@ -82,7 +83,7 @@ fn times(colour: Rgb, shares: [f32; 3]) -> Rgb {
     std::array::from_fn(|part| colour[part] * shares[part])
 }
 
-/// By day this colour, in the night so much of [`NIGHT`].
+/// Mixes the colour by day with the share `night` of [`NIGHT`], by the brightness of the light.
 fn dimmed(day: Rgb, light: f32, night: f32) -> Rgb {
     std::array::from_fn(|colour| day[colour] * light + NIGHT[colour] * night)
 }

@@ -1,4 +1,4 @@
-//! A camera ready to draw with: from its description to the pinhole for the renderer, and the lens for its light.
+//! A camera that is ready to draw: the pinhole for the renderer, and the lens for the light, made from the description.
 
 use crate::lens::Lens;
 use crate::{Camera, CameraFlaw, CameraSettings, Frame, NoCamera, WantedImages, camera_settings};
@@ -9,25 +9,25 @@ use paracosm_engine::sensor::{CameraSpec, Cameras, Chance};
 pub struct Optics {
     /// The name of the camera.
     pub name: String,
-    /// The camera without its lens.
+    /// The pinhole camera without the lens.
     pub camera: Camera,
     lens: Lens,
     seed: u64,
 }
 
 impl Optics {
-    /// All of a set, in the order of their names.
+    /// Makes all cameras of a set, in the order of their names.
     ///
     /// # Errors
-    /// There is no such camera; the error names it.
+    /// A camera cannot be made; the error names it.
     pub fn of(cameras: &Cameras) -> Result<Vec<Self>, NoCamera> {
         Self::with(camera_settings(), cameras)
     }
 
-    /// All of a set, by a table of settings of one's own.
+    /// Makes all cameras of a set, by another table of settings.
     ///
     /// # Errors
-    /// There is no such camera; the error names it.
+    /// A camera cannot be made; the error names it.
     pub fn with(settings: CameraSettings, cameras: &Cameras) -> Result<Vec<Self>, NoCamera> {
         let ready = |(name, spec): (&String, &CameraSpec)| {
             let camera = settings.check(spec).and_then(|()| Ok(Camera::of(spec)?));
@@ -38,28 +38,30 @@ impl Optics {
         cameras.all.iter().map(ready).collect()
     }
 
-    /// The same with other noise.
+    /// Returns the same camera with another seed for its noise.
     pub fn with_seed(&self, seed: u64) -> Self {
         Self { seed, ..self.clone() }
     }
 
-    /// The outputs that the renderer draws for these: colours as they are, or light for the lens.
+    /// Returns the outputs that the renderer has to draw for the `wanted` outputs: colours, or linear light if the lens
+    /// changes it.
     pub fn needs(&self, wanted: WantedImages) -> WantedImages {
         let plain = self.is_plain();
         WantedImages { rgb: wanted.rgb && plain, linear: wanted.rgb && !plain, ..wanted }
     }
 
-    /// Whether colours go through it as they are.
+    /// Returns `true` if the lens does not change colours.
     pub fn is_plain(&self) -> bool {
         self.lens.is_plain()
     }
 
-    /// The colours that it gives of linear light, with the noise of this image; `None` where the frame has no light.
+    /// Returns the colours that the camera makes of linear light, with the noise of image `number`; `None` if the frame
+    /// has no light.
     pub fn develop(&self, frame: &Frame, number: u64) -> Option<Vec<u8>> {
         self.lens.develop(frame, |effect| self.chance(effect, number))
     }
 
-    /// The chance of an effect in an image of this number.
+    /// Returns the source of randomness for an effect in image `number`.
     pub fn chance(&self, effect: &str, number: u64) -> Chance {
         Chance::of(self.seed, &format!("{}, {effect}", self.name), number)
     }

@@ -1,4 +1,4 @@
-//! What there is to see at one moment.
+//! A scene: everything that is visible at one moment.
 
 mod figure;
 mod ground;
@@ -12,48 +12,48 @@ use nalgebra::Isometry3;
 use paracosm_engine::{Weather, sensor};
 use std::sync::Arc;
 
-/// What there is to see at one moment.
+/// Everything that is visible at one moment.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// The things in it.
+    /// The things in the scene.
     pub instances: Vec<Instance>,
-    /// Light and fog.
+    /// The light and the fog.
     pub air: Atmosphere,
 }
 
-/// A thing: a mesh, and where it stands.
+/// A thing in a scene: a mesh with its place.
 #[derive(Debug, Clone)]
 pub struct Instance {
-    /// Its shape, shared by all that look alike.
+    /// The shape of the thing, shared by all things that look alike.
     pub mesh: Arc<Mesh>,
-    /// From the mesh's coordinates to the world's.
+    /// The transformation from the mesh's coordinates to the world's.
     pub pose: Isometry3<f32>,
-    /// How much larger than the mesh it is along the mesh's axes.
+    /// The factors by which the thing is larger than the mesh, along the mesh's axes.
     pub scale: [f32; 3],
-    /// The colour of what is painted on it: red, green and blue in linear light, from 0 to 1.
+    /// The colour of the painted surfaces: red, green and blue in linear light, from 0 to 1.
     pub paint: [f32; 3],
-    /// Which thing it is part of: 0 for what belongs to nothing in particular, else one more than the index of the body
-    /// among those of the run.
+    /// The id of the thing that this instance is part of: 0 for no particular thing, otherwise one more than the index
+    /// of the body among the bodies of the run.
     pub id: u16,
 }
 
-/// Light and fog.
+/// The light and the fog of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Atmosphere {
-    /// From 0, night, to 1, broad daylight.
+    /// The brightness of the light, from 0 (night) to 1 (broad daylight).
     pub light: f32,
-    /// How high the sun stands, in radians above the horizon. Light is dimmer and warmer the lower that is, and below the
-    /// horizon there is dusk. Shadows on level ground fade towards the horizon: the sun of 3 degrees, with a twentieth of its
-    /// light on the level, adds less than a tenth to that of the sky.
+    /// The height of the sun, in radians above the horizon. The lower the sun, the dimmer and warmer is the light;
+    /// below the horizon there is dusk. Shadows on level ground fade as the sun comes near the horizon: at 3 degrees
+    /// the sun sends a twentieth of its light onto level ground, which adds less than a tenth to the light of the sky.
     pub sun_elevation: f32,
-    /// Where the sun stands, in radians counter-clockwise from x.
+    /// The direction of the sun, in radians counter-clockwise from x.
     pub sun_azimuth: f32,
-    /// The extinction of the fog in 1/m, 0 without any: 3.912 / visibility (Koschmieder, 2 % contrast).
+    /// The extinction of the fog in 1/m, 0 if there is no fog: 3.912 / visibility (Koschmieder, 2 % contrast).
     pub extinction: f32,
 }
 
 impl Atmosphere {
-    /// The air of a weather, with the fog that its other sensors see through ([`sensor::Air::of`]).
+    /// Returns the air of a weather. The fog is the fog that the other sensors see through ([`sensor::Air::of`]).
     pub fn of(weather: &Weather) -> Self {
         Self {
             light: weather.light as f32,
@@ -65,7 +65,7 @@ impl Atmosphere {
 }
 
 impl Default for Atmosphere {
-    /// Broad daylight from the left and behind, no fog.
+    /// Returns broad daylight from the left and behind, without fog.
     fn default() -> Self {
         Self { light: 1.0, sun_elevation: 0.9, sun_azimuth: 2.3, extinction: 0.0 }
     }

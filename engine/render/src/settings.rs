@@ -1,5 +1,5 @@
-//! The one table of the settings of cameras: those that the engine uses, then those of the effects of the lens, in the
-//! order in which light passes. Readers of files, checks, variation from test to test and documents go by it.
+//! The table of the settings of cameras: first the settings of the engine, then those of the lens effects, in the order
+//! in which light passes them. Readers of files, checks, variation from test to test and documents all use this table.
 
 use crate::CameraError;
 use crate::lens::{EFFECTS, LensEffect};
@@ -7,67 +7,67 @@ use paracosm_engine::sensor::{CORE_CAMERA_SETTINGS, CameraSetting, CameraSpec, C
 use paracosm_space::{Record, did_you_mean, nearest};
 use thiserror::Error;
 
-/// The key of the resolution, which is no single number and has no row in the table.
+/// The key of the resolution. It is not a single number and has no row in the table.
 pub const RESOLUTION: &str = "resolution";
 
-/// The most pixels each way, so that a slip of the finger does not ask for more memory than there is.
+/// The most pixels each way, so that a typing error does not ask for more memory than there is.
 const MOST_PIXELS: u32 = 8192;
 
-/// The table of all settings that cameras have.
+/// Returns the table of all settings that cameras have.
 pub fn camera_settings() -> CameraSettings {
     CameraSettings::with(EFFECTS)
 }
 
-/// A table of settings.
+/// A table of the settings of cameras.
 #[derive(Debug, Clone, Copy)]
 pub struct CameraSettings {
     effects: &'static [&'static LensEffect],
 }
 
-/// A camera that cannot be.
+/// An invalid camera: its name, and the flaw in its description.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("camera `{camera}`: {flaw}")]
 pub struct NoCamera {
-    /// Its name.
+    /// The name of the camera.
     pub camera: String,
-    /// What is wrong with it.
+    /// The flaw in the camera's description.
     pub flaw: CameraFlaw,
 }
 
-/// What keeps a description from being that of a camera.
+/// The reason why a description is not the description of a camera.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CameraFlaw {
-    /// An image with too few or too many pixels.
+    /// The image has too few or too many pixels.
     #[error("`{RESOLUTION}` is {found:?}, expected 1 to {MOST_PIXELS} pixels each way")]
     Resolution {
-        /// Its pixels.
+        /// The resolution that was found.
         found: [u32; 2],
     },
-    /// A number, or a number of a list, out of range.
+    /// A number, or a number of a list, is out of range.
     #[error("`{}` is {}, expected {}", settings[0].key, listed(found), ranges(settings))]
     OutOfRange {
-        /// The settings of one key.
+        /// The settings of the key.
         settings: Vec<CameraSetting>,
-        /// Their values.
+        /// The values of the settings.
         found: Vec<f64>,
     },
-    /// A key that no setting has.
+    /// The key belongs to no setting.
     #[error("there is no key `{key}`{}, expected some of {}", did_you_mean(nearest), known.join(", "))]
     UnknownKey {
-        /// The key.
+        /// The unknown key.
         key: String,
-        /// A key that was perhaps meant.
+        /// The known key that was perhaps meant.
         nearest: Option<&'static str>,
-        /// All keys.
+        /// All known keys.
         known: Vec<&'static str>,
     },
-    /// A camera that the renderer refuses.
+    /// The renderer refuses the camera.
     #[error(transparent)]
     Refused(#[from] CameraError),
 }
 
 impl CameraFlaw {
-    /// The key of a file under which the wrong setting stands.
+    /// Returns the key in the file whose value is wrong.
     pub fn key(&self) -> Option<&str> {
         match self {
             Self::Resolution { .. } => Some(RESOLUTION),
@@ -79,30 +79,30 @@ impl CameraFlaw {
 }
 
 impl CameraSettings {
-    /// The table of cameras whose lenses have these effects, in the order in which light passes them.
+    /// Makes the table for lenses with these effects, in the order in which light passes them.
     pub const fn with(effects: &'static [&'static LensEffect]) -> Self {
         Self { effects }
     }
 
-    /// The effects of the lens.
+    /// Returns the effects of the lens.
     pub fn effects(self) -> &'static [&'static LensEffect] {
         self.effects
     }
 
-    /// All settings, in the order in which files have them. Those of one key stand beside each other.
+    /// Returns all settings, in the order in which they stand in files. The settings of one key are adjacent.
     pub fn iter(self) -> impl Iterator<Item = CameraSetting> {
         let of_lens = self.effects.iter().flat_map(|effect| effect.settings);
         CORE_CAMERA_SETTINGS.iter().chain(of_lens).copied()
     }
 
-    /// The keys of a file, in their order: [`RESOLUTION`], then those of all settings.
+    /// Returns the keys of a file, in their order: [`RESOLUTION`], then the keys of all settings.
     pub fn keys(self) -> Vec<&'static str> {
         let mut keys: Vec<_> = std::iter::once(RESOLUTION).chain(self.iter().map(|setting| setting.key)).collect();
         keys.dedup();
         keys
     }
 
-    /// The settings of a key, more than one for a list.
+    /// Returns the settings of a key. A key whose value is a list has several.
     ///
     /// # Errors
     /// There is no such key.
@@ -116,7 +116,7 @@ impl CameraSettings {
         CameraFlaw::UnknownKey { key: key.to_owned(), nearest: nearest(key, known.iter().copied()), known }
     }
 
-    /// Checks that there is such a camera.
+    /// Checks that the description is that of a camera.
     ///
     /// # Errors
     /// A number is out of its range, or the lens has a setting that does not exist.
@@ -136,8 +136,8 @@ impl CameraSettings {
         }
     }
 
-    /// Gives each camera all settings of its lens, in the order of the table: those that it does not say get their
-    /// defaults. Two sets of cameras that see the same are then equal, and are written alike.
+    /// Gives each camera all settings of its lens, in the order of the table. Settings that a camera does not mention
+    /// get their defaults. Two sets of cameras that take the same images are then equal, and are written alike.
     pub fn complete(self, cameras: &mut Cameras) {
         for camera in cameras.all.values_mut() {
             let said = std::mem::replace(&mut camera.lens, Record::EMPTY);
@@ -149,7 +149,7 @@ impl CameraSettings {
     }
 }
 
-/// Numbers as a file has them: one by itself, or a list.
+/// Formats numbers as a file has them: a single number, or a list.
 fn listed(found: &[f64]) -> String {
     match found {
         [alone] => alone.to_string(),
@@ -157,7 +157,7 @@ fn listed(found: &[f64]) -> String {
     }
 }
 
-/// The ranges of the settings of one key, with their units.
+/// Formats the ranges of the settings of one key, with their units.
 fn ranges(settings: &[CameraSetting]) -> String {
     let alike = |a: &CameraSetting, b: &CameraSetting| (a.range, a.unit) == (b.range, b.unit);
     match settings {
@@ -172,7 +172,7 @@ fn ranges(settings: &[CameraSetting]) -> String {
     }
 }
 
-/// The range of a setting, with its unit.
+/// Formats the range of a setting, with its unit.
 fn range(setting: &CameraSetting) -> String {
     let number = |number: f64| if number.abs() < 1e6 { number.to_string() } else { format!("{number:e}") };
     let (low, high) = setting.range;

@@ -1,53 +1,54 @@
-//! What is to be drawn.
+//! A view: a scene, and the camera that is to draw it.
 
 use crate::{Camera, Scene};
 use nalgebra::{Isometry3, Point3};
 
-/// One camera's look at one scene.
+/// A camera that looks at a scene.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
-    /// What there is to see.
+    /// The scene that is drawn.
     pub scene: &'a Scene,
-    /// With what.
+    /// The camera that draws the scene.
     pub camera: &'a Camera,
-    /// From where: the pose in the world of what carries the camera.
+    /// The pose in the world of the vehicle that carries the camera.
     pub pose: Isometry3<f64>,
-    /// The id of things that are left out, if any: usually what carries the camera, of which it would see the inside.
+    /// The id of the things that are not drawn, if any: usually the vehicle that carries the camera, since the camera
+    /// would see its inner sides.
     pub without: Option<u16>,
-    /// Where what carries the camera has its head lamps, in its own coordinates, if it has any: midway between the two.
-    /// They shine forward as the day's light fades.
+    /// The point midway between the two head lamps, in the coordinates of the vehicle that carries the camera, if it
+    /// has head lamps. They shine forward as daylight fades.
     pub head_lamps: Option<Point3<f64>>,
 }
 
 impl<'a> View<'a> {
-    /// All there is, seen by a camera on what is here, without head lamps.
+    /// Makes a view of the whole scene, by a camera on a vehicle at `pose`, without head lamps.
     pub fn new(scene: &'a Scene, camera: &'a Camera, pose: Isometry3<f64>) -> Self {
         Self { scene, camera, pose, without: None, head_lamps: None }
     }
 }
 
-/// Which images of a view are wanted. What is not asked for is not drawn.
+/// The images of a view that are wanted. The renderer draws no others.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct WantedImages {
-    /// Colours as a screen shows them.
+    /// True for colours as a screen shows them.
     pub rgb: bool,
-    /// Colours in linear light, before anything rounds or cuts them: for those who make lenses and sensors of it.
+    /// True for colours in linear light, neither rounded nor cut off, for models of lenses and sensors.
     pub linear: bool,
-    /// How far away it is.
+    /// True for the distance of each pixel.
     pub depth: bool,
-    /// What it is.
+    /// True for the semantic class of each pixel.
     pub semantic: bool,
-    /// Which it is.
+    /// True for the id of the thing at each pixel.
     pub instance: bool,
-    /// Which pixels each thing would have if it were alone; occlusion is measured against them. It draws everything
-    /// once more.
+    /// True for the pixels that each thing would have if it were alone; occlusion is measured against them. Everything
+    /// is drawn a second time for it.
     pub alone: bool,
-    /// Whether things throw shadows in `rgb` and `linear`.
+    /// True if things throw shadows in `rgb` and `linear`.
     pub shadows: bool,
 }
 
 impl WantedImages {
-    /// Whether light is to be computed.
+    /// Returns `true` if light has to be computed.
     pub(crate) fn light(self) -> bool {
         self.rgb || self.linear
     }

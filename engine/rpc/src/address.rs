@@ -1,21 +1,21 @@
-//! Where a driver listens.
+//! The network address of a driver: `grpc://HOST:PORT`.
 
 use std::fmt;
 use std::net::{SocketAddr, ToSocketAddrs};
 use std::str::FromStr;
 use thiserror::Error;
 
-/// What addresses of drivers begin with.
+/// The beginning of every address of a driver.
 const SCHEME: &str = "grpc://";
 
-/// Where a driver listens: `grpc://HOST:PORT`.
+/// The network address at which a driver listens: `grpc://HOST:PORT`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Address {
     host: String,
     port: u16,
 }
 
-/// A text that is no address of a driver.
+/// The error for a text that is no address of a driver.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("`{text}`: {why}, expected grpc://HOST:PORT, as grpc://127.0.0.1:50051")]
 pub struct AddressError {
@@ -24,17 +24,17 @@ pub struct AddressError {
 }
 
 impl Address {
-    /// Whether a text is meant to be an address rather than the name of a driver.
+    /// Returns `true` if a text is meant to be an address rather than the name of a driver.
     pub fn is_meant(text: &str) -> bool {
         text.contains("://")
     }
 
-    /// `HOST:PORT`.
+    /// Returns `HOST:PORT`.
     pub fn authority(&self) -> String {
         format!("{}:{}", self.host, self.port)
     }
 
-    /// Whether its host has a place in the network.
+    /// Returns `true` if the host's name can be resolved to an address.
     pub(crate) fn is_known(&self) -> bool {
         self.authority().to_socket_addrs().is_ok_and(|mut all| all.next().is_some())
     }

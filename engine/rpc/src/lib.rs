@@ -1,11 +1,25 @@
 //! Drivers in their own process, over gRPC: the protocol of `proto/paracosm/driver/v1/driver.proto`, from both ends.
 //!
-//! A [`Session`] is a [`Driver`](paracosm_engine::driver::Driver) like any other, whose answers come from a server;
-//! `serve`, a feature, is such a server for drivers written in Rust. The protocol is for everyone, the Python package in `python/`
-//! speaks it too. A session has a connection of its own and a runtime that only runs while it waits, so that nothing but
-//! this crate knows of tasks, and a question costs no change of threads on this side.
+//! A [`Session`] is a [`Driver`](paracosm_engine::driver::Driver) like any other, but a server gives its answers. The
+//! feature `serve` adds such a server, for drivers written in Rust. Drivers in other languages can use the protocol as
+//! well; the Python package in `python/` does. Each session has its own connection and a runtime that runs only while
+//! the session waits. Only this crate deals with asynchronous tasks, and a question costs no change of threads on this
+//! side.
 //!
-//! What is told goes over as it is, bit by bit: the same driver gives the same trace in process and over gRPC.
+//! All values are sent bit by bit, so the same driver gives the same trace in process and over gRPC.
+//!
+//! ```no_run
+//! use paracosm_engine::driver::Driver;
+//! use paracosm_rpc::{Address, Session, Terms};
+//! use std::sync::{Arc, atomic::AtomicBool};
+//! use std::time::Duration;
+//!
+//! let address: Address = "grpc://127.0.0.1:50051".parse()?;
+//! let terms = Terms { seed: 0, settings: Vec::new(), timeout: Duration::from_secs(10) };
+//! let session = Session::open(&address, &terms, Arc::new(AtomicBool::new(false)))?;
+//! println!("`{}` wants a question every {} s", session.name(), session.period());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod address;
 #[cfg(feature = "serve")]

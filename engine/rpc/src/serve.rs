@@ -17,25 +17,25 @@ use tonic::transport::Server;
 use tonic::{Response, Status, Streaming};
 use wire::driver_server::{Driver as Service, DriverServer};
 
-/// How much may be on its way before it is read, in bytes: an image or two.
+/// The number of bytes that may be on their way before they are read: an image or two.
 const WINDOW: u32 = 1 << 24;
 
-/// What the driver of a session is asked to be.
+/// The seed and the settings that a client asks for at the beginning of a session.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SessionOptions {
-    /// Where all its chance is to come from.
+    /// The seed of all randomness of the driver.
     pub seed: u64,
-    /// What it is to be set to.
+    /// The driver's settings by their names.
     pub settings: BTreeMap<String, f64>,
 }
 
-/// Makes a driver for each session.
+/// A function that makes a driver for each session.
 type Make = dyn Fn(&SessionOptions) -> Result<Box<dyn Driver>, Fault> + Send + Sync;
 
-/// Serves drivers to whoever connects, one for each session, until the process ends.
+/// Serves drivers to every client, one driver for each session, until the process ends.
 ///
-/// They are told where the others truly are, and may have cameras. A driver with a rig is refused when its session begins:
-/// the readings of a rig stay in the process that simulates.
+/// The drivers are told where the other bodies truly are, and may have cameras. A driver with a rig is refused when its
+/// session begins, because the readings of a rig stay in the process that simulates.
 ///
 /// ```no_run
 /// use paracosm_engine::driver::{Fault, find};
@@ -48,7 +48,7 @@ type Make = dyn Fn(&SessionOptions) -> Result<Box<dyn Driver>, Fault> + Send + S
 /// ```
 ///
 /// # Errors
-/// The listener cannot be listened to.
+/// The listener cannot be used, or the server fails.
 pub fn serve(
     listener: TcpListener,
     name: &str,
@@ -65,7 +65,7 @@ pub fn serve(
     })
 }
 
-/// Has a driver for everyone.
+/// The gRPC service: it makes a driver for every session.
 struct DriverService {
     name: Arc<str>,
     make: Arc<Make>,
@@ -86,7 +86,7 @@ impl Service for DriverService {
     }
 }
 
-/// Answers the requests of a session to its end.
+/// Answers the requests of a session until the session ends.
 async fn attend(
     mut requests: Streaming<wire::Request>,
     answers: UnboundedSender<Result<wire::Answer, Status>>,
@@ -107,13 +107,13 @@ async fn attend(
     }
 }
 
-/// The message of a panic.
+/// Returns the message of a panic.
 fn words(panic: &(dyn Any + Send)) -> &str {
     let owned = panic.downcast_ref::<String>().map(String::as_str);
     owned.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message")
 }
 
-/// A driver at work.
+/// The driver of a session, with its cameras and its latest observation.
 struct SessionState {
     driver: Box<dyn Driver>,
     cameras: Cameras,

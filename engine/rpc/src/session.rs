@@ -19,40 +19,40 @@ use tonic::transport::Endpoint;
 use tonic::{Code, Status, Streaming};
 use wire::driver_client::DriverClient;
 
-/// How often whoever waits looks whether it is still wanted.
+/// The time between two looks at the flag that stops the waiting.
 const PATIENCE: Duration = Duration::from_millis(20);
 
-/// The longest answer in bytes: what a driver says is short, but for its message when it gives up.
+/// The longest answer in bytes. A driver's answers are short, except for its message when it gives up.
 const LONGEST_ANSWER: usize = 1 << 24;
 
-/// Why there is no driver to ask.
+/// An error at the beginning of a session.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum OpenError {
-    /// Nobody listens.
+    /// No process listens at the address.
     #[error("nobody listens there; start the driver first")]
     Unreachable,
-    /// The host has no address.
+    /// The name of the host cannot be resolved to an address.
     #[error("the host is not known")]
     UnknownHost,
-    /// What listens there is something else.
+    /// The process that listens is no driver.
     #[error("what listens there is no driver for PARACOSM: it does not offer paracosm.driver.v1.Driver over gRPC")]
     Foreign,
-    /// It speaks another protocol.
+    /// The driver speaks another version of the protocol.
     #[error("the driver speaks protocol {found}, expected {PROTOCOL}; update the one that is older")]
     Protocol {
-        /// What it speaks.
+        /// The version of the protocol that the driver speaks.
         found: u32,
     },
-    /// It refuses, says nothing, or has a period or sensors that cannot be.
+    /// The driver refuses, does not answer, or has a period or sensors that are not possible.
     #[error(transparent)]
     Unusable(#[from] Fault),
 }
 
-/// A driver that a server answers for, as long as its connection lasts.
+/// A driver in another process, which a server answers for as long as the connection lasts.
 ///
-/// Dropping it ends the session.
+/// Dropping the session ends it.
 pub struct Session {
-    // Before the runtime, on which they end.
+    // These two stand before the runtime, because they must be dropped before it.
     requests: UnboundedSender<wire::Request>,
     answers: Streaming<wire::Answer>,
     runtime: Runtime,
@@ -62,17 +62,17 @@ pub struct Session {
     next: wire::Step,
 }
 
-/// How long answers are waited for.
+/// The limits of waiting for an answer: the timeout and the flag that stops it.
 struct Watch {
     timeout: Duration,
     stop: Arc<AtomicBool>,
 }
 
 impl Session {
-    /// Begins a session with the server at this address. Nothing is waited for any more once `stop` is set.
+    /// Begins a session with the server at this address. The session stops waiting once `stop` is set.
     ///
     /// # Errors
-    /// Nobody listens there, something else does, or the driver cannot be had on these terms.
+    /// No process listens at the address, another kind of server does, or the driver refuses these terms.
     pub fn open(address: &Address, terms: &Terms, stop: Arc<AtomicBool>) -> Result<Self, OpenError> {
         let runtime = Builder::new_current_thread().enable_all().build();
         let runtime =
@@ -104,18 +104,19 @@ impl Session {
         Ok(Self { requests, answers, runtime, watch, described, lost: false, next: wire::Step::default() })
     }
 
-    /// What the driver calls itself.
+    /// Returns the name that the driver gives itself.
     pub fn name(&self) -> &str {
         &self.described.name
     }
 
-    /// Whether its server is gone or does not answer, rather than having said what is wrong.
+    /// Returns `true` if the driver's server is gone or does not answer. A driver that has reported a fault is not
+    /// lost.
     pub fn is_lost(&self) -> bool {
         self.lost
     }
 
     fn ask(&mut self, kind: request::Kind) -> Result<Option<answer::Kind>, Fault> {
-        // That nobody listens any more is seen below.
+        // If the server is gone, the wait below reports it.
         let _ = self.requests.send(wire::Request { kind: Some(kind) });
         let answer = self.watch.wait(&self.runtime, self.answers.message());
         let answer = answer.and_then(|answer| answer.map_err(|status| Fault::of(FaultKind::Lost, end(&status))));
@@ -183,7 +184,7 @@ impl Watch {
     }
 }
 
-/// What is wrong with an answer to another question.
+/// Makes the fault for an answer of the wrong kind.
 fn unexpected(expected: &str, found: Option<&answer::Kind>) -> Fault {
     let found = match found {
         None => "the driver ended the session".to_owned(),
@@ -195,7 +196,7 @@ fn unexpected(expected: &str, found: Option<&answer::Kind>) -> Fault {
     Fault::of(FaultKind::Answer, format!("{found}, expected {expected}"))
 }
 
-/// How a session ended. What the network says of it depends on chance, and is left out.
+/// Returns the message about how a session ended. The network's own text depends on timing, so it is left out.
 fn end(status: &Status) -> String {
     let by_network = status.source().is_some() || matches!(status.code(), Code::Unavailable | Code::Cancelled);
     match status.message() {
@@ -205,7 +206,7 @@ fn end(status: &Status) -> String {
     }
 }
 
-/// Why there is no session.
+/// Returns the error for a session that could not begin.
 fn refusal(status: &Status) -> OpenError {
     match status.code() {
         Code::Unimplemented => OpenError::Foreign,

@@ -2,13 +2,13 @@
 
 use std::time::Duration;
 
-/// On what terms a driver is asked.
+/// The terms of a session: seed, settings and timeout.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Terms {
-    /// Where its chance comes from, and the noise of its sensors.
+    /// The seed of the driver's randomness and of the noise of its sensors.
     pub seed: u64,
-    /// What it is set to.
+    /// The names and values of the driver's settings.
     pub settings: Vec<(String, f64)>,
-    /// How long an answer may take.
+    /// The longest time that an answer may take.
     pub timeout: Duration,
 }

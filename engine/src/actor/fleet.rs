@@ -1,4 +1,4 @@
-//! Environment cars: [`Traffic`] as an object of a scenario, that minds the other objects and can be told what to do.
+//! Environment cars: [`Traffic`] as an object of a scenario, which reacts to other objects and can be controlled.
 
 use crate::flaw::{Flaws, WorldFlaw};
 use crate::geometry::{Pose, Side};
@@ -10,30 +10,30 @@ use nalgebra::Vector2;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-/// Cars that drive by themselves over the roads of a scenario, not placed yet.
+/// Cars that drive by themselves over the roads of a scenario. They are not placed yet.
 #[derive(Debug, Clone)]
 pub struct EnvironmentCars {
     streets: Streets,
     cars: Vec<TrafficCar>,
-    /// How many of them there are to be, the first ones.
+    /// The greatest number of cars to place; the first ones are placed.
     most: usize,
     seed: u64,
 }
 
-/// Placed environment cars: what can be read of them, and what they can be told. Cars are counted from 0, in the order in
-/// which they were given.
+/// Placed environment cars: their outputs and their inputs. Cars are counted from 0, in the order in which they were
+/// given.
 #[derive(Debug, Clone)]
 pub struct Fleet {
     name: String,
     count: usize,
-    /// Whether it has begun: why it has not has been reported.
+    /// `true` if the traffic has begun. Otherwise, the reason has been reported.
     sound: bool,
     wiring: Wiring,
     flaws: Flaws,
     told: Rc<RefCell<Told>>,
 }
 
-/// What the program has asked of the cars.
+/// The outputs that the program reads, and the orders that it gives to the cars.
 #[derive(Debug, Default)]
 struct Told {
     shown: Vec<(usize, Shown)>,
@@ -48,7 +48,7 @@ enum Shown {
 
 #[derive(Debug)]
 enum Order {
-    /// Absent: it drives as it likes.
+    /// The speed of a car. While the stream is absent, the car drives by its model.
     Speed(Input<f64>),
     Wish(Input<f64>),
     Change(Side, f64, Input<bool>),
@@ -61,20 +61,20 @@ struct Driving {
 }
 
 impl EnvironmentCars {
-    /// These cars on these roads.
+    /// Puts these cars on these roads.
     pub fn on(streets: &Streets, cars: Vec<TrafficCar>) -> Self {
         Self { streets: streets.clone(), cars, most: usize::MAX, seed: 1 }
     }
 
-    /// So many cars at places that chance chooses: [`TrafficCar::scattered`]. Where there is no room for them there are
-    /// fewer: [`Fleet::count`].
+    /// Puts `count` cars at random places: [`TrafficCar::scattered`]. If there is not enough room, there are fewer:
+    /// [`Fleet::count`].
     pub fn scattered(streets: &Streets, count: usize, seed: u64) -> Self {
         let cars = streets.network().map(|network| TrafficCar::scattered(network, usize::MAX, seed));
         Self { seed, most: count, ..Self::on(streets, cars.unwrap_or_default()) }
     }
 
-    /// Without those that would start within so many metres of a place. Scattered cars start elsewhere instead, given
-    /// ones are left out.
+    /// Removes cars that would start within `metres` metres of a place. Scattered cars start elsewhere instead; given
+    /// cars are left out.
     pub fn away_from(mut self, place: Vector2<f64>, metres: f64) -> Self {
         if let Some(network) = self.streets.network() {
             let far = |car: &TrafficCar| {
@@ -86,7 +86,7 @@ impl EnvironmentCars {
         self
     }
 
-    /// Where all that they do by chance comes from.
+    /// Sets the seed of all random choices of the cars.
     pub fn seed(mut self, seed: u64) -> Self {
         self.seed = seed;
         self
@@ -103,7 +103,7 @@ impl Place for EnvironmentCars {
         let told = Rc::<RefCell<Told>>::default();
         let (name, count) = (draft.name().to_owned(), self.cars.len());
         let mut fleet = Fleet { name, count, sound: false, wiring, flaws, told: told.clone() };
-        // A network that cannot be built has been reported.
+        // The mistake in a network that cannot be built has been reported already.
         let Some(network) = self.streets.network() else { return fleet };
         let colours: Vec<_> = self.cars.iter().map(|car| car.colour).collect();
         match Traffic::new(network.clone(), self.cars, self.seed) {
@@ -121,7 +121,7 @@ impl Place for EnvironmentCars {
     }
 }
 
-/// What a car of the traffic is to others, by its size.
+/// Returns the body of a traffic car, by its size.
 fn body(car: &CarState) -> Body {
     let usual = match (car.length, car.width) {
         (length, _) if length > 7.0 => Body::truck(),
@@ -131,36 +131,37 @@ fn body(car: &CarState) -> Body {
     Body::block(usual.class, car.length, car.width, usual.height)
 }
 
-/// To ask for a car that is not there is a mistake that is reported when the world is built.
+/// If a program asks for a car that does not exist, the mistake is reported when the world is built.
 impl Fleet {
-    /// How many cars there are: perhaps fewer than were asked for, where there is no room for more.
+    /// Returns the number of cars. It is smaller than the number asked for if there was not enough room.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Where the middle of a car is. One that has left the network is where it was last seen.
+    /// Returns the position of a car's middle. A car that has left the network keeps its last position.
     pub fn position(&self, car: usize) -> Stream<Vector2<f64>> {
         self.show(car, "position", Shown::Position)
     }
 
-    /// The speed of a car in m/s. One that has left the network has the speed at which it did.
+    /// Returns the speed of a car in m/s. A car that has left the network keeps its last speed.
     pub fn speed(&self, car: usize) -> Stream<f64> {
         self.show(car, "speed", Shown::Speed)
     }
 
-    /// Gives a car this speed in m/s, which it leaves only so as not to run into what is ahead; at ticks at which the
-    /// stream is absent it drives as it likes.
+    /// Gives a car this speed in m/s. The car deviates from it only to avoid a collision with a body ahead. At ticks at
+    /// which the stream is absent, the car drives by its model.
     pub fn drive(&self, car: usize, speed: impl Into<Stream<f64>>) {
         self.order(car, "speed", &speed.into(), Order::Speed);
     }
 
-    /// Sets the speed in m/s at which a car drives where nothing hinders it.
+    /// Sets the speed in m/s at which a car drives if nothing hinders it.
     pub fn wish(&self, car: usize, speed: impl Into<Stream<f64>>) {
         self.order(car, "desired_speed", &speed.into(), Order::Wish);
     }
 
-    /// Lets a car change to the lane beside, within so many seconds, whoever is there, when the event occurs and there is
-    /// such a lane. A time that is no finite number above 0 is a mistake that is reported when the world is built.
+    /// Makes a car change to the neighbouring lane on this side within `seconds` seconds when the event occurs, even if
+    /// other cars are there. Without such a lane it does nothing. A time that is not a finite number above 0 is
+    /// reported as a mistake.
     pub fn change_lane(&self, car: usize, side: Side, seconds: f64, event: &Stream<bool>) {
         if seconds > 0.0 && seconds.is_finite() {
             self.order(car, "change_lane", event, |event| Order::Change(side, seconds, event));
@@ -186,7 +187,7 @@ impl Fleet {
         }
     }
 
-    /// Whether there is such a car; it is a mistake where there is not.
+    /// Returns `true` if the car exists; otherwise, it reports a mistake.
     fn has(&self, car: usize) -> bool {
         if self.sound && car >= self.count {
             let traffic = self.name.clone();
@@ -249,7 +250,7 @@ impl Geometric for Driving {
 
     fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
         self.obey(tick)?;
-        // What stands beside the roads is nothing to stop for.
+        // Objects beside the roads are no obstacles.
         let in_the_way = |class| !matches!(class, Class::Building | Class::Tree | Class::Sign);
         self.obstacles.clear();
         self.obstacles.extend(tick.others().filter(|other| in_the_way(other.body.class)).map(|other| {

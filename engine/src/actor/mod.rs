@@ -1,5 +1,5 @@
-//! The objects that come with the engine, the car under test apart: people on foot, whatever moves along a path, and
-//! what stands beside the road.
+//! The objects that come with the engine, except the ego vehicle: people on foot, objects that move along a path, and
+//! things that stand beside the road.
 
 mod fixture;
 mod fleet;

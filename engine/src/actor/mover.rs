@@ -1,6 +1,6 @@
-//! Cars, lorries, bicycles and people that move along a path, as fast as their input says.
+//! Cars, lorries, bicycles and people that move along a path, at the speed of their input.
 //!
-//! They do not look around: what they do is the scenario's to say. Traffic that drives itself is in
+//! They do not react to others: the scenario says what they do. For traffic that drives itself see
 //! [`traffic`](crate::traffic).
 
 use crate::flaw::ObjectFlaw;
@@ -11,7 +11,7 @@ use crate::scenario::{Place, Scenario};
 use crate::stream::Stream;
 use nalgebra::Vector2;
 
-/// Something that moves along a path, not placed yet. It stands until its [speed](Mover::speed) is said.
+/// An object that moves along a path. It is not placed yet, and stands still until its [speed](Mover::speed) is set.
 #[derive(Debug, Clone)]
 pub struct Mover {
     name: String,
@@ -22,7 +22,7 @@ pub struct Mover {
     offset: Stream<f64>,
 }
 
-/// Something placed that moves along a path: its outputs and its inputs.
+/// A placed object that moves along a path: its outputs and its inputs.
 #[derive(Debug, Clone)]
 pub struct Actor {
     speed_input: Input<f64>,
@@ -35,10 +35,10 @@ pub struct Actor {
 
 struct Moving {
     path: Path,
-    /// Metres along the path, and at which it began.
+    /// The present place and the start, in metres along the path.
     at: f64,
     start: f64,
-    /// Metres to the left of the path.
+    /// The distance to the left of the path, in metres.
     offset: f64,
     pose: Pose,
     speed: f64,
@@ -57,58 +57,58 @@ struct Shown {
 }
 
 impl Mover {
-    /// A body on a path; traces and requirements speak of it by its name.
+    /// Makes a body on a path. Traces and requirements refer to it by its name.
     pub fn new(name: &str, body: Body, path: Path) -> Self {
         let (speed, offset) = (Stream::absent(), Stream::constant(0.0));
         Self { name: name.to_owned(), body, path, start: 0.0, speed, offset }
     }
 
-    /// A passenger car called `other`.
+    /// Makes a passenger car called `other`.
     pub fn car(path: Path) -> Self {
         Self::new("other", Body::car(), path)
     }
 
-    /// A lorry called `truck`.
+    /// Makes a lorry called `truck`.
     pub fn truck(path: Path) -> Self {
         Self::new("truck", Body::truck(), path)
     }
 
-    /// A bicycle called `bicycle`.
+    /// Makes a bicycle called `bicycle`.
     pub fn bicycle(path: Path) -> Self {
         Self::new("bicycle", Body::bicycle(), path)
     }
 
-    /// A person on foot called `pedestrian`.
+    /// Makes a person on foot called `pedestrian`.
     pub fn pedestrian(path: Path) -> Self {
         Self::new("pedestrian", Body::adult(), path)
     }
 
-    /// The name by which traces and requirements speak of it.
+    /// Sets the name by which traces and requirements refer to the object.
     pub fn named(mut self, name: &str) -> Self {
         name.clone_into(&mut self.name);
         self
     }
 
-    /// The size that it has instead of the usual one.
+    /// Sets the body of the object, instead of the usual one.
     pub fn body(mut self, body: Body) -> Self {
         self.body = body;
         self
     }
 
-    /// How many metres along the path its middle is at first.
+    /// Sets the place of the object's middle at the beginning, in metres along the path.
     pub fn starting(mut self, at: f64) -> Self {
         self.start = at;
         self
     }
 
-    /// How fast it moves along the path, in m/s: not backwards. It stands at ticks at which the stream is absent, and
-    /// where the path ends.
+    /// Sets the speed along the path in m/s, which is not negative. The object stands at ticks at which the stream is
+    /// absent, and at the end of the path.
     pub fn speed(mut self, speed: impl Into<Stream<f64>>) -> Self {
         self.speed = speed.into();
         self
     }
 
-    /// How far to the left of the path it is, in metres, from 0 on: how it changes lanes.
+    /// Sets the distance to the left of the path in metres, negative to the right; at first it is 0. For lane changes.
     pub fn offset(mut self, offset: impl Into<Stream<f64>>) -> Self {
         self.offset = offset.into();
         self
@@ -161,37 +161,37 @@ impl Place for Mover {
 }
 
 impl Actor {
-    /// Binds its speed to another stream: [`Mover::speed`].
+    /// Binds the speed to another stream: [`Mover::speed`].
     pub fn drive(&self, speed: impl Into<Stream<f64>>) {
         self.speed_input.bind(speed);
     }
 
-    /// Binds its offset to another stream: [`Mover::offset`].
+    /// Binds the offset to another stream: [`Mover::offset`].
     pub fn shift(&self, offset: impl Into<Stream<f64>>) {
         self.offset_input.bind(offset);
     }
 
-    /// Where its middle is.
+    /// Returns the position of the object's middle.
     pub fn position(&self) -> Stream<Vector2<f64>> {
         self.position.stream()
     }
 
-    /// How fast it moves, in m/s.
+    /// Returns the speed of the object, in m/s.
     pub fn speed(&self) -> Stream<f64> {
         self.speed.stream()
     }
 
-    /// Metres along the path that it has come.
+    /// Returns the distance that the object has travelled along the path, in metres.
     pub fn travelled(&self) -> Stream<f64> {
         self.travelled.stream()
     }
 
-    /// Metres to the end of its path.
+    /// Returns the distance to the end of the path, in metres.
     pub fn remaining(&self) -> Stream<f64> {
         self.remaining.stream()
     }
 
-    /// Whether it stands at the end of its path.
+    /// Returns `true` at ticks at which the object stands at the end of its path.
     pub fn arrived(&self) -> Stream<bool> {
         self.remaining().at_most(0.0)
     }
@@ -227,7 +227,7 @@ impl Geometric for Moving {
         self.at = (self.at + tick.speed(&self.speed_input)? * tick.dt()).min(self.path.length());
         self.offset = offset;
         self.pose = self.path.beside(self.at, offset);
-        // It faces where it goes, also where that is not along the path. What moves across only is pushed aside.
+        // It faces in its direction of motion, even off the path. A motion that is only sideways does not turn it.
         let (ahead, aside) = (self.at - before.0, offset - before.1);
         if ahead > 0.0 {
             self.pose.heading = crate::geometry::wrapped(self.pose.heading + libm::atan2(aside, ahead));

@@ -1,4 +1,4 @@
-//! People on foot: they walk straight to a target, at the speed that their input says.
+//! People on foot: they walk straight to a target, at the speed of their input.
 
 use crate::geometry::Pose;
 use crate::object::{Body, Geometric, Input, InputError, Output, Outputs, Tick};
@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// A person on foot, not placed yet.
+/// A person on foot. The person is not placed yet.
 #[derive(Debug, Clone)]
 pub struct Pedestrian {
     name: String,
@@ -20,21 +20,21 @@ pub struct Pedestrian {
 /// A placed pedestrian: its outputs and its input.
 #[derive(Debug, Clone)]
 pub struct Walker {
-    /// Where it walks to, once the program has said so.
+    /// The target of the walk, as soon as the program has set one.
     target: Rc<Cell<Option<Vector2<f64>>>>,
     speed: Input<f64>,
     position: Output<Vector2<f64>>,
     remaining: Output<f64>,
 }
 
-/// A walk that a pedestrian's input is bound to; its methods bind it to what they make of it.
+/// The walk of a pedestrian, as the speed that its input is bound to. The methods change its beginning and end.
 #[derive(Debug)]
 pub struct Walk(Input<f64>);
 
 /// A pedestrian in motion.
 struct Walking {
     pose: Pose,
-    /// Metres per second over the last tick.
+    /// The velocity over the last tick, in m/s.
     velocity: Vector2<f64>,
     target: Rc<Cell<Option<Vector2<f64>>>>,
     input: Input<f64>,
@@ -46,17 +46,17 @@ struct Walking {
 }
 
 impl Pedestrian {
-    /// A pedestrian of average build who stands at `start`.
+    /// Makes a pedestrian of average build who stands at `start`.
     pub fn at(start: Pose) -> Self {
         Self { name: "pedestrian".to_owned(), body: Body::adult(), start }
     }
 
-    /// A child who stands at `start`.
+    /// Makes a child who stands at `start`.
     pub fn child(start: Pose) -> Self {
         Self { name: "child".to_owned(), body: Body::child(), start }
     }
 
-    /// The name by which traces and requirements speak of it.
+    /// Sets the name by which traces and requirements refer to the pedestrian.
     pub fn named(mut self, name: &str) -> Self {
         name.clone_into(&mut self.name);
         self
@@ -92,38 +92,38 @@ impl Place for Pedestrian {
 }
 
 impl Walker {
-    /// Walks straight to `target` at this speed in m/s, which it has from the first tick on, and stops there. It stands
-    /// at ticks at which the speed is absent.
+    /// Lets the pedestrian walk straight to `target` at this speed in m/s, from the first tick on, and stop there. The
+    /// pedestrian stands at ticks at which the speed is absent.
     pub fn walk(&self, target: Pose, speed: impl Into<Stream<f64>>) -> Walk {
         self.target.set(Some(target.position));
         self.speed.bind(speed);
         Walk(self.speed.clone())
     }
 
-    /// Where it is.
+    /// Returns the position of the pedestrian.
     pub fn position(&self) -> Stream<Vector2<f64>> {
         self.position.stream()
     }
 
-    /// Metres that it still has to walk.
+    /// Returns the distance that the pedestrian still has to walk, in metres.
     pub fn remaining(&self) -> Stream<f64> {
         self.remaining.stream()
     }
 
-    /// Whether it stands at the target of its walk.
+    /// Returns `true` at ticks at which the pedestrian stands at the target of the walk.
     pub fn arrived(&self) -> Stream<bool> {
         self.remaining().at_most(0.0)
     }
 }
 
 impl Walk {
-    /// Begins at the tick of the event: [`Stream::skip_until`].
+    /// Begins the walk at the tick of the event: [`Stream::skip_until`].
     pub fn skip_until<E: Datum>(self, event: &Stream<E>) -> Self {
         self.0.rebind(|speed| speed.skip_until(event));
         self
     }
 
-    /// Ends at the tick of the event: [`Stream::take_until`].
+    /// Ends the walk at the tick of the event: [`Stream::take_until`].
     pub fn take_until<E: Datum>(self, event: &Stream<E>) -> Self {
         self.0.rebind(|speed| speed.take_until(event));
         self
@@ -160,7 +160,7 @@ impl Geometric for Walking {
         self.target.get().map(|target| Path::straight(self.pose.position, target))
     }
 
-    /// Walks no further than to the target, which it then reaches exactly.
+    /// Walks no further than to the target. The last step reaches it exactly.
     fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
         let speed = tick.speed(&self.input)?;
         let before = self.pose.position;

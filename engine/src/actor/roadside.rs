@@ -1,9 +1,9 @@
-//! What stands beside the roads and should not matter to whoever drives there: trees, houses, lamp posts, signs, parked
-//! bicycles and cars, people who stand about.
+//! Scenery beside the roads that should not matter to drivers: trees, houses, lamp posts, signs, parked bicycles and
+//! cars, bystanders.
 //!
-//! Beside every sidewalk, or the edge of a road without one, there is a place every few metres, and chance says whether
-//! something stands there, and what. Chance comes from the values of the test. Each thing keeps to a disc that lies beyond
-//! the sidewalk; it is left out where the disc meets another road, a body that is there, or the way of one.
+//! Beside every sidewalk, or the edge of a road without a sidewalk, there is a place every few metres. Chance decides
+//! whether something stands there, and what; it follows from the values of the test. Each thing keeps to a disc beyond
+//! the sidewalk. It is left out if the disc meets another road, a body, or the path of a body.
 
 use super::Fixture;
 use crate::flaw::WorldFlaw;
@@ -17,37 +17,37 @@ use crate::sensor::Chance;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Metres from one place to the next.
+/// The distance in metres from one place to the next.
 const PLACES: f64 = 8.0;
-/// Metres that a thing keeps from roads and sidewalks, from other things, and from bodies and their ways.
+/// The distances in metres of a thing from roads and sidewalks, from other things, and from bodies and their paths.
 const FROM_ROAD: f64 = 0.25;
 const FROM_OTHERS: f64 = 0.5;
 const FROM_BODIES: f64 = 1.5;
-/// Metres between two points of a way that is kept free.
+/// The distance in metres between two points of a path that is kept free.
 const STEP: f64 = 0.5;
 
-/// What stands beside the roads, not placed yet. It is placed last, so that it keeps clear of everything else.
+/// Scenery beside the roads. It is not placed yet. Place it last, so that it keeps clear of everything else.
 ///
-/// It is there for sensors, and for whoever runs into it. Drivers are not told of it, no traffic minds it, and neither
-/// clearances nor other signals know of it: as long as nobody leaves the road, traces are as without it.
+/// Scenery exists for sensors, and for a car that runs into it. Drivers, traffic, clearances and other signals take no
+/// account of it: as long as no car leaves the road, traces are the same as without scenery.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Roadside {
     fullness: f64,
 }
 
-/// A kind of thing.
+/// A kind of scenery.
 struct SceneryKind {
     name: &'static str,
-    /// How many of all things are of it.
+    /// The share of this kind among all things.
     share: f64,
     body: fn(&mut Chance) -> Body,
-    /// How far its disc is beyond the sidewalk, in metres, and as much again by chance.
+    /// The distance of the disc from the sidewalk in metres, and as much again at most, by chance.
     back: f64,
-    /// Where it faces, in radians counter-clockwise from the way of the traffic beside it.
+    /// The heading, in radians counter-clockwise from the direction of the traffic beside it.
     faces: f64,
 }
 
-/// Towards the road, which is to the left of the way of the traffic; against the traffic.
+/// The headings towards the road, which is to the left of the traffic's direction, and against the traffic.
 const TO_ROAD: f64 = FRAC_PI_2;
 const TO_TRAFFIC: f64 = PI;
 
@@ -99,27 +99,27 @@ fn car(chance: &mut Chance) -> Body {
     Body::car().coloured(painted(chance))
 }
 
-/// Any colour.
+/// Returns a random colour.
 fn painted(chance: &mut Chance) -> Colour {
     [0; 3].map(|_: u8| chance.between(0.0, 256.0) as u8)
 }
 
 impl Roadside {
-    /// From 0, nothing, to 1, as full as can be: the share of places at which something stands.
+    /// Makes scenery with this share of filled places, from 0 (no place) to 1 (every place).
     pub fn new(fullness: f64) -> Self {
         Self { fullness }
     }
 }
 
 impl Place for Roadside {
-    /// Nothing: there is nothing to read of it.
+    /// The handle is empty, because scenery has no outputs.
     type Handle = ();
 
     fn place(self, scenario: &mut Scenario) {
         if !(0.0..=1.0).contains(&self.fullness) {
             return scenario.flaw(WorldFlaw::Roadside { fullness: self.fullness });
         }
-        // A world that cannot be built has no place for anything.
+        // A world that cannot be built needs no scenery.
         let sound = scenario.flaws.borrow().is_empty();
         let network = scenario.networks.first().cloned().flatten();
         let Some(network) = network.filter(|_| sound && self.fullness > 0.0) else { return };
@@ -137,7 +137,7 @@ impl Place for Roadside {
     }
 }
 
-/// The places on the outer edges of sidewalks, or of roads without any: facing along the traffic, the road to the left.
+/// Returns the places along sidewalks, or edges of roads without them, facing along the traffic, the road to the left.
 fn edges(network: &RoadNetwork) -> impl Iterator<Item = Pose> {
     let edge = |strip: &Strip| match strip.surface {
         Surface::Sidewalk => Some(strip.right),
@@ -155,7 +155,7 @@ fn edges(network: &RoadNetwork) -> impl Iterator<Item = Pose> {
     })
 }
 
-/// What stands beyond this place of an edge.
+/// Returns the thing that stands beyond a place of an edge.
 fn thing(edge: &Pose, chance: &mut Chance) -> (&'static str, Body, Pose) {
     let mut left = chance.unit();
     let drawn = KINDS.iter().find(|kind| {
@@ -170,15 +170,15 @@ fn thing(edge: &Pose, chance: &mut Chance) -> (&'static str, Body, Pose) {
     (kind.name, body, Pose { position, heading: wrapped(edge.heading + kind.faces) })
 }
 
-/// Where there is room beside the roads.
+/// The free room beside the roads.
 struct Room {
     ground: Vec<(Bounds, Strip)>,
-    /// Discs that are not free: their middles and radii.
+    /// The discs that are not free: their middles and radii.
     taken: Vec<(Vector2<f64>, f64)>,
 }
 
 impl Room {
-    /// That which roads, bodies and their ways leave.
+    /// Returns the room that roads, bodies and their paths leave free.
     fn beside(network: &RoadNetwork, scenario: &Scenario) -> Self {
         let wide = |strip: &Strip| strip.right.abs().max(strip.left.abs());
         let on_ground =
@@ -191,7 +191,7 @@ impl Room {
         Self { ground, taken }
     }
 
-    /// Takes a disc, if it is free.
+    /// Takes a disc if it is free. Returns `true` if it was.
     fn takes(&mut self, middle: Vector2<f64>, radius: f64) -> bool {
         let clear = radius + 0.9 * FROM_ROAD;
         let around = Bounds::around([middle]).grown(clear);
@@ -205,7 +205,7 @@ impl Room {
     }
 }
 
-/// The discs around the bodies of an object, and those that it goes through.
+/// Returns the discs around the bodies of an object, and the discs along its planned path.
 fn kept_free(object: &ObjectSetup) -> Vec<(Vector2<f64>, f64)> {
     let mut discs: Vec<_> = object.bodies.iter().map(|(body, at)| (at.position, body.outline.reach())).collect();
     let reach = discs.iter().map(|(_, reach)| *reach).fold(0.0, f64::max);
@@ -218,7 +218,7 @@ fn kept_free(object: &ObjectSetup) -> Vec<(Vector2<f64>, f64)> {
     discs
 }
 
-/// Metres from a strip to a point; 0 on it.
+/// Returns the distance in metres from a strip to a point; 0 for a point on it.
 fn distance(strip: &Strip, point: Vector2<f64>) -> f64 {
     let local = strip.curve.at(strip.curve.nearest(point)).to_local(point);
     let aside = (strip.right - local.y).max(local.y - strip.left).max(0.0);

@@ -1,12 +1,12 @@
 //! The driver `aeb`: cruise control with autonomous emergency braking for pedestrians.
 //!
-//! Twenty times a second it looks through a modelled sensor ([`perception`](super::perception)), predicts that
-//! every body it has made out and the car itself go on as they do now [along the way](super::frenet), and brakes when the
-//! two paths meet within the time to collision it is set to. The brake builds up and lets go at a limited jerk. Once braking,
-//! it goes on until nothing has been in the way for a while, looking further ahead than before, so that it does
-//! not let go in front of a person who is still crossing; then it takes up its speed again.
+//! Twenty times a second the driver looks through a modelled sensor ([`perception`](super::perception)). It predicts
+//! that the car and every detected body go on as they do now [along the way](super::frenet). It brakes if the two paths
+//! meet within its time to collision. The brake builds up and lets go at a limited jerk. Once it brakes, it looks
+//! further ahead than before and goes on until nothing has been in the way for a while. So it does not let go in front
+//! of a person who is still crossing. Then it takes up its speed again.
 //!
-//! Where the numbers come from:
+//! The sources of the numbers:
 //!
 //! | setting | source |
 //! | --- | --- |
@@ -18,7 +18,7 @@
 //! | noise 0.1 m, samples 8, margin 0.3 m | chosen: 8 detections in 0.4 s give a walking speed to 0.3 m/s (one standard deviation), so that a person who stands beside the road seldom looks like one who walks onto it |
 //! | clear_ttc 3 s, release 0.5 s | chosen so that the brake is not let go in front of a person who is still crossing |
 //!
-//! The defaults for which no source is given are a study's to vary: `--set driver.NAME=VALUE`.
+//! A study can vary the defaults, above all those without a source: `--set driver.NAME=VALUE`.
 
 use super::cruise::{Cruise, PERIOD};
 use super::frenet::Frenet;
@@ -48,7 +48,7 @@ const SETTINGS: [Setting; 12] = [
     whole("seed", 1.0, (0.0, 4294967295.0), "of the noise, which is the same in every test"),
 ];
 
-/// Speed in m/s at which it imagines the slow or standing car to go on when it judges whether the way is clear.
+/// The speed in m/s that the driver assumes for a slow or standing car when it judges whether the way is clear.
 const CREEP: f64 = 3.0;
 
 struct Aeb {
@@ -63,9 +63,9 @@ struct Aeb {
     half_length: f64,
     half_width: f64,
     braking: bool,
-    /// Present brake demand in m/s².
+    /// The present brake demand in m/s².
     brake: f64,
-    /// When the way was last seen blocked, in seconds.
+    /// The time at which the way was last seen blocked, in seconds.
     blocked: f64,
 }
 
@@ -97,7 +97,7 @@ impl Aeb {
         }
     }
 
-    /// Seconds until the paths of the car at this speed and of the body meet, if both go on as they do.
+    /// Returns the seconds until the paths of car (at this speed) and body meet if both go on as they do, if they meet.
     fn time_to_collision(&self, body: &Other, speed: f64) -> Option<f64> {
         let half_extent = body.half_extent();
         let side = self.half_width + half_extent.y + self.margin;
@@ -109,7 +109,7 @@ impl Aeb {
     }
 }
 
-/// The times from 0 on at which `x + v t` is between two values.
+/// Returns the first and the last time, from 0 on, at which `x + v t` is between two values.
 fn while_between(x: f64, v: f64, lo: f64, hi: f64) -> Option<(f64, f64)> {
     if v == 0.0 {
         return (lo..=hi).contains(&x).then_some((0.0, f64::INFINITY));

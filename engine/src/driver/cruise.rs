@@ -1,5 +1,5 @@
-//! The driver `cruise`: keeps its speed and its way, and never brakes for anything in it. What it hits, any driver that
-//! did nothing would hit; and holding speed and way is a part of every other driver.
+//! The driver `cruise`: it keeps its speed and its way, and never brakes for others. It shows what happens to a driver
+//! that does nothing. Every other driver uses it to hold its speed and its way.
 
 use super::{Descriptor, Driver, Fault, Settings};
 use crate::observation::{Briefing, Control, Observation, Way};
@@ -12,18 +12,18 @@ pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     make: |_: &Settings| Box::new(Cruise::default()),
 };
 
-/// Strongest acceleration and deceleration in m/s² of a comfortable speed control (ISO 15622 lets an adaptive
+/// The strongest acceleration and deceleration in m/s² of a comfortable speed control (ISO 15622 lets an adaptive
 /// cruise control accelerate by up to 2.0 m/s² at high speed).
 const COMFORT: f64 = 2.0;
-/// Strongest acceleration in m/s² to the side at which it goes through bends.
+/// The strongest lateral acceleration in m/s² in bends.
 const SIDEWAYS: f64 = 2.0;
-/// Seconds between two questions: 20 Hz, a usual rate of driver assistance.
+/// The seconds between two questions: 20 Hz, a usual rate of driver assistance.
 pub(super) const PERIOD: f64 = 0.05;
-/// Acceleration per m/s of missing speed, in 1/s.
+/// The acceleration per m/s of missing speed, in 1/s.
 const GAIN: f64 = 1.0;
-/// How far ahead it looks to steer: seconds at its speed, and the least and the greatest number of metres.
+/// The look-ahead of the steering: seconds at the car's speed, and the least and the greatest distance in metres.
 const LOOK_AHEAD: (f64, f64, f64) = (0.6, 5.0, 20.0);
-/// Share of the wheels' full turn below which it leaves them straight.
+/// The share of the wheels' full turn below which the wheels stay straight.
 const STEADY: f64 = 1e-9;
 
 /// A controller of speed and way.
@@ -33,19 +33,19 @@ pub(super) struct Cruise {
     max_acceleration: f64,
     wheelbase: f64,
     max_steering_angle: f64,
-    /// From the middle of the car back to its rear axle, in metres.
+    /// The distance from the middle of the car back to its rear axle, in metres.
     rear_axle: f64,
 }
 
 impl Cruise {
-    /// The acceleration in m/s² that brings the car to its set speed, and to that of the bends ahead when it is there.
+    /// Returns the acceleration in m/s² that brings the car to its set speed, and slows it for the bends ahead.
     pub fn acceleration(&self, observation: &Observation) -> f64 {
         let speed = observation.speed;
         let keep = self.keeping(speed);
         let bends = observation.way.ahead.iter().enumerate().filter(|(_, point)| point.curvature != 0.0);
         let slower = bends.map(|(i, point)| {
             let allowed = (SIDEWAYS / point.curvature.abs()).sqrt();
-            // At the bend it holds that speed, before it brakes towards it.
+            // At the bend the car holds the bend's speed; before the bend it brakes towards that speed.
             let hold = GAIN * (allowed - speed);
             let way = Way::SPACING * i as f64;
             if way > 0.0 { ((allowed * allowed - speed * speed) / (2.0 * way)).max(hold) } else { hold }
@@ -53,30 +53,30 @@ impl Cruise {
         slower.fold(keep, f64::min).max(-2.0 * COMFORT)
     }
 
-    /// The acceleration in m/s² that brings the car from a speed in m/s to its set speed.
+    /// Returns the acceleration in m/s² that brings the car from a speed in m/s to its set speed.
     pub fn keeping(&self, speed: f64) -> f64 {
         (GAIN * (self.set_speed - speed)).clamp(-COMFORT, COMFORT)
     }
 
-    /// The share of the pedals' way that asks the car for an acceleration in m/s².
+    /// Returns the throttle, from -1 to 1, that asks the car for an acceleration in m/s².
     pub fn throttle(&self, acceleration: f64) -> f64 {
         (acceleration / self.max_acceleration).clamp(-1.0, 1.0)
     }
 
-    /// The control that asks the car for an acceleration in m/s² and steers it along its way.
+    /// Returns the control that asks the car for an acceleration in m/s² and steers it along its way.
     pub fn control(&self, acceleration: f64, observation: &Observation) -> Control {
         let way = observation.way.at(Self::looks_ahead(observation.speed));
         Control { throttle: self.throttle(acceleration), steering: self.steering(way.position) }
     }
 
-    /// How far ahead in metres it looks to steer, at a speed in m/s.
+    /// Returns the look-ahead of the steering in metres, at a speed in m/s.
     pub fn looks_ahead(speed: f64) -> f64 {
         let (seconds, least, most) = LOOK_AHEAD;
         (seconds * speed).clamp(least, most)
     }
 
-    /// Pure pursuit (Coulter 1992): the wheels are turned to the arc on which the rear axle comes to this point ahead, as seen
-    /// from the car's middle.
+    /// Steers by pure pursuit (Coulter 1992): returns the steering for the arc on which the rear axle reaches a point
+    /// ahead, as seen from the car's middle.
     pub fn steering(&self, target: Vector2<f64>) -> f64 {
         let (x, y) = (target.x + self.rear_axle, target.y);
         let angle = libm::atan2(2.0 * self.wheelbase * y, x * x + y * y);

@@ -1,12 +1,12 @@
-//! The driver `expert`: keeps its way, keeps its distance, and stops for people on the road. It is told the truth, and is
-//! there for networks to learn from, so that what it does depends on nothing but what one image and the speed tell.
+//! The driver `expert`: it keeps its way and its distance, and stops for people on the road. It is told the ground
+//! truth. Networks learn from it, so its controls depend only on facts that one image and the speed show.
 //!
-//! Behind a car it takes up the speed that its gap allows, the gap in proportion to the speed (the optimal velocity model:
-//! Bando, Hasebe, Nakayama, Shibata, Sugiyama, "Dynamical model of traffic congestion and numerical simulation", Phys. Rev.
-//! E 51, 1995). A time headway of 1.5 s and a relaxation of 1.5 /s leave a damping ratio of 0.75, so that it hardly
-//! overshoots; how fast the other one is, which an image does not show, it need not know. For a person who walks on the
-//! road ahead, or onto it, or stands in the way it stops, braking evenly, and holds the brakes while it stands. If they are
-//! too near to stop at all, the best is to be past before them.
+//! Behind a car it takes up the speed that its gap allows, in proportion to the gap (the optimal velocity model: Bando,
+//! Hasebe, Nakayama, Shibata, Sugiyama, "Dynamical model of traffic congestion and numerical simulation", Phys. Rev. E
+//! 51, 1995). A time headway of 1.5 s and a relaxation of 1.5 /s leave a damping ratio of 0.75, so that it hardly
+//! overshoots. It need not know the other car's speed, which an image does not show. It stops for a person who walks on
+//! the road ahead or onto it, or stands in the way: it brakes evenly, and holds the brakes while it stands. If a
+//! walking person is too near to stop, it goes on, because it is then best to pass first.
 
 use super::cruise::{Cruise, PERIOD};
 use super::frenet::Frenet;
@@ -21,25 +21,25 @@ pub(super) const DESCRIPTOR: Descriptor = Descriptor {
     make: |_: &Settings| Box::new(Expert::default()),
 };
 
-/// Metres it keeps where all stand.
+/// The gap in metres that the driver keeps when all stand.
 const STANDSTILL: f64 = 5.0;
-/// Seconds of its speed it keeps beside.
+/// The time headway in seconds that the driver keeps in addition.
 const HEADWAY: f64 = 1.5;
-/// Acceleration per m/s of speed that the gap allows and it has not, in 1/s.
+/// The acceleration per m/s of difference between the allowed speed and the present speed, in 1/s.
 const RELAXATION: f64 = 1.5;
-/// Room it wants beside the car, in metres.
+/// The room that the driver wants beside the car, in metres.
 const MARGIN: f64 = 0.3;
-/// How far to the left and right of its way the road goes, in metres, on which it lets nobody walk.
+/// The lateral range of the road from the driver's way, in metres: the driver stops for people who walk in it.
 const ROAD: (f64, f64) = (-2.0, 5.3);
-/// Who is on the road in so many seconds counts as on it now.
+/// The seconds of prediction: a person who will be on the road by then counts as on it now.
 const SOON: f64 = 1.0;
-/// From this speed in m/s on a person walks.
+/// The speed in m/s from which on a person counts as walking.
 const WALKING: f64 = 0.1;
-/// How it slows down for people, in m/s².
+/// The even deceleration for people, in m/s².
 const EVENLY: f64 = 5.0;
-/// What it expects of the brakes, in m/s²: for whom it would take more it goes on.
+/// The greatest deceleration that the driver plans with, in m/s². If a walking person would need more, it goes on.
 const HARDEST: f64 = 7.0;
-/// What it asks of the brakes at most, in m/s².
+/// The greatest deceleration that the driver asks for, in m/s².
 const BRAKES: f64 = 9.0;
 
 #[derive(Debug, Default)]
@@ -50,7 +50,7 @@ struct Expert {
 }
 
 impl Expert {
-    /// The speed in m/s that a body allows.
+    /// Returns the speed in m/s that a body allows. `None` if the body does not concern the driver.
     fn allowed(&self, body: &Other, speed: f64) -> Option<f64> {
         let half = body.half_extent();
         let gap = body.position.x - half.x - self.half_length;
@@ -66,9 +66,9 @@ impl Expert {
                     walks && [0.0, SOON].iter().any(|t| road.contains(&(body.position.y + t * body.velocity.y)));
                 let needed = speed * speed / (2.0 * gap.max(0.1));
                 let concerns = in_the_way || on_the_road && needed <= HARDEST;
-                // What it covers while it takes up a speed is not there any more to brake in.
+                // The car still moves on while it takes up a speed, so that distance is not left for braking.
                 let room = gap - STANDSTILL - speed / RELAXATION;
-                // Nearer than it wants to stand it holds the brakes, the harder the nearer.
+                // If the person is nearer than that, the driver holds the brakes, the harder the nearer.
                 concerns.then(|| (2.0 * EVENLY * room.abs()).sqrt().copysign(room))
             }
             Class::Building | Class::Tree | Class::Sign => None,

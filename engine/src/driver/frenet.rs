@@ -1,33 +1,33 @@
-//! The world as it would look if the way of the car were straight: how far along the way a body is and how far beside it,
-//! instead of how far ahead of the bumper and beside the doors. Drivers whose models know only straight lanes drive
-//! through bends with it (Frenet coordinates: Werling, Ziegler, Kammel, Thrun, "Optimal Trajectory Generation for Dynamic
+//! The world as it would look if the way of the car were straight. Positions count along the way and beside it, instead
+//! of ahead of the bumper and beside the doors. Drivers whose models know only straight lanes use this module to drive
+//! through bends (Frenet coordinates: Werling, Ziegler, Kammel, Thrun, "Optimal Trajectory Generation for Dynamic
 //! Street Scenarios in a Frenét Frame", ICRA 2010).
 //!
-//! The way is known as points every few metres. Between two of them it is taken for their chord, along which its direction
-//! turns evenly; before the first and beyond the last it goes on straight, so that on a long bend whoever is further away than
-//! the last point may seem to come over. The car is expected to keep its offset from the way: what is beside is measured
-//! from the parallel on which the car is. Where all points lie ahead in a line nothing is changed but for the angle at which
-//! the car stands to it.
+//! The way is known as points every few metres. Between two points it counts as their chord, and its direction turns
+//! evenly along the chord. Before the first point and beyond the last it goes on straight, so on a long bend a body
+//! beyond the last point may seem to come over. The car is expected to keep its offset from the way: lateral positions
+//! are measured from the parallel on which the car is. If all points lie ahead in a line, only the angle between the
+//! car and that line is removed.
 
 use crate::observation::{Observation, Other, Way};
 use nalgebra::Vector2;
 
-/// How far in metres the points of a straight way may be off their line.
+/// The greatest distance in metres of the points of a straight way from their line.
 const STRAIGHT: f64 = 1e-6;
-/// Number of points: the one beside the car and those ahead.
+/// The number of points: the point beside the car and the points ahead.
 const POINTS: usize = 17;
 
-/// A point of the way with the way's direction, a unit vector; both as the car sees them.
+/// A point of the way and the way's direction there (a unit vector), both as the car sees them.
 #[derive(Debug, Clone, Copy)]
 struct Point {
     position: Vector2<f64>,
     tangent: Vector2<f64>,
 }
 
-/// The nearest point of the way.
+/// The point of the way that is nearest to a position.
 #[derive(Debug, Clone, Copy)]
 struct Foot {
-    /// Metres along the way from the point beside the car, negative behind it.
+    /// The distance along the way from the point beside the car in metres, negative behind it.
     along: f64,
     point: Point,
 }
@@ -41,7 +41,7 @@ pub(super) struct Frenet {
 }
 
 impl Frenet {
-    /// Those of the way that the car is on.
+    /// Returns the coordinates of the way that the car is on.
     pub fn of(observation: &Observation) -> Self {
         let Way { offset, heading, ahead } = observation.way;
         let (sin, cos) = libm::sincos(heading);
@@ -51,7 +51,7 @@ impl Frenet {
             point.position = ahead.position;
         }
         let straight = ahead.iter().all(|point| (left.dot(&point.position) + offset).abs() < STRAIGHT);
-        // A point without a way to the next has the direction of the one before.
+        // A point that coincides with the next has the direction of the point before.
         for i in 1..POINTS {
             let before = points[i - 1].tangent;
             let chord = |i: usize| (points[i].position - points[i - 1].position).try_normalize(STRAIGHT);
@@ -59,15 +59,15 @@ impl Frenet {
             points[i].tangent = if i + 1 < POINTS {
                 (came + chord(i + 1).unwrap_or(came)).try_normalize(STRAIGHT).unwrap_or(came)
             } else {
-                // The chord of an arc has the mean of the directions at its ends.
+                // The direction of an arc's chord is the mean of the directions at the arc's ends.
                 came * (2.0 * came.dot(&before)) - before
             };
         }
         Self { offset, points, straight }
     }
 
-    /// The body as the car would see it if the way were straight and the car pointed along it. Where the body is known from
-    /// `age` seconds ago and has only been thought to go straight on since, it is thought to have gone along the way.
+    /// Returns the body as the car would see it if the way were straight and the car pointed along it. The body was
+    /// seen `age` seconds ago; its position assumes straight motion since then, the result motion along the way.
     pub fn straightened(&self, body: &Other, age: f64) -> Other {
         let turned = |tangent: Vector2<f64>, v: &Vector2<f64>| Vector2::new(tangent.dot(v), tangent.perp(v));
         let here = if self.straight { self.points[0].tangent } else { self.foot(body.position).point.tangent };
@@ -84,7 +84,7 @@ impl Frenet {
         Other { position, velocity, heading: body.heading - libm::atan2(here.y, here.x), ..*body }
     }
 
-    /// The point of the way nearest to a position.
+    /// Returns the point of the way nearest to a position.
     fn foot(&self, position: Vector2<f64>) -> Foot {
         let (first, last) = (self.points[0], self.points[POINTS - 1]);
         let beyond = |point: Point| point.tangent.dot(&(position - point.position));

@@ -1,14 +1,14 @@
-//! The driver `lane-camera`: keeps its lane by what a camera at its front shows, and its speed. A demonstration of a driver
-//! that sees, not of how to see well: it goes by a threshold of brightness, so that fog, dusk and a blurred lens are hard on
-//! it, and it brakes for nothing but that it sees no road.
+//! The driver `lane-camera`: it keeps its speed, and its lane by the images of a front camera. It demonstrates a driver
+//! that sees, not how to see well. It uses a threshold of brightness, so fog, dusk and a blurred lens are hard for it.
+//! It brakes only if it sees no road.
 //!
-//! Row by row of the image, from the nearest, it goes from where the lane should be to the right until the road ends: at
-//! the kerb, or at paint. A row is a distance ahead on flat ground, and the lane's middle is so many metres to the left of
-//! the edge. To that it steers by pure pursuit.
+//! Row by row of the image, from the nearest, it searches from where the lane should be to the right until the road
+//! ends, at the kerb or at paint. Each row is a distance ahead on flat ground. The lane's middle is a set distance to
+//! the left of the edge. The driver steers to it by pure pursuit.
 //!
-//! It goes round bends, but does not slow down for them, as it is told nothing of its way: by day it keeps its lane where a bend
-//! has a radius of 15 m or more and its speed asks for no more than 5 m/s² sideways on a dry road. In sharper bends to the right
-//! the edge of the road leaves the image. At junctions it neither turns nor gives way.
+//! It goes round bends but does not slow down for them, as it is told nothing of its way. By day it keeps its lane in
+//! bends with a radius of 15 m or more, if its speed asks for no more than 5 m/s² sideways on a dry road. In sharper
+//! bends to the right the edge of the road leaves the image. At junctions it neither turns nor gives way.
 
 use super::cruise::{Cruise, PERIOD};
 use super::{Descriptor, Driver, Equipment, Fault, Setting, Settings, setting};
@@ -33,8 +33,8 @@ const SETTINGS: [Setting; 7] = [
     setting("patience", 1.0, "s", (0.0, 60.0), "how long it drives on without seeing the road, before it brakes"),
 ];
 
-/// The camera: pixels across and down, focal length and width of the sensor in millimetres, where it is on the car in
-/// metres, and how far down it looks in degrees.
+/// The camera: its pixels across and down, focal length and sensor width in millimetres, position on the car in metres,
+/// and downward pitch in degrees.
 const RESOLUTION: [u32; 2] = [200, 66];
 const FOCAL: f64 = 24.0;
 const SENSOR: f64 = 36.0;
@@ -42,11 +42,11 @@ const AHEAD: f64 = 0.3;
 const HEIGHT: f64 = 1.35;
 const PITCH: f64 = 6.0;
 
-/// Rows that show the road farther away than this many metres ahead are too coarse to go by.
+/// The greatest distance ahead in metres of the rows that are used. Rows that show a greater distance are too coarse.
 const FARTHEST: f64 = 30.0;
-/// As seen from where it looks, rows count that are at most so many metres nearer or farther.
+/// The greatest distance in metres between a row that counts and the point that the driver looks at.
 const AROUND: f64 = 3.0;
-/// How hard it brakes when it sees no road, in m/s².
+/// The deceleration in m/s² if the driver sees no road.
 const BRAKES: f64 = 3.0;
 
 /// A driver that sees by a camera.
@@ -57,9 +57,9 @@ struct LaneCamera {
     setback: f64,
     patience: f64,
     cruise: Cruise,
-    /// The points of the lane's middle that the last image showed, as seen from the car's middle, the nearest first.
+    /// The points of the lane's middle in the last image, as seen from the car's middle, the nearest first.
     lane: Vec<Vector2<f64>>,
-    /// When an image showed the road last.
+    /// The time of the last image that showed the road.
     seen: f64,
     steering: f64,
 }
@@ -94,7 +94,7 @@ impl LaneCamera {
     fn look(&mut self, image: &Image) {
         self.lane.clear();
         let road = Row::of(image, image.height - 1).middle();
-        // It begins straight ahead.
+        // The search begins straight ahead.
         let mut lane = 0.0;
         for row in (0..image.height).rev().map(|number| Row::of(image, number)) {
             let Some(distance) = row.distance().filter(|distance| *distance <= FARTHEST) else { return };
@@ -105,7 +105,7 @@ impl LaneCamera {
         }
     }
 
-    /// Where the lane's middle is so many metres ahead: the mean of what is seen there.
+    /// Returns the lane's middle at this many metres ahead: the mean of the points that were seen near there.
     fn target(&self, metres: f64) -> Option<Vector2<f64>> {
         let there = || self.lane.iter().filter(|point| (point.x - metres).abs() <= AROUND);
         let count = there().count();
@@ -113,10 +113,10 @@ impl LaneCamera {
     }
 }
 
-/// A row of an image: a strip of flat ground.
+/// A row of an image, which shows a strip of flat ground.
 struct Row<'a> {
     pixels: &'a [u8],
-    /// What the way down of a ray is, of the way along the camera's axis: of the row's middle.
+    /// The slope of the ray through the row's middle: its way down, as a share of its way along the camera's axis.
     down: f64,
 }
 
@@ -127,14 +127,14 @@ impl<'a> Row<'a> {
         Self { pixels, down: (f64::from(number) + 0.5 - 0.5 * f64::from(image.height)) / focal(image.width) }
     }
 
-    /// How far ahead of the camera, in metres, the ground is that it shows, if it shows any.
+    /// Returns the distance in metres from the camera ahead to the ground that the row shows, if it shows any.
     fn distance(&self) -> Option<f64> {
         let (sin, cos) = libm::sincos(PITCH.to_radians());
         let falls = sin + self.down * cos;
         (falls > 0.0).then(|| HEIGHT * (cos - self.down * sin) / falls)
     }
 
-    /// How far along the camera's axis that is.
+    /// Returns the depth of that ground in metres, measured along the camera's axis.
     fn depth(&self) -> Option<f64> {
         let (sin, cos) = libm::sincos(PITCH.to_radians());
         Some(self.distance()? * cos + HEIGHT * sin)
@@ -144,20 +144,20 @@ impl<'a> Row<'a> {
         self.pixels.len() / 3
     }
 
-    /// The luma of a pixel (ITU-R BT.601), from 0 to 255.
+    /// Returns the luma of a pixel (ITU-R BT.601), from 0 to 255.
     fn brightness(&self, column: usize) -> f64 {
         let [red, green, blue] = [0, 1, 2].map(|colour| f64::from(self.pixels[3 * column + colour]));
         0.299 * red + 0.587 * green + 0.114 * blue
     }
 
-    /// The mean brightness of its middle tenth.
+    /// Returns the mean brightness of the row's middle tenth.
     fn middle(&self) -> f64 {
         let (from, to) = (self.width() * 9 / 20, self.width() * 11 / 20 + 1);
         (from..to).map(|column| self.brightness(column)).sum::<f64>() / (to - from) as f64
     }
 
-    /// How far to the left of straight ahead, in metres, it first gets brighter than `least`, to the right of a point that
-    /// is given likewise; nothing if that is not on the image or is bright itself.
+    /// Returns how far in metres to the left of straight ahead the road's edge is: the first pixel of at least the
+    /// brightness `least` to the right of `from`, if `from` (metres to the left, too) is in the image and not bright.
     fn edge(&self, from: f64, least: f64) -> Option<f64> {
         let (focal, half) = (focal(self.width() as u32), 0.5 * self.width() as f64);
         let depth = self.depth()?;
@@ -170,7 +170,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// The focal length in pixels.
+/// Returns the focal length in pixels.
 fn focal(width: u32) -> f64 {
     f64::from(width) * FOCAL / SENSOR
 }

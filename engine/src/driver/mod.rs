@@ -1,7 +1,7 @@
 //! Drivers: the systems under test that come with the engine.
 //!
-//! A driver is asked at its own period for a control and is told nothing but its briefing and what there is to
-//! see. Every driver has named settings with documented values, which a study can change.
+//! The engine asks a driver for a control at the driver's own period. A driver is told nothing but its briefing and its
+//! observations. Every driver has named settings with documented values, which a study can change.
 
 mod aeb;
 mod cruise;
@@ -16,112 +16,112 @@ use crate::sensor::{Cameras, Image, Rig};
 use paracosm_space::{did_you_mean, nearest};
 use thiserror::Error;
 
-/// A system under test.
+/// A system under test that drives the ego vehicle.
 pub trait Driver: Send {
-    /// Seconds between two questions.
+    /// Returns the seconds between two questions to the driver.
     fn period(&self) -> f64;
 
-    /// What it measures with, made anew for every run, before it is [reset](Self::reset): nothing, where it is content
-    /// with the observation.
+    /// Returns the driver's sensors, made anew for every run before the driver is [reset](Self::reset). The equipment
+    /// is empty if the driver needs only the observation.
     fn equipment(&mut self) -> Equipment {
         Equipment::default()
     }
 
-    /// Seconds from when it is asked to when its answer takes effect, rounded to whole ticks; until then the answer before
-    /// that stays in effect, and before the first one the car rolls.
+    /// Returns the seconds from a question until its answer takes effect, rounded to whole ticks. Until then the
+    /// previous answer stays in effect. Before the first answer the car rolls.
     fn latency(&self) -> f64 {
         0.0
     }
 
-    /// Forgets everything: a new run begins.
+    /// Forgets everything, because a new run begins.
     ///
     /// # Errors
-    /// It cannot drive such a car.
+    /// The driver cannot drive such a car.
     fn reset(&mut self, briefing: &Briefing) -> Result<(), Fault>;
 
-    /// Takes in what its equipment has measured and what has arrived since it was last asked; comes before every
-    /// [`step`](Self::step). Images come camera by camera, in the order of their names, and of each the earliest first; one
-    /// that was lost, or that was taken from within something, never comes.
+    /// Takes in the readings and images that have arrived since the last question; comes before every
+    /// [`step`](Self::step). Images come camera by camera, in the order of the cameras' names, and the earliest of each
+    /// camera first. An image that was lost, or that was taken from inside a body, never comes.
     ///
     /// # Errors
-    /// It cannot go on.
+    /// The driver cannot go on.
     fn perceive(&mut self, _rig: &Rig, _images: &[Image]) -> Result<(), Fault> {
         Ok(())
     }
 
-    /// What to do until the next question.
+    /// Returns the control until the next question.
     ///
     /// # Errors
-    /// It cannot go on: it has died, or does not answer.
+    /// The driver cannot go on: it has died, or does not answer.
     fn step(&mut self, observation: &Observation) -> Result<Control, Fault>;
 }
 
-/// What a driver measures with.
+/// The sensors of a driver.
 #[derive(Debug, Default)]
 pub struct Equipment {
-    /// Sensors other than cameras.
+    /// The sensors other than cameras.
     pub rig: Rig,
-    /// Cameras, whose images come in the order of their names.
+    /// The cameras. Their images come in the order of their names.
     pub cameras: Cameras,
 }
 
-/// Why a driver cannot go on, which ends the test with an error that says so.
+/// The reason why a driver cannot go on. It ends the test with an error that gives the reason.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{message}")]
 pub struct Fault {
-    /// What kind of fault it is.
+    /// The kind of the fault.
     pub kind: FaultKind,
-    /// What happened, in words.
+    /// The description of the fault in words.
     pub message: String,
 }
 
 /// The kinds of faults that drivers have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FaultKind {
-    /// The driver says so itself.
+    /// The driver reports the fault itself.
     Stated,
-    /// It measures with what cannot be, or with what nobody draws.
+    /// The driver asks for sensors that are not possible, or for cameras that nothing renders.
     Equipment,
-    /// It answers what makes no sense.
+    /// The driver's answer makes no sense.
     Answer,
-    /// It does not answer in time.
+    /// The driver does not answer in time.
     TimedOut,
-    /// Its process is gone, or the connection to it.
+    /// The driver's process or the connection to it is gone.
     Lost,
-    /// Nobody waits for it any more.
+    /// The campaign was interrupted and no longer waits for the driver.
     Interrupted,
 }
 
 impl Fault {
-    /// The fault that a driver states itself, in its own words.
+    /// Makes a fault that a driver reports itself, in its own words.
     pub fn new(message: impl Into<String>) -> Self {
         Self::of(FaultKind::Stated, message)
     }
 
-    /// A fault of some kind, in words.
+    /// Makes a fault of some kind, described in words.
     pub fn of(kind: FaultKind, message: impl Into<String>) -> Self {
         Self { kind, message: message.into() }
     }
 }
 
-/// A number that a driver can be set to.
+/// A number of a driver that a study can set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
-    /// Its name.
+    /// The name of the setting.
     pub name: &'static str,
-    /// What it is where nothing else is said.
+    /// The default value of the setting.
     pub default: f64,
-    /// Its unit, empty where it has none.
+    /// The unit of the setting, empty if it has none.
     pub unit: &'static str,
-    /// The least and the greatest value it can have.
+    /// The least and the greatest value of the setting.
     pub range: (f64, f64),
-    /// Whether it counts something, so that only whole numbers make sense.
+    /// True if the setting counts something, so that only whole numbers make sense.
     pub whole: bool,
-    /// What it means.
+    /// The meaning of the setting, in words.
     pub about: &'static str,
 }
 
-/// A setting that can have any value in its range.
+/// Makes a setting that can have any value in its range.
 const fn setting(
     name: &'static str,
     default: f64,
@@ -132,7 +132,7 @@ const fn setting(
     Setting { name, default, unit, range, whole: false, about }
 }
 
-/// A setting that counts something.
+/// Makes a setting that counts something.
 const fn whole(name: &'static str, default: f64, range: (f64, f64), about: &'static str) -> Setting {
     Setting { name, default, unit: "", range, whole: true, about }
 }
@@ -142,7 +142,7 @@ const fn whole(name: &'static str, default: f64, range: (f64, f64), about: &'sta
 pub struct Settings(Vec<(&'static str, f64)>);
 
 impl Settings {
-    /// The value of a setting that the driver has declared.
+    /// Returns the value of a setting that the driver has declared.
     ///
     /// # Panics
     /// The driver declares no such setting.
@@ -152,38 +152,38 @@ impl Settings {
     }
 }
 
-/// All that the software knows of a driver that comes with it: its name, its settings, and how a driver is made.
+/// The description of a driver that comes with the engine: its name, its settings, and the function that makes it.
 #[derive(Debug)]
 pub struct Descriptor {
-    /// The name by which it is chosen.
+    /// The name by which a study chooses the driver.
     pub name: &'static str,
-    /// What it does, in one line.
+    /// A description of the driver in one line.
     pub about: &'static str,
-    /// What can be set.
+    /// The settings of the driver.
     pub settings: &'static [Setting],
-    /// A driver with these settings.
+    /// The function that makes a driver with these settings.
     pub make: fn(&Settings) -> Box<dyn Driver>,
 }
 
-/// Why there is no such driver.
+/// An error in the name or the settings of a driver.
 #[derive(Debug, Error, PartialEq)]
 pub enum DriverError {
     /// No driver has that name.
     #[error("no driver is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// A name that was perhaps meant.
+        /// A known name that the user perhaps meant.
         nearest: Option<&'static str>,
     },
     /// The driver has no such setting.
     #[error("driver `{driver}` has no setting `{name}`{}", did_you_mean(.nearest))]
     UnknownSetting {
-        /// The driver.
+        /// The name of the driver.
         driver: &'static str,
-        /// The setting's name.
+        /// The unknown name of the setting.
         name: String,
-        /// A name that was perhaps meant.
+        /// A known name that the user perhaps meant.
         nearest: Option<&'static str>,
     },
     /// The setting cannot have that value.
@@ -192,20 +192,20 @@ pub enum DriverError {
         if *whole { "whole " } else { "" }, range.0, range.1
     )]
     OutOfRange {
-        /// The driver.
+        /// The name of the driver.
         driver: &'static str,
-        /// The setting.
+        /// The name of the setting.
         name: &'static str,
-        /// The value asked for.
+        /// The value that was asked for.
         value: f64,
-        /// Least and greatest value.
+        /// The least and the greatest value of the setting.
         range: (f64, f64),
-        /// Whether it has to be a whole number.
+        /// True if the value has to be a whole number.
         whole: bool,
     },
 }
 
-/// The drivers that come with the engine, in the order in which they are shown.
+/// The drivers that come with the engine, in the order in which they are listed.
 pub const ALL: &[&Descriptor] = &[
     &aeb::DESCRIPTOR,
     &cruise::DESCRIPTOR,
@@ -218,10 +218,10 @@ pub const ALL: &[&Descriptor] = &[
     &reference::IDEAL,
 ];
 
-/// The driver of that name.
+/// Finds the driver of that name.
 ///
 /// # Errors
-/// There is none; the error suggests the nearest name.
+/// No driver has that name. The error suggests the nearest name.
 pub fn find(name: &str) -> Result<&'static Descriptor, DriverError> {
     ALL.iter().copied().find(|driver| driver.name == name).ok_or_else(|| DriverError::Unknown {
         name: name.to_owned(),
@@ -230,7 +230,7 @@ pub fn find(name: &str) -> Result<&'static Descriptor, DriverError> {
 }
 
 impl Descriptor {
-    /// All settings: the defaults, but for what `changes` says.
+    /// Returns the values of all settings: the defaults, except where `changes` gives another value.
     ///
     /// # Errors
     /// A change names no setting, or gives it a value out of its range.
@@ -250,17 +250,17 @@ impl Descriptor {
         Ok(settings)
     }
 
-    /// A driver with its settings changed so.
+    /// Makes a driver whose settings have these changes.
     ///
     /// # Errors
-    /// As [`Descriptor::settings`].
+    /// Returns the errors of [`Descriptor::settings`].
     pub fn build(&self, changes: &[(String, f64)]) -> Result<Box<dyn Driver>, DriverError> {
         Ok((self.make)(&self.settings(changes)?))
     }
 }
 
 impl Settings {
-    /// Names and values in the driver's order.
+    /// Returns the names and values in the driver's order.
     pub fn iter(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
         self.0.iter().copied()
     }

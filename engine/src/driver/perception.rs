@@ -1,11 +1,10 @@
-//! What a driver believes of the bodies around it: a modelled camera or radar, instead of a rendered one.
+//! A model of a camera or radar that gives a driver its estimates of the bodies around it, without rendering.
 //!
-//! Each frame shows the middle of every body that is in range, in the field of view and not behind something large
-//! (a car, a lorry, a house), with noise, and reaches the
-//! driver only after the latency of the sensor's processing; that holds for every frame, so that the driver
-//! lives in the past all the time and not only until the first detection. Positions are kept as seen from where
-//! the car began, which it knows from its own odometry; a straight line through the last few of them by least
-//! squares gives position and velocity now.
+//! Each frame shows the middle of every body that is in range, in the field of view and not behind something large (a
+//! car, a lorry, a house), with noise. The latency of the sensor's processing delays every frame, so the driver always
+//! lives in the past, not only until the first detection. Positions are kept as seen from where the car began, which
+//! the driver knows from its own odometry. A straight line through the last few positions by least squares gives the
+//! present position and velocity.
 
 use crate::chance::gaussian;
 use crate::geometry::Pose;
@@ -17,36 +16,36 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 use std::collections::VecDeque;
 
-/// How good the sensor is.
+/// The accuracy and the limits of the sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sensor {
-    /// Metres up to which it sees.
+    /// The greatest distance at which the sensor sees, in metres.
     pub range: f64,
-    /// Opening angle in radians.
+    /// The opening angle in radians.
     pub field_of_view: f64,
-    /// Standard deviation of each coordinate of a position, in metres.
+    /// The standard deviation of each coordinate of a position, in metres.
     pub noise: f64,
-    /// Seconds from what happens to when the driver knows.
+    /// The delay in seconds until the driver knows of a detection.
     pub latency: f64,
-    /// How many detections a track is fitted to.
+    /// The greatest number of detections that a track is fitted to.
     pub samples: usize,
-    /// Seconds between two frames.
+    /// The seconds between two frames.
     pub period: f64,
-    /// Where the noise begins.
+    /// The seed of the noise.
     pub seed: u64,
 }
 
-/// Seconds after which the last of a body that went out of sight is no longer acted on.
+/// The seconds after which the driver ignores a body that went out of sight.
 const OUT_OF_SIGHT: f64 = 0.5;
-/// Fewest detections that give a velocity worth acting on.
+/// The fewest detections that give a usable velocity.
 const FEWEST: usize = 3;
 
 /// A body as the driver believes it to be now, if it has gone straight on since it was seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Track {
-    /// The body.
+    /// The body with its estimated position and velocity.
     pub body: Other,
-    /// How long ago it was seen, in seconds: the mean of the detections.
+    /// The mean age of the detections, in seconds.
     pub age: f64,
 }
 
@@ -62,7 +61,7 @@ struct Detection {
 pub(super) struct Perception {
     sensor: Sensor,
     random: Pcg64,
-    /// Of each body, what has been seen, the last first forgotten; the newest the driver does not know yet.
+    /// The detections of each body, the oldest first. The driver does not know the newest detections yet.
     seen: Vec<VecDeque<Detection>>,
 }
 
@@ -71,12 +70,12 @@ impl Perception {
         Self { sensor, random: Pcg64::seed_from_u64(sensor.seed), seen: Vec::new() }
     }
 
-    /// Forgets everything, the state of the noise included: every run of a test sees the same noise.
+    /// Forgets everything, including the state of the noise: every run of a test sees the same noise.
     pub fn reset(&mut self) {
         *self = Self::new(self.sensor);
     }
 
-    /// Takes a frame; `front` is the distance in metres from the car's middle to the sensor at its front.
+    /// Takes a frame. `front` is the distance in metres from the car's middle to the sensor at its front.
     pub fn see(&mut self, observation: &Observation, front: f64) {
         let bodies = observation.others.iter().map(|body| body.id + 1).max().unwrap_or(0);
         self.seen.resize_with(bodies.max(self.seen.len()), VecDeque::new);
@@ -86,7 +85,7 @@ impl Perception {
             let seen = &mut self.seen[body.id];
             let from_sensor = body.position - Vector2::new(front, 0.0);
             let bearing = libm::atan2(from_sensor.y, from_sensor.x).abs();
-            // Drawn for every frame, so that what is out of sight does not shift the noise of what is seen later.
+            // Drawn for every body in every frame: a body out of sight does not change the noise of later detections.
             let noise = gaussian(&mut self.random) * self.sensor.noise;
             let visible = from_sensor.norm() <= self.sensor.range && bearing <= half_angle;
             if visible && !hidden(body, observation, front) {
@@ -100,16 +99,16 @@ impl Perception {
         }
     }
 
-    /// Seconds after which a detection is forgotten.
+    /// Returns the seconds after which a detection is forgotten.
     fn memory(&self) -> f64 {
         self.sensor.latency + OUT_OF_SIGHT + self.sensor.period * self.sensor.samples as f64
     }
 
-    /// What the driver believes at the time of the last frame.
+    /// Returns the driver's estimates of the bodies at the time of the last frame.
     pub fn tracks<'a>(&'a self, observation: &'a Observation) -> impl Iterator<Item = Track> + 'a {
         observation.others.iter().filter_map(|body| {
             let seen = &self.seen[body.id];
-            // A whisker more than the latency, because times are sums of ticks.
+            // A little more than the latency, because times are sums of ticks.
             let known = observation.time - self.sensor.latency + 1e-9;
             let count = seen.iter().take_while(|detection| detection.time <= known).count();
             let fitted = seen.iter().take(count).skip(count.saturating_sub(self.sensor.samples));
@@ -121,8 +120,8 @@ impl Perception {
     }
 }
 
-/// Whether something large stands between the middle of a body and the car's front, which is `front` metres from the car's
-/// middle.
+/// Returns `true` if something large stands between the middle of a body and the car's front, which is `front` metres
+/// from the car's middle.
 pub(super) fn hidden(body: &Other, observation: &Observation, front: f64) -> bool {
     let sensor = Vector2::new(front, 0.0);
     let large = |other: &&Other| hides(other.class);
@@ -132,7 +131,7 @@ pub(super) fn hidden(body: &Other, observation: &Observation, front: f64) -> boo
     })
 }
 
-/// The straight line through the detections by least squares: position at `now`, velocity, and the detections' mean age.
+/// Fits a straight line by least squares. Returns the position at `now`, the velocity, and the detections' mean age.
 fn fit<'a>(
     detections: impl ExactSizeIterator<Item = &'a Detection> + Clone,
     now: f64,

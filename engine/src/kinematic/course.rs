@@ -1,57 +1,57 @@
-//! How another road user moves: known from the beginning, in closed form, so that no error adds up.
+//! The motion of another road user: known from the beginning, in closed form, so that no errors accumulate.
 
-/// Length and width of a road user in metres.
+/// The length and width of a road user, in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
-    /// Bumper to bumper.
+    /// The length from bumper to bumper.
     pub length: f64,
-    /// Side to side.
+    /// The width from side to side.
     pub width: f64,
 }
 
-/// The motion of another road user, as seen from where the car under test begins: its front bumper, the middle of its
+/// The motion of another road user, relative to the start of the ego vehicle: its front bumper in the middle of its
 /// lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
-    /// Metres to its rear at the beginning.
+    /// The distance in metres from the ego vehicle's front to the road user's rear at the beginning.
     pub gap: f64,
-    /// Its speed along the lane at the beginning, m/s.
+    /// The speed of the road user along the lane at the beginning, in m/s.
     pub speed: f64,
-    /// How hard it brakes from the beginning until it stands, m/s², not below 0.
+    /// The deceleration from the beginning until the road user stands, in m/s², not below 0.
     pub deceleration: f64,
-    /// Its lateral position at the beginning in metres: its middle, positive to the left.
+    /// The lateral position of the road user's middle at the beginning, in metres, positive to the left.
     pub lateral: f64,
-    /// The lateral position to which it moves and where it stays.
+    /// The lateral position to which the road user moves and where it stays, in metres.
     pub target: f64,
-    /// How fast it moves there, m/s.
+    /// The lateral speed in m/s at which the road user moves to `target`.
     pub lateral_speed: f64,
-    /// How large it is.
+    /// The length and width of the road user.
     pub size: Size,
-    /// Seconds after which the driver of the car under test can see it.
+    /// The time in seconds after which the driver of the ego vehicle can see the road user.
     pub visible_from: f64,
 }
 
-/// A road user on its course at one moment.
+/// The state of a road user on its course at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    /// Its rear, metres along the lane.
+    /// The position of the rear, in metres along the lane.
     pub rear: f64,
-    /// m/s along the lane.
+    /// The speed along the lane, in m/s.
     pub speed: f64,
-    /// m/s² along the lane.
+    /// The acceleration along the lane, in m/s².
     pub acceleration: f64,
-    /// Metres from the middle of the lane, not below 0.
+    /// The distance from the middle of the lane in metres, not below 0.
     pub lateral: f64,
-    /// m/s towards the middle of the lane.
+    /// The speed towards the middle of the lane, in m/s.
     pub approach: f64,
-    /// Whether it will go on without braking and without moving sideways.
+    /// `true` if the road user neither brakes nor moves sideways from now on.
     pub settled: bool,
 }
 
 impl Course {
-    /// Where it is after `time` seconds.
+    /// Returns the state of the road user after `time` seconds.
     pub(super) fn at(&self, time: f64) -> Place {
-        // An infinite time to stand would make 0 * infinity of a car that does not brake.
+        // For a car that does not brake, an infinite time to stand would lead to 0 * infinity.
         let braking = self.deceleration > 0.0 && self.speed > self.deceleration * time;
         let (way, speed) = if braking {
             let speed = self.speed - self.deceleration * time;
@@ -65,7 +65,7 @@ impl Course {
         let moving = self.lateral_speed * time < way_across.abs() && self.lateral_speed > 0.0;
         let lateral =
             if moving { self.lateral + self.lateral_speed.copysign(way_across) * time } else { self.resting() };
-        // Towards the middle is against the sign of the lateral position.
+        // A motion towards the middle has the opposite sign of the lateral position.
         let approach = if moving { -self.lateral_speed.copysign(way_across) * 1.0_f64.copysign(lateral) } else { 0.0 };
         Place {
             rear: self.gap + way,
@@ -77,7 +77,7 @@ impl Course {
         }
     }
 
-    /// The lateral position where it stays.
+    /// Returns the lateral position where the road user stays.
     fn resting(&self) -> f64 {
         if self.lateral_speed > 0.0 { self.target } else { self.lateral }
     }

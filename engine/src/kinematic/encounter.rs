@@ -1,69 +1,69 @@
-//! One encounter, from its beginning to a collision, to the point from which on none is possible, or to its end.
+//! An encounter, from its beginning until a collision, until no collision is possible any more, or until its end.
 
 use super::course::{Course, Place, Size};
 use super::situation::Situation;
 use super::{BrakingModel, DT};
 
-/// The car under test, in the middle of its lane, and those it meets.
+/// An encounter of the ego vehicle, in the middle of its lane, with other road users.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Encounter {
-    /// The speed in m/s of the car under test until it brakes.
+    /// The speed of the ego vehicle in m/s until it brakes.
     pub speed: f64,
-    /// How large it is.
+    /// The length and width of the ego vehicle.
     pub size: Size,
-    /// The others.
+    /// The courses of the other road users.
     pub others: Vec<Course>,
-    /// Seconds after which it is over.
+    /// The time in seconds after which the encounter is over.
     pub duration: f64,
 }
 
-/// What became of an encounter.
+/// The result of an encounter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ended {
-    /// The collision that ended it.
+    /// The collision that ended the encounter, if there was one.
     pub collision: Option<Collision>,
-    /// The least time to collision in seconds with anybody in the path of the car under test; infinite where there was
-    /// none.
+    /// The smallest time to collision in seconds with a road user in the ego vehicle's path. It is infinite if there
+    /// was no such road user, and 0 at a collision with the ego vehicle's front.
     pub least_ttc: f64,
-    /// The least gap in metres to anybody ahead in its path; infinite where there was nobody, 0 at a collision with its
-    /// front.
+    /// The smallest gap in metres to a road user ahead in the ego vehicle's path. It is infinite if there was no such
+    /// road user, and 0 at a collision with the ego vehicle's front.
     pub least_gap: f64,
 }
 
-/// How two road users met.
+/// A collision of the ego vehicle with another road user.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Collision {
-    /// Seconds since the beginning; between two steps as if both had gone on at constant speed.
+    /// The time in seconds since the beginning. Between two steps, it assumes constant speeds.
     pub time: f64,
-    /// The difference of their speeds along the lane, m/s.
+    /// The difference of the two speeds along the lane, in m/s.
     pub speed: f64,
-    /// Where it was hit.
+    /// The side of the ego vehicle that was hit.
     pub face: Impact,
 }
 
-/// The side of the car under test at which it was hit.
+/// The side of the ego vehicle that was hit in a collision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Impact {
-    /// It ran into the other, or they overlapped from the beginning.
+    /// The ego vehicle ran into the other road user, or they overlapped from the beginning.
     Front,
-    /// The other moved into its side.
+    /// The other road user moved into the side of the ego vehicle.
     Side,
-    /// The other ran into it from behind.
+    /// The other road user ran into the ego vehicle from behind.
     Rear,
 }
 
-/// Where the car under test is.
+/// The state of the ego vehicle.
 #[derive(Debug, Clone, Copy)]
 struct Ego {
-    /// Its front bumper, metres along the lane.
+    /// The position of the front bumper, in metres along the lane.
     front: f64,
     speed: f64,
-    /// Over the last step.
+    /// The acceleration over the last step, in m/s².
     acceleration: f64,
 }
 
 impl Ego {
-    /// A step of constant deceleration, which ends at standstill.
+    /// Returns the state after a step with constant deceleration, which ends at standstill.
     fn after(self, brake: f64) -> Self {
         let speed = self.speed - brake * DT;
         let (speed, way) = if speed < 0.0 {
@@ -75,7 +75,7 @@ impl Ego {
     }
 }
 
-/// How far two road users are apart along and across the lane.
+/// The distances of two road users along and across the lane.
 #[derive(Debug, Clone, Copy)]
 struct Apart {
     gap: f64,
@@ -91,8 +91,8 @@ impl Apart {
 }
 
 impl Encounter {
-    /// What becomes of it with this driver, of which every other road user gets a copy of its own: the car brakes as hard
-    /// as the most worried of them asks for, and never takes up speed again.
+    /// Returns the result of the encounter with this driver. A copy of the driver watches each of the other road users.
+    /// The car brakes as hard as the copy that asks for most, and never accelerates again.
     pub fn run<M: BrakingModel>(&self, driver: &M) -> Ended {
         let mut models = vec![driver.clone(); self.others.len()];
         let mut before: Vec<Option<Apart>> = vec![None; self.others.len()];
@@ -119,7 +119,7 @@ impl Encounter {
                     brake = brake.max(model.brake(&situation, DT));
                 }
             }
-            // Nobody ahead who goes on so comes nearer to a car that never takes up speed.
+            // If all others are ahead and continue so, none comes nearer to a car that never accelerates.
             if settled || ended.collision.is_some() {
                 break;
             }
@@ -148,7 +148,7 @@ impl Encounter {
     }
 }
 
-/// The part of a step, between 0 and 1, in which a straight line from one value to another is negative.
+/// Returns the part of a step, between 0 and 1, in which a straight line from one value to another is negative.
 fn negative(from: f64, to: f64) -> Option<(f64, f64)> {
     let crossing = from / (from - to);
     match (from < 0.0, to < 0.0) {
@@ -159,7 +159,7 @@ fn negative(from: f64, to: f64) -> Option<(f64, f64)> {
     }
 }
 
-/// The contact in the step that ends at `time`. A corner may touch for less than a step, so both ends of it do not tell.
+/// Returns the contact in the step that ends at `time`. A corner may touch for less than a step, between its two ends.
 fn collision(before: Apart, now: Apart, time: f64) -> Option<Collision> {
     let reached = negative(before.gap, now.gap)?;
     let not_passed = negative(-before.lengths - before.gap, -now.lengths - now.gap)?;

@@ -1,10 +1,10 @@
-//! The plain kinematic world: points with lengths and widths on a straight road, ten times a second.
+//! A simple kinematic world: points with lengths and widths on a straight road, with ten steps per second.
 //!
-//! The performance models of UN Regulation No. 157 (Annex 4, Appendix 3) are defined in such a world, and what the
-//! literature says of them was computed in one. It knows no tyres, no streams and no physics: the car under test keeps the
-//! middle of its lane, holds its speed and brakes when its [`BrakingModel`] says so; the others follow a [`Course`] that
-//! is known from the beginning. One encounter takes microseconds, so that tens of thousands can be asked which of them
-//! a careful driver could have got out of.
+//! The performance models of UN Regulation No. 157 (Annex 4, Appendix 3) are defined in such a world, and the results
+//! in the literature were computed in one. It has no tyres, no streams and no physics. The ego vehicle keeps the middle
+//! of its lane, holds its speed and brakes when its [`BrakingModel`] says so. The others follow a [`Course`] that is
+//! known from the beginning. An encounter takes microseconds, so that one can check for tens of thousands of them
+//! whether a careful driver could have avoided the collision.
 //!
 //! [`CutIn`], [`CutOut`] and [`LeaderBrakes`] are the three kinds of encounters of the regulation.
 //!
@@ -32,14 +32,14 @@ pub use situation::Situation;
 /// The time step in seconds: the models of UN R157 run at 10 Hz.
 pub const DT: f64 = 0.1;
 
-/// How a driver decides to brake for one other road user. It remembers what it has to, how long a risk has lasted for
-/// instance; a fresh copy drives each encounter with each other road user.
+/// A model of how a driver decides to brake for one other road user. It may have memory, for example how long a risk
+/// has lasted; each encounter uses a fresh copy for each of the other road users.
 pub trait BrakingModel: Clone + Send {
-    /// The deceleration in m/s², not below 0, that it wants for the next `dt` seconds; 0 where it sees no reason to brake.
+    /// Returns the deceleration for the next `dt` seconds in m/s², not below 0; 0 if the model sees no reason to brake.
     fn brake(&mut self, situation: &Situation, dt: f64) -> f64;
 }
 
-/// Never brakes: what happens if the driver does nothing.
+/// A model that never brakes. It shows what happens if the driver does nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Unbraked;
 

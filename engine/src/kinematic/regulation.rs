@@ -1,42 +1,42 @@
-//! The encounters for which UN Regulation No. 157 (Annex 4, Appendix 3) says what a careful driver gets out of.
+//! The encounters for which UN Regulation No. 157 (Annex 4, Appendix 3) says when a careful driver avoids a collision.
 //!
-//! The ranges of the cut-in are those of the public variations of the regulation's scenarios: car under test 20 to
-//! 60 km/h, relative speed -50 to -10 km/h, gap 0 to 60 m, lateral speed 0.5 to 3 m/s. Lanes are [`LANE_WIDTH`] wide, and
-//! both cars are as large as the engine's own; the regulation leaves both open, so that is our reading.
+//! The ranges of the cut-in are those of the public variations of the regulation's scenarios: ego vehicle 20 to 60
+//! km/h, relative speed -50 to -10 km/h, gap 0 to 60 m, lateral speed 0.5 to 3 m/s. The regulation does not give the
+//! sizes of lanes and cars: here, lanes are [`LANE_WIDTH`] wide, and both cars are as large as the engine's own.
 
 use super::course::{Course, Size};
 use super::encounter::Encounter;
 use crate::vehicle::Vehicle;
 
-/// Width of a lane in metres.
+/// The width of a lane in metres.
 pub const LANE_WIDTH: f64 = 3.5;
 
-/// How far in metres the middle of a car wanders from the middle of its lane without meaning to leave it.
+/// The distance in metres that a car's middle may be off the middle of its lane while the car keeps the lane.
 const WANDERING: f64 = 0.375;
 
-/// Seconds after which an encounter is over: more than the 21.6 s in which 60 m are used up at 10 km/h.
+/// The time in seconds after which an encounter is over: more than the 21.6 s that 60 m take at 10 km/h.
 const DURATION: f64 = 30.0;
 
 const CAR: Size = Size { length: Vehicle::BMW_320I.length, width: Vehicle::BMW_320I.width };
 
 const KM_H: f64 = 1.0 / 3.6;
 
-/// A car in the next lane moves over into the lane of the car under test and drives on at constant speed.
+/// A car in the next lane cuts in: it moves into the lane of the ego vehicle and drives on at constant speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutIn {
-    /// Speed of the car under test, m/s.
+    /// The speed of the ego vehicle, in m/s.
     pub speed: f64,
-    /// Speed of the other along the lane, m/s.
+    /// The speed of the other car along the lane, in m/s.
     pub other_speed: f64,
-    /// Metres from the front of the car under test to the rear of the other when that begins to move over.
+    /// The gap in metres from the ego vehicle's front to the other car's rear when the other car begins to move over.
     pub gap: f64,
-    /// How fast it moves over, m/s.
+    /// The lateral speed of the other car, in m/s.
     pub lateral_speed: f64,
 }
 
 impl CutIn {
-    /// The cut-in that these four numbers in [0, 1] stand for, each in its range: speed, relative speed (0 for the
-    /// greatest difference), gap, lateral speed. `None` where the other would have to drive backwards.
+    /// Returns the cut-in of four numbers in [0, 1], each scaled to its range: speed, relative speed (0 for the
+    /// greatest difference), gap, lateral speed. `None` if the other car would have to drive backwards.
     pub fn from_unit(point: [f64; 4]) -> Option<Self> {
         let within = |x: f64, low: f64, high: f64| low + x * (high - low);
         let speed = within(point[0], 20.0, 60.0) * KM_H;
@@ -46,7 +46,7 @@ impl CutIn {
         (other_speed >= 0.0).then_some(Self { speed, other_speed, gap, lateral_speed })
     }
 
-    /// The encounter, which begins as the other begins to move over, from the left.
+    /// Returns the encounter, which begins when the other car begins to move over from the left.
     pub fn encounter(&self) -> Encounter {
         let other = Course {
             lateral: LANE_WIDTH,
@@ -58,22 +58,22 @@ impl CutIn {
     }
 }
 
-/// The car ahead changes lanes and uncovers one that stands in the lane.
+/// The car ahead leaves the lane (it cuts out), and a car that stands in the lane appears.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutOut {
-    /// Speed in m/s of the car under test and of the one ahead.
+    /// The speed of the ego vehicle and of the car ahead, in m/s.
     pub speed: f64,
-    /// Metres between the two.
+    /// The distance between the ego vehicle and the car ahead, in metres.
     pub gap: f64,
-    /// Metres from the front of the car ahead to the one that stands, when the car ahead begins to move over.
+    /// The distance in metres from the front of the car ahead to the standing car when the lane change begins.
     pub distance: f64,
-    /// How fast it moves over, m/s.
+    /// The lateral speed of the car ahead, in m/s.
     pub lateral_speed: f64,
 }
 
 impl CutOut {
-    /// The encounter, which begins as the car ahead begins to move over. Who stands there can be seen once the car ahead
-    /// has left the zone in which cars wander.
+    /// Returns the encounter, which begins when the car ahead begins to move over. The standing car is visible as soon
+    /// as the car ahead has left the zone in which cars wander.
     ///
     /// # Panics
     /// The lateral speed is not positive.
@@ -91,16 +91,16 @@ impl CutOut {
 /// The car ahead brakes to standstill.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeaderBrakes {
-    /// Speed in m/s of the car under test and of the one ahead.
+    /// The speed of the ego vehicle and of the car ahead at the beginning, in m/s.
     pub speed: f64,
-    /// Metres between the two.
+    /// The distance between the ego vehicle and the car ahead, in metres.
     pub gap: f64,
-    /// How hard it brakes, m/s².
+    /// The deceleration of the car ahead, in m/s².
     pub deceleration: f64,
 }
 
 impl LeaderBrakes {
-    /// The encounter, which begins as the car ahead begins to brake.
+    /// Returns the encounter, which begins when the car ahead begins to brake.
     pub fn encounter(&self) -> Encounter {
         encounter(self.speed, vec![Course { deceleration: self.deceleration, ..ahead(self.gap, self.speed) }])
     }
@@ -110,7 +110,7 @@ fn encounter(speed: f64, others: Vec<Course>) -> Encounter {
     Encounter { speed, size: CAR, others, duration: DURATION }
 }
 
-/// A car in the same lane that goes on as it does.
+/// Returns the course of a car in the same lane at constant speed.
 fn ahead(gap: f64, speed: f64) -> Course {
     Course {
         gap,

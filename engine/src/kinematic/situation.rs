@@ -1,53 +1,53 @@
-//! What a braking model is told: the truth about itself and one other road user, along and across the lane.
+//! The input of a braking model: the true states of the ego vehicle and one other, along and across the lane.
 
-/// The car under test and one other road user at one moment. Lengths in metres, times in seconds; `along` is the
-/// direction in which the car under test drives.
+/// The ego vehicle and one other road user at one moment. Lengths are in metres, times in seconds. "Along" means in the
+/// direction in which the ego vehicle drives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Situation {
-    /// Speed of the car under test, m/s.
+    /// The speed of the ego vehicle, in m/s.
     pub speed: f64,
-    /// Its acceleration over the last step, m/s².
+    /// The acceleration of the ego vehicle over the last step, in m/s².
     pub acceleration: f64,
-    /// From its front bumper to the rear of the other; negative once the fronts have drawn level with that rear.
+    /// The distance from the ego vehicle's front to the other's rear; negative once the front has passed the rear.
     pub gap: f64,
-    /// Speed of the other along the lane, m/s; negative if it comes towards the car.
+    /// The speed of the other road user along the lane, in m/s; negative if it comes towards the ego vehicle.
     pub other_speed: f64,
-    /// Its acceleration along the lane over the last step, m/s².
+    /// The acceleration of the other road user along the lane over the last step, in m/s².
     pub other_acceleration: f64,
-    /// Distance across the lane between the middles of the two, not below 0.
+    /// The distance across the lane between the middles of the two road users, not below 0.
     pub lateral: f64,
-    /// How fast that distance shrinks, m/s; negative while it grows.
+    /// The speed in m/s at which the lateral distance shrinks; negative while it grows.
     pub approach: f64,
-    /// Width of the car under test.
+    /// The width of the ego vehicle.
     pub width: f64,
-    /// Width of the other.
+    /// The width of the other road user.
     pub other_width: f64,
-    /// Lengths of both together.
+    /// The sum of both lengths.
     pub lengths: f64,
 }
 
 impl Situation {
-    /// How fast the gap shrinks, m/s.
+    /// Returns the speed in m/s at which the gap shrinks.
     pub fn closing(&self) -> f64 {
         self.speed - self.other_speed
     }
 
-    /// Whether the other is ahead: its rear has not been reached.
+    /// Returns `true` if the other road user is ahead: the ego vehicle's front has not passed its rear.
     pub fn is_ahead(&self) -> bool {
         self.gap >= 0.0
     }
 
-    /// Room between the sides of the two; negative where their paths overlap.
+    /// Returns the lateral distance between the sides of the two road users; negative if their paths overlap.
     pub fn clearance(&self) -> f64 {
         self.lateral - 0.5 * (self.width + self.other_width)
     }
 
-    /// Whether the other is in the path of the car under test, whole or in part.
+    /// Returns `true` if the other road user is in the ego vehicle's path, whole or in part.
     pub fn overlaps(&self) -> bool {
         self.clearance() < 0.0
     }
 
-    /// Seconds until the gap is used up at the present speeds; infinite where it is not.
+    /// Returns the time to collision in seconds at the present speeds; infinite if the gap does not shrink.
     pub fn time_to_collision(&self) -> f64 {
         if self.is_ahead() && self.closing() > 0.0 { self.gap / self.closing() } else { f64::INFINITY }
     }

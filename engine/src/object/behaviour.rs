@@ -1,14 +1,14 @@
-//! What an object does, whatever it is made of.
+//! The behaviours of objects, independent of their kind.
 
 use super::body::Body;
 use super::{Geometric, Physical};
 use crate::geometry::Pose;
 use std::fmt;
 
-/// What an object does.
+/// The behaviour of an object.
 pub(crate) enum Behaviour {
     Geometric(Box<dyn Geometric>),
-    /// With its mass in kg.
+    /// An object that the physics moves, with its mass in kg.
     Physical(f64, Box<dyn Physical>),
 }
 
@@ -21,7 +21,7 @@ impl fmt::Debug for Behaviour {
     }
 }
 
-/// What a run needs of a placed object.
+/// The data of a placed object that a run needs.
 #[derive(Debug)]
 pub(crate) struct ObjectSetup {
     pub name: String,

@@ -1,10 +1,10 @@
-//! What an object is to others: its outline on the ground, its height, and what it is taken for.
+//! The appearance of objects to others: their outline on the ground, height, class and colour.
 
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::fmt;
 
-/// What a body is taken for: by sensors, drivers and pictures.
+/// The class of a body, as sensors, drivers and pictures see it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Class {
     /// A passenger car.
@@ -21,7 +21,7 @@ pub enum Class {
     Tree,
     /// A sign or a lamp post.
     Sign,
-    /// Anything else.
+    /// Any other object.
     Prop,
 }
 
@@ -30,7 +30,7 @@ impl Class {
     pub const ALL: [Self; 8] =
         [Self::Car, Self::Truck, Self::Bicycle, Self::Pedestrian, Self::Building, Self::Tree, Self::Sign, Self::Prop];
 
-    /// The colour of a body of this class where nothing else is said.
+    /// Returns the colour that a body of this class has by default.
     fn usual_colour(self) -> Colour {
         match self {
             Class::Car => [150, 155, 160],
@@ -60,25 +60,25 @@ impl fmt::Display for Class {
     }
 }
 
-/// What a body covers of the ground. Lengths in metres.
+/// The area of the ground that a body covers. Lengths are in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outline {
     /// A rectangle around the body's position, with its length along the heading.
     Rectangle {
-        /// Along the heading.
+        /// The length along the heading.
         length: f64,
-        /// Across it.
+        /// The width across the heading.
         width: f64,
     },
     /// A disc around the body's position.
     Disc {
-        /// Its radius.
+        /// The radius of the disc.
         radius: f64,
     },
 }
 
 impl Outline {
-    /// Half of its length and half of its width, in metres.
+    /// Returns half of the length and half of the width, in metres.
     pub fn half_extent(&self) -> Vector2<f64> {
         match *self {
             Outline::Rectangle { length, width } => 0.5 * Vector2::new(length, width),
@@ -86,7 +86,7 @@ impl Outline {
         }
     }
 
-    /// The halves, in metres, of the rectangle along the axes that encloses a body with this outline and this heading.
+    /// Returns half the sides in metres of the rectangle along the axes around a body with this outline and heading.
     pub fn enclosing(&self, heading: f64) -> Vector2<f64> {
         let half = self.half_extent();
         match self {
@@ -99,7 +99,7 @@ impl Outline {
         }
     }
 
-    /// The radius in metres of the least disc around the body's position that holds it.
+    /// Returns the radius in metres of the smallest disc around the body's position that contains the outline.
     pub fn reach(&self) -> f64 {
         match self {
             Outline::Rectangle { .. } => self.half_extent().norm(),
@@ -108,69 +108,69 @@ impl Outline {
     }
 }
 
-/// Red, green and blue, as sRGB has them.
+/// A colour in sRGB: red, green and blue.
 pub type Colour = [u8; 3];
 
-/// A body: what it is, how much room it takes, and what it looks like.
+/// A body, with its class, the room that it takes, and its colour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
-    /// What it is taken for.
+    /// The class of the body.
     pub class: Class,
-    /// What it covers of the ground.
+    /// The area of the ground that the body covers.
     pub outline: Outline,
-    /// From the ground to its top, in metres.
+    /// The height from the ground to the top of the body, in metres.
     pub height: f64,
-    /// The colour that it has to sensors. Pictures draw it in that of its class.
+    /// The colour of the body for sensors. Pictures draw a body in the colour of its class.
     pub colour: Colour,
 }
 
 impl Body {
-    /// A body with a rectangular outline: length, width and height in metres. Its colour is the usual one of its class.
+    /// Makes a body with a rectangular outline: length, width and height in metres. Its colour is that of its class.
     pub fn block(class: Class, length: f64, width: f64, height: f64) -> Self {
         Self { class, outline: Outline::Rectangle { length, width }, height, colour: class.usual_colour() }
     }
 
-    /// A body with a round outline: radius and height in metres. Its colour is the usual one of its class.
+    /// Makes a body with a round outline: radius and height in metres. Its colour is that of its class.
     pub fn disc(class: Class, radius: f64, height: f64) -> Self {
         Self { class, outline: Outline::Disc { radius }, height, colour: class.usual_colour() }
     }
 
-    /// A person of average build: the Euro NCAP adult dummy is 0.5 m wide and 1.8 m tall.
+    /// Makes a person of average build. The Euro NCAP adult dummy is 0.5 m wide and 1.8 m tall.
     pub fn adult() -> Self {
         Self::disc(Class::Pedestrian, 0.25, 1.8)
     }
 
-    /// A child: the Euro NCAP child dummy is 0.3 m wide and 1.15 m tall.
+    /// Makes a child. The Euro NCAP child dummy is 0.3 m wide and 1.15 m tall.
     pub fn child() -> Self {
         Self::disc(Class::Pedestrian, 0.15, 1.15)
     }
 
-    /// A passenger car of middle size.
+    /// Makes a passenger car of middle size.
     pub fn car() -> Self {
         Self::block(Class::Car, 4.5, 1.8, 1.45)
     }
 
-    /// A lorry.
+    /// Makes a lorry.
     pub fn truck() -> Self {
         Self::block(Class::Truck, 10.0, 2.5, 3.5)
     }
 
-    /// A bicycle with its rider.
+    /// Makes a bicycle with its rider.
     pub fn bicycle() -> Self {
         Self::block(Class::Bicycle, 1.8, 0.6, 1.75)
     }
 
-    /// A bicycle that nobody rides: sensors tell it from one with a rider by its height.
+    /// Makes a bicycle without a rider. Sensors distinguish it from a bicycle with a rider by its height.
     pub fn parked_bicycle() -> Self {
         Self::block(Class::Bicycle, 1.8, 0.6, 1.05)
     }
 
-    /// The same in this colour.
+    /// Returns the same body in this colour.
     pub fn coloured(self, colour: Colour) -> Self {
         Self { colour, ..self }
     }
 
-    /// Length, width and height in metres, if one of them is no length.
+    /// Returns length, width and height in metres if one of them is not a finite number above 0.
     pub(crate) fn wrong_measures(&self) -> Option<[f64; 3]> {
         let extent = self.outline.half_extent();
         let sound = [extent.x, extent.y, self.height].iter().all(|metres| *metres > 0.0 && metres.is_finite());
@@ -178,30 +178,30 @@ impl Body {
     }
 }
 
-/// A body where it stands at the beginning of a tick.
+/// The state of a body at the beginning of a tick.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyState {
-    /// What it is.
+    /// The body itself.
     pub body: Body,
-    /// Where its middle is, and where it faces.
+    /// The position of the body's middle, and its heading.
     pub pose: Pose,
-    /// How it moved over the last tick, in m/s over the ground.
+    /// The velocity over the ground during the last tick, in m/s.
     pub velocity: Vector2<f64>,
-    /// How far its lowest point is above the ground, in metres. What is not physical stays on the ground.
+    /// The height of the body's lowest point above the ground, in metres; 0 for a body that is not physical.
     pub altitude: f64,
-    /// How long the way is that it has come since the run began, in metres: legs and wheels turn by it.
+    /// The distance that the body has travelled since the run began, in metres. Pictures move legs and wheels by it.
     pub travelled: f64,
-    /// Whether it is in the world. One that has left it stands where it was last seen, and is in nobody's way.
+    /// `true` if the body is in the world. A body that has left it keeps its last pose and is in nobody's way.
     pub present: bool,
 }
 
 impl BodyState {
-    /// A body at rest on the ground.
+    /// Makes the state of a body at rest on the ground.
     pub(crate) fn at_rest(body: Body, pose: Pose) -> Self {
         Self { body, pose, velocity: Vector2::zeros(), altitude: 0.0, travelled: 0.0, present: true }
     }
 
-    /// The pose that it takes within a tick of `dt` seconds; `None` if it leaves the world.
+    /// Moves the body to a pose within a tick of `dt` seconds. With `None`, it leaves the world.
     pub(crate) fn move_to(&mut self, pose: Option<Pose>, dt: f64) {
         self.present = pose.is_some();
         let pose = pose.unwrap_or(self.pose);

@@ -1,16 +1,16 @@
-//! How far two bodies are from each other, seen from above: distances between rectangles and discs in 64 bits.
+//! The distance of two bodies, seen from above: distances between rectangles and discs in 64 bits.
 
 use super::body::Outline;
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 
-/// Metres between what two bodies cover of the ground; 0 where they touch or overlap.
+/// Returns the distance in metres between the areas that two bodies cover; 0 if they touch or overlap.
 pub(crate) fn gap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> f64 {
     match (a.0, b.0) {
         (_, Outline::Disc { radius }) => (to_point(a, b.1.position) - radius).max(0.0),
         (Outline::Disc { radius }, _) => (to_point(b, a.1.position) - radius).max(0.0),
         (Outline::Rectangle { .. }, Outline::Rectangle { .. }) if overlap(a, b) => 0.0,
-        // Of two convex polygons that are apart, a corner of one is nearest to the other.
+        // If two convex polygons are apart, one of their corners is nearest to the other polygon.
         _ => {
             let nearest = |from, to: (&Outline, &Pose)| {
                 corners(to.0, to.1).map(|corner| to_point(from, corner)).into_iter().fold(f64::INFINITY, f64::min)
@@ -20,7 +20,7 @@ pub(crate) fn gap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> f64 {
     }
 }
 
-/// Metres from an outline to a point outside; 0 for one inside.
+/// Returns the distance in metres from an outline to a point; 0 if the point is inside.
 fn to_point((outline, pose): (&Outline, &Pose), point: Vector2<f64>) -> f64 {
     match outline {
         Outline::Rectangle { .. } => {
@@ -31,7 +31,7 @@ fn to_point((outline, pose): (&Outline, &Pose), point: Vector2<f64>) -> f64 {
     }
 }
 
-/// Whether the straight line between two points leads over what a body covers of the ground.
+/// Returns `true` if the straight line between two points crosses the area that a body covers.
 pub(crate) fn crosses((outline, pose): (&Outline, &Pose), from: Vector2<f64>, to: Vector2<f64>) -> bool {
     let (from, to) = (pose.to_local(from), pose.to_local(to));
     let way = to - from;
@@ -64,7 +64,7 @@ fn corners(outline: &Outline, pose: &Pose) -> [Vector2<f64>; 4] {
     [ahead + left, ahead - left, -ahead - left, -ahead + left].map(|offset| pose.position + offset)
 }
 
-/// Two rectangles are apart if and only if a side of one has the other wholly beyond it.
+/// Returns `true` if two rectangles overlap. They are apart exactly if one lies wholly beyond a side of the other.
 fn overlap(a: (&Outline, &Pose), b: (&Outline, &Pose)) -> bool {
     let apart = |(outline, pose): (&Outline, &Pose), other: (&Outline, &Pose)| {
         let seen = corners(other.0, other.1).map(|corner| pose.to_local(corner));

@@ -1,20 +1,20 @@
-//! Reactive objects: what stands and moves in a world, with input streams and output streams.
+//! Reactive objects: the things that stand and move in a world, with input streams and output streams.
 //!
-//! There are two kinds, as in section 2 of the paper. The pose of a [`Geometric`] object is under the control of its
-//! program: it says at every tick where its bodies are. A [`Physical`] one has a mass, and the physics moves it: its
-//! program only pushes. Pedestrians, cars on a path and houses are geometric objects that come with the engine; users
-//! write their own of either kind.
+//! There are two kinds of objects, as in section 2 of the paper. The program of a [`Geometric`] object controls its
+//! pose: at every tick, it says where the bodies are. A [`Physical`] object has a mass, and the physics moves it: its
+//! program only pushes. Pedestrians, cars on a path and houses are geometric objects that come with the engine. Users
+//! can write their own objects of either kind.
 //!
-//! An object becomes part of a world by [`Place`](crate::Place): it asks the scenario for a [`ObjectDraft`](crate::ObjectDraft), in which it
-//! declares its inputs, outputs and bodies, and leaves its behaviour there. What the program gets is a handle, from
-//! which it takes the outputs as streams, and whose inputs it binds: anything's output to anything's input of that
-//! type. At each tick
+//! An object becomes part of a world by [`Place`](crate::Place): it asks the scenario for an
+//! [`ObjectDraft`](crate::ObjectDraft), declares its inputs, outputs and bodies in the draft, and leaves its behaviour
+//! there. The program gets a handle. The handle gives the outputs as streams, and binds the inputs: any output can be
+//! bound to any input of the same type. At each tick
 //!
-//! 1. every object shows its outputs as they stand,
+//! 1. every object shows its outputs in their present state,
 //! 2. all streams are evaluated,
-//! 3. every object reads its inputs and moves on by the tick, seeing the others where they stood at its beginning.
+//! 3. every object reads its inputs and moves on. It sees the others where they stood at the beginning of the tick.
 //!
-//! A balloon that climbs as fast as it is told, and whose height can be read:
+//! An example is a balloon that climbs at a given speed, and whose height can be read:
 //!
 //! ```
 //! use paracosm_engine::object::{Body, Class, Geometric, Input, InputError, Output, Outputs, Tick};
@@ -76,62 +76,62 @@ use crate::road::Path;
 use nalgebra::Vector2;
 use thiserror::Error;
 
-/// What an object cannot go on with.
+/// The reason why an object cannot use an input.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum InputError {
     /// The stream of an input is absent.
     #[error("`{input}` has no value")]
     Absent {
-        /// The input, as `object.input`.
+        /// The name of the input, as `object.input`.
         input: String,
     },
-    /// An input reads NaN.
+    /// The value of an input is NaN.
     #[error("`{input}` is not a number")]
     NotANumber {
-        /// The input, as `object.input`.
+        /// The name of the input, as `object.input`.
         input: String,
     },
-    /// An input reads what makes no sense.
+    /// The value of an input is out of range.
     #[error("`{input}` is {value}, expected {expected}")]
     OutOfRange {
-        /// The input, as `object.input`.
+        /// The name of the input, as `object.input`.
         input: String,
-        /// What it reads.
+        /// The value that was found.
         value: f64,
-        /// What would make sense, in words.
+        /// The values that are allowed, in words.
         expected: &'static str,
     },
 }
 
 /// The behaviour of an object whose poses are under its own control.
 pub trait Geometric: 'static {
-    /// Writes where its bodies are, in the order in which they were declared; `None` for one that has left the world.
+    /// Writes the poses of the object's bodies, in the order of declaration; `None` for a body that has left the world.
     fn poses(&self, poses: &mut [Option<Pose>]);
 
-    /// Says how its bodies move as the run begins, in m/s over the ground, in the order in which they were declared: at
-    /// rest where it does not. Its inputs are those of the first tick.
+    /// Writes the velocities of the object's bodies at the beginning of the run, in m/s over the ground, in the order
+    /// of their declaration. By default they are at rest. The inputs are those of the first tick.
     ///
     /// # Errors
-    /// As of [`Geometric::step`].
+    /// The same as of [`Geometric::step`].
     fn begin(&mut self, tick: &Tick<'_>, velocities: &mut [Vector2<f64>]) -> Result<(), InputError> {
         let _ = (tick, velocities);
         Ok(())
     }
 
-    /// Shows its outputs as they stand at the beginning of a tick. An output that is not shown is absent.
+    /// Shows the object's outputs at the beginning of a tick. An output that is not shown is absent.
     fn show(&self, outputs: &mut Outputs<'_>) {
         let _ = outputs;
     }
 
-    /// The way that it means to go from where it is, if it has decided on one: for pictures.
+    /// Returns the path that the object intends to take from its present place, if it has decided. Pictures show it.
     fn plan(&self) -> Option<Path> {
         None
     }
 
-    /// Reads its inputs and moves on by a tick.
+    /// Reads the object's inputs and moves the object on by a tick.
     ///
     /// # Errors
-    /// An input makes no sense. The run ends with the verdict `error`, which names the input.
+    /// An input has no value or a wrong value. The run ends with the verdict `error`, which names the input.
     fn step(&mut self, tick: &Tick<'_>) -> Result<(), InputError> {
         let _ = tick;
         Ok(())
@@ -140,15 +140,15 @@ pub trait Geometric: 'static {
 
 /// The behaviour of an object that the physics moves: a body with a mass, gravity, and friction on the ground.
 pub trait Physical: 'static {
-    /// Shows its outputs, with its body as it stands at the beginning of a tick.
+    /// Shows the object's outputs. `body` is the state of its body at the beginning of the tick.
     fn show(&self, body: &BodyState, outputs: &mut Outputs<'_>) {
         let _ = (body, outputs);
     }
 
-    /// Reads its inputs; the force on the middle of its body during the tick, in N and in the axes of the ground plane.
+    /// Reads the inputs and returns the force on the middle of the body during the tick, in N and in ground axes.
     ///
     /// # Errors
-    /// As of [`Geometric::step`].
+    /// The same as of [`Geometric::step`].
     fn push(&mut self, body: &BodyState, tick: &Tick<'_>) -> Result<Vector2<f64>, InputError> {
         let _ = (body, tick);
         Ok(Vector2::zeros())

@@ -1,4 +1,4 @@
-//! How objects are wired: inputs that are bound to streams, outputs that streams are made of.
+//! The wiring of objects: inputs that are bound to streams, and outputs that become streams.
 
 use super::InputError;
 use super::body::BodyState;
@@ -9,21 +9,21 @@ use std::marker::PhantomData;
 use std::ops::Range;
 use std::rc::Rc;
 
-/// All inputs and outputs of a world under construction, shared with the handles that bind them.
+/// All inputs and outputs of a world under construction. The handles that bind them share this value.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Wiring {
     inputs: Rc<RefCell<Vec<Bound>>>,
     samples: Rc<Cell<usize>>,
 }
 
-/// An input and what it reads.
+/// An input and the node that it reads.
 #[derive(Debug, Clone)]
 struct Bound {
     name: Rc<str>,
     node: Rc<Node>,
 }
 
-/// An input of an object: it reads the stream that it is bound to last. A handle, cheap to clone.
+/// An input of an object. It reads the stream that it was bound to last. An input is a handle and cheap to clone.
 pub struct Input<T> {
     index: usize,
     name: Rc<str>,
@@ -31,7 +31,7 @@ pub struct Input<T> {
     carries: PhantomData<T>,
 }
 
-/// An output of an object: what the object shows by it is a stream.
+/// An output of an object. The values that the object shows by it form a stream.
 pub struct Output<T> {
     at: usize,
     name: Rc<str>,
@@ -52,29 +52,29 @@ impl Wiring {
         Output { at, name: name.into(), carries: PhantomData }
     }
 
-    /// Every input with its name and what it reads, in the order in which they were declared.
+    /// Returns the name of every input and the node that it reads, in the order of their declaration.
     pub fn readers(&self) -> Vec<(String, Rc<Node>)> {
         self.inputs.borrow().iter().map(|bound| (bound.name.to_string(), bound.node.clone())).collect()
     }
 
-    /// Where the values of the inputs stand in a graph that has been laid out.
+    /// Returns the slots of the inputs in a graph that has been laid out.
     pub fn slots(&self, graph: &Graph) -> Vec<Slot> {
         self.inputs.borrow().iter().map(|bound| graph.slot(&bound.node)).collect()
     }
 
-    /// How many samples all outputs take.
+    /// Returns the number of samples of all outputs together.
     pub fn samples(&self) -> usize {
         self.samples.get()
     }
 }
 
 impl<T: Datum> Input<T> {
-    /// Binds it to a stream, in the place of what it was bound to.
+    /// Binds the input to a stream, which replaces the present one.
     pub fn bind(&self, stream: impl Into<Stream<T>>) {
         self.rebind(|_| stream.into());
     }
 
-    /// Binds it to what `change` makes of the stream that it is bound to.
+    /// Binds the input to the stream that `change` makes of its present stream.
     pub fn rebind(&self, change: impl FnOnce(Stream<T>) -> Stream<T>) {
         let present = Stream::of(self.wiring.inputs.borrow()[self.index].node.clone());
         let changed = change(present);
@@ -83,7 +83,7 @@ impl<T: Datum> Input<T> {
 }
 
 impl<T: Datum> Output<T> {
-    /// The stream of what is shown.
+    /// Returns the stream of the values that the object shows.
     pub fn stream(&self) -> Stream<T> {
         Stream::output(self.source(), self.name.to_string())
     }
@@ -117,7 +117,7 @@ impl<T> fmt::Debug for Output<T> {
     }
 }
 
-/// Where objects show their outputs.
+/// The place where objects show their outputs.
 #[derive(Debug)]
 pub struct Outputs<'a> {
     pub(crate) samples: &'a mut [DatumSample],
@@ -130,7 +130,7 @@ impl Outputs<'_> {
     }
 }
 
-/// What an object reads when it moves on by a tick.
+/// The inputs and surroundings that an object reads when it moves on by a tick.
 #[derive(Debug, Clone, Copy)]
 pub struct Tick<'a> {
     pub(crate) dt: f64,
@@ -138,41 +138,41 @@ pub struct Tick<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) inputs: &'a [Slot],
     pub(crate) bodies: &'a [BodyState],
-    /// Those of the bodies that are the object's own.
+    /// The range of the object's own bodies in `bodies`.
     pub(crate) own: (usize, usize),
 }
 
 impl Tick<'_> {
-    /// How long the tick is, in seconds.
+    /// Returns the duration of the tick, in seconds.
     pub fn dt(&self) -> f64 {
         self.dt
     }
 
-    /// The friction coefficient between tyre and road during the tick, a number from 0 on. As the run begins it is not
-    /// known yet, and NaN.
+    /// Returns the friction coefficient between tyre and road during the tick, a number from 0 on. At the beginning of
+    /// the run it is not known yet and NaN.
     pub fn friction(&self) -> f64 {
         self.friction
     }
 
-    /// What an input reads; `None` where its stream is absent.
+    /// Returns the value of an input; `None` if its stream is absent.
     pub fn get<T: Datum>(&self, input: &Input<T>) -> Option<T> {
         self.graph.value(self.inputs[input.index])
     }
 
-    /// The number that an input reads.
+    /// Returns the number that an input reads.
     ///
     /// # Errors
-    /// It is absent or NaN; the error names the input.
+    /// The input is absent or NaN; the error names it.
     pub fn number(&self, input: &Input<f64>) -> Result<f64, InputError> {
         let name = || input.name.to_string();
         let number = self.get(input).ok_or_else(|| InputError::Absent { input: name() })?;
         if number.is_nan() { Err(InputError::NotANumber { input: name() }) } else { Ok(number) }
     }
 
-    /// The speed that an input reads: 0 where its stream is absent.
+    /// Returns the speed that an input reads; 0 if its stream is absent.
     ///
     /// # Errors
-    /// It is no finite number from 0 on; the error names the input.
+    /// The speed is not a finite number from 0 on; the error names the input.
     pub fn speed(&self, input: &Input<f64>) -> Result<f64, InputError> {
         let speed = self.get(input).unwrap_or(0.0);
         if (0.0..f64::INFINITY).contains(&speed) {
@@ -182,8 +182,8 @@ impl Tick<'_> {
         }
     }
 
-    /// All bodies but the object's own that are in the world, as they stand at the beginning of the tick, the car under
-    /// test first, the others in the order in which they were placed.
+    /// Returns all bodies in the world except the object's own, as they stand at the beginning of the tick: the ego
+    /// vehicle first, then the others in the order in which they were placed.
     pub fn others(&self) -> impl Iterator<Item = &BodyState> {
         let Range { start, end } = self.own.0..self.own.1;
         self.bodies[..start].iter().chain(&self.bodies[end..]).filter(|body| body.present)

@@ -1,4 +1,4 @@
-//! A run moment by moment, for an animated picture.
+//! A run as a sequence of frames, for an animated picture.
 
 use super::body::{UNDER_TEST, body, class_colour};
 use super::drawing::{Anchor, Drawing, Paint, PictureItem};
@@ -7,36 +7,36 @@ use super::legend::{INK, PAPER, contact, legend};
 use super::pages::{Page, pages};
 use super::record::{MotionRecord, Scene};
 
-/// How many frames there are at most.
+/// The greatest number of frames, apart from the last frame of each page.
 const MOST: usize = 300;
-/// How much there is of the way that a body came.
+/// The paint of the way that a body has covered.
 const WAY: Paint = Paint { colour: UNDER_TEST, opacity: 0.55 };
-/// The size in pixels of the letters that tell the time.
+/// The size in pixels of the letters of the clock.
 const CLOCK: f64 = 17.0;
 
-/// A run, moment by moment. Every frame lies over one of the scenes, which have all one size.
+/// A run as a sequence of frames. Every frame lies over one of the scenes; all scenes have the same size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Animation {
-    /// What stands still: the ground and what is on it.
+    /// The parts that stand still: the ground and the bodies on it that do not move.
     pub scenes: Vec<Drawing>,
-    /// What changes.
+    /// The parts that change.
     pub frames: Vec<Frame>,
 }
 
-/// A moment.
+/// A moment of an animated run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// Which of the scenes it lies over.
+    /// The index of the scene under the frame.
     pub scene: usize,
-    /// Seconds of the run.
+    /// The time of the run in seconds.
     pub time: f64,
-    /// What lies over the scene.
+    /// The picture that lies over the scene.
     pub drawing: Drawing,
 }
 
 impl MotionRecord {
-    /// The run moment by moment, this many pixels wide: a frame for every tenth of a second, or fewer where there would
-    /// be more than 300. Nothing where nothing was seen.
+    /// Draws the run as a sequence of frames, this many pixels wide: a frame for every tenth of a second, or fewer if
+    /// there would be more than 300. `None` if nothing was recorded.
     pub fn film(&self, width: f64, caption: &str) -> Option<Animation> {
         let scene = self.scene.as_ref().filter(|_| !self.is_empty())?;
         let pages = pages(self, scene, width);
@@ -67,7 +67,7 @@ impl MotionRecord {
         Some(Animation { scenes: pages.iter().map(still).collect(), frames })
     }
 
-    /// What lies over a scene at a moment.
+    /// Draws the parts that lie over a scene at a moment.
     fn moving(&self, scene: &Scene, page: &Page, moment: usize) -> Vec<PictureItem> {
         let mut marks = Vec::new();
         if self.moves(0, page.moments.clone()) {
@@ -91,7 +91,7 @@ impl MotionRecord {
         marks
     }
 
-    /// The bodies that move on a page, or those that do not; the car under test on top.
+    /// Draws the bodies that move on a page, or those that stand still; the car under test lies on top.
     fn bodies(&self, scene: &Scene, page: &Page, moment: usize, moving: bool) -> Vec<PictureItem> {
         let these = (0..scene.bodies.len()).rev().filter(|i| self.moves(*i, page.moments.clone()) == moving);
         let poses = &self.moments[moment].poses;

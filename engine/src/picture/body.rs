@@ -1,7 +1,7 @@
-//! Bodies from above, each class with a shape and a colour of its own.
+//! Bodies from above. Each class has its own shape and colour.
 //!
 //! The colours are those of Okabe and Ito ("Color Universal Design", 2008), which people with any kind of colour vision
-//! tell apart; nothing rests on a colour alone.
+//! can tell apart. No meaning is shown by colour alone.
 
 use super::drawing::{Colour, Contour, Paint, PictureItem};
 use super::ground::seen_from;
@@ -13,19 +13,19 @@ use crate::object::{Body, Class, Outline};
 pub(super) const UNDER_TEST: Colour = [0xd5, 0x5e, 0x00];
 const RIM: Colour = [0xff, 0xff, 0xff];
 const WINDOW: Paint = Paint { colour: [0xff, 0xff, 0xff], opacity: 0.6 };
-/// The least radius in pixels of what could otherwise hardly be seen.
+/// The least radius in pixels of small round bodies, which could otherwise hardly be seen.
 const LEAST_RADIUS: f64 = 3.5;
 /// The least width in pixels of a vehicle.
 const LEAST_WIDTH: f64 = 5.0;
-/// The share of its height that a tree's crown is wide.
+/// The radius of a tree's crown, as a share of the tree's height.
 const CROWN: f64 = 0.25;
 
-/// Whether it is of a kind that moves about: pictures show the ground where these are.
+/// Returns `true` if bodies of this class move about. Pictures show the ground around them.
 pub(super) fn is_actor(class: Class) -> bool {
     matches!(class, Class::Car | Class::Truck | Class::Bicycle | Class::Pedestrian)
 }
 
-/// The colour of what is taken for this.
+/// Returns the colour of a class of bodies.
 pub(super) fn class_colour(class: Class) -> Colour {
     match class {
         Class::Car => [0x56, 0xb4, 0xe9],
@@ -39,12 +39,12 @@ pub(super) fn class_colour(class: Class) -> Colour {
     }
 }
 
-/// Metres from its middle to where nothing is drawn of it, at least.
+/// Returns a distance in metres from the body's middle beyond which nothing of the body is drawn.
 pub(super) fn extent(body: &Body) -> f64 {
     body.outline.reach().max(CROWN * body.height)
 }
 
-/// The marks of a body in this colour, where it is seen; a share of them where it is a ghost of itself.
+/// Draws a body in this colour, if the view shows it. `share` is the opacity: below 1 for a ghost of the body.
 pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share: f64) -> Vec<PictureItem> {
     if !view.shows(pose.position, extent(body)) {
         return Vec::new();
@@ -78,13 +78,13 @@ pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share:
                     let hull = hull(view, pose, l, w);
                     vec![rim(&hull, 1.5), fill(hull, solid), fill(block(0.1, 0.42, 0.76), WINDOW)]
                 }
-                // The load, and the cab in front of it.
+                // The load, and the cab in front of the load.
                 Class::Truck => {
                     let (load, cab) = (block(-1.0, 0.55, 1.0), block(0.62, 1.0, 0.94));
                     let window = fill(block(0.78, 0.9, 0.8), WINDOW);
                     vec![rim(&load, 1.5), rim(&cab, 1.5), fill(load, solid), fill(cab, solid), window]
                 }
-                // A frame, and the shoulders of the rider across it.
+                // A frame, and the rider's shoulders across it.
                 Class::Bicycle => {
                     let (frame, rider) = (block(-1.0, 1.0, 0.3), hull(view, &turned(pose), w, 0.35 * w));
                     vec![rim(&frame, 1.5), rim(&rider, 1.5), fill(frame, solid), fill(rider, solid)]
@@ -106,7 +106,7 @@ pub(super) fn body(view: &View, body: &Body, pose: &Pose, colour: Colour, share:
     }
 }
 
-/// A rectangle with its corners cut, longer in front than behind: metres from its middle to its front and to its side.
+/// Returns a rectangle with cut corners, longer in front. `l` and `w` are half its length and half its width.
 fn hull(view: &View, pose: &Pose, l: f64, w: f64) -> Contour {
     let right = [(-l, -0.6 * w), (-0.85 * l, -w), (0.7 * l, -w), (l, -0.55 * w)];
     let left = right.iter().rev().map(|(x, y)| (*x, -y));

@@ -1,88 +1,88 @@
-//! What is on a picture, before anybody has chosen a file format: marks in pixels, later ones over earlier ones.
+//! The elements of a picture before a file format is chosen: marks in pixels, later marks over earlier marks.
 //!
-//! Everything curved is a cubic Bézier curve. That is what SVG, fonts and rasterisers have in common, so that each of
-//! them shows the same picture.
+//! Everything curved is a cubic Bézier curve. SVG, fonts and rasterisers all support these curves, so each shows the
+//! same picture.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 pub use crate::object::Colour;
 
-/// Pixels to the right of the upper left corner, and below it.
+/// A position: pixels to the right of the upper left corner, and pixels below it.
 pub type Pixel = [f64; 2];
 
-/// A picture of some width and height in pixels. What reaches beyond them is cut off.
+/// A picture with its width and height in pixels. Parts beyond its edges are cut off.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
-    /// Its width, a whole number.
+    /// The width of the picture, a whole number.
     pub width: f64,
-    /// Its height, a whole number.
+    /// The height of the picture, a whole number.
     pub height: f64,
-    /// What is on it, from the ground up.
+    /// The marks of the picture, from the bottom to the top.
     pub marks: Vec<PictureItem>,
 }
 
-/// One thing on a picture.
+/// A mark of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PictureItem {
-    /// A filled area: what is inside by the non-zero rule.
+    /// A filled area: all that is inside by the non-zero rule.
     Fill {
-        /// Its outline.
+        /// The outline of the area.
         contour: Contour,
-        /// What it is filled with.
+        /// The paint of the area.
         paint: Paint,
     },
     /// A line with round ends and joins.
     Stroke {
-        /// The way of the pen.
+        /// The line that the pen follows.
         contour: Contour,
-        /// What it leaves.
+        /// The paint of the line.
         paint: Paint,
-        /// Its width in pixels.
+        /// The width of the line in pixels.
         width: f64,
-        /// Pixels of dash and of gap, for a broken line.
+        /// The pixels of dash and of gap, for a broken line.
         dash: Option<[f64; 2]>,
     },
     /// A line of text.
     Text {
-        /// Where its baseline begins, has its middle, or ends.
+        /// The place of the beginning, the middle or the end of the text's baseline.
         at: Pixel,
-        /// Which of these.
+        /// The part of the text that is at that place.
         anchor: Anchor,
-        /// The height of its letters, as fonts count it.
+        /// The font size of the letters.
         size: f64,
-        /// Its colour.
+        /// The colour of the text.
         colour: Colour,
-        /// The colour of a rim that sets it off from what is behind it.
+        /// The colour of a rim that makes the text stand out from its background.
         halo: Option<Colour>,
-        /// What it says.
+        /// The words of the text.
         text: String,
     },
-    /// A picture within the picture, which cuts off what reaches beyond it.
+    /// A picture within the picture. Parts beyond its edges are cut off.
     Inset {
-        /// Where its upper left corner is.
+        /// The place of the inset's upper left corner.
         at: Pixel,
-        /// The picture.
+        /// The picture in the inset.
         drawing: Drawing,
     },
 }
 
-/// What of a text stands at its place.
+/// The part of a text that is at the text's place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
-    /// Its beginning.
+    /// The beginning of the text.
     Start,
-    /// Its middle.
+    /// The middle of the text.
     Middle,
-    /// Its end.
+    /// The end of the text.
     End,
 }
 
-/// A colour, and how much of what is behind it is hidden.
+/// A colour with its opacity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paint {
     /// The colour.
     pub colour: Colour,
-    /// From 0, nothing is hidden, to 1.
+    /// The opacity, from 0 (invisible) to 1 (hides all behind it).
     pub opacity: f64,
 }
 
@@ -93,34 +93,34 @@ impl From<Colour> for Paint {
 }
 
 impl Paint {
-    /// Some of it.
+    /// Returns the paint with its opacity multiplied by `share`.
     pub(super) fn faint(self, share: f64) -> Self {
         Self { opacity: self.opacity * share, ..self }
     }
 }
 
-/// A line that a pen follows, lifted now and then.
+/// A line that a pen follows; the pen may be lifted.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Contour {
-    /// What the pen does, in turn.
+    /// The movements of the pen, in their order.
     pub segments: Vec<PathSegment>,
 }
 
 /// A movement of the pen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PathSegment {
-    /// Lifted, to a place.
+    /// The pen is lifted and moves to a place.
     Move(Pixel),
-    /// Straight to a place.
+    /// The pen draws a straight line to a place.
     Line(Pixel),
-    /// By two control points to a place.
+    /// The pen draws a cubic Bézier curve by two control points to a place.
     Cubic(Pixel, Pixel, Pixel),
-    /// Straight to where it was put down last.
+    /// The pen draws a straight line to the place where it was last put down.
     Close,
 }
 
 impl Contour {
-    /// The line through these points.
+    /// Makes the line through these points.
     pub(super) fn polyline(points: impl IntoIterator<Item = Pixel>) -> Self {
         let mut contour = Self::default();
         for point in points {
@@ -130,21 +130,21 @@ impl Contour {
         contour
     }
 
-    /// The polygon with these corners.
+    /// Makes the polygon with these corners.
     pub(super) fn polygon(corners: impl IntoIterator<Item = Pixel>) -> Self {
         let mut contour = Self::polyline(corners);
         contour.segments.push(PathSegment::Close);
         contour
     }
 
-    /// The rectangle between two corners.
+    /// Makes the rectangle between two corners.
     pub(super) fn rectangle([left, top]: Pixel, [right, bottom]: Pixel) -> Self {
         Self::polygon([[left, top], [right, top], [right, bottom], [left, bottom]])
     }
 
-    /// A circle.
+    /// Makes a circle.
     pub(super) fn circle([x, y]: Pixel, radius: f64) -> Self {
-        // The control points of a quarter that is right to 0.03 % of the radius.
+        // The control points of a quarter circle, with an error of at most 0.03 % of the radius.
         let reach = 4.0 / 3.0 * libm::tan(0.25 * FRAC_PI_2);
         let on = |i: usize| {
             let (sin, cos) = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][i % 4];
@@ -163,7 +163,7 @@ impl Contour {
         Self { segments }
     }
 
-    /// A star of this many points.
+    /// Makes a star of this many points.
     pub(super) fn star([x, y]: Pixel, points: usize, outer: f64, inner: f64) -> Self {
         Self::polygon((0..2 * points).map(|i| {
             let (sin, cos) = libm::sincos(i as f64 * TAU / (2 * points) as f64 - 2.0 * FRAC_PI_4);

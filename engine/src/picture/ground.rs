@@ -1,4 +1,4 @@
-//! Roads with their markings, as they lie there.
+//! Draws the ground: roads with their markings.
 
 use super::drawing::{Colour, Contour, Paint, PathSegment, PictureItem};
 use super::view::View;
@@ -6,17 +6,17 @@ use crate::geometry::Pose;
 use crate::road::{Lane, LaneKind, RoadNetwork, Strip, Surface};
 use nalgebra::Vector2;
 
-/// What is thinner than this many pixels is left out.
+/// The least width in pixels of a strip. Thinner strips are left out.
 const THINNEST: f64 = 0.2;
-/// The least number of pixels to a metre at which lanes have arrows.
+/// The least scale, in pixels per metre, at which lanes have arrows.
 const LEAST_SCALE: f64 = 2.0;
-/// Metres between two arrows on a lane.
+/// The distance in metres between two arrows on a lane.
 const ARROWS: f64 = 40.0;
 
 const GROUND: Colour = [0xe4, 0xea, 0xdb];
 const ARROW: Paint = Paint { colour: [0xff, 0xff, 0xff], opacity: 0.3 };
 
-/// The colour of a surface.
+/// Returns the colour of a surface.
 fn colour(surface: Surface) -> Colour {
     match surface {
         Surface::Sidewalk => [0xd6, 0xd2, 0xca],
@@ -28,7 +28,7 @@ fn colour(surface: Surface) -> Colour {
     }
 }
 
-/// The ground that a view shows: all strips of a surface as one shape.
+/// Draws the ground that a view shows: all strips of a surface as one shape.
 pub(super) fn ground(view: &View, network: &RoadNetwork) -> Vec<PictureItem> {
     let [width, height] = view.size();
     let mut marks = vec![Contour::rectangle([0.0, 0.0], [width, height]).fill(GROUND)];
@@ -61,7 +61,7 @@ pub(super) fn ground(view: &View, network: &RoadNetwork) -> Vec<PictureItem> {
     marks
 }
 
-/// Arrows on the lanes of roads, the way of their traffic; none where they would be too small to be told.
+/// Draws arrows on the lanes of roads, in the direction of their traffic, if they would not be too small.
 pub(super) fn directions(view: &View, network: &RoadNetwork) -> PictureItem {
     let mut contour = Contour::default();
     let large = view.scale >= LEAST_SCALE;
@@ -79,7 +79,7 @@ pub(super) fn directions(view: &View, network: &RoadNetwork) -> PictureItem {
     contour.fill(ARROW)
 }
 
-/// The middle of every lane with an arrow in its middle, in the colour of what the lane is part of.
+/// Draws the middle of every lane with an arrow on it, in a colour for the kind of the lane.
 pub(super) fn lanes(view: &View, network: &RoadNetwork) -> Vec<PictureItem> {
     let marks = network.lanes().iter().flat_map(|lane| {
         let mut head = Contour::default();
@@ -97,7 +97,7 @@ fn arrow(contour: &mut Contour, view: &View, here: &Pose, corners: impl IntoIter
     contour.segments.extend(Contour::polygon(corners.into_iter().map(corner)).segments);
 }
 
-/// The colour of a lane's middle.
+/// Returns the colour of a lane's middle.
 fn lane_colour(lane: &Lane) -> Colour {
     match lane.kind {
         LaneKind::Road => [0x8e, 0xca, 0xe6],
@@ -107,7 +107,7 @@ fn lane_colour(lane: &Lane) -> Colour {
     }
 }
 
-/// A point of the ground that is metres ahead of a pose and to its left.
+/// Returns the point of the ground that is `ahead` metres ahead of a pose and `left` metres to its left.
 pub(super) fn seen_from(pose: &Pose, ahead: f64, left: f64) -> Vector2<f64> {
     pose.position + pose.forward() * ahead + pose.left() * left
 }

@@ -1,32 +1,32 @@
-//! Labels that keep out of each other's way: one that finds no room is left out.
+//! Places labels so that they do not overlap. A label that finds no room is left out.
 
 use super::drawing::{Anchor, PictureItem, Pixel};
 use super::legend::{INK, PAPER, text_width};
 use nalgebra::Vector2;
 
-/// Where there are labels already.
+/// The places of a picture where no further label may be.
 #[derive(Debug)]
 pub(super) struct Labels {
-    /// Width and height of the picture.
+    /// The width and height of the picture in pixels.
     size: [f64; 2],
     taken: Vec<[f64; 4]>,
 }
 
-/// The size of letters in pixels.
+/// The size of the letters in pixels.
 const SIZE: f64 = 13.0;
 
 impl Labels {
-    /// No labels yet on a picture of this width and height.
+    /// Starts without labels on a picture of this width and height.
     pub fn on(size: [f64; 2]) -> Self {
         Self { size, taken: Vec::new() }
     }
 
-    /// Keeps labels away from here: a square with sides of twice these pixels.
+    /// Keeps labels out of a square around a place, `by` pixels to each side.
     pub fn keep_off(&mut self, [x, y]: Pixel, by: f64) {
         self.taken.push([x - by, y - by, x + by, y + by]);
     }
 
-    /// The label `gap` pixels beside `from`, in the first of these directions in which there is room.
+    /// Places a label `gap` pixels beside a place, in the first of these directions that has room. `None` if none has.
     pub fn place(
         &mut self,
         text: &str,

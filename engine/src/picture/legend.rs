@@ -1,4 +1,4 @@
-//! What stands below a picture: how long a metre is, and what is what.
+//! The legend below a picture: a scale in metres, and an explanation of the marks.
 
 use super::body::{UNDER_TEST, body, class_colour};
 use super::drawing::{Anchor, Colour, Contour, Drawing, PictureItem, Pixel};
@@ -8,18 +8,18 @@ use crate::object::{Body, Class};
 use crate::road::Bounds;
 use nalgebra::Vector2;
 
-/// The colour of what is written.
+/// The colour of texts.
 pub(super) const INK: Colour = [0x33, 0x33, 0x33];
 pub(super) const PAPER: Colour = [0xff, 0xff, 0xff];
 /// The size of letters in pixels.
 pub(super) const LETTERS: f64 = 14.0;
-/// Pixels from an edge to what is written.
+/// The pixels from an edge to a text.
 const MARGIN: f64 = 12.0;
-/// The height of a line of the legend.
+/// The height in pixels of a line of the legend.
 const LINE: f64 = 30.0;
-/// Metres around the bodies that explain themselves: more than they take.
+/// The metres around a sample body: more than the body takes.
 const SWATCH: f64 = 20.0;
-/// Pixels to a metre of the bodies that explain themselves.
+/// The scale of the sample bodies, in pixels per metre.
 const SCALE: f64 = 5.5;
 
 /// An entry of the legend.
@@ -31,7 +31,7 @@ pub(super) enum Entry {
     Contact,
 }
 
-/// The width of a text in pixels, rather too much: whoever shows it may have another font.
+/// Estimates the width of a text in pixels, rather too large, because a viewer may have another font.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     0.56 * size * text.chars().count() as f64
 }
@@ -40,7 +40,7 @@ pub(super) fn text(at: Pixel, anchor: Anchor, text: impl Into<String>) -> Pictur
     PictureItem::Text { at, anchor, size: LETTERS, colour: INK, halo: None, text: text.into() }
 }
 
-/// The entries for the car under test and the classes of these bodies, of which the car is the first.
+/// Returns the entries for the car under test and the classes of the other bodies. The car is the first body.
 pub(super) fn entries<'a>(bodies: impl Iterator<Item = &'a Body>) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     let mut others = Vec::new();
@@ -56,7 +56,7 @@ pub(super) fn entries<'a>(bodies: impl Iterator<Item = &'a Body>) -> Vec<Entry> 
     entries
 }
 
-/// A strip with a scale of so many pixels to a metre, the entries, and a caption where there is room for it.
+/// Draws a strip with a scale bar (`scale` pixels per metre), the entries, and a caption if it is not empty.
 pub(super) fn legend(width: f64, scale: f64, entries: &[Entry], caption: &str) -> Drawing {
     let mut marks = Vec::new();
     let (mut x, mut line) = (MARGIN, 0);
@@ -83,7 +83,7 @@ pub(super) fn legend(width: f64, scale: f64, entries: &[Entry], caption: &str) -
     Drawing { width, height, marks }
 }
 
-/// A bar of a round number of metres, eighty pixels or somewhat more long; how much room it takes.
+/// Draws a bar of a round number of metres, at least 80 pixels long. Returns the width of the bar with its label.
 pub(super) fn scale_bar(marks: &mut Vec<PictureItem>, [x, y]: Pixel, scale: f64) -> f64 {
     let wanted = 80.0 / scale;
     let mut tens = (0..12).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * libm::pow(10.0, f64::from(power))));
@@ -105,7 +105,7 @@ fn name(entry: &Entry) -> String {
     }
 }
 
-/// How wide what explains an entry is, in pixels.
+/// Returns the width in pixels of the sample of an entry.
 fn swatch_width(entry: &Entry) -> f64 {
     match entry {
         Entry::UnderTest(body) | Entry::Body(body) => {
@@ -117,7 +117,7 @@ fn swatch_width(entry: &Entry) -> f64 {
     }
 }
 
-/// The body as the legend shows it: no longer than fits into a line.
+/// Returns the body as the legend shows it, short enough for a line.
 fn shown(body: &Body) -> Body {
     match body.class {
         Class::Car => Body::car(),
@@ -144,15 +144,15 @@ fn swatch(marks: &mut Vec<PictureItem>, entry: &Entry, [x, y]: Pixel) {
     }
 }
 
-/// Pixels of dash and of gap of a planned path.
+/// The pixels of dash and of gap of a planned path.
 pub(super) const PLAN_DASH: [f64; 2] = [6.0, 6.0];
 
-/// A body as a sample of its class.
+/// Draws a body as a sample of its class.
 fn sample(of: &Body, colour: Colour, middle: Pixel) -> Vec<PictureItem> {
     let [x, y] = middle.map(|pixels| pixels / SCALE);
     let view = View { bounds: Bounds { min: Vector2::new(-x, -SWATCH), max: Vector2::new(SWATCH, y) }, scale: SCALE };
     let mut marks = body(&view, &shown(of), &Pose { position: Vector2::zeros(), heading: 0.0 }, colour, 1.0);
-    // Rims are as white as the paper.
+    // Rims are as white as the paper, so they get another colour here.
     for mark in &mut marks {
         if let PictureItem::Stroke { paint, .. } = mark
             && paint.colour == PAPER
@@ -163,7 +163,7 @@ fn sample(of: &Body, colour: Colour, middle: Pixel) -> Vec<PictureItem> {
     marks
 }
 
-/// Where the car under test touched something.
+/// Draws the star where the car under test touched something.
 pub(super) fn contact(middle: Pixel, radius: f64) -> [PictureItem; 2] {
     let star = Contour::star(middle, 8, radius, 0.5 * radius);
     [star.clone().stroke([0x22, 0x22, 0x22], 2.5), star.fill([0xf0, 0xe4, 0x42])]

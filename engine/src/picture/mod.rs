@@ -1,12 +1,12 @@
 //! Pictures of worlds and of runs, from above.
 //!
-//! Three things can be drawn: a road network ([`RoadPicture`]), a world as it begins, with the ways that are planned in
-//! it ([`world`]), and what was seen of a run ([`MotionRecord`]), all at once ([`MotionRecord::story`]) or moment by moment
-//! ([`MotionRecord::film`]). What is drawn is a [`Drawing`], a list of marks that is written as SVG here, and rasterised by
-//! whoever wants pixels.
+//! There are pictures of a road network ([`RoadPicture`]), of a world at the start of a run with the planned ways
+//! ([`world`]), and of a recorded run ([`MotionRecord`]): in one picture ([`MotionRecord::story`]) or moment by moment
+//! ([`MotionRecord::film`]). A picture is a [`Drawing`]: a list of marks that this module writes as SVG and that others
+//! can rasterise.
 //!
-//! A picture shows the ground where the actors are and go rather than all of a long road, so that a car is never a mere
-//! dot as long as that can be avoided.
+//! A picture shows the ground around the actors and their ways rather than all of a long road. So a car is more than a
+//! dot wherever possible.
 
 mod animation;
 mod body;

@@ -1,8 +1,8 @@
-//! How a run is cut into pages: stretches of time that each fit into one view of the same size, in which a car can still
-//! be told from a lorry.
+//! Cuts a run into pages: stretches of time that each fit into one view of the same size, in which a car can still be
+//! told from a lorry.
 //!
-//! A page ends where the car under test drives out of the largest view, so that pages follow it as a reader's eyes
-//! follow a line of text. Pages on which it is all alone are left out, if there are others.
+//! A page ends when the car under test drives out of the largest view, so pages follow the car as a reader's eyes
+//! follow a line of text. Pages on which the car is alone are left out, if there are others.
 
 use super::body::is_actor;
 use super::record::{MotionRecord, Scene};
@@ -12,33 +12,33 @@ use crate::object::Body;
 use crate::road::Bounds;
 use std::ops::Range;
 
-/// Metres that a page shows at most from left to right, and from top to bottom, unless there would be too many pages.
+/// The greatest width and height of a page in metres, unless there would be too many pages.
 const SPAN: [f64; 2] = [170.0, 100.0];
-/// By how much the span may be larger for the sake of having one page only.
+/// The factor by which a page may be larger if the whole run then fits on one page.
 const ALONE: f64 = 1.6;
-/// How many pages there are at most, and how high they all are together, as a share of their width.
+/// The greatest number of pages, and the greatest height of all pages together as a share of their width.
 const MOST: usize = 6;
 const HIGHEST: f64 = 1.5;
-/// How far from the car under test, in metres, others have to be seen: the first of these that gives one page.
+/// Distances in metres within which others have to be seen from the car under test: the first that gives one page.
 const REACHES: [f64; 4] = [f64::INFINITY, 200.0, 100.0, NEAR];
-/// How far others are seen in any case.
+/// The distance in metres within which others are always seen.
 const NEAR: f64 = 50.0;
-/// How often the span is halved or nearly so, in search of the least one that gives as many pages.
+/// The number of bisection steps in the search for the smallest span with the same number of pages.
 const HALVINGS: usize = 7;
-/// Moments between two at which the edges of the road are looked for.
+/// The number of moments from one search for the edges of the road to the next.
 const EDGES: usize = 10;
 
-/// A stretch of a run.
+/// A stretch of a run and the view that shows it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Page {
     pub view: View,
     pub moments: Range<usize>,
 }
 
-/// A stretch and what has to be seen in it.
+/// The bounds that have to be seen, and the moments of a stretch.
 type Stretch = (Bounds, Range<usize>);
 
-/// The pages of a run, each a picture of this width in pixels, all of one size and scale. There are moments.
+/// Cuts a run, which has moments, into pages: pictures of this width in pixels, all of one size and scale.
 pub(super) fn pages(record: &MotionRecord, scene: &Scene, width: f64) -> Vec<Page> {
     let all = 0..record.moments.len();
     let whole = |reach: &f64| with_margin(&record.bounds(scene, all.clone(), *reach));
@@ -48,7 +48,7 @@ pub(super) fn pages(record: &MotionRecord, scene: &Scene, width: f64) -> Vec<Pag
         let cars = record.moments[moments.clone()].iter().step_by(EDGES).map(|moment| moment.poses[0].position);
         *bounds = bounds.union(&across(&scene.network, cars));
     }
-    // All views have the size of the one that fits all.
+    // All views have the size that fits every stretch.
     let extents = stretches.iter().map(|(bounds, _)| bounds.max - bounds.min);
     let extent = extents.reduce(|a, b| a.sup(&b)).expect("there is a page");
     let page = |(bounds, moments): Stretch| {
@@ -59,7 +59,7 @@ pub(super) fn pages(record: &MotionRecord, scene: &Scene, width: f64) -> Vec<Pag
     stretches.into_iter().map(page).collect()
 }
 
-/// As few pages as there have to be, each about as full as the others.
+/// Returns as few pages as possible, each about as full as the others.
 fn several(record: &MotionRecord, scene: &Scene) -> Vec<Stretch> {
     let cut = |zoom: f64| with_company(record, scene, cut(record, scene, zoom));
     let mut zoom = 1.0;
@@ -81,7 +81,7 @@ fn several(record: &MotionRecord, scene: &Scene) -> Vec<Stretch> {
     pages
 }
 
-/// How high pages of one width are together, as a share of that width.
+/// Returns the height of all pages together, as a share of their common width.
 fn height(pages: &[Stretch]) -> f64 {
     let extents = pages.iter().map(|(bounds, _)| bounds.max - bounds.min);
     extents.reduce(|a, b| a.sup(&b)).map_or(0.0, |extent| pages.len() as f64 * extent.y / extent.x)
@@ -92,7 +92,7 @@ fn fits(bounds: &Bounds, zoom: f64) -> bool {
     extent.x <= SPAN[0] * zoom && extent.y <= SPAN[1] * zoom
 }
 
-/// Each page as long as it fits.
+/// Cuts the run so that each page lasts as long as it fits.
 fn cut(record: &MotionRecord, scene: &Scene, zoom: f64) -> Vec<Stretch> {
     let mut pages: Vec<Stretch> = Vec::new();
     for i in 0..record.moments.len() {
@@ -109,7 +109,7 @@ fn cut(record: &MotionRecord, scene: &Scene, zoom: f64) -> Vec<Stretch> {
     pages
 }
 
-/// The pages on which other actors are to be seen near; all of them if there are none.
+/// Returns the pages on which other actors come near; all pages if there is no such page.
 fn with_company(record: &MotionRecord, scene: &Scene, pages: Vec<Stretch>) -> Vec<Stretch> {
     let met = |(_, moments): &Stretch| {
         record.moments[moments.clone()].iter().any(|moment| {

@@ -1,4 +1,4 @@
-//! What is kept of a run for its pictures: where all bodies were, every so often.
+//! The record of a run for its pictures: the poses of all bodies at regular times.
 
 use super::body::{extent, is_actor};
 use super::view::MARGIN;
@@ -11,13 +11,13 @@ use nalgebra::Vector2;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Seconds between two moments.
+/// The seconds between two moments.
 const INTERVAL: f64 = 0.1;
-/// Metres that a body moves at least to have a way of its own.
+/// The least distance in metres that a moving body moves.
 const STIR: f64 = 0.3;
 
-/// Where all bodies of a run were, every tenth of a second or as often as its driver is asked. Show it the run by
-/// [`MotionRecord::see`], from [`Run::watch`] for example; a run that nobody watches costs nothing.
+/// The poses of all bodies of a run, every tenth of a second or as often as the driver is asked. [`MotionRecord::see`]
+/// records a moment of a run, for example from [`Run::watch`]. A run that is not recorded costs nothing.
 #[derive(Debug, Clone, Default)]
 pub struct MotionRecord {
     pub(super) scene: Option<Scene>,
@@ -26,14 +26,14 @@ pub struct MotionRecord {
     pub(super) touched: Option<usize>,
 }
 
-/// What does not change in a run.
+/// The facts that do not change in a run.
 #[derive(Debug, Clone)]
 pub(super) struct Scene {
     pub network: Arc<RoadNetwork>,
     pub bodies: Vec<Body>,
 }
 
-/// Where all bodies are at a time in seconds, the car under test first.
+/// The poses of all bodies at a time in seconds, the car under test first.
 #[derive(Debug, Clone)]
 pub(super) struct Moment {
     pub time: f64,
@@ -41,7 +41,7 @@ pub(super) struct Moment {
 }
 
 impl MotionRecord {
-    /// Looks at a run as it stands now. What comes too soon after what was seen before is passed over, the end is not.
+    /// Records a run as it stands now. A moment too soon after the last is skipped, except for the end of the run.
     pub fn see(&mut self, run: &Run) {
         let bodies = run.bodies();
         if self.scene.is_none() {
@@ -60,13 +60,13 @@ impl MotionRecord {
         }
     }
 
-    /// Whether nothing was seen: the world could not even be built.
+    /// Returns `true` if nothing was recorded, because the world could not even be built.
     pub fn is_empty(&self) -> bool {
         self.moments.is_empty()
     }
 
-    /// Where the car under test was in these moments, the actors that were within `reach` metres of it, and what stands
-    /// beside its way.
+    /// Returns the bounds of the car under test in these moments, of the actors within `reach` metres of it, and of
+    /// things near its way.
     pub(super) fn bounds(&self, scene: &Scene, moments: Range<usize>, reach: f64) -> Bounds {
         let mut bounds = Bounds::empty();
         for moment in &self.moments[moments] {
@@ -83,13 +83,13 @@ impl MotionRecord {
         bounds
     }
 
-    /// Whether a body moved in these moments.
+    /// Returns `true` if a body moved in these moments.
     pub(super) fn moves(&self, body: usize, moments: Range<usize>) -> bool {
         let start = self.moments[moments.start].poses[body].position;
         self.moments[moments].iter().any(|moment| (moment.poses[body].position - start).norm() > STIR)
     }
 
-    /// Where the car under test touches another body: the point of its outline that is nearest to the other's middle.
+    /// Returns where the car under test touches another body: the car's point nearest to the other's middle.
     pub(super) fn point_of_contact(&self, scene: &Scene) -> Option<Vector2<f64>> {
         let poses = &self.moments.last()?.poses;
         let other = poses[self.touched?].position;

@@ -1,4 +1,4 @@
-//! A road network from above, with ways and bodies on it.
+//! A picture of a road network from above, with ways and bodies on it.
 
 use super::body::body;
 use super::drawing::{Colour, Contour, Drawing, Paint, PathSegment};
@@ -9,17 +9,17 @@ use crate::geometry::Pose;
 use crate::object::{Body, Class};
 use crate::road::{Bounds, RoadNetwork, Route};
 
-/// Width or height of a picture in pixels, whichever is greater, without its margins.
+/// The width or height of a picture in pixels, whichever is greater, without its margins.
 const SIZE: f64 = 1200.0;
-/// The largest number of pixels to a metre, for small networks.
+/// The largest scale in pixels per metre, for small networks.
 const LARGEST_SCALE: f64 = 16.0;
-/// Pixels around the network, and below it for the scale.
+/// The margin around the network in pixels, and the further margin below it for the scale bar.
 const MARGIN: f64 = 28.0;
 const FOOT: f64 = 34.0;
-/// To how many metres the edges of the picture are right.
+/// The accuracy in metres of the edges of the picture.
 const FAITHFUL: f64 = 0.1;
 
-/// A network from above, and what is shown on it.
+/// A picture of a road network from above, with the ways and bodies that it shows.
 #[derive(Debug, Clone)]
 pub struct RoadPicture<'a> {
     network: &'a RoadNetwork,
@@ -29,7 +29,7 @@ pub struct RoadPicture<'a> {
 }
 
 impl<'a> RoadPicture<'a> {
-    /// The network alone.
+    /// Makes a picture of the network alone.
     pub fn of(network: &'a RoadNetwork) -> Self {
         Self { network, lanes: false, routes: Vec::new(), bodies: Vec::new() }
     }
@@ -52,7 +52,7 @@ impl<'a> RoadPicture<'a> {
         self
     }
 
-    /// The picture as the text of an SVG file.
+    /// Returns the picture as the text of an SVG file.
     pub fn svg(&self) -> String {
         let strips = self.network.strips();
         let sides = strips.iter().map(|strip| strip.sides(FAITHFUL));
@@ -78,7 +78,7 @@ impl<'a> RoadPicture<'a> {
     }
 }
 
-/// The way along the middles of its lanes; where it changes to a lane beside, over half of what is left of both.
+/// Draws the way along the middles of its lanes. A change to a lane beside takes half of what is left of both lanes.
 fn route(view: &View, network: &RoadNetwork, route: &Route) -> Contour {
     let curve = |index: usize| &network.lane(route.lanes[index]).curve;
     let mut from = route.start / curve(0).length();
@@ -107,7 +107,7 @@ fn route(view: &View, network: &RoadNetwork, route: &Route) -> Contour {
     contour
 }
 
-/// How far aside a lane change is at shares of its way: it begins and ends straight.
+/// Returns points of a lane change, straight at both ends: the share of its length, and of its lateral move there.
 fn sideways() -> impl Iterator<Item = (f64, f64)> {
     (1..=16).map(|i| f64::from(i) / 16.0).map(|share| (share, share * share * (3.0 - 2.0 * share)))
 }

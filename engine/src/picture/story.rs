@@ -1,5 +1,5 @@
-//! A whole run on one picture: the ways that were gone, with ghosts of the bodies at round times. Where the way of the
-//! car under test is too long for one view, there are several below each other.
+//! A whole run on one picture: the ways of the bodies, with ghosts of the bodies at round times. If the way of the car
+//! under test is too long for one view, there are several views below each other.
 
 use super::body::{UNDER_TEST, body, class_colour};
 use super::drawing::{Contour, Drawing, PictureItem, Pixel};
@@ -14,28 +14,28 @@ use crate::object::Outline;
 use nalgebra::Vector2;
 use std::ops::Range;
 
-/// Width of a picture in pixels.
+/// The width of a picture in pixels.
 const WIDTH: f64 = 1200.0;
-/// How many ghosts of a body a page has at least and at most, where there is time enough; and metres between those of the
-/// car under test.
+/// The least and the greatest number of ghosts of a body on a page, if there is enough time, and the distance in metres
+/// between ghosts of the car under test.
 const GHOSTS: [f64; 2] = [4.0, 9.0];
 const APART: f64 = 10.0;
-/// How many bodies have ghosts at most: those that come nearest to the car under test.
+/// The greatest number of bodies with ghosts: those that come nearest to the car under test.
 const TOLD: usize = 8;
-/// Seconds that may lie between two ghosts.
+/// The possible numbers of seconds between two ghosts.
 const STEPS: [f64; 9] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
-/// How much there is of a ghost, and of that of a small round body.
+/// The opacity of a ghost, and of the ghost of a small round body.
 const GHOST: f64 = 0.4;
 const SMALL_GHOST: f64 = 0.75;
 /// The radius in pixels of the star where bodies touch.
 const RADIUS: f64 = 11.0;
-/// Width in pixels of the way that a body went.
+/// The width in pixels of the line of a body's way.
 const WAY: f64 = 2.0;
-/// By how many pixels the drawn way may be off.
+/// The accuracy in pixels of the drawn way.
 const FAITHFUL: f64 = 0.2;
 
 impl MotionRecord {
-    /// The run from beginning to end; `caption` stands below it. Nothing where nothing was seen.
+    /// Draws the run from beginning to end, with `caption` below the picture. `None` if nothing was recorded.
     pub fn story(&self, caption: &str) -> Option<Drawing> {
         let scene = self.scene.as_ref().filter(|_| !self.is_empty())?;
         let pages = pages(self, scene, WIDTH);
@@ -45,7 +45,7 @@ impl MotionRecord {
         Some(framed(&pages[0].view, panels, &entries, caption))
     }
 
-    /// The legend for what is seen on these pages.
+    /// Returns the legend's entries for the bodies on these pages.
     pub(super) fn entries(&self, scene: &Scene, pages: &[Page]) -> Vec<Entry> {
         let on = |i: usize, page: &Page| {
             let mut poses = self.moments[page.moments.clone()].iter().map(|moment| moment.poses[i]);
@@ -82,7 +82,7 @@ impl MotionRecord {
         marks
     }
 
-    /// The bodies that move and come nearest to the car under test, which is among them if it moves itself.
+    /// Returns the moving bodies that come nearest to the car under test, including the car itself if it moves.
     fn told(&self, page: &Page, moving: &[bool]) -> Vec<usize> {
         let nearest = |i: &usize| {
             let apart = |moment: &Moment| (moment.poses[*i].position - moment.poses[0].position).norm();
@@ -95,7 +95,7 @@ impl MotionRecord {
         told
     }
 
-    /// The moments of ghosts: round times, and the end.
+    /// Returns the moments of ghosts, at round times.
     fn round_times(&self, page: &Page) -> Vec<usize> {
         let moments = &self.moments[page.moments.clone()];
         let (from, to) = (moments[0].time, moments[moments.len() - 1].time);
@@ -114,7 +114,7 @@ impl MotionRecord {
         times
     }
 
-    /// Dots with times on the ways, and the contact.
+    /// Draws dots with times on the ways, and the contact.
     fn time_marks(&self, scene: &Scene, page: &Page, times: &[usize], told: &[usize]) -> Vec<PictureItem> {
         let view = &page.view;
         let (mut dots, mut texts, mut labels) = (Vec::new(), Vec::new(), Labels::on(view.size()));
@@ -144,7 +144,7 @@ impl MotionRecord {
                 }
                 before = Some(pose.position);
                 let at = view.at(pose.position);
-                // What is round is a dot itself.
+                // A round body is a dot itself.
                 let aside = match scene.bodies[i].outline {
                     Outline::Rectangle { width, .. } => {
                         dots.extend([Contour::circle(at, 3.2).fill(INK), Contour::circle(at, 1.8).fill(PAPER)]);
@@ -162,7 +162,7 @@ impl MotionRecord {
         dots
     }
 
-    /// The way of a body in these moments.
+    /// Returns the way of a body in these moments.
     pub(super) fn way(&self, view: &View, body: usize, moments: Range<usize>) -> Contour {
         let points: Vec<Pixel> = self.moments[moments].iter().map(|m| view.at(m.poses[body].position)).collect();
         let mut kept = vec![points[0]];
@@ -171,12 +171,12 @@ impl MotionRecord {
     }
 }
 
-/// To a tenth, without zeros at the end.
+/// Rounds a time to a tenth, without zeros at the end.
 fn rounded(time: f64) -> String {
     format!("{}", (time * 10.0).round() / 10.0)
 }
 
-/// Adds the points after the first that a line needs to be right: the algorithm of Ramer (1972), Douglas and Peucker.
+/// Adds the points after the first that an accurate line needs: the algorithm of Ramer (1972), Douglas and Peucker.
 fn simplified(points: &[Pixel], kept: &mut Vec<Pixel>) {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
     let off = |p: &Pixel| {

@@ -1,13 +1,13 @@
-//! A picture as the text of an SVG file.
+//! Writes a picture as the text of an SVG file.
 
 use super::drawing::{Anchor, Colour, Contour, Drawing, Paint, PathSegment, PictureItem, Pixel};
 use std::fmt::Write;
 
-/// The font that pictures are made for; viewers that do not have it take their own.
+/// The font that pictures are made for. A viewer without this font takes another.
 const FONT: &str = "Open Sans, sans-serif";
 
 impl Drawing {
-    /// The picture as the text of an SVG file.
+    /// Returns the picture as the text of an SVG file.
     pub fn svg(&self) -> String {
         let [width, height] = [self.width, self.height].map(number);
         let mut svg = Svg { text: String::new() };
@@ -106,17 +106,17 @@ fn path(contour: &Contour) -> String {
     text
 }
 
-/// A share or a width, to a hundredth.
+/// Formats a share or a width, to a hundredth.
 fn number(value: f64) -> String {
     trimmed(format!("{value:.2}"))
 }
 
-/// A place, to a tenth of a pixel.
+/// Formats a place, to a tenth of a pixel.
 fn place(value: f64) -> String {
     trimmed(format!("{value:.1}"))
 }
 
-/// Without zeros at the end.
+/// Removes zeros at the end.
 fn trimmed(text: String) -> String {
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }

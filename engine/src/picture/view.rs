@@ -1,4 +1,4 @@
-//! Which part of the ground a picture shows, and how large.
+//! The part of the ground that a picture shows, and its scale.
 
 use super::drawing::{Contour, PathSegment, Pixel};
 use crate::road::{Bounds, Curve, RoadNetwork, Surface};
@@ -9,28 +9,28 @@ use std::f64::consts::FRAC_PI_4;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct View {
     pub bounds: Bounds,
-    /// Pixels to a metre.
+    /// The scale in pixels per metre.
     pub scale: f64,
 }
 
-/// Metres to the left and right of what has to be seen, and above and below it.
+/// The margin in metres to the left and right of the bounds, and above and below them.
 pub(super) const MARGIN: [f64; 2] = [14.0, 6.0];
-/// How far in metres the edges of a road may be from who is on it.
+/// The greatest distance in metres from a road user to the edges of the road that are shown.
 const ACROSS: f64 = 25.0;
-/// Metres beyond the edges of a road.
+/// The metres that are shown beyond the edges of a road.
 const VERGE: f64 = 2.0;
-/// The least width in metres that a picture shows.
+/// The least width in metres of the ground in a picture.
 const NARROWEST: f64 = 60.0;
 /// The least and the largest height of a picture, as shares of its width.
 const HEIGHTS: [f64; 2] = [0.12, 0.7];
 
-/// What has to be seen, with some ground around it.
+/// Returns the bounds with some ground around them.
 pub(super) fn with_margin(bounds: &Bounds) -> Bounds {
     let margin = Vector2::from(MARGIN);
     Bounds { min: bounds.min - margin, max: bounds.max + margin }
 }
 
-/// Across the road at each of these points, from edge to edge.
+/// Returns the bounds of the road's edges at each of these points.
 pub(super) fn across(network: &RoadNetwork, points: impl Iterator<Item = Vector2<f64>>) -> Bounds {
     let mut strips = network.strips();
     strips.retain(|strip| matches!(strip.surface, Surface::Sidewalk | Surface::Carriageway));
@@ -47,7 +47,7 @@ pub(super) fn across(network: &RoadNetwork, points: impl Iterator<Item = Vector2
 }
 
 impl View {
-    /// A picture of this width in pixels that shows all within some bounds, and around them what makes it neither too
+    /// Makes a view of this width in pixels that shows all within some bounds, and enough around them to be neither too
     /// flat nor too tall.
     pub fn fit(bounds: &Bounds, width: f64) -> Self {
         let extent = bounds.max - bounds.min;
@@ -57,31 +57,31 @@ impl View {
         Self { bounds: Bounds { min: centre - half, max: centre + half }, scale: width / wide }
     }
 
-    /// Width and height in pixels.
+    /// Returns the width and height in pixels.
     pub fn size(&self) -> [f64; 2] {
         let extent = (self.bounds.max - self.bounds.min) * self.scale;
         [extent.x.round(), extent.y.round()]
     }
 
-    /// Where a point of the ground is on the picture.
+    /// Returns the place of a point of the ground on the picture.
     pub fn at(&self, point: Vector2<f64>) -> Pixel {
         [(point.x - self.bounds.min.x) * self.scale, (self.bounds.max.y - point.y) * self.scale]
     }
 
-    /// Whether a point can be seen, or is this many metres beyond the edge at most.
+    /// Returns `true` if a point is inside the view or at most this many metres beyond its edge.
     pub fn shows(&self, point: Vector2<f64>, beyond: f64) -> bool {
         Bounds { min: point, max: point }.meets(&self.bounds.grown(beyond))
     }
 
-    /// The contour of a curve, `offset` metres to its left.
+    /// Returns the contour of a curve, `offset` metres to its left.
     pub fn curve(&self, curve: &Curve, offset: f64) -> Contour {
         let mut contour = Contour { segments: vec![PathSegment::Move(self.at(curve.beside(0.0, offset)))] };
         self.along(&mut contour, curve, offset, [0.0, curve.length()]);
         contour
     }
 
-    /// On beside a curve: a line, or arcs of an eighth of a circle at most, which are right to a few millionths of the
-    /// radius.
+    /// Continues a contour beside a curve: with a line, or with arcs of an eighth of a circle at most, whose error is a
+    /// few millionths of the radius.
     pub fn along(&self, contour: &mut Contour, curve: &Curve, offset: f64, [from, to]: [f64; 2]) {
         if curve.curvature() == 0.0 {
             return contour.segments.push(PathSegment::Line(self.at(curve.beside(to, offset))));

@@ -1,4 +1,4 @@
-//! A world as it begins: roads, bodies, and the ways that are planned.
+//! A picture of a world as it begins: roads, bodies, and planned ways.
 
 use super::body::{UNDER_TEST, body, class_colour, extent, is_actor};
 use super::drawing::{Contour, Drawing, Paint, PictureItem};
@@ -10,22 +10,22 @@ use crate::road::{Bounds, Path, RoadNetwork};
 use crate::run::Run;
 use nalgebra::Vector2;
 
-/// Width of a picture in pixels.
+/// The width of a picture in pixels.
 const WIDTH: f64 = 1200.0;
-/// The widest ground in metres that is shown for the sake of planned ways alone.
+/// The greatest extent in metres of the ground that is shown because of planned ways alone.
 const WIDEST: f64 = 240.0;
-/// How many metres of a planned way are shown: the first of these that does not make the picture too wide.
+/// The possible lengths in metres of the shown part of planned ways: the first for which the picture is not too wide.
 const REACHES: [f64; 6] = [f64::INFINITY, 320.0, 160.0, 80.0, 40.0, 0.0];
-/// How near in metres something stands that is seen for that.
+/// The distance in metres from an actor or a planned way within which other bodies are shown.
 pub(super) const NEAR: f64 = 16.0;
-/// How many metres of planned ways there are in all at most, so that roads are still seen: of each the first part.
+/// The greatest total length of planned ways in metres, so that roads are still seen; the rest of each way is left out.
 const MOST: f64 = 5000.0;
-/// Metres between two points of a planned way.
+/// The distance in metres between two points of a planned way.
 const STEP: f64 = 1.0;
-/// How faint a planned way is.
+/// The opacity of a planned way.
 const FAINT: f64 = 0.9;
 
-/// The world of a run from above, as it stands now.
+/// Draws the world of a run from above, as it stands now.
 pub fn world(run: &Run, caption: &str) -> Drawing {
     let bodies = run.bodies();
     let plans = run.plans();
@@ -58,7 +58,7 @@ pub fn world(run: &Run, caption: &str) -> Drawing {
     framed(&view, vec![marks], &entries, caption)
 }
 
-/// Pictures of one size below each other, and the legend.
+/// Puts pictures of one size below each other, and the legend below them.
 pub(super) fn framed(view: &View, panels: Vec<Vec<PictureItem>>, entries: &[Entry], caption: &str) -> Drawing {
     const GAP: f64 = 4.0;
     let [width, height] = view.size();
@@ -75,7 +75,7 @@ pub(super) fn framed(view: &View, panels: Vec<Vec<PictureItem>>, entries: &[Entr
     Drawing { width, height: total, marks }
 }
 
-/// Where the actors are and go, across the road, and what stands near.
+/// Returns the bounds of the actors and their planned ways, of the road across, and of bodies near them.
 fn around(network: &RoadNetwork, bodies: &[BodyState], plans: &[(usize, Path)]) -> Bounds {
     let actors = bodies.iter().enumerate().filter(|(i, state)| *i == 0 || is_actor(state.body.class));
     let actors: Vec<_> = actors.map(|(_, state)| state.pose.position).collect();
@@ -92,13 +92,13 @@ fn around(network: &RoadNetwork, bodies: &[BodyState], plans: &[(usize, Path)]) 
     views.find(|bounds| (bounds.max - bounds.min).max() <= WIDEST).unwrap_or_else(|| reaching(0.0))
 }
 
-/// Points along the beginning of a path, of this length.
+/// Returns points along the first `length` metres of a path.
 fn points(path: &Path, length: f64) -> impl Iterator<Item = Vector2<f64>> {
     let count = (length / STEP).ceil().clamp(1.0, 10_000.0) as usize;
     (0..=count).map(move |i| path.at(length * i as f64 / count as f64).position)
 }
 
-/// A planned way with an arrow at its end.
+/// Draws a planned way with an arrow at its end.
 fn plan(view: &View, path: &Path, paint: Paint) -> Vec<PictureItem> {
     let mut contour = Contour::default();
     for curve in path.curves() {
@@ -113,7 +113,7 @@ fn plan(view: &View, path: &Path, paint: Paint) -> Vec<PictureItem> {
     vec![rim, contour.dashed(paint, 2.5, PLAN_DASH), Contour::polygon(head).fill(paint)]
 }
 
-/// An arrow before the car under test: where it goes is its driver's to say.
+/// Draws an arrow in front of the car under test. Its driver decides where the car goes, so no way is drawn.
 fn heading(view: &View, car: &BodyState) -> PictureItem {
     let front = car.body.outline.half_extent().x + 6.0 / view.scale;
     let size = 1.0 / view.scale;

@@ -1,6 +1,6 @@
-//! Boxes along the axes, and a tree of them: which of many things is nearest to a point, which come near a box.
+//! Boxes with sides along the axes, and a tree of boxes that finds the item nearest to a point and items near a box.
 //!
-//! The tree is a bounding volume hierarchy over boxes that never change: halves by the median along the longer side.
+//! The tree is a bounding volume hierarchy over constant boxes, halved at the median along the longer side.
 
 use nalgebra::Vector2;
 use std::ops::Range;
@@ -8,14 +8,14 @@ use std::ops::Range;
 /// A box with sides along the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// The corner with the least coordinates.
+    /// The corner with the smallest coordinates.
     pub min: Vector2<f64>,
-    /// The corner with the greatest coordinates.
+    /// The corner with the largest coordinates.
     pub max: Vector2<f64>,
 }
 
 impl Bounds {
-    /// The box of no point, which becomes that of what is included.
+    /// Returns the box that contains no point. It is the start for [`Bounds::include`] and [`Bounds::union`].
     pub(crate) fn empty() -> Self {
         Self { min: Vector2::repeat(f64::INFINITY), max: Vector2::repeat(f64::NEG_INFINITY) }
     }
@@ -35,7 +35,7 @@ impl Bounds {
         Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
     }
 
-    /// The box with every side moved outward.
+    /// Returns the box with every side moved outward by `by` metres.
     pub(crate) fn grown(&self, by: f64) -> Self {
         Self { min: self.min.add_scalar(-by), max: self.max.add_scalar(by) }
     }
@@ -49,17 +49,17 @@ impl Bounds {
         0.5 * (self.min + self.max)
     }
 
-    /// The square of the distance to a point; 0 inside.
+    /// Returns the square of the distance to a point; 0 if the point is inside.
     fn distance_squared(&self, point: Vector2<f64>) -> f64 {
         let beyond = (self.min - point).sup(&(point - self.max)).sup(&Vector2::zeros());
         beyond.norm_squared()
     }
 }
 
-/// Many boxes, by their indices.
+/// A tree over many boxes, which are identified by their indices.
 #[derive(Debug)]
 pub(super) struct Tree {
-    /// The first is the root; the first child of a node follows it.
+    /// The nodes of the tree. The first node is the root; the first child of a node follows the node directly.
     nodes: Vec<Node>,
     items: Vec<u32>,
 }
@@ -72,13 +72,13 @@ struct Node {
 
 #[derive(Debug)]
 enum Below {
-    /// The items in this range.
+    /// A leaf with the items in this range.
     Leaf(Range<usize>),
-    /// The next node, and this one.
+    /// An inner node. Its children are the next node and the node with this index.
     Second(usize),
 }
 
-/// Items in a leaf.
+/// The largest number of items in a leaf.
 const LEAF: usize = 4;
 
 impl Tree {
@@ -109,8 +109,8 @@ impl Tree {
         self.split(boxes, range.start + middle..range.end);
     }
 
-    /// The item with the least distance to a point, of those that have one, and the least index among equals.
-    /// `distance_squared` is that of an item, never less than that of its box.
+    /// Returns the item with the smallest distance to a point, and the smallest index among equals. `distance_squared`
+    /// gives the squared distance of an item, never less than that of its box, or `None` for an item to leave out.
     pub fn nearest(&self, point: Vector2<f64>, distance_squared: impl Fn(u32) -> Option<f64>) -> Option<u32> {
         let mut best: Option<(f64, u32)> = None;
         let mut open = Vec::with_capacity(64);
@@ -133,7 +133,7 @@ impl Tree {
                 Below::Second(second) => {
                     let mut children =
                         [index + 1, *second].map(|child| (self.nodes[child].bounds.distance_squared(point), child));
-                    // The nearer is looked at first: it lies on top.
+                    // The nearer child lies on top of the stack and is visited first.
                     if children[0].0 < children[1].0 {
                         children.swap(0, 1);
                     }
@@ -144,14 +144,14 @@ impl Tree {
         best.map(|(_, item)| item)
     }
 
-    /// The items below the nodes that meet a box: all whose own boxes do, and some that come near.
+    /// Returns all items whose boxes meet `target`, and some items whose boxes are only near it.
     pub fn near(&self, target: &Bounds) -> Vec<u32> {
         let mut found = Vec::new();
         self.visit_near(target, &mut Vec::new(), |item| found.push(item));
         found
     }
 
-    /// The same without an allocation, where `open` has been used before.
+    /// Visits the same items as [`Tree::near`]. It allocates nothing if `open` has been used before.
     pub fn visit_near(&self, target: &Bounds, open: &mut Vec<usize>, mut visit: impl FnMut(u32)) {
         open.clear();
         open.extend((!self.nodes.is_empty()).then_some(0));

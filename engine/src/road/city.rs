@@ -1,4 +1,4 @@
-//! The grid city of the paper's Figure 3.
+//! A city with a grid of streets, as in the paper's Figure 3.
 
 use super::composite::Composite;
 use super::element::{CrossIntersection, RoadSegment, TIntersection};
@@ -7,17 +7,17 @@ use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Directions are counted clockwise from the east, as the points of intersections are.
+/// The directions, counted clockwise from the east, as the points of intersections are.
 const EAST: usize = 0;
 const SOUTH: usize = 1;
 const WEST: usize = 2;
 const NORTH: usize = 3;
 
-/// Streets `block` metres long between `rows` times `columns` junctions: cross-intersections, T-intersections along
-/// the edges and bends in the corners, so that no street ends nowhere.
+/// Returns a city of `rows` times `columns` junctions with streets of `block` metres between them. It has
+/// cross-intersections, T-intersections along the edges and bends in the corners, so that no street has a dead end.
 ///
-/// The junction in row 3 and column 4, counted from 0 in the north-west, is called `junction 3,4`; from it lead
-/// `street 3,4 east` and `street 3,4 south`. The middle of `junction 0,0` is the origin.
+/// The junction in row 3 and column 4, counted from 0 in the north-west, is called `junction 3,4`; the streets that
+/// begin there are `street 3,4 east` and `street 3,4 south`. The middle of `junction 0,0` is the origin.
 ///
 /// # Panics
 /// There are fewer than two rows or columns.
@@ -52,7 +52,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// Whether a street leads from a junction in a direction.
+    /// Returns `true` if a street leads from a junction in a direction.
     fn leads(&self, row: usize, column: usize, direction: usize) -> bool {
         match direction {
             EAST => column + 1 < self.columns,
@@ -62,7 +62,7 @@ impl Grid {
         }
     }
 
-    /// The point of a junction in a direction. Its first point is the one before which, clockwise, there is none.
+    /// Returns the point of a junction in a direction. No street lies counter-clockwise of the first point.
     fn port(&self, row: usize, column: usize, direction: usize) -> &'static str {
         let begins = |d: &usize| self.leads(row, column, *d) && !self.leads(row, column, (d + 3) % 4);
         let first = (0..4).find(begins).unwrap_or(EAST);
@@ -82,12 +82,12 @@ impl Grid {
         match (0..4).filter(|direction| self.leads(row, column, *direction)).count() {
             4 => CrossIntersection::new().lanes(self.lanes).named(name).into(),
             3 => TIntersection::new().lanes(self.lanes).named(name).into(),
-            // As far from its middle to its ends as the intersections, so that the streets stay parallel.
+            // A bend is as far from its middle to its ends as an intersection, so that the streets stay parallel.
             _ => RoadSegment::arc(self.reach(), FRAC_PI_2).lanes(self.lanes).named(name).into(),
         }
     }
 
-    /// From the middle of an intersection to its points, in metres.
+    /// Returns the distance from the middle of an intersection to its points, in metres.
     fn reach(&self) -> f64 {
         CrossIntersection::new().lanes(self.lanes).reach()
     }

@@ -1,7 +1,7 @@
-//! Road elements connected to one another: their positions follow from the connections.
+//! Road elements that are connected to one another. Their positions follow from the connections.
 //!
-//! The first mistake is kept and reported when the network is built, so that programs need no `?` on every line;
-//! what is connected after it is left out, since it would only lead to further messages.
+//! A composite keeps its first mistake and reports it when the network is built, so that programs need no `?` on every
+//! line. It ignores all connections after the first mistake, because they would only lead to further messages.
 
 use super::element::{Element, ElementShape};
 use super::error::{ANGLE, GAP, RoadError};
@@ -12,34 +12,34 @@ use nalgebra::Vector2;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// Road elements connected to one another: itself a road element.
+/// Road elements that are connected to one another. A composite is itself a road element.
 ///
-/// Its first element is its root: the others have their positions from it, directly or over others. A point is named
-/// `element.point`, and the root's points may be named without their element.
+/// The first element is the root: the positions of all others follow from it, directly or through other elements. A
+/// point is named `element.point`. For the points of the root, `point` is enough.
 #[derive(Debug, Clone)]
 pub struct Composite {
     pub(super) parts: Vec<Part>,
     pub(super) links: Vec<[End; 2]>,
-    /// Where a name stands. Only looked up.
+    /// The index of the part with each name. Only looked up, so that the order does not matter.
     names: HashMap<String, usize>,
-    /// How many elements without a name there are of each kind. Only looked up.
+    /// The number of elements without a name, for each kind. Only looked up, so that the order does not matter.
     unnamed: HashMap<&'static str, usize>,
     pub(super) mistake: Option<RoadError>,
 }
 
-/// An element in its place.
+/// An element at its place.
 #[derive(Debug, Clone)]
 pub(super) struct Part {
     pub name: String,
-    /// Whether the program named it.
+    /// `true` if the program named the element.
     named: bool,
     pub plan: Plan,
     pub pose: Pose,
-    /// Its points, with those that they are connected to.
+    /// The points of the element, each with the point that it is connected to.
     ports: Vec<(Port, Option<End>)>,
 }
 
-/// A point of a composite: the part and the port.
+/// A point of a composite: the index of the part and the index of the port.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct End {
     pub part: usize,
@@ -52,7 +52,7 @@ impl<S: Into<ElementShape>> From<Element<S>> for Composite {
         let named = element.name.is_some();
         let name = element.name.unwrap_or_else(|| plan.kind().to_owned());
         let mistake = plan.problem().map(|problem| RoadError::Element { element: name.clone(), problem });
-        // Of what cannot be, nothing is asked.
+        // An element that is not valid cannot be asked for its points.
         let ports = if mistake.is_some() { Vec::new() } else { plan.ports() };
         let ports = ports.into_iter().map(|port| (port, None)).collect();
         let pose = Pose { position: Vector2::zeros(), heading: 0.0 };
@@ -63,20 +63,20 @@ impl<S: Into<ElementShape>> From<Element<S>> for Composite {
 }
 
 impl<S: Into<ElementShape>> Element<S> {
-    /// Joins `child_point` of another element or composite to `point` of this one: [`Composite::connect`].
+    /// Joins `child_point` of another element or composite to `point` of this element: [`Composite::connect`].
     pub fn connect(self, point: &str, child: impl Into<Composite>, child_point: &str) -> Composite {
         Composite::from(self).connect(point, child, child_point)
     }
 
-    /// Puts its origin at this pose: [`Composite::at`].
+    /// Puts the origin of the element at this pose: [`Composite::at`].
     pub fn at(self, pose: Pose) -> Composite {
         Composite::from(self).at(pose)
     }
 }
 
 impl Composite {
-    /// Joins `child_point` of another element or composite to `point` of this one, which gives all of the child its
-    /// place. Elements of the child without a name of their own are numbered anew.
+    /// Joins `child_point` of another element or composite to `point` of this composite, which gives all elements of
+    /// the child their places. Elements of the child that have no name of their own are numbered again.
     pub fn connect(self, point: &str, child: impl Into<Composite>, child_point: &str) -> Self {
         let child = child.into();
         self.unless_mistaken(|all| {
@@ -85,7 +85,7 @@ impl Composite {
                 return Err(mistake);
             }
             let end = child.resolve(child_point)?;
-            // The two points come to lie upon each other, facing.
+            // The two points get the same position and opposite headings.
             let target = all.pose_of(at);
             let facing = Pose { heading: wrapped(target.heading + PI), ..target };
             let frame = facing.then(&inverse(&child.pose_of(end)));
@@ -95,8 +95,8 @@ impl Composite {
         })
     }
 
-    /// Joins two points of this composite, which closes a loop: they have to meet to 1 cm and 0.1 degrees. Nothing is
-    /// moved: the lanes of the two points then meet as exactly as the points do.
+    /// Joins two points of this composite, which closes a loop. The points must meet to 1 cm and 0.1 degrees. No
+    /// element is moved, so that the lanes at the two points meet only as exactly as the points do.
     pub fn close(self, a: &str, b: &str) -> Self {
         self.unless_mistaken(|all| {
             let (a, b) = (all.resolve(a)?, all.resolve(b)?);
@@ -111,7 +111,7 @@ impl Composite {
         })
     }
 
-    /// Puts the origin of the root at this pose and everything else accordingly.
+    /// Puts the origin of the root at this pose and moves all other elements with the root.
     pub fn at(self, pose: Pose) -> Self {
         self.unless_mistaken(|all| {
             let Pose { position, heading } = pose;
@@ -128,7 +128,7 @@ impl Composite {
         })
     }
 
-    /// The points that nothing is connected to, as they are named.
+    /// Returns the names of the points that are not connected to another point.
     pub fn free_points(&self) -> Vec<String> {
         let ends = |(part, of): (usize, &Part)| (0..of.ports.len()).map(move |port| End { part, port });
         let ends = self.parts.iter().enumerate().flat_map(ends);
@@ -143,7 +143,7 @@ impl Composite {
         self
     }
 
-    /// The end that a name means.
+    /// Returns the point with this name.
     fn resolve(&self, point: &str) -> Result<End, RoadError> {
         let (part, name) = match point.rsplit_once('.') {
             None => (0, point),
@@ -162,19 +162,19 @@ impl Composite {
         self.names.get(name).copied().ok_or_else(|| RoadError::unknown_element(name, names))
     }
 
-    /// The name of an end.
+    /// Returns the name of a point.
     pub(super) fn label(&self, end: End) -> String {
         let part = &self.parts[end.part];
         format!("{}.{}", part.name, part.ports[end.port].0.name)
     }
 
-    /// Where an end is, heading outward.
+    /// Returns the position of a point; the heading points outward.
     fn pose_of(&self, end: End) -> Pose {
         let part = &self.parts[end.part];
         part.pose.then(&part.ports[end.port].0.pose)
     }
 
-    /// Adds the parts and links of a child, which `frame` moves to its place.
+    /// Adds the parts and links of a child. `frame` moves the child to its place.
     fn take_in(&mut self, child: Composite, frame: &Pose) -> Result<(), RoadError> {
         let first = self.parts.len();
         let moved = |end: End| End { part: first + end.part, ..end };
@@ -207,7 +207,7 @@ impl Composite {
     fn link(&mut self, a: End, b: End) -> Result<(), RoadError> {
         let to = |end: End| self.parts[end.part].ports[end.port].1;
         for (end, other) in [(a, b), (b, a)] {
-            // A point connected to itself is one that the very same connection takes twice.
+            // If a point is connected to itself, the same connection takes the point twice.
             if let Some(taken) = to(end).or((a == b).then_some(b)) {
                 return Err(RoadError::PointTaken {
                     point: self.label(end),
@@ -234,7 +234,7 @@ impl Composite {
     }
 }
 
-/// The pose of the origin as seen from `pose`.
+/// Returns the pose of the origin as seen from `pose`.
 fn inverse(pose: &Pose) -> Pose {
     Pose { position: pose.to_local(Vector2::zeros()), heading: wrapped(-pose.heading) }
 }

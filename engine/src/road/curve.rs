@@ -1,4 +1,4 @@
-//! Lines and circular arcs in the ground plane, parametrised by arc length: what all road geometry is made of.
+//! Lines and circular arcs in the ground plane, parametrised by arc length. All road geometry consists of them.
 
 use super::bounds::Bounds;
 use crate::geometry::{Pose, wrapped};
@@ -15,67 +15,67 @@ pub struct Curve {
     length: f64,
 }
 
-/// A vector turned to the left by a quarter.
+/// Returns a vector turned to the left by 90 degrees.
 fn left_of(vector: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(-vector.y, vector.x)
 }
 
 impl Curve {
-    /// From `start` on for `length` metres; `curvature` in 1/m, positive where it bends to the left, 0 for a line.
+    /// Makes a curve of `length` metres from `start` on. `curvature` is in 1/m: positive to the left, 0 for a line.
     pub fn new(start: Pose, curvature: f64, length: f64) -> Self {
         Self { start, forward: start.forward(), curvature, length }
     }
 
-    /// Its length in metres.
+    /// Returns the length in metres.
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// Its curvature in 1/m, positive where it bends to the left.
+    /// Returns the curvature in 1/m, positive for a bend to the left.
     pub fn curvature(&self) -> f64 {
         self.curvature
     }
 
-    /// The point `s` metres along it; before its start and beyond its end it goes on as it is.
+    /// Returns the point `s` metres along the curve. Before its start and beyond its end the line or circle continues.
     pub fn point(&self, s: f64) -> Vector2<f64> {
         self.beside(s, 0.0)
     }
 
-    /// The point `offset` metres to the left of the point `s` metres along it.
+    /// Returns the point `offset` metres to the left of the point `s` metres along the curve.
     pub fn beside(&self, s: f64, offset: f64) -> Vector2<f64> {
         let left = left_of(self.forward);
         if self.curvature == 0.0 {
             return self.start.position + self.forward * s + left * offset;
         }
         let (sin, cos) = libm::sincos(self.curvature * s);
-        // 1 - cos, without the cancellation that ruins it on an arc that is nearly straight.
+        // 1 - cos, in a form that keeps its digits on an arc that is nearly straight.
         let half = libm::sin(0.5 * self.curvature * s);
         let ahead = sin / self.curvature - offset * sin;
         let aside = 2.0 * half * half / self.curvature + offset * cos;
         self.start.position + self.forward * ahead + left * aside
     }
 
-    /// The heading `s` metres along it, in (-π, π].
+    /// Returns the heading `s` metres along the curve, in (-π, π].
     pub fn heading(&self, s: f64) -> f64 {
         wrapped(self.start.heading + self.curvature * s)
     }
 
-    /// Position and heading `s` metres along it.
+    /// Returns position and heading `s` metres along the curve.
     pub fn at(&self, s: f64) -> Pose {
         Pose { position: self.point(s), heading: self.heading(s) }
     }
 
-    /// Position and heading at its start.
+    /// Returns position and heading at the start of the curve.
     pub fn start(&self) -> Pose {
         self.at(0.0)
     }
 
-    /// Position and heading at its end.
+    /// Returns position and heading at the end of the curve.
     pub fn end(&self) -> Pose {
         self.at(self.length)
     }
 
-    /// How many metres along it the point lies that is nearest to `point`.
+    /// Returns how many metres along the curve its nearest point to `point` lies.
     pub fn nearest(&self, point: Vector2<f64>) -> f64 {
         let from_start = point - self.start.position;
         if self.curvature == 0.0 {
@@ -94,36 +94,36 @@ impl Curve {
         }
     }
 
-    /// The centre of the circle that it is an arc of.
+    /// Returns the centre of the circle of an arc.
     fn centre(&self) -> Vector2<f64> {
         self.start.position + left_of(self.forward) / self.curvature
     }
 
-    /// The curve that runs `left` metres beside it. On the inner side of an arc that is less than its radius.
+    /// Returns the curve `left` metres to the left of this one. Inside of an arc, `left` is less than its radius.
     pub(super) fn offset(&self, left: f64) -> Self {
         let stretch = 1.0 - self.curvature * left;
         let start = Pose { position: self.beside(0.0, left), heading: self.start.heading };
         Self { start, forward: self.forward, curvature: self.curvature / stretch, length: self.length * stretch }
     }
 
-    /// The curve from its end to its start.
+    /// Returns the curve in the opposite direction, from the end to the start.
     pub(super) fn reversed(&self) -> Self {
         let end = self.end();
         let start = Pose { position: end.position, heading: wrapped(end.heading + PI) };
         Self::new(start, -self.curvature, self.length)
     }
 
-    /// The piece of it between two distances along it.
+    /// Returns the piece of the curve between two distances along it.
     pub(super) fn piece(&self, from: f64, to: f64) -> Self {
         Self::new(self.at(from), self.curvature, to - from)
     }
 
-    /// The curve where it is when `frame` is the pose of what it belongs to.
+    /// Returns the curve in the plane, if `frame` is the pose of the element that the curve belongs to.
     pub(super) fn moved(&self, frame: &Pose) -> Self {
         Self::new(frame.then(&self.start), self.curvature, self.length)
     }
 
-    /// The smallest box with sides along the axes that it fits into.
+    /// Returns the smallest box with sides along the axes that contains the curve.
     pub(crate) fn bounds(&self) -> Bounds {
         let mut bounds = Bounds::around([self.start.position, self.point(self.length)]);
         if self.curvature != 0.0 {
@@ -132,7 +132,7 @@ impl Curve {
             for (quarter, direction) in
                 [(0.0, Vector2::x()), (1.0, Vector2::y()), (2.0, -Vector2::x()), (3.0, -Vector2::y())]
             {
-                // Where the arc, gone all the way round, faces the axis at a right angle.
+                // The point where the full circle is farthest in this direction of an axis.
                 let turn = (quarter * FRAC_PI_2 - (self.start.heading - side * FRAC_PI_2)) * side;
                 if turn.rem_euclid(TAU) * radius <= self.length {
                     bounds.include(centre + direction * radius);
@@ -142,7 +142,7 @@ impl Curve {
         bounds
     }
 
-    /// The fewest equal pieces of it that are straight to within `tolerance` metres, seen `offset` metres beside it.
+    /// Returns the smallest number of equal pieces that are straight to `tolerance` metres, `offset` to the left.
     pub(super) fn pieces(&self, offset: f64, tolerance: f64) -> usize {
         let radius = (1.0 / self.curvature - offset).abs();
         if self.curvature == 0.0 || radius <= tolerance {

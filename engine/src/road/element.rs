@@ -1,10 +1,10 @@
-//! Road elements before they are connected: what programs write.
+//! Road elements that are not connected yet, as programs describe them.
 
 use super::curve::Curve;
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 
-/// Width of a lane in metres: the usual of urban main roads.
+/// The width of a lane in metres, as usual on urban main roads.
 const LANE_WIDTH: f64 = 3.5;
 /// Width of a sidewalk in metres.
 const SIDEWALK_WIDTH: f64 = 2.0;
@@ -15,41 +15,41 @@ const ENTRY: f64 = 8.0;
 /// Radius of a roundabout's island in metres: with one lane around it, 28 m from kerb to kerb.
 const ISLAND: f64 = 10.0;
 
-/// What a road is across: lanes for both directions around the centre line, and a sidewalk on either side.
+/// The cross-section of a road: lanes for both directions around the centre line, and a sidewalk on either side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Profile {
-    /// Both directions together.
+    /// The number of lanes of both directions together.
     pub lanes: i32,
     pub lane_width: f64,
-    /// Its width; 0 without one.
+    /// The width of a sidewalk; 0 if the road has no sidewalks.
     pub sidewalk: f64,
 }
 
 impl Profile {
-    /// The number of lanes of one direction.
+    /// Returns the number of lanes of one direction.
     pub fn each_way(&self) -> i32 {
         self.lanes / 2
     }
 
-    /// Metres from the centre line to the kerb.
+    /// Returns the distance from the centre line to the kerb, in metres.
     pub fn half_width(&self) -> f64 {
         0.5 * f64::from(self.lanes) * self.lane_width
     }
 
-    /// Metres from the centre line to the middle of a lane: 1 is the one beside it.
+    /// Returns the distance from the centre line to the middle of a lane, in metres. Lane 1 is next to the centre line.
     pub fn lane_offset(&self, number: i32) -> f64 {
         (f64::from(number) - 0.5) * self.lane_width
     }
 
-    /// Metres from the centre line to the middle of a sidewalk.
+    /// Returns the distance from the centre line to the middle of a sidewalk, in metres.
     pub fn sidewalk_offset(&self) -> f64 {
         self.half_width() + 0.5 * self.sidewalk
     }
 }
 
-/// A road element of some shape, not connected yet.
+/// A road element of the shape `S` that is not connected yet.
 ///
-/// All have two lanes of 3.5 m, one for either direction, and sidewalks of 2 m where nothing else is said.
+/// By default, an element has two lanes of 3.5 m, one for each direction, and sidewalks of 2 m.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Element<S> {
     pub(super) name: Option<String>,
@@ -57,29 +57,29 @@ pub struct Element<S> {
     pub(super) shape: S,
 }
 
-/// What a straight or curved road is.
+/// The shape of a straight or curved road.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
     pub(super) length: f64,
-    /// 1/m, positive to the left.
+    /// The curvature in 1/m, positive to the left.
     pub(super) curvature: f64,
-    /// Metres along the road.
+    /// The places of the zebra crossings, in metres along the road.
     zebras: Vec<f64>,
 }
 
-/// What an intersection of three arms is.
+/// The shape of an intersection with three arms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tee {
     corner: f64,
 }
 
-/// What an intersection of four arms is.
+/// The shape of an intersection with four arms.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cross {
     corner: f64,
 }
 
-/// What a roundabout is.
+/// The shape of a roundabout.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ring {
     pub(super) arms: i32,
@@ -87,13 +87,13 @@ pub struct Ring {
     pub(super) entry: f64,
 }
 
-/// Any shape. Public only because [`Element`] speaks of it; nobody outside can name it.
+/// The shape of any road element. It is public only because [`Element`] refers to it; other crates cannot name it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ElementShape {
     Segment(Segment),
-    /// With the radius of its kerbs.
+    /// An intersection with three arms, with the radius of its kerbs.
     Tee(f64),
-    /// With the radius of its kerbs.
+    /// An intersection with four arms, with the radius of its kerbs.
     Cross(f64),
     Ring(Ring),
 }
@@ -122,26 +122,26 @@ impl From<Ring> for ElementShape {
     }
 }
 
-/// A straight or curved road. It begins at its point `one` and ends at `two`; its lanes 1, 2, ... lead that way.
+/// A straight or curved road from its point `one` to its point `two`. Its lanes 1, 2, ... lead in this direction.
 pub type RoadSegment = Element<Segment>;
 
-/// A road that ends at another: arms east (`one`), south (`two`) and west (`three`), clockwise.
+/// A road that ends at another road. Its arms lead east (`one`), south (`two`) and west (`three`), clockwise.
 pub type TIntersection = Element<Tee>;
 
-/// Two roads that cross: arms east (`one`), south (`two`), west (`three`) and north (`four`), clockwise.
+/// An intersection of two roads with arms east (`one`), south (`two`), west (`three`) and north (`four`), clockwise.
 pub type CrossIntersection = Element<Cross>;
 
-/// A roundabout: its arms `one`, `two`, ... lie clockwise from the east, at equal angles, and traffic goes round it
-/// counter-clockwise.
+/// A roundabout with counter-clockwise traffic. Its arms `one`, `two`, ... lie clockwise from the east, at equal
+/// angles.
 pub type Roundabout = Element<Ring>;
 
 impl Segment {
-    /// The centre line, from the origin along x.
+    /// Returns the centre line, from the origin along x.
     pub(super) fn centre_line(&self) -> Curve {
         Curve::new(Pose { position: Vector2::zeros(), heading: 0.0 }, self.curvature, self.length)
     }
 
-    /// Where its zebra crossings are, in order.
+    /// Returns the places of the zebra crossings in metres along the road, in order.
     pub(super) fn zebras(&self) -> Vec<f64> {
         let mut zebras = self.zebras.clone();
         zebras.sort_by(f64::total_cmp);
@@ -155,26 +155,26 @@ impl<S> Element<S> {
         Self { name: None, profile, shape }
     }
 
-    /// The number of lanes of both directions together: an even one.
+    /// Sets the number of lanes of both directions together, which has to be even.
     pub fn lanes(mut self, lanes: i32) -> Self {
         self.profile.lanes = lanes;
         self
     }
 
-    /// The width of every lane in metres.
+    /// Sets the width of every lane, in metres.
     pub fn lane_width(mut self, width: f64) -> Self {
         self.profile.lane_width = width;
         self
     }
 
-    /// The width of the sidewalks in metres; 0 for a road without any.
+    /// Sets the width of the sidewalks in metres; 0 for a road without sidewalks.
     pub fn sidewalk(mut self, width: f64) -> Self {
         self.profile.sidewalk = width;
         self
     }
 
-    /// The name by which its points are called in a composite. Without one it is called by what it is, with a
-    /// number from the second of its kind on: `road`, `road-2`, ...
+    /// Sets the name of the element, by which a composite refers to its points. An element without a name is called by
+    /// its kind, with a number from the second of the kind on: `road`, `road-2`, ...
     pub fn named(mut self, name: impl Into<String>) -> Self {
         self.name = Some(name.into());
         self
@@ -182,13 +182,13 @@ impl<S> Element<S> {
 }
 
 impl RoadSegment {
-    /// A straight road of this length in metres, from the origin along x.
+    /// Makes a straight road of this length in metres, from the origin along x.
     pub fn new(length: f64) -> Self {
         Self::of(Segment { length, curvature: 0.0, zebras: Vec::new() })
     }
 
-    /// A road along an arc: the radius of its centre line in metres and the angle in radians by which it turns,
-    /// positive to the left.
+    /// Makes a road along an arc. `radius` is the radius of its centre line in metres; `angle` is the angle in radians
+    /// by which the road turns, positive to the left.
     pub fn arc(radius: f64, angle: f64) -> Self {
         let length = radius * angle.abs();
         Self::of(Segment { length, curvature: angle.signum() / radius, zebras: Vec::new() })
@@ -202,19 +202,19 @@ impl RoadSegment {
 }
 
 impl TIntersection {
-    /// From its middle to its points, in metres.
+    /// Returns the distance from the middle of the intersection to its points, in metres.
     pub fn reach(&self) -> f64 {
         self.profile.half_width() + self.shape.corner
     }
 
-    /// An intersection of three arms, whose kerbs have a radius of 6 m.
+    /// Makes an intersection with three arms. Its kerbs have a radius of 6 m.
     #[expect(clippy::new_without_default, reason = "as every other element it is made by its name")]
     pub fn new() -> Self {
         Self::of(Tee { corner: CORNER })
     }
 
-    /// The radius of its kerbs in metres, more than its sidewalks are wide: that of the tightest right turn, half a
-    /// lane less.
+    /// Sets the radius of the kerbs in metres, which has to be greater than the width of the sidewalks. The tightest
+    /// right turn has this radius plus half a lane.
     pub fn corner(mut self, radius: f64) -> Self {
         self.shape.corner = radius;
         self
@@ -222,19 +222,19 @@ impl TIntersection {
 }
 
 impl CrossIntersection {
-    /// From its middle to its points, in metres.
+    /// Returns the distance from the middle of the intersection to its points, in metres.
     pub fn reach(&self) -> f64 {
         self.profile.half_width() + self.shape.corner
     }
 
-    /// An intersection of four arms, whose kerbs have a radius of 6 m.
+    /// Makes an intersection with four arms. Its kerbs have a radius of 6 m.
     #[expect(clippy::new_without_default, reason = "as every other element it is made by its name")]
     pub fn new() -> Self {
         Self::of(Cross { corner: CORNER })
     }
 
-    /// The radius of its kerbs in metres, more than its sidewalks are wide: that of the tightest right turn, half a
-    /// lane less.
+    /// Sets the radius of the kerbs in metres, which has to be greater than the width of the sidewalks. The tightest
+    /// right turn has this radius plus half a lane.
     pub fn corner(mut self, radius: f64) -> Self {
         self.shape.corner = radius;
         self
@@ -242,30 +242,30 @@ impl CrossIntersection {
 }
 
 impl Roundabout {
-    /// From its middle to its points, in metres.
+    /// Returns the distance from the middle of the roundabout to its points, in metres.
     pub fn reach(&self) -> f64 {
         self.shape.reach(&self.profile)
     }
 
-    /// A roundabout of four arms around an island of 10 m radius, with as many lanes around it as lead into it.
+    /// Makes a roundabout with four arms, an island of 10 m radius, and as many lanes as lead into it from an arm.
     #[expect(clippy::new_without_default, reason = "as every other element it is made by its name")]
     pub fn new() -> Self {
         Self::of(Ring { arms: 4, island: ISLAND, entry: ENTRY })
     }
 
-    /// The number of its arms: 3 to 8.
+    /// Sets the number of arms, from 3 to 8.
     pub fn arms(mut self, arms: i32) -> Self {
         self.shape.arms = arms;
         self
     }
 
-    /// The radius of its island in metres.
+    /// Sets the radius of the island, in metres.
     pub fn island(mut self, radius: f64) -> Self {
         self.shape.island = radius;
         self
     }
 
-    /// The radius in metres of the kerbs at its entries and exits, more than its sidewalks are wide.
+    /// Sets the radius of the kerbs at entries and exits in metres, which has to exceed the width of the sidewalks.
     pub fn entry(mut self, radius: f64) -> Self {
         self.shape.entry = radius;
         self

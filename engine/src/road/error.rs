@@ -1,81 +1,81 @@
-//! Why a road network cannot be. Points are named as `element.point`.
+//! The reasons why a road network cannot be built. Points are named as `element.point`.
 
 use paracosm_space::{did_you_mean, nearest};
 use thiserror::Error;
 
-/// The largest gap in metres over which a loop closes.
+/// The largest gap in metres at which a loop counts as closed.
 pub(super) const GAP: f64 = 0.01;
-/// The largest angle in degrees at which a loop closes.
+/// The largest angle in degrees at which a loop counts as closed.
 pub(super) const ANGLE: f64 = 0.1;
 
-/// Why a road network cannot be built, or what it was asked for in vain.
+/// The reason why a road network cannot be built, or why it cannot answer a question.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum RoadError {
-    /// An element that cannot be as it is described.
+    /// The description of an element is not valid, or the element is of the wrong kind.
     #[error("`{element}` {problem}")]
     Element {
-        /// Its name.
+        /// The name of the element.
         element: String,
-        /// What is wrong with it, and what was expected.
+        /// The mistake, with the values that were expected.
         problem: String,
     },
-    /// Two elements of one name.
+    /// Two elements have the same name.
     #[error("two road elements are called `{name}`")]
     NameTaken {
-        /// The name.
+        /// The name of the elements.
         name: String,
     },
-    /// A name that no element has.
+    /// No element has this name.
     #[error("no road element is called `{name}`{}", did_you_mean(.nearest))]
     UnknownElement {
-        /// The name.
+        /// The name that was looked for.
         name: String,
-        /// A name that was perhaps meant.
+        /// A similar name that exists, if there is one.
         nearest: Option<String>,
     },
-    /// A point that an element does not have.
+    /// The element does not have this point.
     #[error("`{element}` has no point `{point}`{}; it has {}", did_you_mean(.nearest), points.join(", "))]
     UnknownPoint {
-        /// The element.
+        /// The name of the element.
         element: String,
-        /// The point.
+        /// The name of the point.
         point: String,
-        /// A point that was perhaps meant.
+        /// A similar name of a point that exists, if there is one.
         nearest: Option<&'static str>,
-        /// Those that it has.
+        /// The points that the element has.
         points: Vec<&'static str>,
     },
-    /// A point that is to be connected though it is already.
+    /// A point is already connected to another point.
     #[error("`{point}` cannot be connected to `{to}`: it is connected to `{taken_by}` already")]
     PointTaken {
-        /// The point.
+        /// The point that is already connected.
         point: String,
-        /// What it is connected to.
+        /// The point that it is connected to.
         taken_by: String,
-        /// What it was to be connected to.
+        /// The point that it should have been connected to.
         to: String,
     },
-    /// Two points of roads with different numbers of lanes.
+    /// Two points cannot be connected because their roads have different numbers of lanes.
     #[error("`{a}` with {} lanes cannot be connected to `{b}` with {}", lanes.0, lanes.1)]
     DifferentLanes {
-        /// A point.
+        /// The first point.
         a: String,
-        /// The other point.
+        /// The second point.
         b: String,
-        /// The number of lanes at either.
+        /// The numbers of lanes at the first and the second point.
         lanes: (i32, i32),
     },
-    /// Two points of roads with lanes of different widths.
+    /// Two points cannot be connected because the lanes of their roads have different widths.
     #[error("`{a}` with lanes of {} m cannot be connected to `{b}` with lanes of {} m", widths.0, widths.1)]
     DifferentWidths {
-        /// A point.
+        /// The first point.
         a: String,
-        /// The other point.
+        /// The second point.
         b: String,
-        /// The width of the lanes at either, in metres.
+        /// The widths of the lanes at the first and the second point, in metres.
         widths: (f64, f64),
     },
-    /// Two points of a composite that do not meet.
+    /// Two points that should close a loop do not meet.
     #[error(
         "the loop does not close: `{a}` and `{b}` are {gap:.3} m and {angle:.2} degrees apart, at most {} m and {} \
          degrees are allowed",
@@ -83,53 +83,53 @@ pub enum RoadError {
         ANGLE
     )]
     OpenLoop {
-        /// A point.
+        /// The first point.
         a: String,
-        /// The other point.
+        /// The second point.
         b: String,
-        /// Metres between them.
+        /// The distance between the points, in metres.
         gap: f64,
-        /// Degrees between their headings.
+        /// The angle between the headings, in degrees.
         angle: f64,
     },
-    /// Two elements in the same place.
+    /// Two elements cover the same ground.
     #[error("`{a}` and `{b}` overlap at ({:.1}, {:.1})", at.0, at.1)]
     Overlap {
-        /// An element.
+        /// The first element.
         a: String,
-        /// The other element.
+        /// The second element.
         b: String,
-        /// A point of both, in metres.
+        /// A point on both elements, in metres.
         at: (f64, f64),
     },
-    /// A lane that an element does not have.
+    /// The element does not have this lane.
     #[error("`{element}` has no lane {lane}{}; it has {has}", from_to(.between))]
     UnknownLane {
-        /// The element.
+        /// The name of the element.
         element: String,
-        /// The lane.
+        /// The number of the lane.
         lane: i32,
-        /// The points that it was to lead from and to, in an intersection.
+        /// The points where the lane should have begun and ended, if the lane was asked for by its points.
         between: Option<(String, String)>,
-        /// Those that it has.
+        /// The lanes that the element has, in words.
         has: String,
     },
-    /// A place beyond the ends of a road.
+    /// A place lies beyond the ends of a road.
     #[error("a place {at} m along `{element}` is asked for, which is {length} m long")]
     Beyond {
-        /// The element.
+        /// The name of the element.
         element: String,
-        /// The place.
+        /// The place, in metres along the element.
         at: f64,
-        /// The length of the element in metres.
+        /// The length of the element, in metres.
         length: f64,
     },
-    /// Two places between which there is no way without a change of lanes.
+    /// There is no connection between two places without a lane change.
     #[error("no way leads from {from} to {to} without a change of lanes")]
     NoWay {
-        /// Where it was to begin.
+        /// The place where the path should have begun.
         from: String,
-        /// Where it was to end.
+        /// The place where the path should have ended.
         to: String,
     },
 }
@@ -141,7 +141,7 @@ impl RoadError {
 
     pub(super) fn unknown_point(element: &str, point: &str, points: Vec<&'static str>) -> Self {
         let nearest = nearest(point, points.iter().copied());
-        // The very name, which lives longer than the list.
+        // The string from the list has the lifetime that the error needs.
         let nearest = points.iter().copied().find(|name| nearest == Some(name));
         Self::UnknownPoint { element: element.to_owned(), point: point.to_owned(), nearest, points }
     }

@@ -1,8 +1,8 @@
-//! The lanes of a network, and what lies before, behind, beside and across each.
+//! The lanes of a network, with their neighbours: the lanes before, behind, beside and across each lane.
 
 use super::curve::Curve;
 
-/// A lane of a network: its index in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
+/// The identifier of a lane: its index in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct LaneId(pub(super) u32);
 
@@ -11,81 +11,82 @@ impl LaneId {
         Self(index as u32)
     }
 
-    /// Its index in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
+    /// Returns the index of the lane in [`RoadNetwork::lanes`](super::RoadNetwork::lanes).
     pub fn index(self) -> usize {
         self.0 as usize
     }
 }
 
-/// What a lane is part of.
+/// The kind of a lane: the part of the road network that it belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum LaneKind {
-    /// Along a straight or curved road.
+    /// A lane along a straight or curved road.
     Road,
-    /// Straight on over an intersection.
+    /// A lane straight on over an intersection.
     Straight,
-    /// To the left at an intersection.
+    /// A lane to the left at an intersection.
     Left,
-    /// To the right at an intersection.
+    /// A lane to the right at an intersection.
     Right,
-    /// From an arm into a roundabout.
+    /// A lane from an arm into a roundabout.
     Entry,
-    /// Out of a roundabout into an arm.
+    /// A lane out of a roundabout into an arm.
     Exit,
-    /// Around a roundabout, from an entry to the next exit.
+    /// A lane around a roundabout, from an entry to the next exit.
     Ring,
-    /// Around a roundabout, past an arm: from where one leaves to where others enter.
+    /// A lane around a roundabout, past an arm: from the exit to the entry of the arm.
     RingAtArm,
 }
 
-/// Where two lanes of an intersection are in each other's way: they cross there, or join.
+/// A conflict of two lanes of an intersection: the lanes cross or join, so that cars on them can touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaneConflict {
     /// The other lane.
     pub with: LaneId,
-    /// From how many metres along this lane on the other is too close.
+    /// The place in metres along this lane from which on the other lane is too close.
     pub from: f64,
-    /// Up to how many metres along this lane it is.
+    /// The place in metres along this lane up to which the other lane is too close.
     pub to: f64,
-    /// Whether who comes along this lane lets those on the other go first: at a T who comes from its stem, at a
-    /// roundabout who enters; else who turns left before those that come towards it, and everybody before those who
-    /// come from the right. Where four roads cross, four cars can each have another at their right.
+    /// `true` if a car on this lane lets cars on the other lane go first. At a T a car from the stem gives way, at a
+    /// roundabout a car that enters, or leaves from an inner lane. Elsewhere a car that turns left gives way to cars
+    /// that come towards it, and every car gives way to cars from the right. Where four roads cross, each of four cars
+    /// can have another car at its right.
     pub gives_way: bool,
 }
 
-/// A lane: the way of a car, in the direction of its traffic.
+/// A lane, which is the path of a car in the direction of its traffic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lane {
-    /// The index of its element in [`RoadNetwork::elements`](super::RoadNetwork::elements).
+    /// The index of the lane's element in [`RoadNetwork::elements`](super::RoadNetwork::elements).
     pub element: usize,
-    /// What it is part of.
+    /// The kind of the lane.
     pub kind: LaneKind,
-    /// On a road 1, 2, ... from the centre line to the right, along the road, and -1, -2, ... back; in an intersection
-    /// the number of the lanes that it joins; in a roundabout 1, 2, ... from the inside.
+    /// The number of the lane: on a road 1, 2, ... from the centre line to the right, and -1, -2, ... for the opposite
+    /// direction; in an intersection that of the lanes that it joins; in a roundabout 1, 2, ... from the inside.
     pub number: i32,
-    /// Its middle.
+    /// The middle of the lane.
     pub curve: Curve,
-    /// Its width in metres.
+    /// The width of the lane in metres.
     pub width: f64,
-    /// The lane of the same direction to its left, where one may change to it.
+    /// The next lane to the left in the same direction, if cars may change to it.
     pub left: Option<LaneId>,
-    /// The lane of the same direction to its right, where one may change to it.
+    /// The next lane to the right in the same direction, if cars may change to it.
     pub right: Option<LaneId>,
-    /// The lanes that begin where it ends.
+    /// The lanes that begin at the end of this lane.
     pub successors: Vec<LaneId>,
-    /// The lanes that end where it begins.
+    /// The lanes that end at the beginning of this lane.
     pub predecessors: Vec<LaneId>,
-    /// The lanes of the same intersection that cross it or join it.
+    /// The conflicts with lanes of the same intersection that cross or join this lane.
     pub conflicts: Vec<LaneConflict>,
 }
 
 impl Lane {
-    /// Its length in metres.
+    /// Returns the length of the lane in metres.
     pub fn length(&self) -> f64 {
         self.curve.length()
     }
 
-    /// The lanes of the same direction beside it.
+    /// Returns the neighbouring lanes of the same direction.
     pub fn beside(&self) -> impl Iterator<Item = LaneId> {
         self.left.into_iter().chain(self.right)
     }

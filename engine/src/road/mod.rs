@@ -1,10 +1,10 @@
-//! Roads: elements connected to networks, with a graph of their lanes.
+//! Road networks: elements that are connected to one another, with a graph of their lanes.
 //!
 //! An element (a straight or curved [`RoadSegment`], a [`TIntersection`], a [`CrossIntersection`], a [`Roundabout`])
-//! has named points where others can be connected. A connection gives the child its place and yields a
-//! [`Composite`], which is connected on as elements are. [`Composite::build`] checks it and makes of it a [`RoadNetwork`]:
-//! immutable, shared by an [`Arc`](std::sync::Arc), the same for every run on it. This is section 2 of the paper,
-//! whose example reads
+//! has named points. Other elements can be connected to these points. A connection gives the child its place and yields
+//! a [`Composite`], to which further elements can be connected. [`Composite::build`] checks it and makes a
+//! [`RoadNetwork`]: immutable, shared by an [`Arc`](std::sync::Arc), the same for every run. This is section 2 of the
+//! paper. Its example:
 //!
 //! ```
 //! use paracosm_engine::road::{RoadSegment, TIntersection};
@@ -28,9 +28,9 @@
 //! # Ok::<(), paracosm_engine::road::RoadError>(())
 //! ```
 //!
-//! Traffic keeps to the right; positions are in metres, x to the east, y to the north; headings are in radians,
-//! counter-clockwise from x; curvatures and offsets are positive to the left. All geometry is of lines and circular
-//! arcs ([`Curve`]) in 64 bits.
+//! Traffic keeps to the right. Positions are in metres, x to the east, y to the north. Headings are in radians,
+//! counter-clockwise from x. Curvatures and offsets are positive to the left. All geometry consists of lines and
+//! circular arcs ([`Curve`]) in 64 bits.
 
 mod bounds;
 mod city;

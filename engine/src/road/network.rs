@@ -1,4 +1,4 @@
-//! A road network as it is used: lanes with all that lies around them, built once and shared.
+//! A finished road network: lanes with their neighbours and their surroundings, built once and shared.
 
 use super::bounds::{Bounds, Tree};
 use super::composite::Composite;
@@ -15,13 +15,11 @@ use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// A road network: [`Composite::build`] makes it, and nothing changes it.
-///
-/// Traffic keeps to the right.
+/// A road network. [`Composite::build`] makes it; it never changes afterwards. Traffic keeps to the right.
 #[derive(Debug)]
 pub struct RoadNetwork {
     elements: Vec<Placed>,
-    /// Where a name stands. Only looked up.
+    /// The index of the element with each name. Only looked up, so that the order does not matter.
     names: HashMap<String, usize>,
     lanes: Vec<Lane>,
     crossings: Vec<Crossing>,
@@ -29,47 +27,47 @@ pub struct RoadNetwork {
     bounds: Bounds,
 }
 
-/// An element in its place.
+/// An element at its place.
 #[derive(Debug)]
 struct Placed {
     name: String,
     plan: Plan,
     pose: Pose,
     layout: Arc<Layout>,
-    /// The names of its points.
+    /// The names of the element's points.
     points: Vec<&'static str>,
-    /// The first of its lanes.
+    /// The index of the element's first lane.
     first: usize,
 }
 
 /// A zebra crossing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crossing {
-    /// The index of its road in [`RoadNetwork::elements`].
+    /// The index of the crossing's road in [`RoadNetwork::elements`].
     pub element: usize,
-    /// Its middle line, from the right kerb of the road to the left one.
+    /// The middle line of the crossing, from the right kerb of the road to the left kerb.
     pub path: Curve,
-    /// Its width in metres.
+    /// The width of the crossing in metres.
     pub width: f64,
-    /// The lanes that it crosses, and how many metres along each its middle lies, from right to left.
+    /// The lanes that it crosses, from right to left, each with the place of its middle in metres along the lane.
     pub lanes: Vec<(LaneId, f64)>,
 }
 
 impl<S: Into<ElementShape>> Element<S> {
-    /// The network of this element alone: [`Composite::build`].
+    /// Builds the network of this element alone: [`Composite::build`].
     ///
     /// # Errors
-    /// It cannot be as it is described.
+    /// The description of the element is not valid.
     pub fn build(self) -> Result<Arc<RoadNetwork>, RoadError> {
         Composite::from(self).build()
     }
 }
 
 impl Composite {
-    /// The network of all elements.
+    /// Builds the network of all elements.
     ///
     /// # Errors
-    /// The first mistake that was made in connecting, or two elements overlap.
+    /// A connection was not valid (the first such mistake is reported), or two elements overlap.
     pub fn build(self) -> Result<Arc<RoadNetwork>, RoadError> {
         match &self.mistake {
             Some(mistake) => Err(mistake.clone()),
@@ -79,7 +77,7 @@ impl Composite {
 }
 
 impl RoadNetwork {
-    /// The network of a composite without a mistake.
+    /// Builds the network of a composite without a mistake.
     fn new(composite: &Composite) -> Result<Self, RoadError> {
         let layouts = layouts(composite);
         overlap::check(composite, &layouts)?;
@@ -129,33 +127,33 @@ impl RoadNetwork {
         Ok(Self { elements, names, lanes, crossings, tree: Tree::new(&boxes), bounds })
     }
 
-    /// The names of its elements.
+    /// Returns the names of the elements.
     pub fn elements(&self) -> impl ExactSizeIterator<Item = &str> {
         self.elements.iter().map(|placed| &*placed.name)
     }
 
-    /// All lanes.
+    /// Returns all lanes.
     pub fn lanes(&self) -> &[Lane] {
         &self.lanes
     }
 
-    /// The lanes by which all of [`RoadNetwork::lanes`] are called, in their order.
+    /// Returns the identifiers of all lanes, in the order of [`RoadNetwork::lanes`].
     pub fn ids(&self) -> impl ExactSizeIterator<Item = LaneId> {
         (0..self.lanes.len()).map(LaneId::new)
     }
 
-    /// A lane.
+    /// Returns the lane with this identifier.
     ///
     /// # Panics
-    /// It is a lane of another network, which has more.
+    /// The lane belongs to another network, which has more lanes.
     pub fn lane(&self, id: LaneId) -> &Lane {
         &self.lanes[id.index()]
     }
 
-    /// The lane of a road: 1, 2, ... from the centre line to the right, along the road, and -1, -2, ... back.
+    /// Returns a lane of a road: 1, 2, ... to the right of the centre line, and -1, -2, ... for the opposite direction.
     ///
     /// # Errors
-    /// There is no such element or lane.
+    /// The network has no such element, or the element has no such lane.
     pub fn lane_of(&self, element: &str, number: i32) -> Result<LaneId, RoadError> {
         let placed = self.find(element)?;
         let wanted = |lane: &LaneId| self.lane(*lane).kind == LaneKind::Road && self.lane(*lane).number == number;
@@ -169,11 +167,11 @@ impl RoadNetwork {
         })
     }
 
-    /// The lane that leads from one point of an element to another: over an intersection, or along a road. Its number
-    /// is that of the lanes of the roads that it joins, counted from the centre line.
+    /// Returns the lane from one point of an element to another, over an intersection or along a road. `number` is the
+    /// number of the lanes that it joins, counted from the centre line.
     ///
     /// # Errors
-    /// There is no such element or point, or no lane leads from the one to the other.
+    /// The network has no such element, the element has no such point, or no such lane leads from `from` to `to`.
     pub fn lane_between(&self, element: &str, from: &str, to: &str, number: i32) -> Result<LaneId, RoadError> {
         let placed = self.find(element)?;
         let (from, to) = (placed.port(from)?, placed.port(to)?);
@@ -194,44 +192,44 @@ impl RoadNetwork {
         Ok(LaneId::new(placed.first + index))
     }
 
-    /// The middle of a lane of a road, `at` metres along the road, facing the way of its traffic.
+    /// Returns the middle of a lane, `at` metres along its road, facing the direction of the lane's traffic.
     ///
     /// # Errors
-    /// There is no such element or lane, or the road is shorter.
+    /// The network has no such element, the element has no such lane, or the road is shorter than `at`.
     pub fn on_lane(&self, element: &str, lane: i32, at: f64) -> Result<Pose, RoadError> {
         self.lane_of(element, lane)?;
         let (centre, profile) = self.road(element, at)?;
         Ok(lane_pose(&centre, profile, lane, at))
     }
 
-    /// The centre line of a road, `at` metres along it, facing the way that it leads.
+    /// Returns the place on the centre line of a road, `at` metres along it, facing the road's direction.
     ///
     /// # Errors
-    /// There is no such road, or it is shorter.
+    /// The network has no such road, or the road is shorter than `at`.
     pub fn on_centre_line(&self, road: &str, at: f64) -> Result<Pose, RoadError> {
         Ok(self.road(road, at)?.0.at(at))
     }
 
-    /// The middle of a sidewalk of a road, `at` metres along the road, facing the road.
+    /// Returns the middle of a sidewalk, `at` metres along its road, facing the road.
     ///
     /// # Errors
-    /// There is no such road, or it is shorter.
+    /// The network has no such road, or the road is shorter than `at`.
     pub fn on_sidewalk(&self, element: &str, side: Side, at: f64) -> Result<Pose, RoadError> {
         let (centre, profile) = self.road(element, at)?;
         Ok(sidewalk_pose(&centre, profile, side, at))
     }
 
-    /// The zebra crossings.
+    /// Returns all zebra crossings.
     pub fn crossings(&self) -> &[Crossing] {
         &self.crossings
     }
 
-    /// The least box around the middles of all lanes.
+    /// Returns the smallest box that contains the middles of all lanes.
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 
-    /// All that there is to draw, sorted so that what covers other things comes later.
+    /// Returns all strips to draw, sorted so that a strip comes after the strips that it covers.
     pub fn strips(&self) -> Vec<Strip> {
         let of =
             |placed: &Placed| placed.layout.strips.iter().map(|strip| strip.moved(&placed.pose)).collect::<Vec<_>>();
@@ -245,7 +243,7 @@ impl RoadNetwork {
         Ok(&self.elements[*index])
     }
 
-    /// The centre line of a road and what it is across, if there is a place `at` metres along it.
+    /// Returns the centre line and the cross-section of a road, if the place `at` metres along it exists.
     fn road(&self, element: &str, at: f64) -> Result<(Curve, &Profile), RoadError> {
         let placed = self.find(element)?;
         let centre = placed.centre_line().ok_or_else(|| RoadError::Element {
@@ -259,7 +257,7 @@ impl RoadNetwork {
     }
 }
 
-/// The middle of a lane `at` metres along a road, facing the way of its traffic.
+/// Returns the middle of a lane `at` metres along a road, facing the direction of the lane's traffic.
 pub(crate) fn lane_pose(centre: &Curve, profile: &Profile, lane: i32, at: f64) -> Pose {
     let offset = profile.lane_offset(lane.abs());
     if lane > 0 {
@@ -269,7 +267,7 @@ pub(crate) fn lane_pose(centre: &Curve, profile: &Profile, lane: i32, at: f64) -
     }
 }
 
-/// The middle of a sidewalk `at` metres along a road, facing the road.
+/// Returns the middle of a sidewalk `at` metres along a road, facing the road.
 pub(crate) fn sidewalk_pose(centre: &Curve, profile: &Profile, side: Side, at: f64) -> Pose {
     let (offset, turn) = match side {
         Side::Left => (profile.sidewalk_offset(), -FRAC_PI_2),
@@ -278,7 +276,7 @@ pub(crate) fn sidewalk_pose(centre: &Curve, profile: &Profile, side: Side, at: f
     Pose { position: centre.beside(at, offset), heading: wrapped(centre.heading(at) + turn) }
 }
 
-/// The layout of every part. Those of intersections are costly, and most of a network's are alike.
+/// Computes the layout of every part. Intersections are costly, and most are alike, so equal ones share a layout.
 fn layouts(composite: &Composite) -> Vec<Arc<Layout>> {
     let mut intersections: Vec<(&Plan, Arc<Layout>)> = Vec::new();
     let mut layouts = Vec::with_capacity(composite.parts.len());
@@ -293,7 +291,7 @@ fn layouts(composite: &Composite) -> Vec<Arc<Layout>> {
     layouts
 }
 
-/// Makes the lanes that leave one element successors of those that lead to it.
+/// Makes the lanes that begin at a port of `to` successors of the lanes that end at the connected port of `from`.
 fn link(lanes: &mut [Lane], from: &Placed, from_port: usize, to: &Placed, to_port: usize) {
     for (i, ending) in from.layout.lanes.iter().enumerate() {
         for (j, beginning) in to.layout.lanes.iter().enumerate() {
@@ -317,7 +315,7 @@ impl Placed {
         port.ok_or_else(|| RoadError::unknown_point(&self.name, name, self.points.clone()))
     }
 
-    /// The centre line, if it is a road.
+    /// Returns the centre line if the element is a road.
     fn centre_line(&self) -> Option<Curve> {
         match &self.plan.shape {
             ElementShape::Segment(road) => Some(road.centre_line().moved(&self.pose)),
@@ -333,7 +331,7 @@ impl Placed {
         let half = profile.half_width();
         let crossing = |at: f64| {
             let start = Pose { position: centre.beside(at, -half), heading: wrapped(centre.heading(at) + FRAC_PI_2) };
-            // An arc's lanes are longer or shorter than the road in proportion to their radii.
+            // The lanes of an arc are longer or shorter than the road in proportion to their radii.
             let share = at / centre.length();
             let n = profile.each_way() as usize;
             let forward = (0..n).rev().map(|i| (i, share));

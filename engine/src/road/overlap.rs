@@ -1,7 +1,7 @@
-//! Whether two elements are in the same place.
+//! Checks whether two elements cover the same ground.
 //!
-//! The ground of every element is cut into convex quadrilaterals along its strips. Two of them overlap by as much as
-//! the least movement that parts them, which is across one of their sides (the separating axis theorem).
+//! The ground of every element is cut into convex quadrilaterals along its strips. The overlap of two quadrilaterals is
+//! the smallest movement that separates them; this movement is across one of their sides (separating axis theorem).
 
 use super::bounds::{Bounds, Tree};
 use super::composite::Composite;
@@ -14,18 +14,18 @@ use std::sync::Arc;
 
 type Quad = [Vector2<f64>; 4];
 
-/// How many metres the sides of a quadrilateral are from the curve that they follow.
+/// The largest distance in metres of a quadrilateral's sides from the curve that they follow.
 const FAITHFUL: f64 = 0.01;
-/// How many metres two elements may overlap: where they are connected, they touch, and a loop may close with a gap.
+/// The largest allowed overlap in metres. Connected elements touch each other, and a loop may close with a gap.
 const ALLOWED: f64 = 0.05;
 
-/// The ground of an element, in its place.
+/// The ground of an element at its place.
 struct Ground {
     bounds: Bounds,
     quads: Vec<(Bounds, Quad)>,
 }
 
-/// Refuses a composite with two elements in the same place.
+/// Refuses a composite in which two elements cover the same ground.
 pub(super) fn check(composite: &Composite, layouts: &[Arc<Layout>]) -> Result<(), RoadError> {
     let grounds: Vec<Ground> =
         composite.parts.iter().zip(layouts).map(|(part, layout)| ground(layout, &part.pose)).collect();
@@ -58,7 +58,7 @@ fn ground(layout: &Layout, pose: &Pose) -> Ground {
     Ground { bounds, quads }
 }
 
-/// A point where two grounds overlap.
+/// Returns a point where two grounds overlap.
 fn meeting(one: &Ground, other: &Ground) -> Option<Vector2<f64>> {
     let near = other.quads.iter().filter(|(bounds, _)| bounds.meets(&one.bounds));
     let near: Vec<_> = near.collect();
@@ -73,7 +73,7 @@ fn meeting(one: &Ground, other: &Ground) -> Option<Vector2<f64>> {
     None
 }
 
-/// How far one of two convex quadrilaterals has to be moved so that they part; negative if they are apart already.
+/// Returns the smallest movement that separates two convex quadrilaterals; negative if they are apart already.
 fn overlap(one: &Quad, other: &Quad) -> f64 {
     let mut least = f64::INFINITY;
     for quad in [one, other] {

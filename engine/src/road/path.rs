@@ -1,4 +1,4 @@
-//! Ways over a network as one line: what moves along a path needs no lanes.
+//! Paths over a network as a single line. An object that moves along a path needs no lanes.
 
 use super::curve::Curve;
 use super::lane::LaneId;
@@ -8,21 +8,21 @@ use crate::geometry::Pose;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// Curves one after the other, cheap to clone.
+/// A sequence of curves, cheap to clone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Path {
-    /// Each with how many metres along the path it begins.
+    /// The curves, each with the place where it begins, in metres along the path.
     pieces: Arc<[(f64, Curve)]>,
-    /// The lanes that the pieces are of, where they are of any.
+    /// The lane of each piece, if the path was made from lanes.
     lanes: Option<Arc<[LaneId]>>,
     length: f64,
 }
 
 impl Path {
-    /// The path along these curves, of which each is to begin where the one before it ends.
+    /// Makes the path along these curves. Each curve has to begin where the previous curve ends.
     ///
     /// # Panics
-    /// There are none.
+    /// There are no curves.
     pub fn new(curves: impl IntoIterator<Item = Curve>) -> Self {
         let mut length = 0.0;
         let begun = |curve: Curve| {
@@ -35,18 +35,18 @@ impl Path {
         Self { pieces, lanes: None, length }
     }
 
-    /// The same path, of which each piece is of one of these lanes.
+    /// Sets the lane of each piece.
     fn on(self, lanes: impl IntoIterator<Item = LaneId>) -> Self {
         Self { lanes: Some(lanes.into_iter().collect()), ..self }
     }
 
-    /// The length of a piece that cannot be, in metres.
+    /// Returns the length in metres of the first piece whose length is no number from 0 on or whose end is not finite.
     pub(crate) fn wrong_piece(&self) -> Option<f64> {
         let broken = |(_, curve): &&(f64, Curve)| !(curve.length() >= 0.0 && curve.end().is_finite());
         self.pieces.iter().find(broken).map(|(_, curve)| curve.length())
     }
 
-    /// The lanes that it leads over between two distances along it, in order; none where it is of no lanes.
+    /// Returns the lanes between two distances along the path, in order; nothing if the path was not made from lanes.
     pub(crate) fn lanes(&self, from: f64, to: f64) -> impl ExactSizeIterator<Item = LaneId> + use<> {
         let range = match &self.lanes {
             Some(_) => self.index(from)..self.index(to) + 1,
@@ -56,32 +56,32 @@ impl Path {
         range.map(move |index| lanes.as_ref().expect("it is of lanes")[index])
     }
 
-    /// The straight path from one place to another. Where both are one, it faces along x.
+    /// Makes the straight path from one place to another. If both places are equal, the path faces along x.
     pub fn straight(from: Vector2<f64>, to: Vector2<f64>) -> Self {
         let way = to - from;
         let start = Pose { position: from, heading: libm::atan2(way.y, way.x) };
         Self::new([Curve::new(start, 0.0, way.norm())])
     }
 
-    /// Its length in metres.
+    /// Returns the length of the path in metres.
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// The curves that it consists of.
+    /// Returns the curves of the path.
     pub fn curves(&self) -> impl ExactSizeIterator<Item = &Curve> {
         self.pieces.iter().map(|(_, curve)| curve)
     }
 
-    /// The piece of it between two distances along it, of which the first is not beyond the second. What would be beyond
-    /// its ends is left out.
+    /// Returns the piece between two distances along the path; `from` is not greater than `to`. The piece ends where
+    /// the path ends.
     pub fn piece(&self, from: f64, to: f64) -> Self {
         let [from, to] = [from, to].map(|s| s.max(0.0).min(self.length));
-        // Where the piece is but a point, it is one of the curve that goes on from there, or of the last.
+        // If the piece is only a point, it belongs to the curve that begins at the point, or to the last curve.
         let last = self.pieces.partition_point(|(begin, _)| *begin < to).max(1) - 1;
         let first = (self.pieces.partition_point(|(begin, _)| *begin <= from).max(1) - 1).min(last);
         let piece = |(begin, curve): &(f64, Curve)| {
-            // Lengths are sums, so that an end may be a rounding beyond the curve's.
+            // Lengths are sums, so rounding can put an end slightly beyond the end of the curve.
             let from = (from - begin).max(0.0).min(curve.length());
             curve.piece(from, (to - begin).min(curve.length()).max(from))
         };
@@ -92,14 +92,14 @@ impl Path {
         }
     }
 
-    /// The pose `s` metres along it; before its start and beyond its end it goes on straight.
+    /// Returns the pose `s` metres along the path. Before its start and beyond its end the path continues straight.
     pub fn at(&self, s: f64) -> Pose {
         self.beside(s, 0.0)
     }
 
-    /// The pose `offset` metres to the left of the one `s` metres along it.
+    /// Returns the pose `offset` metres to the left of the pose `s` metres along the path.
     pub fn beside(&self, s: f64, offset: f64) -> Pose {
-        // Beyond both ends it goes on straight.
+        // Beyond both ends the path continues straight.
         let inside = s.max(0.0).min(self.length);
         let (from, curve) = &self.pieces[self.index(inside)];
         let at = inside - from;
@@ -107,15 +107,15 @@ impl Path {
         Pose { position: curve.beside(at, offset) + ahead, heading: curve.heading(at) }
     }
 
-    /// How the path bends `s` metres along it, in 1/m, positive to the left.
+    /// Returns the curvature `s` metres along the path, in 1/m, positive to the left; 0 beyond the ends of the path.
     pub fn curvature(&self, s: f64) -> f64 {
         let inside = (0.0..=self.length).contains(&s);
         if inside { self.pieces[self.index(s)].1.curvature() } else { 0.0 }
     }
 
-    /// How many metres along the path the point lies that is nearest to `position`, among those near the point `s` metres
-    /// along it: on the curve that `s` is on and those beside it. A path may cross itself; who goes along it does not
-    /// jump from one branch to the other. Before its start and beyond its end the path goes on straight.
+    /// Returns how many metres along the path its nearest point to `position` lies. Only the curve at `s` and its two
+    /// neighbours are searched: a path may cross itself, and an object on it must not jump from one branch to the
+    /// other. Before its start and beyond its end the path continues straight.
     pub fn nearest(&self, position: Vector2<f64>, s: f64) -> f64 {
         let here = self.index(s);
         let mut best = (f64::INFINITY, s);
@@ -136,33 +136,33 @@ impl Path {
         best.1
     }
 
-    /// The curve that the point `s` metres along it is on.
+    /// Returns the index of the curve that contains the point `s` metres along the path.
     fn index(&self, s: f64) -> usize {
         self.pieces.partition_point(|(from, _)| *from <= s).max(1) - 1
     }
 
-    /// The same path the other way.
+    /// Returns the path in the opposite direction, without lanes.
     pub fn reversed(&self) -> Self {
         Self::new(self.pieces.iter().rev().map(|(_, curve)| curve.reversed()))
     }
 
-    /// The path shifted to the left by these metres, for example from a lane to the shoulder beside it.
+    /// Returns the path shifted to the left by `left` metres, for example from a lane to the shoulder beside it.
     pub fn shifted(&self, left: f64) -> Self {
         Self::new(self.pieces.iter().map(|(_, curve)| curve.offset(left)))
     }
 }
 
 impl RoadNetwork {
-    /// The path along the middles of lanes, of which each is to be a successor of the one before.
+    /// Returns the path along the middles of lanes. Each lane has to be a successor of the previous lane.
     ///
     /// # Panics
-    /// There are none, or they are of another network.
+    /// `lanes` is empty, or a lane belongs to another network, which has more lanes.
     pub fn path(&self, lanes: &[LaneId]) -> Path {
         Path::new(lanes.iter().map(|lane| self.lane(*lane).curve)).on(lanes.iter().copied())
     }
 
-    /// The path along a route, from its start to its end. None where the route changes lanes: that takes a while, and
-    /// how long is a driver's to say.
+    /// Returns the path along a route, from its start to its end. `None` if the route changes lanes: a lane change
+    /// takes time, and the driver decides how long.
     pub fn path_along(&self, route: &Route) -> Option<Path> {
         let last = route.lanes.len() - 1;
         let piece = |(i, lane): (usize, &LaneId)| {

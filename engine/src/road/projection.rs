@@ -1,4 +1,4 @@
-//! Where on the lanes a position is.
+//! Projects positions onto lanes.
 
 use super::bounds::Bounds;
 use super::lane::{Lane, LaneId};
@@ -7,39 +7,39 @@ use super::route::RoutePosition;
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 
-/// A position as seen from a lane.
+/// A position relative to a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LanePosition {
     /// The lane.
     pub lane: LaneId,
-    /// How many metres along the lane the nearest point of its middle lies.
+    /// The place of the lane's nearest point, in metres along the lane.
     pub s: f64,
-    /// How many metres to the left of that point the position lies, across the lane.
+    /// The distance across the lane from its nearest point to the position, in metres, positive to the left.
     pub offset: f64,
-    /// The heading of the lane there, in (-π, π].
+    /// The heading of the lane at its nearest point, in (-π, π].
     pub heading: f64,
-    /// Metres to that point: more than the offset is wide where the position lies beyond an end of the lane.
+    /// The distance to the nearest point in metres. It exceeds the offset if the position is beyond an end of the lane.
     pub distance: f64,
 }
 
 impl LanePosition {
-    /// The place on the lane.
+    /// Returns the place on the lane.
     pub fn place(&self) -> RoutePosition {
         RoutePosition { lane: self.lane, s: self.s }
     }
 }
 
 impl RoadNetwork {
-    /// The lane whose middle is nearest to a position, the first of them among equals. Nothing can be said of a
-    /// position that is not finite.
+    /// Returns the lane whose middle is nearest to a position, the first of them among equals. The result has no
+    /// meaning if the position is not finite.
     pub fn project(&self, position: Vector2<f64>) -> LanePosition {
         let nearest = self.tree.nearest(position, |lane| Some(self.distance_squared(lane, position)));
         let lane = nearest.expect("a network has lanes");
         self.project_onto(LaneId(lane), position)
     }
 
-    /// The same among the lanes that lead where a pose faces: to less than a right angle at their nearest points. None
-    /// where no lane does.
+    /// Returns the nearest lane among those whose direction at their nearest point differs from the pose's heading by
+    /// less than a right angle. `None` if there is no such lane.
     pub fn project_along(&self, pose: &Pose) -> Option<LanePosition> {
         let forward = pose.forward();
         let lane = self.tree.nearest(pose.position, |index| {
@@ -50,10 +50,10 @@ impl RoadNetwork {
         Some(self.project_onto(LaneId(lane), pose.position))
     }
 
-    /// A position as seen from this lane.
+    /// Returns a position relative to this lane.
     ///
     /// # Panics
-    /// It is a lane of another network, which has more.
+    /// The lane belongs to another network, which has more lanes.
     pub fn project_onto(&self, lane: LaneId, position: Vector2<f64>) -> LanePosition {
         let curve = &self.lane(lane).curve;
         let s = curve.nearest(position);
@@ -62,8 +62,8 @@ impl RoadNetwork {
         LanePosition { lane, s, offset: at.forward().perp(&beyond), heading: at.heading, distance: beyond.norm() }
     }
 
-    /// The lanes that come near a box, all that meet it among them, in no particular order. `open` is what the search
-    /// needs to remember; used again, it spares an allocation.
+    /// Visits all lanes that meet a box and some lanes that are only near it, in no particular order. `open` is the
+    /// memory of the search; if it is used again, the search allocates nothing.
     pub(crate) fn lanes_near(&self, target: &Bounds, open: &mut Vec<usize>, mut visit: impl FnMut(LaneId)) {
         self.tree.visit_near(target, open, |lane| visit(LaneId(lane)));
     }

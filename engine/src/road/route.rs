@@ -1,7 +1,7 @@
-//! Shortest ways over the lanes (Dijkstra 1959).
+//! Shortest routes over the lanes (Dijkstra 1959).
 //!
-//! A way follows lanes to their ends and changes to lanes beside them at their beginnings, or where it starts. A
-//! change costs as much as a number of metres, which the caller says.
+//! A route follows lanes to their ends. It changes to a neighbouring lane only at the beginning of a lane or at its own
+//! start. The caller says how many metres a lane change costs.
 
 use super::lane::LaneId;
 use super::network::RoadNetwork;
@@ -13,26 +13,26 @@ use std::collections::BinaryHeap;
 pub struct RoutePosition {
     /// The lane.
     pub lane: LaneId,
-    /// Metres along it.
+    /// The distance along the lane in metres.
     pub s: f64,
 }
 
-/// A way from one place to another.
+/// A route over lanes from one place to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Route {
-    /// Its lanes in order. Each is a successor of the one before it, or lies beside it and is changed to.
+    /// The lanes in order. Each is a successor of the previous lane, or a neighbour of it that the route changes to.
     pub lanes: Vec<LaneId>,
-    /// Where it starts: metres along the first lane.
+    /// The start of the route, in metres along the first lane.
     pub start: f64,
-    /// Where it ends: metres along the last lane.
+    /// The end of the route, in metres along the last lane.
     pub end: f64,
-    /// Metres along it, without its lane changes.
+    /// The length of the route in metres, without its lane changes.
     pub length: f64,
-    /// How often it changes lanes.
+    /// The number of lane changes.
     pub changes: usize,
 }
 
-/// A lane as it is come upon: at its beginning, or beside the start of the way.
+/// A lane and the place where the search reaches it: its beginning, or the place beside the start of the route.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Node(u32);
 
@@ -50,10 +50,10 @@ impl Node {
     }
 }
 
-/// What is left to be looked at, the cheapest on top.
+/// A candidate of the search; the cheapest candidate is on top.
 struct Open {
     cost: f64,
-    /// `None`: the goal.
+    /// The node to visit; `None` for the goal.
     node: Option<Node>,
     from: Option<Node>,
 }
@@ -79,14 +79,14 @@ impl PartialEq for Open {
 impl Eq for Open {}
 
 impl RoadNetwork {
-    /// The shortest way between two places, where a change to the lane beside costs as much as `change` metres; none
-    /// where there is no way. What lies beyond the ends of a lane counts as its end.
+    /// Returns the shortest route between two places if a lane change costs as much as `change` metres; `None` if there
+    /// is no route. A place beyond the ends of a lane counts as the lane's end.
     ///
     /// # Panics
-    /// A lane is of another network, which has more, or `change` is no number from 0 on.
+    /// A lane belongs to another network, which has more lanes, or `change` is not a number from 0 on.
     pub fn route(&self, from: RoutePosition, to: RoutePosition, change: f64) -> Option<Route> {
         assert!(change >= 0.0, "a lane change costs {change} m, expected a number from 0 on");
-        // As a share of the lane, so that it means the same place on the lanes beside.
+        // A share of the lane, so that it means the same place on the neighbouring lanes.
         let begun = (from.s / self.lane(from.lane).length()).clamp(0.0, 1.0);
         let end = to.s.clamp(0.0, self.lane(to.lane).length());
         let mut reached: Vec<Option<Option<Node>>> = vec![None; 2 * self.lanes().len()];
@@ -116,10 +116,10 @@ impl RoadNetwork {
         None
     }
 
-    /// What is left of a way after so many metres: where those are more than it has, its end.
+    /// Returns the rest of a route after `metres` metres, or its end if the route is shorter.
     ///
     /// # Panics
-    /// The way has no lanes, or is one of another network.
+    /// The route has no lanes, or they belong to another network, which has more lanes.
     pub fn rest_of(&self, route: &Route, metres: f64) -> Route {
         let (mut start, mut driven, mut lanes, mut changes) =
             (route.start, metres.max(0.0), &route.lanes[..], route.changes);
@@ -144,7 +144,7 @@ impl RoadNetwork {
         Route { lanes: lanes.to_vec(), start, end: route.end, length, changes }
     }
 
-    /// The way that led to `last`, by what each node was reached from.
+    /// Builds the route that led to `last`, from the predecessor of each node.
     fn unwound(&self, last: Node, reached: &[Option<Option<Node>>], [begun, end]: [f64; 2]) -> Route {
         let mut nodes = vec![last];
         while let Some(before) = reached[nodes[nodes.len() - 1].0 as usize].flatten() {

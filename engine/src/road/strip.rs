@@ -1,20 +1,20 @@
-//! What there is to draw of a road: strips along curves, each of one surface. Pictures, meshes and the check that
-//! no two elements overlap are all made of them.
+//! The visible surfaces of a road: strips along curves, each with one surface. Pictures, meshes and the check that no
+//! two elements overlap use them.
 
 use super::curve::Curve;
 use crate::geometry::Pose;
 use nalgebra::Vector2;
 
-/// What a strip shows, in the order in which it is drawn: later ones cover earlier ones.
+/// The surface of a strip, in the order of drawing: later surfaces cover earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Surface {
-    /// Where pedestrians walk.
+    /// A sidewalk for pedestrians.
     Sidewalk,
-    /// Where cars drive.
+    /// A carriageway for cars.
     Carriageway,
-    /// The middle of a roundabout.
+    /// The island in the middle of a roundabout.
     Island,
-    /// The stone beside a carriageway.
+    /// The kerb beside a carriageway.
     Kerb,
     /// The line between the two directions.
     CentreLine,
@@ -22,26 +22,26 @@ pub enum Surface {
     LaneLine,
     /// The line at the edge of a road without sidewalks.
     EdgeLine,
-    /// Where one stops before a crossing of equal roads.
+    /// The line where cars stop before a crossing of equal roads.
     StopLine,
-    /// Where one gives way: the stem of a T-intersection, the entries of a roundabout.
+    /// The line where cars give way: at the stem of a T-intersection and at the entries of a roundabout.
     GiveWayLine,
     /// A stripe of a zebra crossing.
     Zebra,
 }
 
-/// The ground between two curves that run beside one, `right` and `left` metres to the left of it.
+/// The ground between two curves that run parallel to `curve`, `right` and `left` metres to its left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strip {
-    /// What it shows.
+    /// The surface of the strip.
     pub surface: Surface,
     /// The curve that it follows.
     pub curve: Curve,
-    /// Where its right side runs: metres to the left of the curve, negative to the right.
+    /// The right side of the strip, in metres to the left of the curve; negative to the right.
     pub right: f64,
-    /// Where its left side runs, greater than `right`.
+    /// The left side of the strip, in metres to the left of the curve; greater than `right`.
     pub left: f64,
-    /// Metres of dash and of gap along the curve, for a broken line.
+    /// The lengths of dash and gap along the curve in metres, for a broken line.
     pub dash: Option<(f64, f64)>,
 }
 
@@ -58,12 +58,12 @@ impl Strip {
         Self { curve: self.curve.moved(frame), ..*self }
     }
 
-    /// Its middle: the way of a pedestrian on a sidewalk, of a brush on a line.
+    /// Returns the middle of the strip, for example the path of a pedestrian on a sidewalk.
     pub fn middle(&self) -> Curve {
         self.curve.offset(0.5 * (self.right + self.left))
     }
 
-    /// The unbroken strips that it consists of: its dashes, or itself. Dashes begin and end with half a gap.
+    /// Returns the unbroken strips: the dashes, or the strip itself. The dashes leave half a gap at each end.
     pub fn solid_parts(&self) -> Vec<Strip> {
         let Some((dash, gap)) = self.dash else { return vec![*self] };
         let count = (self.curve.length() / (dash + gap)) as usize;
@@ -75,7 +75,7 @@ impl Strip {
         (0..count).map(part).collect()
     }
 
-    /// Its sides as polylines that are true to `tolerance` metres, with as many points each: right, left.
+    /// Returns the right and the left side as polylines with equal numbers of points, exact to `tolerance` metres.
     pub fn sides(&self, tolerance: f64) -> (Vec<Vector2<f64>>, Vec<Vector2<f64>>) {
         let pieces = self.curve.pieces(self.right, tolerance).max(self.curve.pieces(self.left, tolerance));
         let side = |offset: f64| {
@@ -85,7 +85,7 @@ impl Strip {
         (side(self.right), side(self.left))
     }
 
-    /// Its outline as a polygon that is true to `tolerance` metres, counter-clockwise.
+    /// Returns the outline as a counter-clockwise polygon, exact to `tolerance` metres.
     pub fn outline(&self, tolerance: f64) -> Vec<Vector2<f64>> {
         let (mut right, left) = self.sides(tolerance);
         right.extend(left.iter().rev());

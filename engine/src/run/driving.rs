@@ -1,8 +1,8 @@
-//! A run with a driver at the wheel.
+//! Runs with a driver at the wheel.
 //!
-//! What a driver does with a run is two things: it [takes its seat](Run::seat), and it [answers](Run::answer) whenever the
-//! run needs it. Where its cameras have taken something, that has to be drawn in between, which is not the engine's to do:
-//! whoever draws goes from question to question. All others have [`simulate`] and [`watch`].
+//! A driver [takes its seat](Run::seat) in a run, and [answers](Run::answer) whenever the run needs a control. The
+//! images of its cameras have to be rendered before it answers, which the engine does not do: a program that renders
+//! goes from question to question itself. For drivers without cameras there are [`simulate`] and [`watch`].
 
 use super::{Run, Setup};
 use crate::driver::{Driver, Fault, FaultKind};
@@ -14,10 +14,10 @@ use crate::test::Test;
 use crate::vehicle::VehicleModel;
 
 impl Run {
-    /// The run of a test, in a car that this model moves, for this driver, which takes its seat.
+    /// Makes the run of a test, in a car that this model moves, and seats the driver.
     ///
     /// # Errors
-    /// The world cannot be built, or the driver cannot drive such a car: what becomes of the test.
+    /// Returns the outcome of the test if the world cannot be built or the driver cannot drive such a car.
     pub fn seated<'a>(
         program: &Program,
         test: impl Into<Test<'a>>,
@@ -35,11 +35,11 @@ impl Run {
         }
     }
 
-    /// Gives the car what the driver measures with, lets its answers be as late as it says, and tells the driver that a new run begins. A rig that the run was given
-    /// stays where the driver brings none.
+    /// Seats a driver: the car gets the driver's equipment and latency, and the driver is told that a new run begins.
+    /// If the driver has no rig, a rig that the run was given before stays.
     ///
     /// # Errors
-    /// The driver cannot drive such a car, or has a camera that cannot be.
+    /// The driver cannot drive such a car, or has a camera with impossible settings.
     pub fn seat(&mut self, driver: &mut dyn Driver) -> Result<(), Fault> {
         let equipment = driver.equipment();
         if !equipment.rig.is_empty() {
@@ -52,8 +52,8 @@ impl Run {
         driver.reset(&self.briefing())
     }
 
-    /// Lets the driver answer what [`Run::advance`] needed. The images are those of all moments that have arrived from its
-    /// [`eyes`](Run::eyes), in their order; from where there was nothing to see, there is none.
+    /// Lets the driver answer what [`Run::advance`] needed. The images are those of all moments that have arrived from
+    /// the run's [`eyes`](Run::eyes), in their order, without those from inside a body, which show nothing.
     ///
     /// # Errors
     /// The driver cannot go on.
@@ -64,13 +64,13 @@ impl Run {
         Ok(())
     }
 
-    /// Goes to the end with this driver, which is told that a new run begins.
+    /// Runs to the end with this driver, which is told that a new run begins.
     pub fn drive(&mut self, driver: &mut dyn Driver) -> Outcome {
         self.watch(driver, |_| ())
     }
 
-    /// Goes to the end with this driver, and lets `see` have a look whenever the driver is asked, and at the end. Nothing is
-    /// drawn, so that a driver with cameras cannot drive.
+    /// Runs to the end with this driver, and calls `see` whenever the driver is asked, and at the end. Nothing renders
+    /// images, so a driver with cameras cannot drive.
     pub fn watch(&mut self, driver: &mut dyn Driver, see: impl FnMut(&Self)) -> Outcome {
         match self.seat(driver) {
             Ok(()) => self.finish(driver, see),
@@ -102,7 +102,7 @@ impl Run {
     }
 }
 
-/// Runs a test to its end with a driver, in a car that this model moves; a world that cannot be built is an outcome too.
+/// Runs a test to its end with a driver, in a car that this model moves. An impossible world is an outcome, too.
 pub fn simulate<'a>(
     program: &Program,
     test: impl Into<Test<'a>>,
@@ -112,7 +112,7 @@ pub fn simulate<'a>(
     watch(program, test, model, driver, |_| ())
 }
 
-/// [`simulate`], with a look at the run whenever the driver is asked, and at the end: [`Run::watch`].
+/// Does the same as [`simulate`], and calls `see` whenever the driver is asked, and at the end: [`Run::watch`].
 pub fn watch<'a>(
     program: &Program,
     test: impl Into<Test<'a>>,

@@ -1,16 +1,16 @@
-//! What is measured of a run beside its requirements: the figures by which runs, and failures above all, are told apart.
+//! The measurements of a run besides its requirements. They tell runs apart, above all failures.
 
 use super::scene::Scene;
 use crate::contact::{Contact, ContactMotion};
 use crate::outcome::Measurements;
 use crate::vehicle::VehicleState;
 
-/// Speed in m/s below which the car stands at a contact.
+/// The speed in m/s below which the car counts as standing at a contact.
 const STANDING: f64 = 0.1;
-/// Deceleration in m/s² above which the car brakes at a contact: more than rolling resistance and sensor noise make.
+/// The deceleration in m/s² above which the car brakes at a contact. Rolling resistance and noise make less.
 const BRAKING: f64 = 0.5;
 
-/// What there is to measure of a run as it ends.
+/// Returns the measurements of a run as it ends.
 pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
     let car = scene.ego.dynamics.state();
     let contact = scene.contact.map(|touching| {
@@ -27,7 +27,7 @@ pub(super) fn measured(scene: &Scene, triggered: bool) -> Measurements {
     Measurements { travelled: car.travelled, contact, triggered }
 }
 
-/// What the car does at a contact.
+/// Returns the motion of the car at a contact.
 fn motion(car: &VehicleState) -> ContactMotion {
     if car.speed() < STANDING {
         ContactMotion::Standing

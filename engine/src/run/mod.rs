@@ -32,28 +32,28 @@ use sensing::Sensing;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// What of a run is not the program's to say.
+/// The settings of a run that the program does not decide.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setup {
-    /// Seconds between two questions to the driver.
+    /// The seconds between two questions to the driver.
     pub period: f64,
-    /// The tick in seconds, if it is not the program's own.
+    /// The tick in seconds; `None` for the program's own tick.
     pub dt: Option<f64>,
-    /// Which model moves the car under test.
+    /// The model that moves the car under test.
     pub model: VehicleModel,
 }
 
-/// What a run wants next.
+/// The next need of a run.
 #[derive(Debug)]
 pub enum Step<'a> {
-    /// A control for what is to be seen here: [`Run::supply`] it, or let a driver [`Run::answer`], and advance again.
+    /// The run needs a control for this observation: [`Run::supply`] it, or let a driver [`Run::answer`]; then advance.
     Need(&'a Observation),
-    /// Nothing: it is over.
+    /// The run is over, with this outcome.
     Done(Box<Outcome>),
 }
 
 impl Step<'_> {
-    /// What became of the test, if it is over.
+    /// Returns the outcome of the test if the run is over.
     pub fn outcome(self) -> Option<Outcome> {
         match self {
             Self::Need(_) => None,
@@ -74,10 +74,10 @@ pub struct Run {
     ticks: usize,
     tick: usize,
     over: bool,
-    /// Ticks between two questions to the driver.
+    /// The ticks between two questions to the driver.
     period: usize,
     supplied: bool,
-    /// Ticks from an answer of the driver to when it takes effect, and those on their way, each with its tick.
+    /// The ticks until an answer takes effect, and the answers that have not taken effect yet, each with its tick.
     latency: usize,
     answers: VecDeque<(usize, Control)>,
     told: Control,
@@ -91,12 +91,12 @@ pub struct Run {
     trace: Trace,
     observation: Observation,
     sensing: Sensing,
-    /// What there is to say of a run that cannot begin.
+    /// The outcome of a run that cannot begin.
     unable: Option<Outcome>,
 }
 
 impl Run {
-    /// The run of a program on a test. The driver's period and the duration are rounded to whole ticks.
+    /// Makes the run of a program on a test. The driver's period and the duration are rounded to whole ticks.
     ///
     /// # Errors
     /// The program cannot build its world with these values.
@@ -156,12 +156,12 @@ impl Run {
         })
     }
 
-    /// What a driver of this run has to know beforehand.
+    /// Returns the facts that a driver of this run is told beforehand.
     pub fn briefing(&self) -> Briefing {
         self.scene.ego.briefing()
     }
 
-    /// The names of the signals that its trace has.
+    /// Returns the names of the signals in the trace.
     pub fn signals(&self) -> &[String] {
         self.trace.signals()
     }
@@ -169,7 +169,7 @@ impl Run {
     /// Goes on until the driver is needed or the run is over.
     ///
     /// # Panics
-    /// It was over already.
+    /// The run was over already.
     pub fn advance(&mut self) -> Step<'_> {
         assert!(!self.over, "the run is over");
         if let Some(outcome) = self.unable.take() {
@@ -201,7 +201,7 @@ impl Run {
         }
     }
 
-    /// Answers what [`Run::advance`] needed.
+    /// Answers what [`Run::advance`] needed with a control.
     pub fn supply(&mut self, control: Control) {
         self.told = control;
         self.answers.push_back((self.tick + self.latency, control));
@@ -209,48 +209,48 @@ impl Run {
         self.sensing.clear();
     }
 
-    /// What the car was told last, whether or not it has taken effect yet.
+    /// Returns the last control that the car was given, whether or not it has taken effect yet.
     pub fn control(&self) -> Control {
         self.told
     }
 
-    /// All bodies where they are now, the car under test first, the others in the order in which they were placed; what stands
-    /// on the [`Roadside`](crate::Roadside) comes last.
+    /// Returns all bodies where they are now: the car under test first, then the others in the order in which they were
+    /// placed, and last those on the [`Roadside`](crate::Roadside).
     pub fn bodies(&self) -> &[BodyState] {
         &self.scene.bodies
     }
 
-    /// The ways that objects mean to go from where they are, each with the index of a body: that of the object.
+    /// Returns the planned ways of objects from where they are, each with the index of the object's body.
     pub fn plans(&self) -> Vec<(usize, Path)> {
         self.scene.plans()
     }
 
-    /// The index of the body that the car under test touches.
+    /// Returns the index of the body that the car under test touches.
     pub fn touched(&self) -> Option<usize> {
         self.scene.contact.map(|contact| contact.body)
     }
 
-    /// The roads.
+    /// Returns the road network.
     pub fn network(&self) -> &Arc<RoadNetwork> {
         &self.scene.network
     }
 
-    /// Light, fog, rain and the sun at this tick.
+    /// Returns light, fog, rain and the sun at this tick.
     pub fn weather(&self) -> Weather {
         self.scene.weather(&self.graph)
     }
 
-    /// What the object is called that a body is of, by the body's index; the car under test is `car`.
+    /// Returns the name of the object that a body belongs to, by the body's index; the car under test is `car`.
     pub fn name_of(&self, body: usize) -> &str {
         self.scene.name(body)
     }
 
-    /// Seconds since it began.
+    /// Returns the seconds since the run began.
     pub fn time(&self) -> f64 {
         self.tick as f64 * self.dt
     }
 
-    /// Whether it has come to its end.
+    /// Returns `true` if the run is over.
     pub fn is_over(&self) -> bool {
         self.over
     }
@@ -331,7 +331,7 @@ impl Run {
     }
 }
 
-/// A sample as a trace records it: truths as 1 and 0, what is absent as NaN.
+/// Converts a sample to the number in a trace: truths to 1 and 0, absent samples to NaN.
 fn as_number(sample: DatumSample) -> f64 {
     match sample {
         DatumSample::Number(number) => number,
@@ -341,7 +341,7 @@ fn as_number(sample: DatumSample) -> f64 {
 }
 
 impl Setup {
-    /// For a driver that is asked every `period` seconds: the program's tick, the model `single-track`.
+    /// Makes the setup for a driver that is asked every `period` seconds: the program's tick, the model `single-track`.
     pub fn asking_every(period: f64) -> Self {
         Self { period, dt: None, model: VehicleModel::default() }
     }

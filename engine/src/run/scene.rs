@@ -1,4 +1,4 @@
-//! All that is in a world, as it moves from tick to tick.
+//! The scene of a run: everything in a world, as it moves from tick to tick.
 
 use crate::geometry::Pose;
 use crate::object::{Behaviour, BodyState, ObjectSetup, Outputs, Tick, Wiring};
@@ -14,48 +14,48 @@ use crate::world::{Touching, World, overlapping};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// The least that a contact is worth, in metres of missing braking distance.
+/// The least missing braking distance in metres that counts for a contact.
 const LEAST_MISSING: f64 = 0.001;
 
-/// An object with its bodies: those from the first index on, before the second.
+/// An object with its bodies: the index of its first body, and the index after its last.
 struct Object {
     name: String,
     own: (usize, usize),
     behaviour: Behaviour,
 }
 
-/// The car under test, the objects around it, and where they all are.
+/// The car under test, the objects around it, and the states of all bodies.
 pub(super) struct Scene {
     pub ego: Ego,
     pub network: Arc<RoadNetwork>,
     objects: Vec<Object>,
-    /// The car's first, then those of the objects, and then the scenery.
+    /// The bodies: first the car's, then those of the objects, and then the scenery.
     pub bodies: Vec<BodyState>,
-    /// How many of them are no scenery: nothing but sensors and the physics knows of the others.
+    /// The number of bodies that are no scenery. Only sensors and the physics know of the scenery.
     told: usize,
-    /// What the objects show at this tick.
+    /// The outputs of the objects at this tick.
     pub outputs: Vec<DatumSample>,
     wiring: Wiring,
-    /// Where the values of their inputs stand.
+    /// The graph's slots of the values of the objects' inputs.
     inputs: Vec<Slot>,
     friction: Slot,
-    /// Light, fog, rain and the sun, as far as the program says anything of them.
+    /// Light, fog, rain and the sun, as far as the program defines them.
     weather: Vec<(WeatherPart, Slot)>,
     world: World,
-    /// How the car touches another body.
+    /// The contact of the car with another body.
     pub contact: Option<Touching>,
-    /// What `car.clearance` shows at this tick.
+    /// The value of `car.clearance` at this tick.
     clearance: f64,
-    /// Where the bodies of one object go within a tick.
+    /// The poses of one object's bodies at the end of a tick.
     poses: Vec<Option<Pose>>,
-    /// Where all bodies are at the end of a tick.
+    /// The states of all bodies at the end of a tick.
     next: Vec<BodyState>,
     pushes: Vec<Vector2<f64>>,
     velocities: Vec<Vector2<f64>>,
 }
 
 impl Scene {
-    /// What a program has built and laid out, with a car that this model moves.
+    /// Makes the scene of a program that has been built and laid out, with a car that this model moves.
     pub fn new(mut scenario: Scenario, graph: &Graph, model: VehicleModel) -> Self {
         let network = scenario.networks.swap_remove(0).expect("a network that cannot be built is a problem");
         let weather = scenario.weather().map(|(part, node)| (part, graph.slot(&node))).collect();
@@ -94,8 +94,8 @@ impl Scene {
         }
     }
 
-    /// Lets all objects say how they move as the run begins, by their inputs at the first tick: of `graph`, a copy of the
-    /// run's that is used for nothing else.
+    /// Asks all objects for their velocities at the start of the run, from their inputs at the first tick. `graph` is a
+    /// copy of the run's graph that is used for nothing else.
     pub fn begin(&mut self, (mut graph, friction): (Graph, Slot), clock: Clock) -> Result<(), Upset> {
         self.show();
         graph.tick(clock, &self.outputs);
@@ -127,18 +127,18 @@ impl Scene {
         Ok(())
     }
 
-    /// The bodies that are no scenery.
+    /// Returns the bodies that are no scenery.
     pub fn told(&self) -> &[BodyState] {
         &self.bodies[..self.told]
     }
 
-    /// Two bodies that overlap: for a world that cannot begin.
+    /// Returns two bodies that overlap, if there are any: such a world cannot begin.
     pub fn overlapping(&self) -> Option<Invalid> {
         let (a, b) = overlapping(&self.bodies)?;
         Some(Invalid::Overlap { first: self.name(a).to_owned(), second: self.name(b).to_owned() })
     }
 
-    /// What the object is called that a body is of.
+    /// Returns the name of the object that a body belongs to.
     pub fn name(&self, body: usize) -> &str {
         let object = self.objects.iter().find(|object| (object.own.0..object.own.1).contains(&body));
         object.map_or("car", |object| &object.name)
@@ -159,8 +159,8 @@ impl Scene {
 
     /// Moves everything on by a tick of `dt` seconds, by the streams as they have been evaluated.
     ///
-    /// Inputs are checked where they enter: minima and maxima would swallow a NaN, and a road whose friction
-    /// is no number would pass for one that limits nothing.
+    /// Inputs are checked before they are used: a minimum or maximum would hide a NaN, and a road whose friction is no
+    /// number would limit nothing.
     pub fn step(&mut self, graph: &Graph, dt: f64) -> Result<(), Upset> {
         for (part, slot) in &self.weather {
             let value: f64 = graph.value(*slot).unwrap_or(f64::NAN);
@@ -211,7 +211,7 @@ impl Scene {
         Ok(())
     }
 
-    /// What the streams of the weather say at this tick; the usual of what they do not say, or say wrongly.
+    /// Returns the weather at this tick: the program's streams, and defaults where a stream is absent or out of range.
     pub fn weather(&self, graph: &Graph) -> Weather {
         let mut weather = Weather::default();
         for (part, slot) in &self.weather {
@@ -222,7 +222,7 @@ impl Scene {
         weather
     }
 
-    /// The ways that objects mean to go, each with the index of the first body of its object.
+    /// Returns the planned ways of objects, each with the index of the first body of its object.
     pub fn plans(&self) -> Vec<(usize, Path)> {
         let plan = |object: &Object| match &object.behaviour {
             Behaviour::Geometric(behaviour) if object.own.0 < object.own.1 => Some((object.own.0, behaviour.plan()?)),
@@ -232,7 +232,7 @@ impl Scene {
         own.into_iter().chain(self.objects.iter().filter_map(plan)).collect()
     }
 
-    /// The braking distance that was missing at a contact.
+    /// Returns the braking distance in metres that was missing at a contact.
     fn missing_distance(&self, contact: Touching, friction: f64) -> f64 {
         let closing = (self.bodies[0].velocity - self.bodies[contact.body].velocity).norm_squared();
         (closing / (2.0 * friction * GRAVITY)).max(LEAST_MISSING)

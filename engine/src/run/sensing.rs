@@ -1,20 +1,20 @@
-//! The sensors and cameras that a run carries along.
+//! The sensors and cameras of a run.
 
 use super::Run;
 use crate::sensor::{Air, Rig, SensorView, Shutters};
 
-/// All that measures in a run. None of it depends on what else is carried.
+/// All sensors and cameras of a run. None of them depends on the others.
 #[derive(Debug, Default)]
 pub(super) struct Sensing {
     rig: Rig,
     eyes: Shutters,
     film: Shutters,
-    /// Which test it is: [`Test::key`](crate::Test::key).
+    /// The key of the test: [`Test::key`](crate::Test::key).
     test: u64,
 }
 
 impl Sensing {
-    /// What measures nothing yet, in a test of this key.
+    /// Makes an empty set of sensors, in a test with this key.
     pub fn in_test(key: u64) -> Self {
         Self { test: key, ..Self::default() }
     }
@@ -23,7 +23,7 @@ impl Sensing {
         [&mut self.rig, self.eyes.rig(), self.film.rig()]
     }
 
-    /// Only what arrives from now on is new.
+    /// Forgets what has arrived, so that only later arrivals are new.
     pub fn clear(&mut self) {
         self.rigs().into_iter().for_each(Rig::clear);
     }
@@ -36,33 +36,33 @@ impl Run {
         self.sensing.rig.reset();
     }
 
-    /// Gives the car under test the cameras that its driver sees through.
+    /// Gives the car under test the cameras of its driver.
     pub(super) fn open_eyes(&mut self, eyes: Shutters) {
         self.sensing.eyes = eyes.in_test(self.sensing.test);
     }
 
-    /// Films the run with these cameras, which the driver knows nothing of. Their noise and what they lose are those of this
-    /// test.
+    /// Films the run with these cameras, which the driver knows nothing of. Their noise and their lost images depend on
+    /// the test.
     pub fn film(&mut self, film: Shutters) {
         self.sensing.film = film.in_test(self.sensing.test);
     }
 
-    /// The sensors of the car under test, with what has arrived from them since its driver was last asked.
+    /// Returns the sensors of the car under test, with the readings that have arrived since its driver was last asked.
     pub fn rig(&self) -> &Rig {
         &self.sensing.rig
     }
 
-    /// The cameras that the driver sees through: what has arrived from them has to be drawn before it can answer.
+    /// Returns the driver's cameras. Their arrived moments have to be rendered before the driver can answer.
     pub fn eyes(&self) -> &Shutters {
         &self.sensing.eyes
     }
 
-    /// The cameras that the run is filmed with.
+    /// Returns the cameras that film the run.
     pub fn filmed(&self) -> &Shutters {
         &self.sensing.film
     }
 
-    /// What there is to know at this tick.
+    /// Returns the true state of the world at this tick, as sensors need it.
     pub fn view(&self) -> SensorView<'_> {
         let weather = self.weather();
         SensorView {

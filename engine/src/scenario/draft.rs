@@ -1,4 +1,4 @@
-//! An object under construction: what it is made of before it is left to its behaviour.
+//! Objects under construction, before they get their behaviour.
 
 use super::Scenario;
 use crate::flaw::{ObjectFlaw, WorldFlaw};
@@ -6,8 +6,8 @@ use crate::geometry::Pose;
 use crate::object::{Behaviour, Body, Geometric, Input, ObjectSetup, Output, Physical};
 use crate::stream::{Datum, Stream};
 
-/// An object under construction: [`Scenario::object`] begins it, and [`ObjectDraft::geometric`] or [`ObjectDraft::physical`] make
-/// it part of the world.
+/// An object under construction. [`Scenario::object`] begins it, and [`ObjectDraft::geometric`] or
+/// [`ObjectDraft::physical`] make it part of the world.
 #[must_use = "without a behaviour it is no object"]
 pub struct ObjectDraft<'a> {
     scenario: &'a mut Scenario,
@@ -20,12 +20,12 @@ impl<'a> ObjectDraft<'a> {
         Self { scenario, name, bodies: Vec::new() }
     }
 
-    /// What the object is called: as it was asked for, with a number from the second of that name on.
+    /// Returns the name of the object: the name that was asked for, with a number if an earlier object has that name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Gives it a body, which stands at `start`. An object may have none, or several.
+    /// Gives the object a body, which stands at `start`. An object may have none, or several.
     pub fn body(&mut self, body: Body, start: Pose) {
         if let Some([length, width, height]) = body.wrong_measures() {
             self.flaw(ObjectFlaw::Measures { length, width, height });
@@ -37,17 +37,17 @@ impl<'a> ObjectDraft<'a> {
         self.bodies.push((body, start));
     }
 
-    /// An input, and the stream that it is bound to at first.
+    /// Adds an input, with the stream that it is bound to at first.
     pub fn input<T: Datum>(&mut self, name: &str, stream: impl Into<Stream<T>>) -> Input<T> {
         self.scenario.wiring.input(&format!("{}.{name}", self.name), &stream.into())
     }
 
-    /// An output.
+    /// Adds an output.
     pub fn output<T: Datum>(&mut self, name: &str) -> Output<T> {
         self.scenario.wiring.output(&format!("{}.{name}", self.name))
     }
 
-    /// An output that every trace records.
+    /// Adds an output that every trace records.
     pub fn signal(&mut self, name: &str) -> Output<f64> {
         let name = format!("{}.{name}", self.name);
         let output = self.scenario.wiring.output(&name);
@@ -55,7 +55,7 @@ impl<'a> ObjectDraft<'a> {
         output
     }
 
-    /// Says that there can be no such object, and why: the world cannot be built. The words go on from the object's name.
+    /// Refuses the object, so the world cannot be built. `why` gives the reason and goes on from the object's name.
     pub fn refuse(&mut self, why: &str) {
         self.flaw(ObjectFlaw::Refused { why: why.to_owned() });
     }
@@ -64,13 +64,13 @@ impl<'a> ObjectDraft<'a> {
         self.scenario.flaw(WorldFlaw::Object { object: self.name.clone(), flaw });
     }
 
-    /// Leaves the object to this behaviour, which moves its bodies.
+    /// Makes the object part of the world, with a behaviour that moves its bodies.
     pub fn geometric(self, behaviour: impl Geometric) {
         let behaviour = Behaviour::Geometric(Box::new(behaviour));
         self.scenario.objects.push(ObjectSetup { name: self.name, bodies: self.bodies, behaviour });
     }
 
-    /// Leaves the object to the physics and to this behaviour, which pushes its one body of this mass in kg.
+    /// Makes the object part of the world, moved by physics and a behaviour that pushes its one body, of `mass` kg.
     pub fn physical(mut self, mass: f64, behaviour: impl Physical) {
         if self.bodies.len() != 1 {
             return self.flaw(ObjectFlaw::Bodies { found: self.bodies.len() });

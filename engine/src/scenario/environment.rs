@@ -1,4 +1,4 @@
-//! What holds for the whole world: light, fog, rain, the sun, and how slippery the roads are (the paper's `World`).
+//! The conditions of the whole world: light, fog, rain, the sun, and the friction of the roads (the paper's `World`).
 
 use super::{Place, Scenario};
 use crate::stream::{Node, Stream};
@@ -6,13 +6,13 @@ use crate::weather::{Weather, WeatherPart};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::rc::Rc;
 
-/// Friction coefficient of dry asphalt.
+/// The friction coefficient of dry asphalt.
 const DRY_ASPHALT: f64 = 0.8;
-/// How much of its friction a road loses in the heaviest rain. Average peak values of the adhesion of tyres are 0.8 to 0.9 on
-/// dry asphalt and 0.5 to 0.7 on wet asphalt (Wong, Theory of Ground Vehicles, table 1.3, after Taborek 1957): 0.6 of 0.85.
+/// The share of its friction that a road loses in the heaviest rain. Mean peak adhesion of tyres is 0.8 to 0.9 on dry
+/// and 0.5 to 0.7 on wet asphalt (Wong, Theory of Ground Vehicles, table 1.3, after Taborek 1957): 0.6 of 0.85.
 const LOST_IN_RAIN: f64 = 0.3;
 
-/// The conditions of a world, not placed yet: broad daylight, no fog, no rain, dry asphalt.
+/// The conditions of a world, not placed yet: broad daylight, no fog, no rain, dry asphalt by default.
 #[derive(Debug, Clone)]
 pub struct Environment {
     light: Stream<f64>,
@@ -25,54 +25,54 @@ pub struct Environment {
 /// The conditions as streams that anything can read.
 #[derive(Debug, Clone)]
 pub struct Conditions {
-    /// From 0, night, to 1, broad daylight.
+    /// The light, from 0 (night) to 1 (broad daylight).
     pub light: Stream<f64>,
-    /// From 0, none, to 1, so thick that nothing is seen.
+    /// The fog, from 0 (none) to 1 (so thick that nothing is seen).
     pub fog: Stream<f64>,
-    /// From 0, none, to 1, a cloudburst of 50 mm/h.
+    /// The rain, from 0 (none) to 1 (a cloudburst of 50 mm/h).
     pub rain: Stream<f64>,
-    /// How high the sun stands, in radians above the horizon.
+    /// The elevation of the sun, in radians above the horizon.
     pub sun_elevation: Stream<f64>,
-    /// Where the sun stands, in radians counter-clockwise from x.
+    /// The azimuth of the sun, in radians counter-clockwise from x.
     pub sun_azimuth: Stream<f64>,
-    /// The friction coefficient between tyre and road, as far as rain leaves it.
+    /// The friction coefficient between tyre and road, with the loss by rain.
     pub friction: Stream<f64>,
 }
 
 impl Environment {
-    /// Broad daylight, no fog, no rain, dry asphalt.
+    /// Makes the default conditions: broad daylight, no fog, no rain, dry asphalt.
     #[expect(clippy::new_without_default, reason = "as every other object it is made by its name")]
     pub fn new() -> Self {
         let Weather { light, fog, .. } = Weather::default();
         Self { light: Stream::constant(light), fog: Stream::constant(fog), rain: None, sun: None, friction: None }
     }
 
-    /// From 0, night, to 1, broad daylight.
+    /// Sets the light, from 0 (night) to 1 (broad daylight).
     pub fn light(mut self, light: impl Into<Stream<f64>>) -> Self {
         self.light = light.into();
         self
     }
 
-    /// From 0, none, to 1, so thick that nothing is seen.
+    /// Sets the fog, from 0 (none) to 1 (so thick that nothing is seen).
     pub fn fog(mut self, fog: impl Into<Stream<f64>>) -> Self {
         self.fog = fog.into();
         self
     }
 
-    /// From 0, none, to 1, a cloudburst of 50 mm/h. It takes from the roads as much of their friction as 0.3 times itself,
-    /// whatever they are made of, and from all sensors but radars some of their sight.
+    /// Sets the rain, from 0 (none) to 1 (a cloudburst of 50 mm/h). Rain takes 0.3 times its value as a share of the
+    /// friction of all roads, and reduces the sight of all sensors but radars.
     pub fn rain(mut self, rain: impl Into<Stream<f64>>) -> Self {
         self.rain = Some(rain.into());
         self
     }
 
-    /// Where the sun stands, in radians: its elevation above the horizon, and its azimuth, counter-clockwise from x.
+    /// Sets the sun's elevation above the horizon and its azimuth, counter-clockwise from x, both in radians.
     pub fn sun(mut self, elevation: impl Into<Stream<f64>>, azimuth: impl Into<Stream<f64>>) -> Self {
         self.sun = Some([elevation.into(), azimuth.into()]);
         self
     }
 
-    /// The friction coefficient between tyre and dry road.
+    /// Sets the friction coefficient between tyre and dry road.
     pub fn friction(mut self, friction: impl Into<Stream<f64>>) -> Self {
         self.friction = Some(friction.into());
         self
@@ -89,12 +89,12 @@ impl Default for Conditions {
 }
 
 impl Conditions {
-    /// How much friction rain leaves of this much.
+    /// Returns the friction that the rain leaves.
     pub(super) fn wet(&self, friction: Stream<f64>) -> Stream<f64> {
         friction * (1.0 - LOST_IN_RAIN * &self.rain)
     }
 
-    /// Light and fog, the rain, and the place of the sun.
+    /// Returns the streams of the weather: light and fog, the rain, and the place of the sun.
     pub(super) fn weather(&self) -> [Vec<(WeatherPart, Rc<Node>)>; 3] {
         let part = |name, range, expected, of, stream: &Stream<f64>| {
             (WeatherPart { name, range, expected, of }, stream.node.clone())

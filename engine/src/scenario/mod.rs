@@ -1,9 +1,8 @@
 //! The builder that a program writes its world into.
 //!
-//! A scenario is a function from a test to a world: it asks for its parameters by name, places objects, binds
-//! their inputs to streams, and states requirements. Mistakes in it (a lane that the road does not have, two
-//! cars under test) are collected and reported when the function has returned, so that programs need no `?` on
-//! every line.
+//! A scenario is a function from a test to a world: it asks for its parameters by name, places objects, binds their
+//! inputs to streams, and states requirements. Mistakes in it (a lane that the road does not have, two cars under test)
+//! are collected and reported when the function has returned, so programs need no `?` on every line.
 
 mod draft;
 mod ego;
@@ -34,35 +33,35 @@ use std::ops::RangeInclusive;
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The tick in seconds where nothing else is asked for.
+/// The default tick in seconds.
 pub const DEFAULT_DT: f64 = 0.01;
 
-/// How many ticks of `dt` seconds a duration takes, rounded.
+/// Returns how many ticks of `dt` seconds a duration takes, rounded.
 pub(crate) fn ticks(duration: f64, dt: f64) -> usize {
     (duration / dt).round() as usize
 }
 
 /// The world under construction, for one test or for none.
 pub struct Scenario {
-    /// What this test says of parameters, by name; nothing while the program is only asked for them.
+    /// The test's values of parameters, by name; empty if the program is only asked for its parameters.
     given: Vec<(String, param::Given)>,
-    /// A number that another test hardly has, as far as its parameters are asked for: [`Test::key`]. 0 without a test.
+    /// A hash of the test, as far as the program asks for its parameters: [`Test::key`]. 0 without a test.
     pub(crate) key: Rc<Cell<u64>>,
     pub(crate) parameters: Rc<RefCell<Vec<Declared>>>,
     pub(crate) flaws: Flaws,
-    /// Those that were placed, also such as cannot be built.
+    /// The networks that were placed; `None` for a network that cannot be built.
     pub(crate) networks: Vec<Option<Arc<RoadNetwork>>>,
     pub(crate) cars: Vec<EgoSetup>,
     pub(crate) objects: Vec<ObjectSetup>,
-    /// What is there for sensors alone.
+    /// The objects that only sensors and the physics know of.
     pub(crate) scenery: Vec<ObjectSetup>,
     pub(crate) wiring: Wiring,
     /// The outputs that every trace records, by name.
     pub(crate) signals: Vec<(String, Source)>,
     pub(crate) conditions: Conditions,
-    /// Which conditions the program has said.
+    /// The conditions that the program has defined.
     said: Said,
-    /// What objects were asked to be called, with how often. Only looked up.
+    /// The names that programs asked for, with how often they did. Only looked up, so their order does not matter.
     names: HashMap<String, usize>,
     pub(crate) requirements: Rc<RefCell<Vec<requirement::Stated>>>,
     pub(crate) premise: Option<Stream<bool>>,
@@ -70,11 +69,11 @@ pub struct Scenario {
     pub(crate) dt: f64,
     effects: Vec<Rc<Node>>,
     equations: Rc<RefCell<Vec<Equation>>>,
-    /// All that reads streams, laid out, once the program has returned.
+    /// The graph of all streams that are read, laid out once the program has returned.
     pub(crate) graph: Graph,
 }
 
-/// What of the [`Conditions`] a program has said.
+/// The parts of the [`Conditions`] that a program has defined.
 #[derive(Debug, Clone, Copy, Default)]
 struct Said {
     friction: bool,
@@ -85,10 +84,10 @@ struct Said {
 
 /// Something that can be placed in a world: a road, a car, a pedestrian.
 pub trait Place {
-    /// How the program speaks of it afterwards.
+    /// The handle by which the program refers to the placed thing.
     type Handle;
 
-    /// Adds it to the world.
+    /// Adds the thing to the world and returns its handle.
     fn place(self, scenario: &mut Scenario) -> Self::Handle;
 }
 
@@ -130,25 +129,25 @@ impl Scenario {
         }
     }
 
-    /// An open parameter with values in an interval.
+    /// Declares an open parameter with values in an interval.
     pub fn interval(&mut self, name: &str, range: RangeInclusive<f64>) -> Param<f64> {
         let (lo, hi) = range.into_inner();
         self.declare(name, Domain::Interval { lo, hi }, None, Read::number())
     }
 
-    /// A parameter with values in an interval that stays at its nominal value until a study opens it.
+    /// Declares a closed parameter with values in an interval. It stays at its nominal value until a study opens it.
     pub fn nominal(&mut self, name: &str, range: RangeInclusive<f64>, nominal: f64) -> Param<f64> {
         let (lo, hi) = range.into_inner();
         self.declare(name, Domain::Interval { lo, hi }, Some(nominal.into()), Read::number())
     }
 
-    /// An open parameter with one of these values, of which there is at least one.
+    /// Declares an open parameter with one of these values, of which there is at least one.
     pub fn choice<T: Into<Value> + Clone + 'static, const N: usize>(&mut self, name: &str, levels: [T; N]) -> Param<T> {
         const { assert!(N > 0, "a choice needs at least one value") }
         self.declare(name, Domain::Choice(levels.clone().map(Into::into).into()), None, Read::level(levels))
     }
 
-    /// A parameter with one of these values that stays at its nominal value until a study opens it.
+    /// Declares a closed parameter with one of these values. It stays at its nominal value until a study opens it.
     pub fn nominal_choice<T: Into<Value> + Clone + 'static, const N: usize>(
         &mut self,
         name: &str,
@@ -164,19 +163,19 @@ impl Scenario {
         let open = nominal.is_none();
         let mut parameter = Parameter::new(name, domain);
         parameter.default = nominal;
-        // A name that the test does not know is reported once the program has returned, with all the others.
+        // A name that the test does not know is reported once the program has returned, together with all the others.
         let given = self.given.iter().find(|(given, _)| given == name).map(|(_, given)| given.clone());
         self.parameters.borrow_mut().push(Declared { parameter, open });
         Param::new(self, given.unwrap_or_default(), read)
     }
 
-    /// The shape of a signal with a value of its own at every tick. It takes as many coordinates; the
-    /// [duration](Scenario::duration) and the [tick](Scenario::tick) have to be said before.
+    /// Returns the shape of a signal with one value for each tick, and thus one coordinate for each tick. Set the
+    /// [duration](Scenario::duration) and the [tick](Scenario::tick) before you call this.
     pub fn per_tick(&self) -> Shape {
         Shape::PiecewiseConstant { pieces: ticks(self.duration, self.dt) }
     }
 
-    /// Announces a stream that is read before it can be defined: feedback, which goes through a [`Stream::pre`].
+    /// Announces a stream that is read before it can be defined. Such a feedback has to go through a [`Stream::pre`].
     ///
     /// ```
     /// # use paracosm_engine::{Scenario, Stream};
@@ -198,12 +197,12 @@ impl Scenario {
         }
     }
 
-    /// Adds an object to the world; the handle by which the program speaks of it.
+    /// Adds an object to the world and returns the handle by which the program refers to it.
     pub fn place<P: Place>(&mut self, object: P) -> P::Handle {
         object.place(self)
     }
 
-    /// Begins an object of the program's own, called by this name; the second of a name is called `name-2`.
+    /// Begins an object that the program itself defines, with this name; the second of a name is called `name-2`.
     pub fn object(&mut self, name: &str) -> ObjectDraft<'_> {
         let count = self.names.entry(name.to_owned()).and_modify(|count| *count += 1).or_insert(1);
         let name = if *count == 1 { name.to_owned() } else { format!("{name}-{count}") };
@@ -217,7 +216,7 @@ impl Scenario {
         self.conditions.friction = if self.said.rain { self.conditions.wet(friction) } else { friction };
     }
 
-    /// There is one environment at most, so that it rains once.
+    /// There is at most one environment, so rain is applied once.
     fn say_rain(&mut self, rain: Stream<f64>) {
         self.conditions.rain = rain;
         self.conditions.friction = self.conditions.wet(self.conditions.friction.clone());
@@ -237,39 +236,40 @@ impl Scenario {
         }
     }
 
-    /// States a requirement on every run. What it returns takes a text, a unit and a scale.
+    /// States a requirement on every run. The returned draft takes a text, a unit and a scale.
     pub fn require(&mut self, id: &str, asked: Temporal) -> RequirementDraft {
         RequirementDraft::new(self.requirements.clone(), id, asked)
     }
 
-    /// Says what the test is about: where `event` never occurs and nothing is violated, its verdict is
-    /// inconclusive rather than a pass.
+    /// Sets the premise of the test: if `event` never occurs and nothing is violated, the verdict is inconclusive
+    /// rather than pass.
     pub fn premise(&mut self, event: &Stream<bool>) {
         self.premise = Some(event.clone());
     }
 
-    /// Says that there is no such world, and why: the test is invalid. For what the intervals of the parameters cannot say.
+    /// Refuses the test, because there is no such world: the test is invalid for the reason `why`. Use this for
+    /// conditions that the intervals of the parameters cannot express.
     pub fn refuse(&mut self, why: &str) {
         self.flaw(WorldFlaw::Refused { why: why.to_owned() });
     }
 
-    /// How long a run takes in simulated seconds, unless a contact ends it before; 10 where nothing is said.
+    /// Sets the duration of a run in simulated seconds, unless a contact ends it before; the default is 10.
     pub fn duration(&mut self, seconds: f64) {
         self.duration = seconds;
     }
 
-    /// How long a tick is, in seconds; [`DEFAULT_DT`] where nothing is said.
+    /// Sets the duration of a tick in seconds; the default is [`DEFAULT_DT`].
     pub fn tick(&mut self, seconds: f64) {
         self.dt = seconds;
     }
 
-    /// Light and fog, the rain, and the place of the sun, as far as the program has said anything of them.
+    /// Returns the streams of the weather that the program defines: light and fog, the rain, the place of the sun.
     pub(crate) fn weather(&self) -> impl Iterator<Item = (WeatherPart, Rc<Node>)> {
         let said = [self.said.weather, self.said.rain, self.said.sun];
         self.conditions.weather().into_iter().zip(said).filter(|(_, said)| *said).flat_map(|(parts, _)| parts)
     }
 
-    /// Everything in the world that reads a stream, with what it is called.
+    /// Returns everything in the world that reads a stream, with its name.
     fn readers(&self) -> Vec<(String, Rc<Node>)> {
         let weather = self.weather().map(|(part, node)| (part.name.to_owned(), node));
         let conditions =
@@ -285,7 +285,7 @@ impl Scenario {
         conditions.chain(self.wiring.readers()).chain(premise).chain(requirements).chain(effects).collect()
     }
 
-    /// Lays out all streams that are read or defined; what is wrong with them is a problem of the scenario.
+    /// Lays out all streams that are read or defined. An error in them is a flaw of the scenario.
     pub(crate) fn lay_out(&mut self) {
         let readers = self.readers();
         let equations = self.equations.borrow();
@@ -299,8 +299,8 @@ impl Scenario {
         }
     }
 
-    /// The streams that inputs are bound to, laid out once more, with where the friction of the roads stands. They have been
-    /// laid out.
+    /// Lays out once more the streams that inputs are bound to, and returns the graph with the slot of the roads'
+    /// friction. All streams must have been laid out before.
     pub(crate) fn beginning(&self) -> (Graph, Slot) {
         let equations = self.equations.borrow();
         let definitions = equations.iter().filter_map(|equation| equation.definition.as_ref());
@@ -312,7 +312,7 @@ impl Scenario {
         (graph, slot)
     }
 
-    /// The streams in the language of Graphviz. They have been laid out.
+    /// Returns the streams in the language of Graphviz. All streams must have been laid out before.
     pub(crate) fn dot(&self, title: &str) -> String {
         dot(title, &self.readers(), &self.equations.borrow()).expect("what has been laid out can be drawn")
     }

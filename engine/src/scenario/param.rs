@@ -1,8 +1,8 @@
-//! Parameters as programs see them: a stream where a stream is read, a plain value where the structure of the
-//! world depends on it.
+//! Parameters in programs: a parameter can be read as a stream, or as a plain value if the structure of the world
+//! depends on it.
 //!
-//! Whether a parameter is constant or a signal that varies over a run is nobody's business but the test's: the object
-//! that reads it gets a [`Stream`] either way.
+//! The test alone decides whether a parameter is constant or a signal that varies over a run. The object that reads it
+//! gets a [`Stream`] in both cases.
 
 use super::Scenario;
 use crate::flaw::{Flaws, WorldFlaw};
@@ -13,8 +13,8 @@ use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::rc::Rc;
 
-/// A parameter of type `T` (a number, a word, or whatever else stands for the values of a choice) with the value that
-/// the test gives it.
+/// A parameter with the value that the test gives it. `T` is the type of its values: a number, a word, or any type that
+/// stands for the levels of a choice.
 #[derive(Clone)]
 pub struct Param<T> {
     declared: Rc<RefCell<Vec<Declared>>>,
@@ -26,23 +26,23 @@ pub struct Param<T> {
     read: Read<T>,
 }
 
-/// What a test says of a parameter.
+/// The value and the shape that a test gives a parameter.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Given {
-    /// Its value; `None` where there is no test.
+    /// The value of the parameter; `None` if there is no test.
     pub value: Option<Value>,
-    /// How it varies, where the test says so: not at all, or in a shape. `None`: as the program declares.
+    /// The shape of the signal, or no shape for a constant; `None` if the test leaves it to the program's declaration.
     pub signal: Option<Option<Shape>>,
 }
 
-/// The value as one of type `T`, if it is one.
+/// A function that converts a value to type `T`, if possible.
 type With<T> = Rc<dyn Fn(&Value) -> Option<T>>;
 
-/// How values become values of type `T`.
+/// The conversion of values to type `T`.
 #[derive(Clone)]
 pub(super) struct Read<T> {
     with: With<T>,
-    /// Any value, to go on with after a mistake that is reported.
+    /// Some value with which the program goes on after a mistake, which is reported.
     placeholder: T,
 }
 
@@ -53,7 +53,7 @@ impl Read<f64> {
 }
 
 impl<T: Into<Value> + Clone + 'static> Read<T> {
-    /// One of these levels.
+    /// Makes a conversion to one of these levels.
     pub fn level<const N: usize>(levels: [T; N]) -> Self {
         let placeholder = levels[0].clone();
         let levels = levels.map(|level| (level.clone().into(), level));
@@ -63,7 +63,7 @@ impl<T: Into<Value> + Clone + 'static> Read<T> {
 }
 
 impl<T: Clone> Param<T> {
-    /// Of the parameter that was declared last.
+    /// Makes the parameter that was declared last.
     pub(super) fn new(scenario: &Scenario, given: Given, read: Read<T>) -> Self {
         let Scenario { parameters, flaws, key, .. } = scenario;
         let (declared, flaws, key) = (parameters.clone(), flaws.clone(), key.clone());
@@ -77,28 +77,28 @@ impl<T: Clone> Param<T> {
         parameter
     }
 
-    /// Says in which unit its values are read.
+    /// Sets the unit of the parameter's values.
     pub fn unit(self, unit: &str) -> Self {
         self.declared.borrow_mut()[self.index].parameter.unit = Some(unit.to_owned());
         self
     }
 
-    /// Gives an open parameter its nominal value, where shrinking goes and what it has when a study closes it. That of
-    /// a signal is a list with a value for each coordinate, or one value for all.
+    /// Sets the nominal value of an open parameter. Shrinking moves towards it, and the parameter has it when a study
+    /// closes it. For a signal, it is a list with a value for each coordinate, or one value for all.
     pub fn default(self, value: impl Into<Value>) -> Self {
         self.declared.borrow_mut()[self.index].parameter.default = Some(value.into());
         self
     }
 
-    /// Lets it vary over time: the test gives it a value for each coordinate of this shape. A study may ask for another
-    /// shape, or for none. A choice varies in pieces.
+    /// Lets the parameter vary over time: the test gives it a value for each coordinate of this shape. A study may ask
+    /// for another shape, or for none. A choice varies in pieces.
     pub fn signal(self, shape: Shape) -> Self {
         self.declared.borrow_mut()[self.index].parameter.signal = Some(shape);
         self
     }
 
-    /// Says that a test in which it has its nominal value is the one that it would be without it, down to the noise of its
-    /// cameras, which is another in every other test: for parameters that a program asks for later than for the rest.
+    /// Declares that the parameter's nominal value changes nothing: a test with it has the key of a test without the
+    /// parameter, and so the same camera noise, which otherwise differs. Use it for parameters that came later.
     pub fn incidental(self) -> Self {
         let value = self.given_or_nominal();
         if self.given.value.is_some() && value == self.declared.borrow()[self.index].nominal() {
@@ -107,8 +107,8 @@ impl<T: Clone> Param<T> {
         self
     }
 
-    /// The value that this test gives it. Where the test lets it vary over time, the world cannot be built: who asks
-    /// for a value needs one for the whole run.
+    /// Returns the value that this test gives the parameter. If the test lets the parameter vary over time, the world
+    /// cannot be built, because a single value has to hold for the whole run.
     pub fn value(&self) -> T {
         if self.shape().is_some() {
             self.flaw(WorldFlaw::Varies { parameter: self.name() });

@@ -6,10 +6,10 @@ use std::cell::RefCell;
 use std::ops::Not;
 use std::rc::Rc;
 
-/// A temporal statement about streams: a [`Formula`] over what a trace records of them.
+/// A temporal statement about streams: a [`Formula`] over their recorded samples.
 ///
-/// A stream of truths is a statement about every tick. What it is made of by comparisons, `&`, `|` and `!` keeps its
-/// robustness; of any other truth only the truth is known, which is recorded as 1 and 0.
+/// A stream of truths is a statement about every tick. A truth that is made of comparisons, `&`, `|` and `!` keeps its
+/// robustness. Any other truth is recorded as 1 or 0, without a robustness.
 ///
 /// ```
 /// # use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario, Temporal, never};
@@ -28,62 +28,62 @@ use std::rc::Rc;
 #[derive(Debug, Clone)]
 pub struct Temporal {
     formula: Formula,
-    /// The streams that it speaks of, by their names.
+    /// The streams of the formula, by their names.
     signals: Vec<Rc<Node>>,
 }
 
-/// The statement holds at no tick.
+/// Makes the statement that `statement` holds at no tick.
 pub fn never(statement: impl Into<Temporal>) -> Temporal {
     (!statement.into()).always(..)
 }
 
-/// The statement holds at every tick.
+/// Makes the statement that `statement` holds at every tick.
 pub fn always(statement: impl Into<Temporal>) -> Temporal {
     statement.into().always(..)
 }
 
-/// The statement holds at some tick.
+/// Makes the statement that `statement` holds at some tick.
 pub fn eventually(statement: impl Into<Temporal>) -> Temporal {
     statement.into().eventually(..)
 }
 
 impl Temporal {
-    /// Holds throughout the interval from now on.
+    /// Makes the statement that this one holds throughout the interval from now on.
     pub fn always(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.always(interval), ..self }
     }
 
-    /// Holds at some tick of the interval from now on.
+    /// Makes the statement that this one holds at some tick of the interval from now on.
     pub fn eventually(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.eventually(interval), ..self }
     }
 
-    /// Held throughout the interval back from now.
+    /// Makes the statement that this one held throughout the interval back from now.
     pub fn historically(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.historically(interval), ..self }
     }
 
-    /// Held at some tick of the interval back from now.
+    /// Makes the statement that this one held at some tick of the interval back from now.
     pub fn once(self, interval: impl Into<Interval>) -> Self {
         Self { formula: self.formula.once(interval), ..self }
     }
 
-    /// Holds from now until before a tick of the interval at which `goal` holds.
+    /// Makes the statement that this one holds from now until before a tick of the interval at which `goal` holds.
     pub fn until(self, interval: impl Into<Interval>, goal: impl Into<Temporal>) -> Self {
         self.join(goal.into(), |hold, goal| hold.until(interval, goal))
     }
 
-    /// Both hold.
+    /// Makes the statement that both statements hold.
     pub fn and(self, other: impl Into<Temporal>) -> Self {
         self.join(other.into(), Formula::and)
     }
 
-    /// One of them holds.
+    /// Makes the statement that at least one of the two holds.
     pub fn or(self, other: impl Into<Temporal>) -> Self {
         self.join(other.into(), Formula::or)
     }
 
-    /// If this holds, so does the other.
+    /// Makes the statement that `other` holds if this one does.
     pub fn implies(self, other: impl Into<Temporal>) -> Self {
         self.join(other.into(), Formula::implies)
     }
@@ -93,13 +93,13 @@ impl Temporal {
         Self { formula: join(self.formula, other.formula), signals: self.signals }
     }
 
-    /// The comparison of a recorded stream with a number.
+    /// Compares a recorded stream with a number.
     fn compare(measured: Rc<Node>, comparison: Comparison, threshold: f64) -> Self {
         let formula = signal(measured.to_string()).compare(comparison, threshold);
         Self { formula, signals: vec![measured] }
     }
 
-    /// What a node of truths says. Of two streams that are compared, the difference is compared with 0.
+    /// Makes the statement of a node of truths. If two streams are compared, their difference is compared with 0.
     fn of(node: &Rc<Node>) -> Self {
         let truth = node.unnamed();
         match (&truth.kind, truth.inputs.as_slice()) {
@@ -141,14 +141,14 @@ impl Not for Temporal {
     }
 }
 
-/// A requirement with the streams whose samples its formula speaks of.
+/// A requirement with the streams whose samples its formula uses.
 #[derive(Debug, Clone)]
 pub(crate) struct Stated {
     pub requirement: Requirement,
     pub signals: Vec<Rc<Node>>,
 }
 
-/// A requirement just stated; its methods say more of it.
+/// A requirement that was just stated; its methods add a text, a unit and a scale.
 #[derive(Debug)]
 pub struct RequirementDraft {
     stated: Rc<RefCell<Vec<Stated>>>,
@@ -165,17 +165,17 @@ impl RequirementDraft {
         Self { stated, index }
     }
 
-    /// One sentence for people; the formula itself where nothing is said.
+    /// Sets the text of the requirement: one sentence for people. The default is the formula itself.
     pub fn text(self, text: &str) -> Self {
         self.change(|requirement| text.clone_into(&mut requirement.text))
     }
 
-    /// The unit of its robustness.
+    /// Sets the unit of the robustness.
     pub fn unit(self, unit: &str) -> Self {
         self.change(|requirement| unit.clone_into(&mut requirement.unit))
     }
 
-    /// How much robustness is a lot, in that unit; 1 where nothing is said.
+    /// Sets the scale: the robustness, in its unit, that counts as large. The default is 1.
     pub fn scale(self, scale: f64) -> Self {
         self.change(|requirement| requirement.scale = scale)
     }

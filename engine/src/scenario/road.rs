@@ -1,4 +1,4 @@
-//! The roads of a scenario: a single road or a whole network, and where its lanes and sidewalks are.
+//! The roads of a scenario: a single road or a whole network, and the places of their lanes and sidewalks.
 
 use super::{Place, Scenario};
 use crate::flaw::Flaws;
@@ -8,33 +8,33 @@ use crate::stream::Stream;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// A road with a surface of its own, not placed yet.
+/// A road with its own friction, not placed yet.
 #[derive(Debug, Clone)]
 pub struct Paved {
     road: RoadSegment,
     friction: Stream<f64>,
 }
 
-/// A placed road: where its lanes and sidewalks are.
+/// A placed road, which gives the places of its lanes and sidewalks.
 #[derive(Debug, Clone)]
 pub struct Road {
     streets: Streets,
     element: String,
 }
 
-/// A placed network of roads: where the lanes and sidewalks of each are. Roads are called by the names of their elements.
+/// A placed network of roads, which gives the places of lanes and sidewalks. Roads have the names of their elements.
 ///
-/// Asking for what it does not have is a mistake that is reported when the world is built.
+/// A question about a road or lane that does not exist is a mistake, which is reported when the world is built.
 #[derive(Debug, Clone)]
 pub struct Streets {
-    /// None where the network cannot be as it is described.
+    /// The network; `None` if it cannot be built as it is described.
     network: Option<Arc<RoadNetwork>>,
     flaws: Flaws,
 }
 
 impl RoadSegment {
-    /// The friction coefficient between tyre and road: [`Environment::friction`](super::Environment::friction) for a
-    /// world with one road.
+    /// Sets the friction coefficient between tyre and road: [`Environment::friction`](super::Environment::friction) for
+    /// a world with one road.
     pub fn friction(self, friction: impl Into<Stream<f64>>) -> Paved {
         Paved { road: self, friction: friction.into() }
     }
@@ -73,7 +73,7 @@ impl Place for Composite {
     }
 }
 
-/// A network that no test changes is best built once, in a `LazyLock`, and shared by all runs.
+/// A network that is the same in every test is best built once, in a `LazyLock`, and shared by all runs.
 impl Place for Arc<RoadNetwork> {
     type Handle = Streets;
 
@@ -83,28 +83,28 @@ impl Place for Arc<RoadNetwork> {
 }
 
 impl Road {
-    /// The middle of a lane, `at` metres along the road, facing the way of its traffic. Lane 1 is the one
-    /// beside the centre line that leads along the road, 2 the next to its right; -1, -2, ... lead back.
+    /// Returns the pose in the middle of a lane, `at` metres along the road, facing the way of its traffic. Lane 1 is
+    /// beside the centre line and leads along the road, lane 2 is to its right, and so on; lanes -1, -2, ... lead back.
     pub fn on_lane(&self, lane: i32, at: f64) -> Pose {
         self.streets.on_lane(&self.element, lane, at)
     }
 
-    /// The middle of a sidewalk, `at` metres along the road, facing the road.
+    /// Returns the pose in the middle of a sidewalk, `at` metres along the road, facing the road.
     pub fn on_sidewalk(&self, side: Side, at: f64) -> Pose {
         self.streets.on_sidewalk(&self.element, side, at)
     }
 
-    /// The line straight across the road, `at` metres along it.
+    /// Returns the line straight across the road, `at` metres along it.
     pub fn crossing(&self, at: f64) -> Line {
         self.streets.crossing(&self.element, at)
     }
 
-    /// The middle of a lane from end to end, the way of its traffic.
+    /// Returns the middle of a lane from end to end, the way of its traffic.
     pub fn path(&self, lane: i32) -> Path {
         self.streets.path(&self.element, lane)
     }
 
-    /// The network that it is.
+    /// Returns the network of which the road is the only element.
     pub fn streets(&self) -> &Streets {
         &self.streets
     }
@@ -116,39 +116,39 @@ impl Streets {
         Self { network, flaws: scenario.flaws.clone() }
     }
 
-    /// The network itself; `None` where it cannot be as it is described, which is reported.
+    /// Returns the network; `None` if it cannot be built as it is described, which is reported.
     pub fn network(&self) -> Option<&Arc<RoadNetwork>> {
         self.network.as_ref()
     }
 
-    /// The middle of a lane of a road, `at` metres along the road, facing the way of its traffic: [`Road::on_lane`].
+    /// Returns the pose in the middle of a lane, `at` metres along a road, the way of its traffic: [`Road::on_lane`].
     pub fn on_lane(&self, road: &str, lane: i32, at: f64) -> Pose {
         self.ask(|network| network.on_lane(road, lane, at)).unwrap_or(NOWHERE)
     }
 
-    /// The middle of a sidewalk of a road, `at` metres along the road, facing the road.
+    /// Returns the pose in the middle of a sidewalk of a road, `at` metres along the road, facing the road.
     pub fn on_sidewalk(&self, road: &str, side: Side, at: f64) -> Pose {
         self.ask(|network| network.on_sidewalk(road, side, at)).unwrap_or(NOWHERE)
     }
 
-    /// The line straight across a road, `at` metres along it.
+    /// Returns the line straight across a road, `at` metres along it.
     pub fn crossing(&self, road: &str, at: f64) -> Line {
         let here = self.ask(|network| network.on_centre_line(road, at)).unwrap_or(NOWHERE);
         Line { name: format!("crossing({at})"), point: here.position, direction: here.forward() }
     }
 
-    /// The middle of a lane of a road from end to end, the way of its traffic.
+    /// Returns the middle of a lane of a road from end to end, the way of its traffic.
     pub fn path(&self, road: &str, lane: i32) -> Path {
         self.ask(|network| Ok(network.path(&[network.lane_of(road, lane)?]))).unwrap_or_else(nowhere)
     }
 
-    /// The place on a lane of a road, `at` metres along the road: where cars of the [traffic](crate::traffic) start.
+    /// Returns the place on a lane, `at` metres along a road: a start for a car of the [traffic](crate::traffic).
     pub fn place_on(&self, road: &str, lane: i32, at: f64) -> Option<road::RoutePosition> {
         self.ask(|network| place_on(network, (road, lane, at)))
     }
 
-    /// The shortest way from one place to another without a change of lanes. Places are roads, lanes, and metres along
-    /// the road.
+    /// Returns the shortest way from one place to another without a change of lanes. A place is a road, a lane, and
+    /// metres along the road.
     pub fn way(&self, from: (&str, i32, f64), to: (&str, i32, f64)) -> Path {
         self.ask(|network| {
             let route = network.route(place_on(network, from)?, place_on(network, to)?, f64::from(u16::MAX));
@@ -169,7 +169,7 @@ fn place_on(network: &RoadNetwork, (road, lane, at): (&str, i32, f64)) -> Result
     Ok(network.project_onto(network.lane_of(road, lane)?, position).place())
 }
 
-/// Where everything is that a mistake leaves without a place.
+/// The pose that is returned after a mistake, which is reported.
 const NOWHERE: Pose = Pose { position: Vector2::new(0.0, 0.0), heading: 0.0 };
 
 fn nowhere() -> Path {

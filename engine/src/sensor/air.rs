@@ -1,42 +1,42 @@
-//! The air between a sensor and what it measures.
+//! The air between a sensor and the bodies that it measures.
 
 use crate::weather::Weather;
 
-/// Extinction times visibility (Koschmieder, at a contrast of 2 %).
+/// The extinction times the visibility (Koschmieder, at a contrast of 2 %).
 const KOSCHMIEDER: f64 = 3.912;
-/// How far one sees in the thickest fog, in metres, and how many times as far in the thinnest.
+/// The visibility in the thickest fog in metres, and the factor from there to the thinnest fog.
 const THICKEST: f64 = 10.0;
 const THINNEST: f64 = 1000.0;
-/// Rain of 1 mm/h takes so many decibels of light in a kilometre, and more of it takes more to this power
+/// The loss of light in rain of 1 mm/h, in dB/km, and the power with which the loss grows with the rain rate
 /// (Carbonneau and Wisely 1998; recommendation ITU-R P.1814, table 2).
 const RAIN_LOSS: f64 = 1.076;
 const RAIN_POWER: f64 = 0.67;
 
-/// What light passes through on its way.
+/// The air that light passes through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Air {
-    /// From 0, night, to 1, broad daylight.
+    /// The light, from 0 (night) to 1 (broad daylight).
     pub light: f64,
     /// The extinction coefficient of fog and rain in 1/m, 0 without any: 3.912 / visibility.
     pub extinction: f64,
 }
 
 impl Default for Air {
-    /// Broad daylight, no fog, no rain.
+    /// Returns the air of broad daylight without fog and rain.
     fn default() -> Self {
         Self { light: 1.0, extinction: 0.0 }
     }
 }
 
 impl Air {
-    /// The air of a weather. Fog from 0 to 1 is extinction from 0 to that of a visibility of 10 m, exponentially in between:
-    /// 3.912 / 10 m · (1000^fog - 1) / 999, so that one sees 326 m in a fog of 0.5, and 3.4 km in one of 0.2.
+    /// Returns the air of a weather. Fog from 0 to 1 gives an extinction from 0 to that of a visibility of 10 m: 3.912
+    /// / 10 m · (1000^fog - 1) / 999. The visibility is 326 m in a fog of 0.5, and 3.4 km in a fog of 0.2.
     ///
-    /// Rain of `R` mm/h adds 1.076 · R^0.67 dB/km, so that one sees 1.1 km in the heaviest, of 50 mm/h, and 1.8 km in half of it.
+    /// Rain of `R` mm/h adds 1.076 · R^0.67 dB/km: one sees 1.1 km in the heaviest rain, 50 mm/h, and 1.8 km in half.
     pub fn of(weather: &Weather) -> Self {
         let thickness = (libm::pow(THINNEST, weather.fog.clamp(0.0, 1.0)) - 1.0) / (THINNEST - 1.0);
         let rain = RAIN_LOSS * libm::pow(weather.rain_rate(), RAIN_POWER);
-        // Decibels are tenths of powers of ten, extinction is powers of e; kilometres are a thousand metres.
+        // A decibel is a tenth of a power of ten, extinction is in powers of e; a kilometre is a thousand metres.
         let rain = rain * std::f64::consts::LN_10 / 10.0 / 1000.0;
         Self { light: weather.light, extinction: KOSCHMIEDER / THICKEST * thickness + rain }
     }

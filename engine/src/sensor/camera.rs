@@ -1,7 +1,7 @@
-//! Cameras as a driver has them: how they are described, when they open their shutters, and what comes of it.
+//! The cameras of a driver: their descriptions, the moments at which they take images, and the images.
 //!
-//! The engine draws nothing. A [`Shutter`] notes the [`Moment`] that a camera saw, and whoever runs the test develops it to
-//! an [`Image`] when it has arrived.
+//! The engine renders nothing. A [`Shutter`] records the [`Moment`] that a camera saw. The program that runs the test
+//! renders an [`Image`] from it when the moment has arrived.
 
 use super::Descriptor;
 use super::{Chance, Delivery, Handle, Rig, Sample, Sensor, SensorError, SensorView};
@@ -12,68 +12,68 @@ use paracosm_space::Record;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// How lists show this kind of sensor.
+/// The entry of this kind of sensor in lists.
 pub(super) const DESCRIPTOR: Descriptor = Descriptor { name: "camera", about: "images in colour, by the renderer" };
 
 /// The cameras on the car under test.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cameras {
-    /// Where the noise of all of them comes from, together with the values of the test.
+    /// The seed of the noise of all cameras, which also depends on the values of the test.
     #[serde(default)]
     pub seed: u64,
-    /// Each by its name.
+    /// The cameras by their names.
     #[serde(rename = "camera")]
     pub all: BTreeMap<String, CameraSpec>,
 }
 
-/// A camera: where it is mounted, and how it takes images. The table [`CORE_CAMERA_SETTINGS`](super::CORE_CAMERA_SETTINGS)
+/// A camera: its mounting, and how it takes images. The table [`CORE_CAMERA_SETTINGS`](super::CORE_CAMERA_SETTINGS)
 /// describes its numbers.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct CameraSpec {
-    /// Pixels across and down.
+    /// The size of the images in pixels, across and down.
     pub resolution: [u32; 2],
-    /// Millimetres.
+    /// The focal length in millimetres.
     pub focal_mm: f64,
     /// The width of the sensor in millimetres.
     pub sensor_mm: f64,
-    /// Metres from the middle of the car, on the ground: ahead, to the left, up.
+    /// The position of the camera, in metres from the middle of the car on the ground: ahead, to the left, up.
     pub position: [f64; 3],
-    /// Degrees: yaw to the left, then pitch downwards, then roll to the right.
+    /// The direction of the camera in degrees: yaw to the left, then pitch downwards, then roll to the right.
     #[serde(default)]
     pub yaw_pitch_roll: [f64; 3],
-    /// Images per second.
+    /// The number of images per second.
     pub rate: f64,
-    /// Seconds from when an image is taken to when it is there.
+    /// The seconds from when an image is taken to when it arrives.
     #[serde(default)]
     pub latency: f64,
     /// The probability that an image is lost.
     #[serde(default)]
     pub dropped: f64,
-    /// The settings of the lens and the sensor by their names, such as `blur`. The engine only hands them on: the renderer
-    /// knows the names, refuses others, and takes the default of each setting that is absent. In a file they stand beside
-    /// the other keys.
+    /// The settings of the lens and the sensor by their names, such as `blur`. The engine only hands them on. The
+    /// renderer knows the names, refuses others, and takes the default of each absent setting. In a file they stand
+    /// beside the other keys.
     #[serde(flatten)]
     pub lens: Record<f64>,
 }
 
-/// A moment as a camera sees it.
+/// The state of the world at a moment, as a camera sees it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moment {
-    /// All bodies, that of the car first.
+    /// All bodies, the car's first.
     pub bodies: Vec<BodyState>,
     /// Light, fog, rain and the sun.
     pub weather: Weather,
-    /// Of the car in m/s.
+    /// The speed of the car in m/s.
     pub speed: f64,
-    /// The length of the way that the car has come, in metres.
+    /// The distance that the car has covered, in metres.
     pub travelled: f64,
 }
 
-/// Opens the shutter of a camera every so many seconds.
+/// Records a moment for a camera at a fixed period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shutter {
-    /// Seconds between two images.
+    /// The seconds between two images.
     pub period: f64,
 }
 
@@ -93,8 +93,8 @@ impl Sensor for Shutter {
     }
 }
 
-/// The shutters of a set of cameras, with the moments that have arrived: a rig of their own, so that no camera depends on
-/// what else the car carries.
+/// The shutters of a set of cameras, with the moments that have arrived. They form their own rig, so no camera depends
+/// on the car's other sensors.
 #[derive(Debug, Default)]
 pub struct Shutters {
     cameras: Cameras,
@@ -103,10 +103,10 @@ pub struct Shutters {
 }
 
 impl Shutters {
-    /// The shutters of these cameras.
+    /// Makes the shutters of these cameras.
     ///
     /// # Errors
-    /// A camera has a rate, a latency or a probability of losing images that there is not; the error names it.
+    /// A camera has an impossible rate, latency or probability of losing images. The error names the camera.
     pub fn of(cameras: Cameras) -> Result<Self, SensorError> {
         let mut rig = Rig::new(cameras.seed);
         let attached = cameras.all.iter().map(|(name, camera)| {
@@ -117,45 +117,45 @@ impl Shutters {
         Ok(Self { cameras, rig, each })
     }
 
-    /// The same in a test of this key: another test has other noise and loses other images, so that nobody learns them.
+    /// Returns the shutters for a test with this key: each has other noise and losses, so that nobody learns them.
     pub(crate) fn in_test(mut self, key: u64) -> Self {
         self.cameras.seed = mixed(mixed(self.cameras.seed) ^ key);
         self.rig.reseed(self.cameras.seed);
         self
     }
 
-    /// The cameras that they belong to. In a run their seed is that of its own noise: it depends on the seed that they were
-    /// given and on the values of the test.
+    /// Returns the cameras of these shutters. During a run, their seed depends on the original seed and on the values
+    /// of the test.
     pub fn cameras(&self) -> &Cameras {
         &self.cameras
     }
 
-    /// The moments that have arrived since the driver was last asked, each with the place of its camera among the names:
-    /// camera by camera, and the earliest first.
+    /// Returns the moments that have arrived since the driver was last asked, each with the index of its camera in the
+    /// order of names: camera by camera, and the earliest first.
     pub fn arrived(&self) -> impl Iterator<Item = (usize, &Sample<Moment>)> {
         let each = self.each.iter().enumerate();
         each.flat_map(|(camera, shutter)| self.rig.arrived(shutter).iter().map(move |sample| (camera, sample)))
     }
 
-    /// All their moments go through it.
+    /// Returns the rig that all moments go through.
     pub(crate) fn rig(&mut self) -> &mut Rig {
         &mut self.rig
     }
 }
 
-/// What a camera gives: an image that has arrived.
+/// An image of a camera that has arrived.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Image {
-    /// Which of the driver's cameras, in the order of their names.
+    /// The index of the camera in the order of the cameras' names.
     pub camera: usize,
-    /// Which of the camera's images: the k-th is due at k periods.
+    /// The number of the image: the k-th image is due at k periods.
     pub number: u64,
-    /// When it was taken, in seconds since the run began.
+    /// The time at which the image was taken, in seconds since the run began.
     pub time: f64,
-    /// Pixels across.
+    /// The width of the image in pixels.
     pub width: u32,
-    /// Pixels down.
+    /// The height of the image in pixels.
     pub height: u32,
-    /// sRGB, three bytes a pixel, row by row from the top left.
+    /// The colours in sRGB, three bytes a pixel, row by row from the top left.
     pub rgb: Vec<u8>,
 }

@@ -1,5 +1,5 @@
-//! The table of the numbers that describe a camera: one row says all that readers of files, checks, messages and documents
-//! have to know about a setting.
+//! The table of the numbers that describe a camera. One row has all that readers of files, checks, messages and
+//! documents need to know about a setting.
 //!
 //! The engine has the rows of the settings that it uses itself. The renderer adds those of its lens, which the engine
 //! hands on without knowing them.
@@ -9,29 +9,29 @@ use super::CameraSpec;
 /// A number that describes a camera.
 #[derive(Debug, Clone, Copy)]
 pub struct CameraSetting {
-    /// The key in a file. Settings that share a key stand there as one list.
+    /// The key of the setting in a file. Settings that share a key stand there as one list.
     pub key: &'static str,
-    /// Its own name: the key, unless it is part of a list.
+    /// The name of the setting: the key, unless the setting is part of a list.
     pub name: &'static str,
-    /// Its unit; empty if it has none.
+    /// The unit of the setting; empty if it has none.
     pub unit: &'static str,
-    /// Its least and its greatest value.
+    /// The least and the greatest value of the setting.
     pub range: (f64, f64),
-    /// Its value where a camera does not say it; `None` if every camera has to say it.
+    /// The default value; `None` if every camera has to give the value.
     pub default: Option<f64>,
     /// A common value, for messages and documents.
     pub example: f64,
-    /// Its meaning, in a few words with the unit.
+    /// The meaning of the setting, in a few words with the unit.
     pub about: &'static str,
     place: Place,
 }
 
-/// Where a camera has a setting.
+/// The place of a setting in a camera.
 #[derive(Debug, Clone, Copy)]
 enum Place {
-    /// A field of its own.
+    /// The setting is a field of the camera.
     Field { of: fn(&CameraSpec) -> f64, at: fn(&mut CameraSpec) -> &mut f64 },
-    /// The named settings of its lens.
+    /// The setting is one of the named settings of the lens.
     Lens,
 }
 
@@ -41,8 +41,8 @@ macro_rules! field {
     };
 }
 
-/// The settings that the engine itself uses, in the order in which files have them. The resolution is no single number and
-/// is not among them.
+/// The settings that the engine itself uses, in the order in which files have them. The resolution is not a single
+/// number, so it is not in the table.
 pub const CORE_CAMERA_SETTINGS: [CameraSetting; 11] = [
     core("focal_mm", "mm", (0.1, 10_000.0), "the focal length in millimetres", field!(focal_mm)).required(24.0),
     core("sensor_mm", "mm", (0.1, 1000.0), "the width of the sensor in millimetres", field!(sensor_mm)).required(36.0),
@@ -59,7 +59,7 @@ pub const CORE_CAMERA_SETTINGS: [CameraSetting; 11] = [
     core("dropped", "", (0.0, 1.0), "the probability that an image is lost", field!(dropped)),
 ];
 
-/// How far a camera may be from the car, in metres. Below the ground there is nothing to see but the sky.
+/// The greatest distance of a camera from the car, and its heights above ground, in metres. Below, it would see sky.
 const SIDEWAYS: (f64, f64) = (-100.0, 100.0);
 const UPWARDS: (f64, f64) = (0.05, 100.0);
 /// A full turn each way, in degrees.
@@ -76,12 +76,12 @@ const fn core(
 }
 
 impl CameraSetting {
-    /// A setting of a lens or a sensor; it is 0 where a camera does not say it.
+    /// Makes a setting of a lens or a sensor, with the default 0.
     pub const fn of_lens(key: &'static str, unit: &'static str, range: (f64, f64), about: &'static str) -> Self {
         Self { key, name: key, unit, range, default: Some(0.0), example: 0.0, about, place: Place::Lens }
     }
 
-    /// The same with another default.
+    /// Changes the default of a setting.
     pub const fn with_default(self, default: f64) -> Self {
         Self { default: Some(default), example: default, ..self }
     }
@@ -94,12 +94,12 @@ impl CameraSetting {
         Self { default: None, example, ..self }
     }
 
-    /// Whether it belongs to the lens or the sensor: a camera has it in [`CameraSpec::lens`].
+    /// Returns `true` if the setting belongs to the lens or the sensor: a camera has it in [`CameraSpec::lens`].
     pub const fn is_of_lens(&self) -> bool {
         matches!(self.place, Place::Lens)
     }
 
-    /// Its value in a camera; the default where the camera does not say it.
+    /// Returns the value of the setting in a camera; the default if the camera does not give the value.
     pub fn value(&self, camera: &CameraSpec) -> f64 {
         match self.place {
             Place::Field { of, .. } => of(camera),
@@ -107,7 +107,7 @@ impl CameraSetting {
         }
     }
 
-    /// Gives it a value in a camera.
+    /// Sets the value in a camera.
     pub fn set(&self, camera: &mut CameraSpec, value: f64) {
         match self.place {
             Place::Field { at, .. } => *at(camera) = value,
@@ -115,14 +115,14 @@ impl CameraSetting {
         }
     }
 
-    /// Whether a number is in its range.
+    /// Returns `true` if a number is in the setting's range.
     pub fn admits(&self, number: f64) -> bool {
         let (low, high) = self.range;
         (low..=high).contains(&number)
     }
 }
 
-/// A setting is known by its key and its name.
+/// Two settings are equal if they have the same key and the same name.
 impl PartialEq for CameraSetting {
     fn eq(&self, other: &Self) -> bool {
         (self.key, self.name) == (other.key, other.name)

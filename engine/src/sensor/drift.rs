@@ -1,22 +1,22 @@
-//! How measured quantities are off: by noise of each reading, and by a bias that walks at random.
+//! The errors of measured quantities: noise of each reading, and a bias that walks at random.
 
 use super::Chance;
 use super::error::{Checks, SensorError};
 use nalgebra::SVector;
 
-/// How far off a measured quantity is: standard deviations in its unit, of each of its coordinates.
+/// The inaccuracy of a measured quantity: standard deviations of each of its coordinates, in its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inaccuracy {
-    /// Of every reading by itself.
+    /// The standard deviation of the noise of each reading.
     pub noise: f64,
-    /// Of the bias with which a run begins.
+    /// The standard deviation of the bias at the start of a run.
     pub bias: f64,
-    /// Of how the bias changes within one second; within t seconds it is √t times that.
+    /// The standard deviation of the change of the bias within one second; within t seconds it is √t times as much.
     pub walk: f64,
 }
 
 impl Inaccuracy {
-    /// As it truly is.
+    /// No inaccuracy: the readings are true.
     pub const NONE: Inaccuracy = Inaccuracy { noise: 0.0, bias: 0.0, walk: 0.0 };
 
     pub(super) fn check(&self, checks: &Checks, what: &str, unit: &'static str) -> Result<(), SensorError> {
@@ -31,7 +31,7 @@ impl Inaccuracy {
 #[derive(Debug, Clone)]
 pub(super) struct Drift<const N: usize> {
     inaccuracy: Inaccuracy,
-    /// The bias, and since when; none before the first reading.
+    /// The present bias and its time; `None` before the first reading.
     now: Option<(SVector<f64, N>, f64)>,
 }
 
@@ -40,7 +40,7 @@ impl<const N: usize> Drift<N> {
         Self { inaccuracy, now: None }
     }
 
-    /// What is measured at a time, in seconds, of something that truly is so.
+    /// Returns the reading of a true value at a time in seconds.
     pub fn measured(&mut self, truth: SVector<f64, N>, time: f64, chance: &mut Chance) -> SVector<f64, N> {
         let Inaccuracy { noise, bias, walk } = self.inaccuracy;
         let step = normal(chance);
@@ -52,13 +52,13 @@ impl<const N: usize> Drift<N> {
         truth + bias + normal(chance) * noise
     }
 
-    /// Begins anew.
+    /// Begins anew, for a new run.
     pub fn reset(&mut self) {
         self.now = None;
     }
 }
 
-/// Independent standard normal numbers.
+/// Returns independent standard normal numbers.
 fn normal<const N: usize>(chance: &mut Chance) -> SVector<f64, N> {
     SVector::from_fn(|_, _| chance.normal())
 }

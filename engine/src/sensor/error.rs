@@ -1,46 +1,46 @@
-//! Why a sensor cannot be.
+//! The errors of sensors.
 
 use thiserror::Error;
 
-/// Why a sensor cannot be as it is described, or cannot be attached.
+/// The reason why a sensor is impossible as it is described, or cannot be attached.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum SensorError {
-    /// A setting out of its range.
+    /// A setting is out of its range.
     #[error("{sensor}: `{setting}` is {value}{}, expected {} to {}{}", spaced(.unit), range.0, range.1, spaced(.unit))]
     OutOfRange {
-        /// The kind of sensor, or the name that it was to be attached by.
+        /// The kind of the sensor, or the name under which it was to be attached.
         sensor: String,
-        /// The setting.
+        /// The name of the setting.
         setting: String,
-        /// Its value.
+        /// The value of the setting.
         value: f64,
-        /// Least and greatest value.
+        /// The least and the greatest value of the setting.
         range: (f64, f64),
-        /// The unit of all of them, empty where there is none.
+        /// The unit of the setting; empty if it has none.
         unit: &'static str,
     },
-    /// A field of view whose lower end is not below its upper one.
+    /// The lower end of a field of view is not below its upper end.
     #[error("{sensor}: `lowest` is {lowest} rad, expected less than `highest`, which is {highest} rad")]
     EmptyField {
-        /// The kind of sensor.
+        /// The kind of the sensor.
         sensor: String,
         /// The lower end in radians.
         lowest: f64,
         /// The upper end in radians.
         highest: f64,
     },
-    /// Two sensors of one name in a rig.
+    /// Two sensors in a rig have the same name.
     #[error("two sensors are called `{name}`")]
     NameTaken {
-        /// The name.
+        /// The common name.
         name: String,
     },
-    /// An image that does not have as many pixels as its camera.
+    /// An image has another number of pixels than its camera.
     #[error("the depth image has {found} pixels, expected {} x {}", size.0, size.1)]
     WrongSize {
-        /// The number of its pixels.
+        /// The number of pixels of the image.
         found: usize,
-        /// Columns and rows of the camera.
+        /// The columns and rows of the camera.
         size: (usize, usize),
     },
 }
@@ -53,7 +53,7 @@ fn spaced(unit: &str) -> String {
 pub(super) struct Checks<'a>(pub &'a str);
 
 impl Checks<'_> {
-    /// Whether a value is in its range, and a number.
+    /// Checks that a value is a number in its range.
     pub fn within(&self, setting: &str, value: f64, range: (f64, f64), unit: &'static str) -> Result<(), SensorError> {
         if (range.0..=range.1).contains(&value) {
             return Ok(());
@@ -61,17 +61,17 @@ impl Checks<'_> {
         Err(SensorError::OutOfRange { sensor: self.0.to_owned(), setting: setting.to_owned(), value, range, unit })
     }
 
-    /// Whether a count is in its range.
+    /// Checks that a count is in its range.
     pub fn counts(&self, setting: &str, count: usize, range: (usize, usize)) -> Result<(), SensorError> {
         self.within(setting, count as f64, (range.0 as f64, range.1 as f64), "")
     }
 
-    /// Whether this can be the period of a sensor.
+    /// Checks that this can be the period of a sensor.
     pub fn period(&self, seconds: f64) -> Result<(), SensorError> {
         self.within("period", seconds, (1e-4, 1e4), "s")
     }
 
-    /// Whether this can be the distance in metres up to which a sensor measures.
+    /// Checks that this can be the greatest distance in metres that a sensor measures.
     pub fn range(&self, metres: f64) -> Result<(), SensorError> {
         self.within("range", metres, (0.1, 10_000.0), "m")
     }

@@ -1,4 +1,4 @@
-//! Where a satellite receiver says that the car is.
+//! A satellite receiver, which measures the car's position and velocity.
 
 use super::Descriptor;
 use super::drift::Drift;
@@ -6,30 +6,30 @@ use super::error::{Checks, SensorError};
 use super::{Chance, Inaccuracy, Mount, Sensor, SensorView};
 use nalgebra::Vector2;
 
-/// How lists show this kind of sensor.
+/// The entry of this kind of sensor in lists.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "gnss", about: "the position and velocity that a satellite receiver gives" };
 
-/// A satellite receiver, not checked yet.
+/// The settings of a satellite receiver, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GnssSettings {
-    /// Where its antenna is.
+    /// The mounting of the antenna.
     pub mount: Mount,
-    /// Seconds between two fixes.
+    /// The seconds between two fixes.
     pub period: f64,
-    /// How far off positions are, in metres: the noise of a fix, and the slow errors of orbits and ionosphere.
+    /// The inaccuracy of positions in metres: the noise of a fix, and the slow errors of orbits and ionosphere.
     pub position: Inaccuracy,
-    /// Standard deviation of the noise of each coordinate of the velocity, in m/s. It is measured by the Doppler effect and
-    /// has no bias.
+    /// The standard deviation of the noise of each coordinate of the velocity, in m/s. The velocity is measured by the
+    /// Doppler effect and has no bias.
     pub velocity_noise: f64,
-    /// How often it loses the satellites, in 1/s: 0 for never.
+    /// The rate of outages in 1/s: 0 for no outages.
     pub outages: f64,
-    /// How long it is without them in the mean, in seconds; how long each time is exponentially distributed.
+    /// The mean duration of an outage in seconds. Durations are distributed exponentially.
     pub outage_duration: f64,
 }
 
 impl Default for GnssSettings {
-    /// Ten fixes a second from the roof, off by 0.5 m from fix to fix and by 1 m in the long run, without outages.
+    /// Returns the default: ten fixes a second from the roof, 0.5 m off by fix and 1 m in the long run, no outages.
     fn default() -> Self {
         Self {
             mount: Mount::above(1.5),
@@ -42,27 +42,27 @@ impl Default for GnssSettings {
     }
 }
 
-/// What a satellite receiver knows at one moment.
+/// The position and velocity that a satellite receiver gives at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fix {
-    /// Where its antenna is, in metres in the plane of the world.
+    /// The position of the antenna, in metres in the plane of the world.
     pub position: Vector2<f64>,
-    /// How it moves over the ground, in m/s.
+    /// The velocity of the antenna over the ground, in m/s.
     pub velocity: Vector2<f64>,
 }
 
-/// A satellite receiver (GPS). Its reading is a fix, or none during an outage.
+/// A satellite receiver (GPS). Its reading is a fix, or `None` during an outage.
 #[derive(Debug, Clone)]
 pub struct Gnss {
     settings: GnssSettings,
     drift: Drift<2>,
-    /// When it was last read, and when it has satellites again.
+    /// The time of the last reading, and the time at which the last outage ends.
     before: f64,
     lost_until: f64,
 }
 
 impl Gnss {
-    /// A receiver with these settings.
+    /// Makes a receiver with these settings.
     ///
     /// # Errors
     /// A setting is out of its range or no number.
@@ -77,8 +77,8 @@ impl Gnss {
         Ok(Self { drift: Drift::new(settings.position), settings, before: f64::NAN, lost_until: f64::NEG_INFINITY })
     }
 
-    /// Whether it is without satellites at this time. Chance is drawn whether or not it matters, so that outages do not move
-    /// the noise.
+    /// Returns `true` if there is an outage at this time. The random numbers are drawn in any case, so outages do not
+    /// change the noise.
     fn is_lost(&mut self, time: f64, chance: &mut Chance) -> bool {
         let passed = (time - self.before).max(0.0);
         self.before = time;

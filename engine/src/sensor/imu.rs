@@ -1,4 +1,4 @@
-//! What the car feels of its own motion.
+//! An inertial measurement unit, which measures the car's own motion.
 
 use super::Descriptor;
 use super::drift::Drift;
@@ -6,24 +6,24 @@ use super::error::{Checks, SensorError};
 use super::{Chance, Inaccuracy, Sensor, SensorView};
 use nalgebra::{Vector1, Vector2};
 
-/// How lists show this kind of sensor.
+/// The entry of this kind of sensor in lists.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "imu", about: "accelerations and the yaw rate of the car" };
 
-/// An inertial measurement unit, not checked yet.
+/// The settings of an inertial measurement unit, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImuSettings {
-    /// Seconds between two readings.
+    /// The seconds between two readings.
     pub period: f64,
-    /// How far off accelerations are, in m/s².
+    /// The inaccuracy of accelerations, in m/s².
     pub acceleration: Inaccuracy,
-    /// How far off yaw rates are, in rad/s.
+    /// The inaccuracy of yaw rates, in rad/s.
     pub yaw_rate: Inaccuracy,
 }
 
 impl Default for ImuSettings {
-    /// A hundred readings a second from a sensor as cars have them: off by 0.05 m/s² and 0.1 °/s from reading to reading, and
-    /// as much in the long run.
+    /// Returns the settings of a usual automotive sensor: a hundred readings a second, with errors of 0.05 m/s² and 0.1
+    /// °/s from reading to reading, and as much in the long run.
     fn default() -> Self {
         Self {
             period: 0.01,
@@ -33,13 +33,13 @@ impl Default for ImuSettings {
     }
 }
 
-/// What an inertial measurement unit measures at one moment.
+/// The reading of an inertial measurement unit at one moment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Inertia {
-    /// The acceleration of the car's centre of gravity over the last tick in m/s², as seen from the car: x ahead, y to the
-    /// left. Without gravity, for the world is flat.
+    /// The acceleration of the car's centre of gravity over the last tick in m/s², as seen from the car: x ahead, y to
+    /// the left. It does not include gravity, for the world is flat.
     pub acceleration: Vector2<f64>,
-    /// How fast it turns to the left, in rad/s.
+    /// The yaw rate of the car, to the left, in rad/s.
     pub yaw_rate: f64,
 }
 
@@ -52,7 +52,7 @@ pub struct Imu {
 }
 
 impl Imu {
-    /// A unit with these settings.
+    /// Makes a unit with these settings.
     ///
     /// # Errors
     /// A setting is out of its range or no number.

@@ -1,12 +1,12 @@
-//! Sensors other than cameras: what a car measures of a world, with the noise and the gaps that sensors have.
+//! Sensors: they measure the world around a car, with the noise and the gaps that sensors have.
 //!
-//! A [`Sensor`] turns a [`SensorView`], all that there is to know at one moment, into a reading. [`Lidar`], [`Radar`], [`Gnss`],
-//! [`Imu`] and [`GroundTruth`] come with the engine; users implement the trait for their own. A [`Rig`] holds the sensors of
-//! a car: it lets each measure when its period has passed, and hands its readings out after their latency, but for those
-//! that are lost. [`Run::equip`](crate::Run::equip) gives a run a rig.
+//! A [`Sensor`] turns a [`SensorView`], the true state of the world at one moment, into a reading. [`Lidar`],
+//! [`Radar`], [`Gnss`], [`Imu`] and [`GroundTruth`] come with the engine; users implement the trait for their own. A
+//! [`Rig`] holds the sensors of a car. It lets each sensor measure when its period has passed, and hands readings out
+//! after their latency, except for readings that are lost. [`Run::equip`](crate::Run::equip) gives a run a rig.
 //!
-//! All chance comes from a [`Chance`] that the rig makes anew for every reading, from its seed, the name of the sensor and
-//! the number of the reading. What one sensor draws therefore moves nothing in another, nor in its own next reading.
+//! All randomness comes from a [`Chance`] that the rig makes anew for every reading, from its seed, the name of the
+//! sensor and the number of the reading. So random numbers change nothing in another sensor, nor in the next reading.
 //!
 //! ```
 //! use paracosm_engine::sensor::{Delivery, Imu, ImuSettings, Radar, RadarSettings, Rig};
@@ -72,13 +72,13 @@ use crate::road::RoadNetwork;
 use crate::vehicle::VehicleState;
 use crate::weather::Weather;
 
-/// The kinds of sensors that come with the engine, in the order in which they are shown.
+/// The kinds of sensors that come with the engine, in the order in which they are listed.
 pub const ALL: &[Descriptor] =
     &[camera::DESCRIPTOR, lidar::DESCRIPTOR, radar::DESCRIPTOR, gnss::DESCRIPTOR, imu::DESCRIPTOR, truth::DESCRIPTOR];
 
-/// What measures something of the world around a car, or of the car itself.
+/// A sensor, which measures something of the world around a car, or of the car itself.
 ///
-/// A sensor of one's own, ultrasound in the front bumper that hears the nearest body and is off by some centimetres:
+/// For example, your own ultrasound sensor in the front bumper hears the nearest body, to some centimetres:
 ///
 /// ```
 /// use paracosm_engine::sensor::{Chance, Delivery, Rig, Sensor, SensorView};
@@ -129,39 +129,39 @@ pub const ALL: &[Descriptor] =
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Sensor: Send + 'static {
-    /// What it measures at one moment. A rig uses the same ones again and again.
+    /// The type of the measurement at one moment. A rig reuses its values.
     type Reading: Default + Send + 'static;
 
-    /// Seconds between two readings.
+    /// Returns the seconds between two readings.
     fn period(&self) -> f64;
 
-    /// Forgets everything: a new run begins.
+    /// Forgets everything, because a new run begins.
     fn reset(&mut self) {}
 
-    /// Measures: writes to `reading` what there is to see, over what was left there by an earlier reading. All its noise
-    /// is drawn from `chance`.
+    /// Measures, and writes the result to `reading`, over the values of an earlier reading. All noise is drawn from
+    /// `chance`.
     fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Self::Reading);
 }
 
-/// All that a sensor can know of a moment.
+/// The true state of the world at one moment, as far as sensors can measure it.
 #[derive(Debug, Clone, Copy)]
 pub struct SensorView<'a> {
-    /// Seconds since the run began.
+    /// The seconds since the run began.
     pub time: f64,
-    /// The car that carries the sensor.
+    /// The state of the car that carries the sensor.
     pub car: &'a VehicleState,
-    /// All bodies, that of the car first.
+    /// All bodies, the car's first.
     pub bodies: &'a [BodyState],
-    /// The roads.
+    /// The road network.
     pub network: &'a RoadNetwork,
     /// Light, fog, rain and the sun.
     pub weather: Weather,
-    /// What of the weather is in the way of light: [`Air::of`] it.
+    /// The effect of the weather on light: [`Air::of`] the weather.
     pub air: Air,
 }
 
 impl<'a> SensorView<'a> {
-    /// The bodies that are in the world, but for the car, each with its index among all.
+    /// Returns the bodies that are in the world, without the car, each with its index among all bodies.
     pub fn others(&self) -> impl Iterator<Item = (usize, &'a BodyState)> + use<'a> {
         self.bodies.iter().enumerate().skip(1).filter(|(_, body)| body.present)
     }

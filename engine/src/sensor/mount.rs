@@ -1,36 +1,36 @@
-//! Where on the car a sensor sits.
+//! The mounting of a sensor on the car.
 
 use super::error::{Checks, SensorError};
 use crate::geometry::Pose;
 use crate::vehicle::VehicleState;
 use nalgebra::{Vector2, Vector3};
 
-/// Where on a car a sensor sits, upright, and where it looks.
+/// The position of an upright sensor on a car, and the direction in which it looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mount {
-    /// From the middle of the car's box, on the ground: x ahead, y to the left, z up, in metres.
+    /// The position from the middle of the car's box, on the ground: x ahead, y to the left, z up, in metres.
     pub position: Vector3<f64>,
-    /// Where it looks, in radians counter-clockwise from where the car points.
+    /// The direction of the sensor, in radians counter-clockwise from the car's heading.
     pub heading: f64,
 }
 
 impl Mount {
-    /// Over the middle of the car, this many metres above the ground, looking ahead.
+    /// Mounts a sensor over the middle of the car, this many metres above the ground, looking ahead.
     pub fn above(height: f64) -> Self {
         Self { position: Vector3::new(0.0, 0.0, height), heading: 0.0 }
     }
 
-    /// This many metres ahead of the middle of the car and above the ground, looking ahead.
+    /// Mounts a sensor this many metres ahead of the middle of the car and above the ground, looking ahead.
     pub fn ahead(ahead: f64, height: f64) -> Self {
         Self { position: Vector3::new(ahead, 0.0, height), heading: 0.0 }
     }
 
-    /// Where the sensor is, seen from above, and where it looks.
+    /// Returns the pose of the sensor, seen from above.
     pub fn pose(&self, car: &VehicleState) -> Pose {
         car.pose().then(&Pose { position: self.position.xy(), heading: self.heading })
     }
 
-    /// How the sensor moves over the ground in m/s: with the car, and with its turning.
+    /// Returns the velocity of the sensor over the ground in m/s, which includes the turning of the car.
     pub fn velocity(&self, car: &VehicleState) -> Vector2<f64> {
         let arm = self.position.xy();
         car.pose().turn_to_plane(car.velocity + Vector2::new(-arm.y, arm.x) * car.yaw_rate)

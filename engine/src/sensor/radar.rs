@@ -1,10 +1,10 @@
-//! An automotive radar, as the list of its detections.
+//! An automotive radar, which gives a list of detections.
 //!
-//! A body answers with its nearest point. How likely it is detected follows from the radar equation: the signal-to-noise
-//! ratio falls with the fourth power of the distance and rises with the radar cross-section, and a fluctuating target
-//! (Swerling I, a single look) is detected with the probability P_fa^(1 / (1 + SNR)) (Richards, Fundamentals of Radar Signal
-//! Processing, section 6.3). What stands behind something large is not seen. Fog does nothing to the wavelengths of radars, and
-//! rain, which takes some decibels over 200 m, is left out; there are no multiple reflections.
+//! A body echoes from its nearest point. The probability of a detection follows from the radar equation: the
+//! signal-to-noise ratio falls with the fourth power of the distance and rises with the radar cross-section, and a
+//! fluctuating target (Swerling I, a single look) is detected with the probability P_fa^(1 / (1 + SNR)) (Richards,
+//! Fundamentals of Radar Signal Processing, section 6.3). A body behind something large is not seen. Fog does not
+//! affect radars. Rain, which takes some decibels over 200 m, is left out; there are no multiple reflections.
 
 use super::Descriptor;
 use super::error::{Checks, SensorError};
@@ -15,41 +15,41 @@ use crate::object::{BodyState, Class, Outline};
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_3, LN_2, TAU};
 
-/// How lists show this kind of sensor.
+/// The entry of this kind of sensor in lists.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "radar", about: "distance, direction and closing speed of bodies" };
 
-/// The logarithm of the probability that noise alone passes for an echo, 1e-6.
+/// The logarithm of the probability of a false alarm by noise alone, 1e-6.
 const LN_FALSE_ALARM: f64 = -13.815_510_557_964_274;
 
-/// A radar, not checked yet.
+/// The settings of a radar, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RadarSettings {
-    /// Where its antenna is.
+    /// The mounting of the antenna.
     pub mount: Mount,
-    /// Seconds between two sweeps.
+    /// The seconds between two sweeps.
     pub period: f64,
-    /// Metres up to which it measures.
+    /// The greatest distance in metres that the radar measures.
     pub range: f64,
-    /// Opening angle in radians.
+    /// The opening angle in radians.
     pub field_of_view: f64,
     /// The distance in metres at which a car is detected in half of the sweeps.
     pub half_range: f64,
-    /// Standard deviation of a range in metres.
+    /// The standard deviation of a range in metres.
     pub range_noise: f64,
-    /// Standard deviation of a range rate in m/s.
+    /// The standard deviation of a range rate in m/s.
     pub range_rate_noise: f64,
-    /// Standard deviation of an azimuth in radians.
+    /// The standard deviation of an azimuth in radians.
     pub azimuth_noise: f64,
-    /// False detections in a sweep, in the mean: anywhere in the field, as many at any range.
+    /// The mean number of false detections in a sweep, evenly distributed over ranges and directions of the field.
     pub clutter: f64,
     /// The greatest range rate of a false detection in m/s, either way.
     pub clutter_range_rate: f64,
 }
 
 impl Default for RadarSettings {
-    /// A long-range radar in the front bumper: twenty sweeps a second, 60 degrees, a car at 160 m in half of the sweeps, and a
-    /// false detection in two sweeps.
+    /// Returns the settings of a long-range radar in the front bumper: twenty sweeps a second, 60 degrees, a car at
+    /// 160 m in half of the sweeps, and a false detection in two sweeps.
     fn default() -> Self {
         Self {
             mount: Mount::ahead(2.25, 0.5),
@@ -66,27 +66,27 @@ impl Default for RadarSettings {
     }
 }
 
-/// A place from which a radar believes to have an echo.
+/// A detection of a radar: a point from which an echo seems to come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Detection {
-    /// How far away it is, in metres.
+    /// The distance of the point, in metres.
     pub range: f64,
-    /// How fast that grows, in m/s: negative for what comes closer.
+    /// The rate at which the distance grows, in m/s; negative for bodies that come closer.
     pub range_rate: f64,
-    /// Where it is, in radians counter-clockwise from where the radar looks.
+    /// The azimuth of the point, in radians counter-clockwise from the direction of the radar.
     pub azimuth: f64,
-    /// What it truly is of: the index of a body, or nothing. No radar knows this; it is there to be compared with.
+    /// The index of the detected body; `None` for clutter. Only for comparisons: no real radar knows this.
     pub body: Option<usize>,
 }
 
-/// A radar. Its reading are the detections of a sweep: those of bodies, then clutter.
+/// A radar. Its reading is the list of detections of a sweep: first those of bodies, then false ones.
 #[derive(Debug, Clone)]
 pub struct Radar {
     settings: RadarSettings,
 }
 
 impl Radar {
-    /// A radar with these settings.
+    /// Makes a radar with these settings.
     ///
     /// # Errors
     /// A setting is out of its range or no number.
@@ -105,16 +105,16 @@ impl Radar {
         Ok(Self { settings })
     }
 
-    /// How likely a sweep detects a body of this class at this distance in metres, if nothing hides it.
+    /// Returns the probability that a sweep detects a body of this class at this distance in metres, if unhidden.
     pub fn probability(&self, class: Class, range: f64) -> f64 {
         let nearer = self.settings.half_range / range;
-        // At the half range a car has the ratio that makes one half of the formula.
+        // At the half range, a car has the signal-to-noise ratio that gives a probability of one half.
         let at_half = -LN_FALSE_ALARM / LN_2 - 1.0;
         let ratio = at_half * (cross_section(class) / cross_section(Class::Car)) * (nearer * nearer * nearer * nearer);
         libm::exp(LN_FALSE_ALARM / (1.0 + ratio))
     }
 
-    /// What there is to measure of a body, if it is in the field and not hidden.
+    /// Returns the true values of a body's detection, if the body is in the field of view and not hidden.
     fn echo(&self, view: &SensorView<'_>, index: usize, state: &BodyState) -> Option<Detection> {
         let RadarSettings { mount, range, field_of_view, .. } = self.settings;
         let pose = mount.pose(view.car);
@@ -151,7 +151,7 @@ impl Sensor for Radar {
     fn sense(&mut self, view: &SensorView<'_>, chance: &mut Chance, reading: &mut Vec<Detection>) {
         reading.clear();
         let RadarSettings { range_noise, range_rate_noise, azimuth_noise, .. } = self.settings;
-        // Drawn for all bodies, so that what is out of sight does not shift the noise of what is seen.
+        // The random numbers are drawn for all bodies, so a body out of sight does not change the noise of the others.
         for (index, state) in view.bodies.iter().enumerate().skip(1) {
             let luck = chance.unit();
             let noise = [chance.normal(), chance.normal(), chance.normal()];
@@ -173,8 +173,8 @@ impl Sensor for Radar {
     }
 }
 
-/// The radar cross-section in m² of a body of this class at 77 GHz: the order of magnitude of what is measured in the mean
-/// over all aspects.
+/// Returns the radar cross-section in m² of a body of this class at 77 GHz: the order of magnitude of measurements, as
+/// a mean over all aspects.
 fn cross_section(class: Class) -> f64 {
     match class {
         Class::Car => 10.0,
@@ -188,7 +188,7 @@ fn cross_section(class: Class) -> f64 {
     }
 }
 
-/// The point of what a body covers of the ground that is nearest to another point.
+/// Returns the point of a body's outline or its inside that is nearest to another point.
 fn nearest(state: &BodyState, to: Vector2<f64>) -> Vector2<f64> {
     let seen = state.pose.to_local(to);
     let local = match state.body.outline {

@@ -1,4 +1,4 @@
-//! The sensors of a car: which of them measures when, and when what it has measured is known.
+//! The sensors of a car: when each measures, and when its readings arrive.
 
 use super::error::{Checks, SensorError};
 use super::{Chance, Sensor, SensorView};
@@ -7,37 +7,37 @@ use std::collections::VecDeque;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A whisker of time in seconds, because times are sums of ticks.
+/// A tolerance in seconds, because times are sums of ticks.
 const WHISKER: f64 = 1e-9;
 
-/// What becomes of readings on their way from a sensor.
+/// The delay and the loss of readings on their way from a sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Delivery {
-    /// Seconds from the measurement to when it is known.
+    /// The seconds from the measurement to its arrival.
     pub latency: f64,
-    /// The probability that a reading is lost on the way, each by itself.
+    /// The probability that a reading is lost on the way, independently for each reading.
     pub loss: f64,
 }
 
 impl Delivery {
-    /// All readings arrive after this many seconds.
+    /// Delivers all readings after this many seconds.
     pub fn after(latency: f64) -> Self {
         Self { latency, loss: 0.0 }
     }
 }
 
-/// A reading, and when it was taken.
+/// A reading with its number and time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sample<R> {
-    /// Which of the sensor's readings it is: the k-th is due at k periods.
+    /// The number of the reading: the k-th reading is due at k periods.
     pub number: u64,
-    /// When it was taken, in seconds since the run began.
+    /// The time of the measurement, in seconds since the run began.
     pub time: f64,
-    /// What was measured.
+    /// The measured values.
     pub reading: R,
 }
 
-/// A sensor of a rig, by which its readings are asked for.
+/// A handle of a sensor in a rig, with which its readings are asked for.
 #[derive(Debug)]
 pub struct Handle<S> {
     index: usize,
@@ -46,9 +46,9 @@ pub struct Handle<S> {
 
 /// The sensors that a car carries.
 ///
-/// It is shown the run at one moment after the other by [`Rig::see`]: at every tick of a run that it
-/// [equips](crate::Run::equip). A sensor measures at the first moment at which a reading is due; where moments are further
-/// apart than its period, what was due in between is left out.
+/// [`Rig::see`] shows the rig the run at one moment after the other: at every tick, if a run is
+/// [equipped](crate::Run::equip) with the rig. A sensor measures at the first moment at which a reading is due. If
+/// moments are further apart than the sensor's period, the readings due in between are left out.
 #[derive(Default)]
 pub struct Rig {
     seed: u64,
@@ -56,7 +56,7 @@ pub struct Rig {
 }
 
 impl Rig {
-    /// A rig without sensors, and the seed of all noise there will be.
+    /// Makes a rig without sensors. The seed is that of all noise.
     pub fn new(seed: u64) -> Self {
         Self { seed, sensors: Vec::new() }
     }
@@ -64,8 +64,8 @@ impl Rig {
     /// Attaches a sensor. Its noise depends on its name, and on no other sensor.
     ///
     /// # Errors
-    /// Another sensor has that name; the latency is no number from 0 to 100 s, the loss no probability, or the sensor's
-    /// period no number from 0.0001 to 10,000 s.
+    /// Another sensor has that name, the latency is no number from 0 to 100 s, the loss is no probability, or the
+    /// sensor's period is no number from 0.0001 to 10,000 s.
     pub fn attach<S: Sensor>(&mut self, name: &str, sensor: S, delivery: Delivery) -> Result<Handle<S>, SensorError> {
         let checks = Checks(name);
         checks.period(sensor.period())?;
@@ -78,41 +78,41 @@ impl Rig {
         Ok(Handle { index: self.sensors.len() - 1, sensor: PhantomData })
     }
 
-    /// Takes another seed.
+    /// Changes the seed.
     pub(super) fn reseed(&mut self, seed: u64) {
         self.seed = seed;
     }
 
-    /// Whether it has no sensor.
+    /// Returns `true` if the rig has no sensor.
     pub fn is_empty(&self) -> bool {
         self.sensors.is_empty()
     }
 
-    /// Forgets everything: a new run begins.
+    /// Forgets everything, because a new run begins.
     pub fn reset(&mut self) {
         self.sensors.iter_mut().for_each(|sensor| sensor.reset());
     }
 
-    /// Shows all sensors the next moment: those measure whose period has passed, and what is known by now arrives.
+    /// Shows all sensors the next moment: those that are due measure, and readings whose latency has passed arrive.
     pub fn see(&mut self, view: &SensorView<'_>) {
         for sensor in &mut self.sensors {
             sensor.see(self.seed, view);
         }
     }
 
-    /// Drops what has arrived, but for the last of every sensor: only what arrives from now on is new. A run does this
-    /// whenever its driver has answered.
+    /// Drops the arrived readings, except for the last of every sensor, so that only later arrivals are new. A run does
+    /// this whenever its driver has answered.
     pub fn clear(&mut self) {
         self.sensors.iter_mut().for_each(|sensor| sensor.clear());
     }
 
-    /// What has arrived from a sensor since the rig was last [cleared](Rig::clear), the earliest first. Nothing from a sensor
-    /// of another rig.
+    /// Returns the readings that have arrived from a sensor since the rig was last [cleared](Rig::clear), the earliest
+    /// first. Empty for a sensor of another rig.
     pub fn arrived<S: Sensor>(&self, sensor: &Handle<S>) -> &[Sample<S::Reading>] {
         self.port(sensor).map_or(&[], |port| &port.arrived)
     }
 
-    /// The last reading that has arrived from a sensor so far.
+    /// Returns the last reading that has arrived from a sensor so far.
     pub fn latest<S: Sensor>(&self, sensor: &Handle<S>) -> Option<&Sample<S::Reading>> {
         let port = self.port(sensor)?;
         port.arrived.last().or(port.known.as_ref())
@@ -139,17 +139,17 @@ trait Attached: Any + Send {
     fn see(&mut self, seed: u64, view: &SensorView<'_>);
 }
 
-/// A sensor and what has come from it. Samples are used again, so that readings need no allocations.
+/// A sensor with its readings. Samples are reused, so that readings need no allocations.
 struct Port<S: Sensor> {
     name: String,
     sensor: S,
     period: f64,
     delivery: Delivery,
-    /// The number of its last reading.
+    /// The number of the sensor's last reading.
     last: Option<u64>,
-    /// What is on its way, the earliest first.
+    /// The readings on their way, the earliest first.
     flying: VecDeque<Sample<S::Reading>>,
-    /// What has arrived and is new, and the last of what had arrived before.
+    /// The new readings that have arrived, and the last reading that arrived before them.
     arrived: Vec<Sample<S::Reading>>,
     known: Option<Sample<S::Reading>>,
     spare: Vec<Sample<S::Reading>>,

@@ -1,4 +1,4 @@
-//! What a perfect sensor would know: the labels that readings of others are held against.
+//! A perfect sensor, whose readings are the labels for the readings of other sensors.
 
 use super::Descriptor;
 use super::error::{Checks, SensorError};
@@ -8,23 +8,23 @@ use crate::geometry::wrapped;
 use crate::object::{Class, gap};
 use nalgebra::{Vector2, Vector3};
 
-/// How lists show this kind of sensor.
+/// The entry of this kind of sensor in lists.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "ground truth", about: "every body as it is, but for what hides it" };
 
-/// A sensor that knows the truth, not checked yet.
+/// The settings of a sensor that knows the ground truth, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundTruthSettings {
-    /// From where it looks, as to what hides what.
+    /// The mounting of the sensor, which decides which bodies are hidden.
     pub mount: Mount,
-    /// Seconds between two readings.
+    /// The seconds between two readings.
     pub period: f64,
-    /// Up to how many metres of free space from the car it knows of bodies.
+    /// The greatest free distance in metres between the car and the bodies that the sensor knows.
     pub range: f64,
 }
 
 impl Default for GroundTruthSettings {
-    /// Ten times a second, up to 100 m, seen from the roof.
+    /// Returns the default settings: ten times a second, up to 100 m, seen from the roof.
     fn default() -> Self {
         Self { mount: Mount::above(1.5), period: 0.1, range: 100.0 }
     }
@@ -33,32 +33,32 @@ impl Default for GroundTruthSettings {
 /// A body as it truly is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrueBody {
-    /// Its index among the bodies of the run, where the car under test is 0.
+    /// The index of the body among the bodies of the run, of which the car under test has the index 0.
     pub body: usize,
-    /// What it is.
+    /// The class of the body.
     pub class: Class,
-    /// The middle of its box as seen from the middle of the car's on the ground: x ahead, y to the left, z up, in metres.
+    /// The middle of the body's box from the middle of the car's, on the ground: x ahead, y left, z up, in metres.
     pub position: Vector3<f64>,
-    /// Length, width and height of its box in metres.
+    /// The length, width and height of the body's box in metres.
     pub size: Vector3<f64>,
-    /// Where it points, in radians counter-clockwise from the car's heading.
+    /// The direction in which the body points, in radians counter-clockwise from the car's heading.
     pub heading: f64,
-    /// Its velocity over the ground in m/s, in the car's directions.
+    /// The velocity of the body over the ground in m/s, in the car's directions.
     pub velocity: Vector2<f64>,
-    /// Metres of free space between it and the car.
+    /// The metres of free space between the body and the car.
     pub distance: f64,
-    /// Whether something large stands between the sensor and its middle.
+    /// True if something large stands between the sensor and the body's middle.
     pub hidden: bool,
 }
 
-/// A sensor that knows the truth of all bodies around the car, the hidden ones included, in the order of the bodies.
+/// A sensor that knows the truth of all bodies around the car, including hidden bodies, in the order of the bodies.
 #[derive(Debug, Clone)]
 pub struct GroundTruth {
     settings: GroundTruthSettings,
 }
 
 impl GroundTruth {
-    /// A sensor with these settings.
+    /// Makes a sensor with these settings.
     ///
     /// # Errors
     /// A setting is out of its range or no number.

@@ -1,4 +1,4 @@
-//! Numbers, truths and vectors: what is computed at the ticks at which all operands have a value.
+//! Arithmetic on streams of numbers, truths and vectors, at the ticks at which all operands have a value.
 
 use super::Stream;
 use super::node::{Binary, NodeKind, Unary};
@@ -8,91 +8,91 @@ use paracosm_oracles::Comparison;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 impl Stream<f64> {
-    /// True at the ticks at which this is below the other.
+    /// Is true at the ticks at which this stream is below the other.
     pub fn below(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
         self.with(NodeKind::Compare(Comparison::Below), &other.into())
     }
 
-    /// True at the ticks at which this is at most the other.
+    /// Is true at the ticks at which this stream is at most the other.
     pub fn at_most(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
         self.with(NodeKind::Compare(Comparison::AtMost), &other.into())
     }
 
-    /// True at the ticks at which this is above the other.
+    /// Is true at the ticks at which this stream is above the other.
     pub fn above(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
         self.with(NodeKind::Compare(Comparison::Above), &other.into())
     }
 
-    /// True at the ticks at which this is at least the other.
+    /// Is true at the ticks at which this stream is at least the other.
     pub fn at_least(&self, other: impl Into<Stream<f64>>) -> Stream<bool> {
         self.with(NodeKind::Compare(Comparison::AtLeast), &other.into())
     }
 
-    /// The smaller of both; NaN where one is NaN.
+    /// Returns the smaller of both values; NaN if one is NaN.
     pub fn min(&self, other: impl Into<Stream<f64>>) -> Self {
         self.with(NodeKind::Binary(Binary::Least), &other.into())
     }
 
-    /// The larger of both; NaN where one is NaN.
+    /// Returns the larger of both values; NaN if one is NaN.
     pub fn max(&self, other: impl Into<Stream<f64>>) -> Self {
         self.with(NodeKind::Binary(Binary::Greatest), &other.into())
     }
 
-    /// The distance from 0.
+    /// Returns the absolute value.
     pub fn abs(&self) -> Self {
         self.then(NodeKind::Unary(Unary::Absolute))
     }
 
-    /// The square root; NaN below 0.
+    /// Returns the square root; NaN below 0.
     pub fn sqrt(&self) -> Self {
         self.then(NodeKind::Unary(Unary::SquareRoot))
     }
 
-    /// The sum of all values so far, at the ticks that have one.
+    /// Returns the sum of all values so far, at the ticks at which this stream has a value.
     pub fn sum(&self) -> Self {
         self.then(NodeKind::Sum(0.0.into()))
     }
 }
 
 impl Stream<Vector2<f64>> {
-    /// The vector of two coordinates.
+    /// Makes the stream of vectors with these coordinates.
     pub fn vector(x: impl Into<Stream<f64>>, y: impl Into<Stream<f64>>) -> Self {
         x.into().with(NodeKind::Binary(Binary::Vector), &y.into())
     }
 
-    /// How far the line still lies ahead of this position, along the line's direction, in metres; negative
-    /// behind it.
+    /// Returns how far the line still lies ahead of this position, along the line's direction, in metres; negative
+    /// behind the line.
     pub fn distance_to(&self, line: &Line) -> Stream<f64> {
         self.then(NodeKind::Towards(line.clone()))
     }
 
-    /// The length.
+    /// Returns the length of the vector.
     pub fn norm(&self) -> Stream<f64> {
         self.then(NodeKind::Unary(Unary::Norm))
     }
 
-    /// The scalar product.
+    /// Returns the scalar product.
     pub fn dot(&self, other: impl Into<Stream<Vector2<f64>>>) -> Stream<f64> {
         self.with(NodeKind::Binary(Binary::Dot), &other.into())
     }
 
-    /// The first coordinate.
+    /// Returns the first coordinate.
     pub fn x(&self) -> Stream<f64> {
         self.then(NodeKind::Unary(Unary::X))
     }
 
-    /// The second coordinate.
+    /// Returns the second coordinate.
     pub fn y(&self) -> Stream<f64> {
         self.then(NodeKind::Unary(Unary::Y))
     }
 
-    /// The sum of all values so far, at the ticks that have one.
+    /// Returns the sum of all values so far, at the ticks at which this stream has a value.
     pub fn sum(&self) -> Self {
         self.then(NodeKind::Sum(Vector2::zeros().into()))
     }
 }
 
-/// An operator between streams, and between a stream and whatever becomes one.
+/// Implements an operator between two streams, and between a stream and a value that converts to a stream.
 macro_rules! operator {
     ($trait:ident, $method:ident, $binary:ident, $left:ty, $right:ty) => {
         impl<S: Into<Stream<$right>>> $trait<S> for &Stream<$left> {
@@ -124,7 +124,7 @@ operator!(Div, div, Quotient, Vector2<f64>, f64);
 operator!(BitAnd, bitand, And, bool, bool);
 operator!(BitOr, bitor, Or, bool, bool);
 
-/// An operator with a plain number on its left.
+/// Implements an operator with a plain number on its left.
 macro_rules! number_first {
     ($trait:ident, $method:ident) => {
         impl $trait<Stream<f64>> for f64 {
@@ -150,7 +150,7 @@ number_first!(Sub, sub);
 number_first!(Mul, mul);
 number_first!(Div, div);
 
-/// An operator on one stream.
+/// Implements an operator on one stream.
 macro_rules! prefix {
     ($trait:ident, $method:ident, $unary:ident, $type:ty) => {
         impl $trait for &Stream<$type> {

@@ -1,4 +1,4 @@
-//! The typed handles by which programs write streams of any type.
+//! The typed handles with which programs write streams of any type.
 
 use super::datum::{Datum, DatumSample, samples};
 use super::node::{Node, NodeKind, Source};
@@ -25,21 +25,21 @@ impl<T> fmt::Debug for Stream<T> {
     }
 }
 
-/// What is done at the ticks of a stream: [`Stream::for_each`] makes it, and
-/// [`Scenario::place`](crate::Scenario::place) makes it part of the world.
+/// An effect at the ticks of a stream: [`Stream::for_each`] makes it, and [`Scenario::place`](crate::Scenario::place)
+/// makes it part of the world.
 #[must_use = "it is only done once it is placed in the scenario"]
 #[derive(Debug)]
 pub struct Effect(pub(crate) Rc<Node>);
 
 impl Stream<()> {
-    /// The clock: an event at every tick.
+    /// Returns the clock: an event at every tick.
     pub fn tick() -> Self {
         Self::constant(())
     }
 }
 
 impl Stream<f64> {
-    /// The time since the run began, in seconds.
+    /// Returns the time since the run began, in seconds.
     pub fn time() -> Self {
         Self::new(NodeKind::Time, [])
     }
@@ -51,17 +51,17 @@ impl<T: Datum> Stream<T> {
         Self { node: Rc::new(node), carries: PhantomData }
     }
 
-    /// The stream that has this value at every tick.
+    /// Returns the stream that has this value at every tick.
     pub fn constant(value: T) -> Self {
         Self::new(NodeKind::Constant { value: samples(value), parameter: None }, [])
     }
 
-    /// The stream of a node, which has to be one of values of this type.
+    /// Returns the stream of a node, whose values must have this type.
     pub(crate) fn of(node: Rc<Node>) -> Self {
         Self { node, carries: PhantomData }
     }
 
-    /// The stream that has a value at no tick: what an input reads that nothing is bound to.
+    /// Returns the stream that has no value at any tick. An input that is bound to nothing reads it.
     pub fn absent() -> Self {
         Self::new(NodeKind::Constant { value: vec![DatumSample::Absent; T::WIDTH], parameter: None }, [])
     }
@@ -70,12 +70,12 @@ impl<T: Datum> Stream<T> {
         Self::new(NodeKind::Output { source, name }, [])
     }
 
-    /// The same stream, called so where the graph is printed and where a trace records it.
+    /// Returns the same stream with a name, which the printed graph and the traces use.
     pub fn named(&self, name: &str) -> Self {
         self.then(NodeKind::Named(name.to_owned()))
     }
 
-    /// `f` of the value, at the ticks that have one. `f` is to be a pure function: nobody says how often it is called.
+    /// Applies `f` to the value, at the ticks that have one. `f` should be pure: the number of calls is not defined.
     pub fn map<U: Datum>(&self, f: impl Fn(T) -> U + 'static) -> Stream<U> {
         let map = move |input: &[_], output: &mut [_]| {
             if let Some(value) = T::get(input) {
@@ -85,39 +85,39 @@ impl<T: Datum> Stream<T> {
         self.then(NodeKind::Map(Rc::new(map)))
     }
 
-    /// The stream at the ticks whose value `keep` holds of; absent at all others.
+    /// Returns the stream at the ticks for whose value `keep` is true; absent at all others.
     pub fn filter(&self, keep: impl Fn(T) -> bool + 'static) -> Self {
         self.then(NodeKind::Filter(Rc::new(move |input: &[_]| T::get(input).is_some_and(&keep))))
     }
 
-    /// The stream at the ticks at which `event` occurs; absent at all others.
+    /// Returns the stream at the ticks at which `event` occurs; absent at all others.
     pub fn when<E: Datum>(&self, event: &Stream<E>) -> Self {
         self.with(NodeKind::When, event)
     }
 
-    /// Both values, at the ticks at which both streams have one.
+    /// Returns the pair of both values, at the ticks at which both streams have one.
     pub fn zip<U: Datum>(&self, other: &Stream<U>) -> Stream<(T, U)> {
         Stream::new(NodeKind::Zip, [self.node.clone(), other.node.clone()])
     }
 
-    /// The first `count` values; over after that.
+    /// Returns the first `count` values; over after them.
     pub fn take(&self, count: usize) -> Self {
         self.then(NodeKind::Take(count))
     }
 
-    /// The stream until it is over, from then on the other one as it is by then: nothing is kept or begun anew.
+    /// Returns the stream until it is over, then `next` as it is at those ticks: nothing is queued or begun anew.
     pub fn concat(&self, next: &Stream<T>) -> Self {
         self.with(NodeKind::Concat, next)
     }
 
-    /// The value at the first tick, the stream from then on: Lustre's `->`. With [`Stream::pre`] it is how a feedback
-    /// begins: `x.pre().initially(0.0)`.
+    /// Returns `value` at the first tick, and the stream from then on: Lustre's `->`. With [`Stream::pre`], it gives a
+    /// feedback its first value: `x.pre().initially(0.0)`.
     pub fn initially(&self, value: impl Into<Stream<T>>) -> Self {
         value.into().take(1).concat(self)
     }
 
-    /// What the values come to when they are folded, at the ticks that have one: `f` of what they came to before,
-    /// `initial` at first, and the value. `f` is to be a pure function.
+    /// Folds the values, at the ticks that have one: the result is `f` of the previous result (`initial` at first) and
+    /// the value. `f` should be a pure function.
     pub fn scan<A: Datum>(&self, initial: A, f: impl Fn(A, T) -> A + 'static) -> Stream<A> {
         let step = move |sum: &mut [_], input: &[_]| {
             if let (Some(before), Some(value)) = (A::get(sum), T::get(input)) {
@@ -127,37 +127,37 @@ impl<T: Datum> Stream<T> {
         self.then(NodeKind::Scan { initial: samples(initial), step: Rc::new(step) })
     }
 
-    /// The stream at the ticks at which it has a value, the other at those at which only the other has one.
+    /// Returns the stream at the ticks at which it has a value, and `other` at the ticks at which only `other` has one.
     pub fn merge(&self, other: &Stream<T>) -> Self {
         self.with(NodeKind::Merge, other)
     }
 
-    /// The stream itself until the first tick at which `event` occurs; over from that tick on.
+    /// Returns the stream until before the first tick at which `event` occurs; over from that tick on.
     pub fn take_until<E: Datum>(&self, event: &Stream<E>) -> Self {
         self.with(NodeKind::TakeUntil, event)
     }
 
-    /// Absent until the first tick at which `event` occurs; the stream itself from that tick on.
+    /// Returns the stream from the first tick at which `event` occurs; absent before.
     pub fn skip_until<E: Datum>(&self, event: &Stream<E>) -> Self {
         self.with(NodeKind::SkipUntil, event)
     }
 
-    /// What the stream was at the tick before: absent where it was absent then, and at the first tick.
+    /// Returns the stream's value at the tick before: absent if it was absent then, and at the first tick.
     pub fn pre(&self) -> Self {
         self.then(NodeKind::Pre)
     }
 
-    /// The latest value, `initial` before the first one: a value at every tick.
+    /// Returns the latest value, or `initial` before the first one: a value at every tick.
     pub fn hold(&self, initial: T) -> Self {
         self.then(NodeKind::Hold { initial: samples(initial) })
     }
 
-    /// True at the ticks at which both streams have the same value.
+    /// Is true at the ticks at which both streams have the same value.
     pub fn equals(&self, other: impl Into<Stream<T>>) -> Stream<bool> {
         Stream::new(NodeKind::Equal, [self.node.clone(), other.into().node])
     }
 
-    /// Does something with the value, at the ticks that have one. It has to be placed in the scenario.
+    /// Calls `f` with the value, at the ticks that have one. The returned effect has to be placed in the scenario.
     pub fn for_each(&self, mut f: impl FnMut(T) + 'static) -> Effect {
         let effect = move |input: &[_]| T::get(input).map_or((), &mut f);
         let effect: Stream<()> = self.then(NodeKind::ForEach(Rc::new(RefCell::new(effect))));

@@ -1,8 +1,8 @@
-//! What streams carry, and how a value lies in the memory of a run.
+//! The values of streams, and their layout in the memory of a run.
 
 use nalgebra::Vector2;
 
-/// A value at one tick, or a part of one. Public only because [`Datum`] speaks of it; nobody outside can name it.
+/// A value at one tick, or a part of it. It is public only because [`Datum`] uses it; other crates cannot name it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DatumSample {
     Absent,
@@ -22,7 +22,7 @@ impl DatumSample {
 /// The types that streams carry: numbers (`f64`, `i32`), truths (`bool`), words (`&'static str`), vectors in the ground
 /// plane (`Vector2<f64>`), the bare event `()`, and pairs of these.
 pub trait Datum: Copy + 'static {
-    /// How many samples a value takes. It is absent where the first of them is.
+    /// The number of samples that a value takes. The value is absent if its first sample is.
     #[doc(hidden)]
     const WIDTH: usize;
     /// Writes the value over the first samples.
@@ -100,7 +100,7 @@ impl<A: Datum, B: Datum> Datum for (A, B) {
     }
 }
 
-/// A value as the samples that it takes.
+/// Returns the samples of a value.
 pub(crate) fn samples<T: Datum>(value: T) -> Vec<DatumSample> {
     let mut samples = vec![DatumSample::Absent; T::WIDTH];
     value.put(&mut samples);

@@ -1,4 +1,4 @@
-//! A graph of streams in the DOT language of Graphviz, to be looked at.
+//! Writes a graph of streams in the DOT language of Graphviz, to be looked at.
 
 use super::node::{Binary, Equation, Node, NodeKind};
 use super::order::{GraphFlaw, order};
@@ -6,9 +6,9 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::rc::Rc;
 
-/// A graph with its readers: outputs of objects are boxes, parameters ellipses, readers bold boxes, and what a `pre`
-/// takes from the tick before comes along a dashed line. Where the order of two inputs matters, their lines are
-/// numbered.
+/// Writes a graph with its readers. Outputs of objects are boxes, parameters ellipses, and readers bold boxes. The
+/// input of a `pre`, which it takes from the tick before, is a dashed line. If the order of two inputs matters, their
+/// lines are numbered.
 pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equation]) -> Result<String, GraphFlaw> {
     let ordered = order(readers.iter().map(|(_, node)| node), equations)?;
     let mut names: HashMap<*const Node, Vec<&str>> = HashMap::new();
@@ -56,7 +56,7 @@ pub(crate) fn dot(title: &str, readers: &[(String, Rc<Node>)], equations: &[Equa
     Ok(text)
 }
 
-/// The node that a name stands for.
+/// Returns the node that a name stands for.
 fn meant<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> &'a Rc<Node> {
     let mut node = node;
     loop {
@@ -76,7 +76,7 @@ fn commutes(kind: &NodeKind) -> bool {
     matches!(kind, NodeKind::Equal | NodeKind::Binary(Sum | Product | Least | Greatest | Dot | And | Or))
 }
 
-/// A string as DOT takes it.
+/// Returns a text as a quoted string of DOT.
 fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }

@@ -1,4 +1,4 @@
-//! Streams that are read before they are defined: how feedback is written.
+//! Streams that are read before they are defined, for feedback.
 
 use super::Stream;
 use super::node::Equation;
@@ -6,18 +6,18 @@ use std::cell::RefCell;
 use std::ops::Deref;
 use std::rc::Rc;
 
-/// A stream that was announced by [`Scenario::forward`](crate::Scenario::forward) and is defined later. Until then, and
-/// after, it can be used as the stream that it is.
+/// A stream that was announced by [`Scenario::forward`](crate::Scenario::forward) and is defined later. It can be used
+/// like any other stream, before and after its definition.
 #[derive(Debug)]
 pub struct Forward<T> {
     pub(crate) stream: Stream<T>,
-    /// The position of its equation among all.
+    /// The index of the stream's equation among all equations.
     pub(crate) equation: usize,
     pub(crate) equations: Rc<RefCell<Vec<Equation>>>,
 }
 
 impl<T> Forward<T> {
-    /// Says what the stream is. To define it twice is a mistake of the scenario.
+    /// Defines the stream. A second definition is a mistake of the scenario.
     pub fn define(&self, definition: impl Into<Stream<T>>) {
         let equation = &mut self.equations.borrow_mut()[self.equation];
         equation.is_defined_twice |= equation.definition.replace(definition.into().node).is_some();

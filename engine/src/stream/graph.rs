@@ -7,11 +7,11 @@ use paracosm_space::Shape;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// Where a node's value stands.
+/// The place of a node's value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Slot(usize);
 
-/// When it is: the tick from 0, how many there are until the end of the run, and how long each is in seconds.
+/// The time of an evaluation: the tick from 0, the number of ticks in the run, and the duration of a tick in seconds.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Clock {
     pub tick: usize,
@@ -19,27 +19,27 @@ pub(crate) struct Clock {
     pub dt: f64,
 }
 
-/// A node with what it remembers from tick to tick.
+/// A node with its memory from tick to tick.
 #[derive(Debug)]
 struct Operation {
     node: Rc<Node>,
-    /// Where its value stands, and how many samples it takes.
+    /// The place of the operation's value, and the number of samples that it takes.
     at: usize,
     width: usize,
-    /// Where those of its inputs stand; of one or none, its own place.
+    /// The places of the inputs' values. If there are fewer than two inputs, the rest is the operation's own place.
     inputs: [usize; 2],
     memory: Memory,
 }
 
-/// What an operation remembers.
+/// The memory of an operation.
 #[derive(Debug)]
 enum Memory {
     Nothing,
-    /// Whether an event has occurred.
+    /// True if an event has occurred.
     Occurred(bool),
-    /// How many values are still to come.
+    /// The number of values that are still to come.
     Left(usize),
-    /// A value, and whether it was the last one.
+    /// A value, and whether the stream is over.
     Value {
         samples: Vec<DatumSample>,
         over: bool,
@@ -53,18 +53,18 @@ enum Memory {
 pub(crate) struct Graph {
     operations: Vec<Operation>,
     values: Vec<DatumSample>,
-    /// Of each value, whether its stream is over.
+    /// For each value, whether its stream is over.
     over: Vec<bool>,
     /// The operations that take in their operand when the tick is over.
     delays: Vec<usize>,
-    /// Which slot a node has got. Only looked up, never iterated over: addresses differ between runs.
+    /// The slot of each node. The map is only looked up and never iterated over, because addresses differ between runs.
     slots: HashMap<*const Node, Slot>,
-    /// Keeps the nodes alive that have no operation, so that no address is used twice.
+    /// Keeps the nodes without an operation alive, so that no address is used twice.
     nodes: Vec<Rc<Node>>,
 }
 
 impl Graph {
-    /// Lays out all that the roots are made of.
+    /// Lays out the roots and all nodes that they depend on.
     pub fn new<'a>(
         roots: impl IntoIterator<Item = &'a Rc<Node>>,
         equations: &'a [Equation],
@@ -83,7 +83,7 @@ impl Graph {
             graph.nodes.push(node.clone());
         }
         for &delay in &graph.delays {
-            // Only now has every operand its place.
+            // Only now every operand has its place.
             graph.operations[delay].inputs[0] = graph.slots[&Rc::as_ptr(&graph.operations[delay].node.inputs[0])].0;
         }
         Ok(graph)
@@ -123,15 +123,15 @@ impl Graph {
         Slot(at)
     }
 
-    /// Where the value of a node stands.
+    /// Returns the place of a node's value.
     ///
     /// # Panics
-    /// It is no node of the graph.
+    /// The node is not in the graph.
     pub fn slot(&self, node: &Rc<Node>) -> Slot {
         self.slots[&Rc::as_ptr(node)]
     }
 
-    /// Evaluates every stream for the tick at whose beginning the objects show these outputs.
+    /// Evaluates every stream for a tick. `outputs` are the outputs of the objects at the beginning of the tick.
     pub fn tick(&mut self, clock: Clock, outputs: &[DatumSample]) {
         for operation in &mut self.operations {
             let (values, rest) = self.values.split_at_mut(operation.at);
@@ -147,7 +147,7 @@ impl Graph {
         }
     }
 
-    /// The value in a slot at the last tick; `None` where it was absent.
+    /// Returns the value in a slot at the last tick; `None` if it was absent.
     pub fn value<T: Datum>(&self, slot: Slot) -> Option<T> {
         T::get(&self.values[slot.0..])
     }
@@ -157,13 +157,13 @@ impl Graph {
     }
 }
 
-/// Whether an event occurs: a truth that holds, or any other value that is there.
+/// Returns `true` if an event occurs: the value is a truth that holds, or any other value that is present.
 fn occurs(value: &[DatumSample]) -> bool {
     !matches!(value[0], DatumSample::Absent | DatumSample::Truth(false))
 }
 
 impl Operation {
-    /// Writes the value of a tick, of which `values` holds all that come before; whether the stream is over.
+    /// Writes a tick's value and returns `true` if the stream is over. `values` are those of earlier operations.
     fn evaluate(
         &mut self,
         clock: Clock,
@@ -305,7 +305,7 @@ impl Operation {
     }
 }
 
-/// The value, if it is to be seen.
+/// Writes the value, or an absent sample if `present` is false.
 fn put(output: &mut [DatumSample], present: bool, value: &[DatumSample]) {
     if present {
         copy(value, output);
@@ -314,7 +314,7 @@ fn put(output: &mut [DatumSample], present: bool, value: &[DatumSample]) {
     }
 }
 
-/// Nearly all values are one sample, for which a call to copy memory would take longer than the rest.
+/// Copies a value. Nearly all are one sample, for which a call to copy memory would take longer than the rest.
 fn copy(value: &[DatumSample], output: &mut [DatumSample]) {
     match (value, output) {
         ([value], [output]) => *output = *value,

@@ -2,22 +2,22 @@
 //!
 //! The model is synchronous, as in Lustre (Halbwachs, Caspi, Raymond, Pilaud, "The synchronous data flow programming
 //! language LUSTRE", Proc. IEEE 79(9), 1991): there is one clock, and at each of its ticks a stream has a value or is
-//! absent. A stream that always has one is a *continuous value*; one that is mostly absent is a stream of *events*.
-//! A [`Stream`] is a cheap handle on an immutable expression; building one computes nothing. When a run starts, all
-//! expressions that anybody reads are laid out once as a graph, operands before what uses them, and evaluated in that
-//! order at every tick, each once, however often it is used. Nothing is allocated then.
+//! absent. A stream that always has a value is a *continuous value*; a stream that is mostly absent is a stream of
+//! *events*. A [`Stream`] is a cheap handle on an immutable expression. To build an expression computes nothing. When a
+//! run starts, all expressions that something reads are laid out once as a graph, each after its operands. They are
+//! evaluated in that order at every tick, each once, however often it is used. The evaluation allocates nothing.
 //!
 //! # Feedback
-//! An expression is made of expressions that exist. One that is needed before it exists is announced by
-//! [`Scenario::forward`](crate::Scenario::forward) and defined later. It may depend on its own values at earlier ticks,
-//! by way of a [`pre`](Stream::pre); if it depends on its value at the same tick, the scenario is refused with the
-//! names of all that is on the cycle. Physics closes loops too: outputs of objects show the state at the beginning of a
-//! tick.
+//! An expression is made of expressions that exist. If you need a stream before it exists, announce it by
+//! [`Scenario::forward`](crate::Scenario::forward) and define it later. The stream may depend on its own values at
+//! earlier ticks, by way of a [`pre`](Stream::pre). If it depends on its value at the same tick, the scenario is
+//! refused with the names of all streams on the cycle. Physics closes loops too: outputs of objects show the state at
+//! the beginning of a tick.
 //!
 //! # Tick by tick
-//! An empty cell is an absent value; *over* says from which tick on a stream is known to be absent for ever, which
-//! matters to `concat` alone. `x` and `y` are any streams, `e` is an event: a stream of truths occurs where it is true,
-//! any other stream where it has a value.
+//! An empty cell is an absent value. A stream is *over* from a tick on if it is known to be absent for ever from then
+//! on, which matters to `concat` alone. `x` and `y` are any streams, and `e` is an event: a stream of truths occurs if
+//! it is true, any other stream if it has a value.
 //!
 //! | stream | 0 | 1 | 2 | 3 | 4 | |
 //! | --- | --- | --- | --- | --- | --- | --- |
@@ -44,10 +44,9 @@
 //! | `x.pre().initially(0)` | 0 | 1 | 2 | 3 | 4 | over when both are |
 //! | `y.for_each(f)` | | f(7) | | f(8) | f(9) | done, not read |
 //!
-//! Operands of different clocks need no conversion: what only happens now and then is made continuous by `hold`, and
-//! what is continuous is sampled by `when`. Nothing is ever queued. The paper's `v.pos.take(1).concat(v.pos)`, whose
-//! lists are one element apart, is therefore written `v.pos.take(1).concat(v.pos.pre())`, or
-//! `v.pos.pre().initially(v.pos)`:
+//! Streams with values at different ticks need no conversion: `hold` makes a stream of events continuous, and `when`
+//! samples a continuous value. Nothing is ever queued. In the paper's `v.pos.take(1).concat(v.pos)`, the lists are one
+//! element apart. Here it is therefore written `v.pos.take(1).concat(v.pos.pre())`, or `v.pos.pre().initially(v.pos)`:
 //!
 //! ```
 //! # use paracosm_engine::{AutonomousVehicle, Program, RoadSegment, Scenario, eventually};

@@ -1,4 +1,4 @@
-//! The nodes that streams are handles of: what each computes, and from which others.
+//! The nodes of streams: what each node computes, and from which other nodes.
 
 use super::datum::DatumSample;
 use crate::geometry::Line;
@@ -8,8 +8,7 @@ use std::cell::RefCell;
 use std::fmt;
 use std::rc::Rc;
 
-/// An output of an object in the world, as it stands at the beginning of a tick: where it begins among the samples of all
-/// outputs.
+/// An output of an object at the beginning of a tick: the index of its first sample among the samples of all outputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Source(pub usize);
 
@@ -30,31 +29,31 @@ pub(crate) enum Unary {
 pub(crate) enum Binary {
     Sum,
     Difference,
-    /// Of numbers, or of a vector and a number.
+    /// The product of numbers, or of a vector and a number.
     Product,
     Quotient,
     Least,
     Greatest,
     Dot,
-    /// Two numbers as the coordinates of a vector.
+    /// The vector of two numbers, its coordinates.
     Vector,
     And,
     Or,
 }
 
-/// Reads a value and writes another one.
+/// A function that reads a value and writes another.
 pub(crate) type Map = Rc<dyn Fn(&[DatumSample], &mut [DatumSample])>;
-/// Reads a value and judges it.
+/// A function that reads a value and decides whether to keep it.
 pub(crate) type Filter = Rc<dyn Fn(&[DatumSample]) -> bool>;
-/// Changes the first value by the second.
+/// A function that changes its first value by the second.
 pub(crate) type Scan = Rc<dyn Fn(&mut [DatumSample], &[DatumSample])>;
-/// Does something with a value.
+/// A function that has an effect with a value.
 pub(crate) type Effect = Rc<RefCell<dyn FnMut(&[DatumSample])>>;
 
-/// What a node makes of its inputs. [The module](super) says what that is, tick by tick.
+/// The operation of a node on its inputs. The table in [the module](super) shows each, tick by tick.
 #[derive(Clone)]
 pub(crate) enum NodeKind {
-    /// A value, and the parameter that it is of.
+    /// A constant value, and the parameter that it comes from, if any.
     Constant {
         value: Vec<DatumSample>,
         parameter: Option<String>,
@@ -65,13 +64,13 @@ pub(crate) enum NodeKind {
         shape: Shape,
         values: Vec<DatumSample>,
     },
-    /// Seconds since the run began.
+    /// The seconds since the run began.
     Time,
     Output {
         source: Source,
         name: String,
     },
-    /// What the equation of that number defines.
+    /// The definition of the equation with this number.
     Forward {
         equation: usize,
         name: String,
@@ -89,7 +88,7 @@ pub(crate) enum NodeKind {
     Zip,
     Take(usize),
     Concat,
-    /// The sum so far, from this value on.
+    /// The sum so far, which begins with this value.
     Sum(DatumSample),
     Scan {
         initial: Vec<DatumSample>,
@@ -108,13 +107,13 @@ pub(crate) enum NodeKind {
 /// A node of the graph.
 pub(crate) struct Node {
     pub kind: NodeKind,
-    /// What it reads: none, one or two others.
+    /// The nodes that this node reads: none, one or two.
     pub inputs: Vec<Rc<Node>>,
-    /// How many samples its value takes.
+    /// The number of samples of the node's value.
     pub width: usize,
 }
 
-/// What a forward stream stands for, once it is known: an equation `name = definition`.
+/// The definition of a forward stream, once it is known: an equation `name = definition`.
 #[derive(Debug, Clone)]
 pub(crate) struct Equation {
     pub name: String,
@@ -123,7 +122,7 @@ pub(crate) struct Equation {
 }
 
 impl Node {
-    /// What the node is called where its inputs are shown beside it.
+    /// Returns the name of the node for pictures that show its inputs beside it.
     pub fn label(&self) -> String {
         match &self.kind {
             NodeKind::Constant { value, parameter: None } => value.iter().map(text).collect::<Vec<_>>().join(", "),
@@ -145,8 +144,8 @@ impl Node {
         }
     }
 
-    /// Whether two nodes mean the same: the same operations on the same inputs. Closures are the same only if they are
-    /// one.
+    /// Returns `true` if two nodes mean the same: the same operations on the same inputs. Closures mean the same only
+    /// if they are the same closure.
     pub fn means(self: &Rc<Self>, other: &Rc<Self>) -> bool {
         let (left, right) = (self.unnamed(), other.unnamed());
         if Rc::ptr_eq(left, right) {
@@ -169,12 +168,12 @@ impl Node {
             && left.inputs.iter().zip(&right.inputs).all(|(left, right)| left.means(right))
     }
 
-    /// Whether it is an output of an object, under its own name.
+    /// Returns `true` if the node is an output of an object, under its own name.
     pub fn is_output(&self) -> bool {
         matches!(self.kind, NodeKind::Output { .. })
     }
 
-    /// What is behind names given by the program.
+    /// Returns the node behind the names that the program has given it.
     pub fn unnamed(self: &Rc<Self>) -> &Rc<Self> {
         match self.kind {
             NodeKind::Named(_) => self.inputs[0].unnamed(),
@@ -184,7 +183,7 @@ impl Node {
 }
 
 impl NodeKind {
-    /// The method by which programs ask for it.
+    /// Returns the method by which programs make such a node.
     fn word(&self) -> &'static str {
         match self {
             NodeKind::Map(_) => "map",
@@ -226,7 +225,7 @@ impl Unary {
         }
     }
 
-    /// The value of the function; absent where its argument is.
+    /// Returns the value of the function; absent if its argument is.
     pub fn of(self, value: DatumSample) -> DatumSample {
         use DatumSample::{Absent, Number, Truth, Vector};
         match (self, value) {
@@ -259,7 +258,7 @@ impl Binary {
         }
     }
 
-    /// The value of the function; absent where an argument is.
+    /// Returns the value of the function; absent if an argument is.
     pub fn of(self, left: DatumSample, right: DatumSample) -> DatumSample {
         use DatumSample::{Absent, Number, Truth, Vector};
         match (self, left, right) {
@@ -293,7 +292,7 @@ fn text(sample: &DatumSample) -> String {
     }
 }
 
-/// The expression as one would write it, which is also the name of the signal that records it.
+/// Writes the expression as a person would write it, which is also the name of the signal that records it.
 impl fmt::Display for Node {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (&self.kind, self.inputs.as_slice()) {
@@ -336,7 +335,7 @@ impl fmt::Debug for Node {
     }
 }
 
-/// One node after the other: a chain of many thousands would otherwise need as many stack frames.
+/// Drops one node after the other: a chain of many thousands would otherwise need as many stack frames.
 impl Drop for Node {
     fn drop(&mut self) {
         let mut waiting = std::mem::take(&mut self.inputs);

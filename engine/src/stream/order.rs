@@ -1,24 +1,24 @@
-//! In which order the nodes of a graph are evaluated, or why there is none.
+//! Finds the order in which the nodes of a graph are evaluated, or the reason why there is none.
 //!
-//! Operands come before what uses them; a `pre` uses its operand only once the tick is over. What is left is a search
-//! in depth (Tarjan, SIAM J. Comput. 1, 1972) that stops at the first node it meets again on its own path: that path is
-//! a causal cycle, as the compilers of synchronous languages know it (Halbwachs et al., Proc. IEEE 79(9), 1991).
+//! Operands come before the nodes that use them, but a `pre` uses its operand only once the tick is over. The rest is a
+//! depth-first search (Tarjan, SIAM J. Comput. 1, 1972) that stops at the first node it meets again on its own path.
+//! This is a causal cycle, as compilers of synchronous languages know it (Halbwachs et al., Proc. IEEE 79(9), 1991).
 
 use super::node::{Equation, Node, NodeKind};
 use std::collections::{HashMap, VecDeque};
 use std::rc::Rc;
 use thiserror::Error;
 
-/// Why a graph of streams has no meaning.
+/// The reason why a graph of streams has no meaning.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum GraphFlaw {
-    /// A stream that something reads and nothing defines.
+    /// A stream is read but not defined.
     #[error("the stream `{stream}` is read, but nothing defines it")]
     Undefined {
-        /// The stream.
+        /// The name of the stream.
         stream: String,
     },
-    /// Streams that depend on themselves within a tick.
+    /// Streams depend on themselves within a tick.
     #[error("a stream depends on its own value at the same tick: {}; put a `pre` on the way", circle(.labels))]
     Cycle {
         /// The labels of the nodes. Each node is an operand of the next, and the last node an operand of the first.
@@ -30,7 +30,7 @@ fn circle(labels: &[String]) -> String {
     labels.iter().chain(labels.first()).map(|label| format!("`{label}`")).collect::<Vec<_>>().join(" -> ")
 }
 
-/// What a node needs evaluated before itself.
+/// Returns the nodes that have to be evaluated before a node.
 fn operands<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> Result<&'a [Rc<Node>], GraphFlaw> {
     match &node.kind {
         NodeKind::Pre => Ok(&[]),
@@ -42,13 +42,13 @@ fn operands<'a>(node: &'a Rc<Node>, equations: &'a [Equation]) -> Result<&'a [Rc
     }
 }
 
-/// All that the roots are made of, operands first. Nodes are told apart by where they are.
+/// Returns the roots and all nodes that they depend on, operands first. Nodes are told apart by their addresses.
 pub(crate) fn order<'a>(
     roots: impl IntoIterator<Item = &'a Rc<Node>>,
     equations: &'a [Equation],
 ) -> Result<Vec<&'a Rc<Node>>, GraphFlaw> {
     let mut ordered = Vec::new();
-    // Whether a node is done, or else on the path. Only looked up, never iterated over: addresses differ between runs.
+    // True for a node that is done, false for one on the path. Only looked up: addresses differ between runs.
     let mut done: HashMap<*const Node, bool> = HashMap::new();
     let mut waiting: VecDeque<&Rc<Node>> = roots.into_iter().collect();
     while let Some(root) = waiting.pop_front() {

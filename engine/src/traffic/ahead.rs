@@ -1,8 +1,8 @@
-//! What lies ahead of a car, and how fast that lets it drive.
+//! Finds what lies ahead of a car and how fast the car may drive therefore.
 //!
-//! A car looks along its path: at the body that is next on it, at those that have turned off but still stick out into
-//! it, at those that have the right to cross it or to join it first, at bends, and at the next line where it needs
-//! leave to drive on. Each alone gives an acceleration by the model and a safe speed; the least holds.
+//! A car looks along its path: at the next body on it, at bodies that have turned off but still stick out into it, at
+//! cars that have the right to cross or join it first, at bends, and at the next line that it needs leave to pass. Each
+//! alone gives an acceleration by the model and a safe speed; the smallest values apply.
 
 use super::idm::safe_speed;
 use super::lists::Lists;
@@ -10,16 +10,16 @@ use super::map::{BEFORE_ZONE, Map, Rival};
 use super::occupancy::{Body, Occupancy, Who};
 use super::state::{Ask, Car, Claim};
 
-/// Metres that cars which join stay apart, beyond what the model has: along bends of different radii lengths differ.
+/// The gap in metres between joining cars, beyond that of the model: bends of different radii differ in length.
 const JOINING: f64 = 1.0;
-/// Bodies that come into the way later than in so many seconds are not braked for.
+/// The time in seconds up to which a car brakes for a body that will come into its way.
 const SOON: f64 = 1.5;
-/// Seconds in which the speed is brought to what the next bend asks for, and the hardest braking for it in m/s².
+/// The time in seconds in which a car adjusts to the speed of the next bend, and its hardest braking for it in m/s².
 const BEND: (f64, f64) = (0.5, 3.0);
-/// Whoever stops fewer metres beyond a line keeps the next one from passing it.
+/// A car that stops fewer metres beyond a line than this keeps the next car from passing the line.
 const BEYOND_LINE: f64 = 8.0;
 
-/// All that a car may look at.
+/// All data that a car may look at.
 #[derive(Clone, Copy)]
 pub(super) struct View<'a> {
     pub map: &'a Map,
@@ -28,31 +28,31 @@ pub(super) struct View<'a> {
     pub claims: &'a Lists<Claim>,
 }
 
-/// How a car may drive on.
+/// The limits of how a car may drive on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ahead {
-    /// By the model, in m/s²: in all, and because of what drives ahead alone.
+    /// The acceleration by the model in m/s²: in total, and because of the body ahead alone.
     pub acceleration: f64,
     pub following: f64,
-    /// The greatest safe speed after this step.
+    /// The greatest safe speed in m/s after this step.
     pub safe: f64,
     pub ask: Option<Ask>,
-    /// From the front to where the car will stop of its own accord, but for the line of `ask`.
+    /// The distance from the front to the place where the car will stop by itself, apart from the line of `ask`.
     pub wall: f64,
-    /// Whether the path has to be longer to tell.
+    /// `true` if the path is too short to decide.
     pub short: bool,
-    /// Where the rears of others will be, relative to the car's middle, once they have stopped: the nearest of them.
+    /// The rear of the nearest body ahead once the body has stopped, relative to the car's middle.
     held_up: f64,
 }
 
 impl Ahead {
-    /// What lies ahead of who is gone.
+    /// Returns the limits of a car that has left the network: none.
     pub fn nothing() -> Self {
         let (short, far) = (false, f64::INFINITY);
         Self { acceleration: 0.0, following: 0.0, safe: far, ask: None, wall: far, short, held_up: far }
     }
 
-    /// Something that drives ahead.
+    /// Takes account of a body that drives `gap` metres ahead.
     fn follow(&mut self, car: &Car, gap: f64, speed: f64, dt: f64) {
         let following = car.idm.following(car.speed, car.desired, gap, speed);
         self.following = self.following.min(following);
@@ -60,14 +60,14 @@ impl Ahead {
         self.safe = self.safe.min(safe_speed(car.speed, gap, speed, car.braking, dt));
     }
 
-    /// A place to stop at.
+    /// Takes account of a place to stop at, `distance` metres ahead.
     pub fn stop(&mut self, car: &Car, distance: f64, dt: f64) {
         let stopping = car.idm.following(car.speed, car.desired, distance + car.idm.gap, 0.0);
         self.acceleration = self.acceleration.min(stopping);
         self.safe = self.safe.min(safe_speed(car.speed, distance + 0.5, 0.0, car.braking, dt));
     }
 
-    /// A bend, so far ahead.
+    /// Takes account of a bend, `distance` metres ahead.
     fn bend(&mut self, car: &Car, distance: f64, speed: f64) {
         let left = (distance - car.speed * BEND.0).max(0.0);
         let allowed = (speed * speed + 2.0 * car.deceleration() * left).sqrt();
@@ -76,7 +76,7 @@ impl Ahead {
 }
 
 impl View<'_> {
-    /// What lies ahead of a car. Lines without leave to pass them are braked for by who asks, not here.
+    /// Returns what lies ahead of a car, except lines that it has no leave to pass: where it asks for leave, it brakes.
     pub fn ahead_of(&self, index: usize, dt: f64) -> Ahead {
         let car = &self.cars[index];
         let free = car.idm.free(car.speed, car.desired);
@@ -123,7 +123,7 @@ impl View<'_> {
                     if ahead.ask.is_none() {
                         ahead.ask = Some(Ask { index: k, base, distance, held, first: true });
                     } else if !held {
-                        // The line after the next: leave is asked for once the next is passed.
+                        // The line after the next: the car asks for leave once it has passed the next line.
                         if distance < car.asking_distance() {
                             ahead.stop(car, distance, dt);
                         }
@@ -162,14 +162,14 @@ impl View<'_> {
         ahead.short = !car.complete;
     }
 
-    /// The first of `bodies` that is in the way; whether there is one.
+    /// Takes account of the first of `bodies` that is in the way. Returns `true` if there is such a body.
     fn next_body(&self, index: usize, bodies: &[Body], base: f64, dt: f64, ahead: &mut Ahead) -> bool {
         let car = &self.cars[index];
         for body in bodies {
             let gap = base + body.rear - car.half;
             match body.who {
                 Who::Zebra => {
-                    // Who is on it already leaves it.
+                    // A body that is on the crossing already leaves it.
                     if !car.heedless && gap > -0.5 {
                         ahead.stop(car, gap, dt);
                         ahead.held_up = ahead.held_up.min(base + body.rear);
@@ -194,7 +194,7 @@ impl View<'_> {
         false
     }
 
-    /// Those who turned off at the beginning of a lane of the path, and are not away from it yet.
+    /// Takes account of cars that turned off at the beginning of a lane of the path and still stick out into it.
     fn sticking_out(&self, index: usize, k: usize, base: f64, dt: f64, ahead: &mut Ahead) {
         let car = &self.cars[index];
         let lane = car.path[k];
@@ -214,7 +214,7 @@ impl View<'_> {
         }
     }
 
-    /// Those who may cross a lane, or join it, before the car.
+    /// Takes account of cars that may cross or join a lane before this car.
     fn yield_to_earlier(
         &self,
         index: usize,
@@ -246,8 +246,8 @@ impl View<'_> {
         }
     }
 
-    /// The gap to who will be next ahead once both have joined: `end` is how far ahead that is, `rear` where the other
-    /// one ends along its lane.
+    /// Returns the gap to the next car ahead once both cars have joined. `end` is the distance to the end of this car's
+    /// lane, `rear` the place of the other car's rear along its own lane.
     pub fn joining_gap(&self, end: f64, rival: &Rival, rear: f64) -> f64 {
         end - (self.map.length(rival.lane) - rear) - JOINING
     }

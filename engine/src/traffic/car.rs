@@ -1,4 +1,4 @@
-//! Cars as programs describe them.
+//! The descriptions of traffic cars, as programs write them.
 
 use super::error::TrafficError;
 use super::idm::Idm;
@@ -8,16 +8,16 @@ use crate::road::{LaneId, LaneKind, RoadNetwork, Route, RoutePosition};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Length and width in metres of what most cars are like.
+/// The length and width of a usual car, in metres.
 const SIZE: [f64; 2] = [4.5, 1.8];
-/// The speed in m/s that is wanted where nothing else is said: 50 km/h.
+/// The desired speed in m/s by default: 50 km/h.
 const TOWN: f64 = 50.0 / 3.6;
-/// Who drives by chance leaves a roundabout after so many arms.
+/// The number of arms after which a car without a route leaves a roundabout.
 const MOST_ARMS: usize = 3;
-/// Metres of a lane that a scattered car has to itself.
+/// The metres of a lane that each scattered car has for itself.
 const SLOT: f64 = 9.0;
 
-/// A car of the traffic, before it drives.
+/// The description of a car of the traffic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficCar {
     pub(super) start: RoutePosition,
@@ -33,7 +33,7 @@ pub struct TrafficCar {
     pub(crate) colour: Option<Colour>,
 }
 
-/// Where a car drives to.
+/// The way of a car: without a goal, along a route, or round and round.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Way {
     Wander,
@@ -42,8 +42,8 @@ pub(super) enum Way {
 }
 
 impl TrafficCar {
-    /// A car of 4.5 m by 1.8 m that stands with its middle at this place, then drives at 50 km/h where the road is
-    /// free and turns as chance has it.
+    /// Makes a car of 4.5 m by 1.8 m that stands with its middle at this place. It drives at 50 km/h on a free road and
+    /// turns at random.
     pub fn at(start: RoutePosition) -> Self {
         Self {
             start,
@@ -60,7 +60,7 @@ impl TrafficCar {
         }
     }
 
-    /// A car that drives along a route, from its start to its end, where it stays.
+    /// Makes a car that drives along a route, from its start to its end, and stays there.
     ///
     /// # Panics
     /// The route has no lanes.
@@ -69,7 +69,7 @@ impl TrafficCar {
         Self { way: Way::Follow(route.lanes.clone(), route.end), ..Self::at(start) }
     }
 
-    /// A car that drives along a route again and again: its first lane follows its last one, or is the same.
+    /// Makes a car that drives along a route again and again. The first lane follows the last lane or equals it.
     ///
     /// # Panics
     /// The route has no lanes.
@@ -82,69 +82,69 @@ impl TrafficCar {
         Self { way: Way::Circle(lanes), ..Self::at(start) }
     }
 
-    /// Where it starts.
+    /// Returns the place where the car starts.
     pub fn start(&self) -> RoutePosition {
         self.start
     }
 
-    /// The speed in m/s that it drives at where nothing hinders it.
+    /// Sets the speed in m/s at which the car drives if nothing hinders it.
     pub fn desired_speed(mut self, speed: f64) -> Self {
         self.desired = speed;
         self
     }
 
-    /// The speed in m/s at which it begins.
+    /// Sets the speed in m/s at which the car begins.
     pub fn speed(mut self, speed: f64) -> Self {
         self.speed = speed;
         self
     }
 
-    /// How it follows others.
+    /// Sets the parameters by which the car follows other cars.
     pub fn idm(mut self, idm: Idm) -> Self {
         self.idm = idm;
         self
     }
 
-    /// Its length and width in metres. What is larger than a van of 7 m by 2.3 m swings out too far for the lane beside
-    /// it where it turns at an intersection: its middle keeps to the lane there, and its rear does not cut the corner.
+    /// Sets the length and width in metres. A car larger than a van of 7 m by 2.3 m reaches into the neighbouring lane
+    /// when it turns at an intersection: its middle stays on its lane, and its rear does not cut the corner.
     pub fn size(mut self, length: f64, width: f64) -> Self {
         self.length = length;
         self.width = width;
         self
     }
 
-    /// How many metres to the right of the middle of its lane it keeps.
+    /// Sets how many metres to the right of the middle of its lane the car drives.
     pub fn keeping_right(mut self, metres: f64) -> Self {
         self.offset = -metres;
         self
     }
 
-    /// It changes lanes where that lets it drive faster, as MOBIL has it. Without, it changes lanes only where its
-    /// route does.
+    /// Lets the car change lanes if it can then drive faster, by the model MOBIL. By default, a car changes lanes only
+    /// where its route does.
     pub fn changing_lanes(mut self) -> Self {
         self.changes_lanes = true;
         self
     }
 
-    /// It takes no notice of what is no part of the traffic.
+    /// Makes the car ignore all bodies that are not part of the traffic.
     pub fn heedless(mut self) -> Self {
         self.heedless = true;
         self
     }
 
-    /// The colour that it has, as an object of a scenario, instead of the usual one.
+    /// Sets the colour that the car has as an object of a scenario, instead of the usual colour.
     pub fn coloured(mut self, colour: Colour) -> Self {
         self.colour = Some(colour);
         self
     }
 
-    /// It begins at the speed that it drives at where nothing hinders it.
+    /// Lets the car begin at the speed at which it drives if nothing hinders it.
     pub fn moving(self) -> Self {
         Self { speed: self.desired, ..self }
     }
 
-    /// Another one of its kind, with a driver of its own, as chance has it: a tenth longer or shorter, up to a sixth
-    /// faster or slower, and up to a fifth from how it follows others.
+    /// Returns a similar car with its own driver, at random from `seed`: up to 10 % longer or shorter, up to 16 %
+    /// faster or slower, and up to 20 % away in the parameters by which it follows others.
     pub fn varied(self, seed: u64) -> Self {
         let mut random = Pcg64::seed_from_u64(seed);
         let mut near = |value: f64, share: f64| value * random.random_range(1.0 - share..=1.0 + share);
@@ -163,25 +163,25 @@ impl TrafficCar {
         }
     }
 
-    /// A van of 6 m by 2.1 m.
+    /// Makes a van of 6 m by 2.1 m.
     pub fn van(start: RoutePosition) -> Self {
         Self::at(start).size(6.0, 2.1)
     }
 
-    /// A lorry of 10 m by 2.5 m, which accelerates half as fast as a car: for lanes that lead straight on.
+    /// Makes a lorry of 10 m by 2.5 m for lanes straight on. It accelerates about half as fast as a car.
     pub fn lorry(start: RoutePosition) -> Self {
         let idm = Idm { acceleration: 0.8, ..Idm::default() };
         Self::at(start).size(10.0, 2.5).idm(idm)
     }
 
-    /// A bicycle: 1.8 m long, at most 5 m/s, at the right of its lane.
+    /// Makes a bicycle, 1.8 m long, that drives at up to 5 m/s at the right of its lane.
     pub fn bicycle(start: RoutePosition) -> Self {
         let idm = Idm { acceleration: 0.8, deceleration: 1.5, gap: 1.5, ..Idm::default() };
         Self::at(start).size(1.8, 0.6).desired_speed(5.0).keeping_right(1.0).idm(idm)
     }
 
-    /// So many cars at different places on the roads of a network, as chance has it: fewer where there is no room. They
-    /// are as [`TrafficCar::at`] has them.
+    /// Returns `count` cars at different random places on the roads of a network, or fewer if there is no room. Each is
+    /// made by [`TrafficCar::at`].
     pub fn scattered(network: &RoadNetwork, count: usize, seed: u64) -> Vec<Self> {
         let mut places = Vec::new();
         for (id, lane) in network.ids().zip(network.lanes()).filter(|(_, lane)| lane.kind == LaneKind::Road) {
@@ -198,7 +198,7 @@ impl TrafficCar {
         places.into_iter().map(Self::at).collect()
     }
 
-    /// Puts lane changes of its way that lie in a roundabout onto the road before it, where there is one.
+    /// Moves lane changes within a roundabout to the road before it, if that is possible.
     pub(super) fn planned(mut self, map: &Map) -> Self {
         if let Way::Follow(lanes, _) | Way::Circle(lanes) = &mut self.way
             && lanes.iter().all(|lane| lane.index() < map.network.lanes().len())
@@ -212,7 +212,7 @@ impl TrafficCar {
         self
     }
 
-    /// Refuses what cannot be.
+    /// Refuses values and routes that are not valid.
     pub(super) fn check(&self, index: usize, map: &Map) -> Result<(), TrafficError> {
         let lanes = map.network.lanes().len();
         let number = |what, value: f64, least: f64, most: f64| {
@@ -256,7 +256,7 @@ impl TrafficCar {
     }
 }
 
-/// A way that changes after its lane `at`, so that it does before the first lane of a road before that.
+/// Moves the lane change after the lane with index `at` back to the last road before it; `None` if no such way exists.
 fn changed_earlier(lanes: &[LaneId], at: usize, map: &Map) -> Option<Vec<LaneId>> {
     let lane = |id: LaneId| map.network.lane(id);
     let mut way: Vec<LaneId> = lanes[at + 1..].iter().rev().copied().collect();
@@ -278,10 +278,10 @@ fn changed_earlier(lanes: &[LaneId], at: usize, map: &Map) -> Option<Vec<LaneId>
     None
 }
 
-/// What a car does at forks.
+/// The choices of a car at forks.
 #[derive(Debug)]
 pub(super) enum Itinerary {
-    /// By chance, with the number of arms that were passed since a roundabout was entered.
+    /// Random choices, with the number of arms that the car has passed since it entered a roundabout.
     Wander(Pcg64, usize),
     Lanes {
         lanes: Vec<LaneId>,
@@ -291,20 +291,20 @@ pub(super) enum Itinerary {
 }
 
 impl Itinerary {
-    /// The itinerary of a car after its first lane, and where along its last lane it ends.
+    /// Returns the itinerary of a car after its first lane, and the place along its last lane where it ends.
     pub fn of(car: &TrafficCar, index: usize, seed: u64) -> (Self, f64) {
         match &car.way {
             Way::Wander => (Self::Wander(Pcg64::new(u128::from(seed), index as u128), 0), f64::INFINITY),
             Way::Follow(way, end) => (Self::Lanes { lanes: way.clone(), next: 1, circular: false }, *end),
             Way::Circle(way) => {
-                // After a lane that leads to itself comes that lane.
+                // The lane after a lane that leads to itself is the same lane.
                 let next = 1 % way.len();
                 (Self::Lanes { lanes: way.clone(), next, circular: true }, f64::INFINITY)
             }
         }
     }
 
-    /// The lane after `last`, if it goes on.
+    /// Returns the lane after `last`, if the itinerary goes on.
     pub fn next(&mut self, last: LaneId, network: &RoadNetwork) -> Option<LaneId> {
         match self {
             Self::Wander(random, arms) => {
@@ -333,7 +333,7 @@ impl Itinerary {
         }
     }
 
-    /// Where it ends, if it does, `end` metres along its last lane.
+    /// Returns the end of the itinerary, if there is one: `end` metres along its last lane.
     pub fn goal(&self, end: f64) -> Option<RoutePosition> {
         match self {
             Self::Lanes { lanes, circular: false, .. } => {
@@ -343,7 +343,7 @@ impl Itinerary {
         }
     }
 
-    /// Whether it can be chosen anew.
+    /// Returns `true` if the car may choose another way.
     pub fn is_free(&self) -> bool {
         matches!(self, Self::Wander(..))
     }

@@ -1,7 +1,7 @@
-//! Lane changes.
+//! Lane changes of traffic cars.
 //!
-//! Where a lane change pays is decided by MOBIL (Kesting, Treiber, Helbing 2007), with some preference for the right;
-//! where the route asks for one, safety alone decides. A car that changes lanes is on both of them until it is done.
+//! The model MOBIL (Kesting, Treiber, Helbing 2007) decides whether a lane change pays, with some preference for the
+//! right. If the route asks for a change, only safety counts. During a change, the car is on both lanes.
 
 use super::ahead::{Ahead, View};
 use super::idm::safe_speed;
@@ -11,29 +11,29 @@ use super::state::{Car, Change, WALKING};
 use crate::geometry::Side;
 use crate::road::{LaneId, LaneKind, RoutePosition};
 
-/// Seconds that a lane change takes where it pays, and where the route asks for it.
+/// The duration in seconds of a lane change that pays, and of one that the route asks for.
 const DURATION: f64 = 4.0;
 const DURATION_DUE: f64 = 2.5;
-/// How much a change counts the others' accelerations, p in the paper.
+/// The weight of other cars' accelerations: p in the paper.
 const POLITENESS: f64 = 0.3;
-/// What it has to gain in m/s², and how much more or less to the left and to the right.
+/// The gain in m/s² that a lane change needs, and how much more it needs to the left and less to the right.
 const THRESHOLD: f64 = 0.2;
 const TO_THE_RIGHT: f64 = 0.1;
-/// How hard the car behind may have to brake for it, in m/s².
+/// The hardest braking in m/s² that a lane change may impose on the car behind.
 const IMPOSED: f64 = 2.0;
-/// Metres to those ahead and behind that are kept in any case.
+/// The smallest gap in metres to the cars ahead and behind.
 const CLEAR: f64 = 2.0;
-/// Metres behind an intersection that are left to those who come out of it.
+/// The metres behind an intersection that stay free for cars that come out of it.
 const BEHIND_INTERSECTION: f64 = 15.0;
-/// From how many metres before the end of a lane on a car changes to that of its route at once, and up to where it
-/// overtakes on others.
+/// The distance in metres to the end of a lane below which a car changes at once to the lane of its route, and the
+/// distance above which it overtakes on other lanes.
 const AT_ONCE: f64 = 250.0;
 const OVERTAKING: f64 = 350.0;
-/// Seconds of standing after which a car drives on without the lane change that it waits for.
+/// The seconds of standing after which a car gives up the lane change that it waits for and drives on.
 const GIVEN_UP: f64 = 5.0;
 
 impl Car {
-    /// Begins a lane change, while there is none: the car belongs to the other lane from now on.
+    /// Begins a lane change if the car is not changing lanes. From now on, the car belongs to the new lane.
     pub fn begin_change(&mut self, side: Side, to: LaneId, duration: f64, map: &Map) {
         let lane = self.lane;
         let apart = 0.5 * (map.network.lane(lane).width + map.network.lane(to).width);
@@ -41,7 +41,7 @@ impl Car {
         self.change = Some(Change { side, from: Some(lane), start, progress: 0.0, duration });
         self.s = map.across(self.s, lane, to);
         self.lane = to;
-        // Leave to pass a line goes with the path.
+        // The car gives up its leave to pass a line, because its path changes.
         let front = self.travelled + self.half;
         self.claims.retain(|claim| claim.start < front);
         self.ticket = None;
@@ -62,7 +62,7 @@ impl Car {
 }
 
 impl View<'_> {
-    /// The lane change that a car wants and may begin now.
+    /// Returns the lane change that a car wants and may begin now.
     pub fn wanted_change(&self, index: usize, ahead: &Ahead, dt: f64) -> Option<(Side, LaneId, f64)> {
         let car = &self.cars[index];
         let lane = self.map.network.lane(car.lane);
@@ -85,11 +85,11 @@ impl View<'_> {
             let gain = self.gain(index, to, DURATION, ahead, dt)? + bonus;
             (gain > THRESHOLD).then_some((gain, (side, to, DURATION)))
         });
-        // The first of equals: to the left.
+        // The first of equals, which is the change to the left.
         options.reduce(|best, next| if next.0 > best.0 { next } else { best }).map(|(_, change)| change)
     }
 
-    /// What a lane change gains, in m/s², if it is safe.
+    /// Returns the gain of a lane change in m/s²; `None` if the change is not safe.
     fn gain(&self, index: usize, to: LaneId, duration: f64, ahead: &Ahead, dt: f64) -> Option<f64> {
         let car = &self.cars[index];
         let s = self.map.across(car.s, car.lane, to);
@@ -121,7 +121,7 @@ impl View<'_> {
             if gap < CLEAR || safe_speed(body.speed, gap, car.speed, car.braking, dt) < body.speed {
                 return None;
             }
-            // What is no part of the traffic is taken to drive as this car does.
+            // A body that is not part of the traffic is assumed to drive as this car does.
             let other = body.car().map_or(car, |other| &self.cars[other]);
             let desired = if body.car().is_some() { other.desired } else { body.speed.max(1.0) };
             let after = other.idm.following(body.speed, desired, gap, car.speed);
@@ -147,7 +147,7 @@ impl View<'_> {
         Some(own - ahead.following + POLITENESS * others)
     }
 
-    /// Whether there is room along a lane to change to it.
+    /// Returns `true` if the lane is long enough to change to it.
     fn is_long_enough(&self, car: &Car, s: f64, to: LaneId, duration: f64) -> bool {
         let needed = car.speed.max(WALKING) * duration + 0.5 * car.idm.acceleration * duration * duration;
         let left = self.map.length(to) - s;
@@ -159,9 +159,9 @@ impl View<'_> {
 }
 
 impl Car {
-    /// Finds another way where the car has waited too long for the lane change that its route asks for: on to the end
-    /// of its lane, and from there to the end of its route, or to the lane that it could not get to where that has no
-    /// end.
+    /// Finds another way for a car that has waited too long for the lane change that its route asks for. The new way
+    /// leads to the end of its lane and from there to the end of the route. If the route has no end, the way leads to
+    /// the lane that the car could not reach.
     pub fn give_up_change(&mut self, dt: f64, map: &Map) {
         if self.speed > 0.1 || self.change.is_some() {
             self.stuck = 0.0;

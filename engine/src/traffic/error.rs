@@ -1,52 +1,52 @@
-//! Why traffic cannot begin.
+//! The reasons why traffic cannot begin.
 
 use thiserror::Error;
 
-/// Why traffic cannot begin. Cars are counted from 0.
+/// The reason why traffic cannot begin. Cars are counted from 0.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum TrafficError {
-    /// A number that cannot be.
+    /// A value of a car is out of range.
     #[error("car {car} has {value} as its {what}, expected {least} to {most}")]
     Value {
-        /// Its index.
+        /// The index of the car.
         car: usize,
-        /// Which number.
+        /// The name and unit of the value.
         what: &'static str,
-        /// The number.
+        /// The value that was found.
         value: f64,
-        /// The least that may be.
+        /// The smallest allowed value.
         least: f64,
-        /// The greatest that may be.
+        /// The greatest allowed value.
         most: f64,
     },
-    /// A lane of another network.
+    /// A lane of a car belongs to another network.
     #[error("car {car} is to drive on lane {lane} of a network with {lanes}")]
     UnknownLane {
-        /// Its index.
+        /// The index of the car.
         car: usize,
         /// The index of the lane.
         lane: usize,
-        /// How many lanes there are.
+        /// The number of lanes in the network.
         lanes: usize,
     },
-    /// A route with two lanes of which the second neither follows the first nor lies beside it on a road.
+    /// A lane of a route neither follows the lane before it nor lies beside it on a road.
     #[error(
         "the route of car {car} leads from lane {from} to lane {to}, neither its successor nor beside it on a road"
     )]
     Route {
-        /// Its index.
+        /// The index of the car.
         car: usize,
         /// The index of the first lane.
         from: usize,
         /// The index of the second lane.
         to: usize,
     },
-    /// Two cars in the same place.
+    /// Two cars overlap at the start.
     #[error("cars {first} and {second} are in the same place at the start")]
     Overlap {
-        /// The index of one.
+        /// The index of the first car.
         first: usize,
-        /// The index of the other.
+        /// The index of the second car.
         second: usize,
     },
 }

@@ -1,16 +1,16 @@
-//! How fast to follow: the intelligent driver model (Treiber, Hennecke, Helbing 2000), and below it a speed at which
-//! one can always stop, so that no choice of its parameters runs into what is ahead.
+//! The intelligent driver model (Treiber, Hennecke, Helbing 2000), which says how cars follow others, and a safe speed
+//! at which a car can always stop. The safe speed ensures that no choice of parameters leads to a rear-end collision.
 
 use crate::vehicle::GRAVITY;
 
-/// The hardest braking in m/s², of every car: what tyres give on a dry road.
+/// The hardest braking of every car in m/s²: the limit of tyres on a dry road.
 const HARDEST: f64 = 8.0;
-/// What a car can brake with on any ice, in m/s²: with less it would never come to a stop.
+/// The braking in m/s² that a car has on any ice. With less it would never come to a stop.
 const ON_ICE: f64 = 0.1;
-/// Metres that are never driven into on purpose.
+/// The metres before a body that a car never drives into on purpose.
 const RESERVE: f64 = 0.5;
 
-/// The parameters of the intelligent driver model, those of a driver in a town where nothing else is said.
+/// The parameters of the intelligent driver model. By default, they describe a driver in a town.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Idm {
     /// The greatest acceleration, a in the paper, in m/s².
@@ -32,8 +32,8 @@ impl Default for Idm {
 }
 
 impl Idm {
-    /// The acceleration in m/s² on a free road at a speed, when `desired` is wanted. Who is too fast brakes at most
-    /// comfortably.
+    /// Returns the acceleration in m/s² on a free road at a speed, for a `desired` speed. A car that is too fast brakes
+    /// with at most the comfortable deceleration.
     pub fn free(&self, speed: f64, desired: f64) -> f64 {
         if desired <= 0.0 {
             return if speed > 0.0 { -self.deceleration } else { 0.0 };
@@ -43,27 +43,27 @@ impl Idm {
         (self.acceleration * (1.0 - power)).max(-self.deceleration)
     }
 
-    /// The acceleration in m/s² behind something that moves at `ahead` m/s, `gap` metres away from bumper to bumper.
+    /// Returns the acceleration in m/s² behind a body at the speed `ahead` in m/s, `gap` metres from bumper to bumper.
     pub fn following(&self, speed: f64, desired: f64, gap: f64, ahead: f64) -> f64 {
         let share = self.desired_gap(speed, ahead) / gap.max(0.1);
         self.free(speed, desired) - self.acceleration * share * share
     }
 
-    /// The gap s* in metres that is aimed at.
+    /// Returns the desired gap s* in metres.
     fn desired_gap(&self, speed: f64, ahead: f64) -> f64 {
         let braking = 2.0 * (self.acceleration * self.deceleration).sqrt();
         self.gap + (speed * self.headway + speed * (speed - ahead) / braking).max(0.0)
     }
 }
 
-/// The hardest braking in m/s² on a road with this friction coefficient.
+/// Returns the hardest braking in m/s² on a road with this friction coefficient.
 pub(super) fn hardest_braking(friction: f64) -> f64 {
     (friction * GRAVITY).clamp(ON_ICE, HARDEST)
 }
 
-/// The greatest speed after a step of `dt` at which one does not run into what is `gap` metres ahead, should it brake
-/// as hard as it can, and oneself from the next step on (after Gipps 1981). With v' that speed, V its own and B what
-/// both can brake with, v'² / 2B + (v + v') dt / 2 = gap + V² / 2B.
+/// Returns the greatest speed after a step of `dt` at which a car does not run into a body `gap` metres ahead, even if
+/// the body brakes as hard as it can, and the car from the next step on (after Gipps 1981). With v' that speed, v the
+/// present speed, V the body's speed, B the hardest braking of both: v'² / 2B + (v + v') dt / 2 = gap + V² / 2B.
 pub(super) fn safe_speed(speed: f64, gap: f64, ahead: f64, braking: f64, dt: f64) -> f64 {
     let ahead = ahead.max(0.0);
     let half = 0.5 * braking * dt;

@@ -1,23 +1,23 @@
-//! Who drives first where lanes cross and join.
+//! Decides which car drives first where lanes cross or join.
 //!
-//! A car passes the line before such a lane only with a claim on it. It asks for one when it comes near, gets it if
+//! A car may pass the line before such a lane only with a claim on it. A car that comes near asks, and gets it if
 //!
-//! 1. nobody waits before it, and there is room for all of it behind the intersection, so that it never stands in one,
-//! 2. those who have claims already are away before it is there, or can be followed,
-//! 3. nobody asks whom it has to let go first,
+//! 1. no other car waits before it, and all of it has room behind the intersection, so that it never stands in one,
+//! 2. cars that have claims already will be away before it arrives, or it can follow them,
+//! 3. no car asks that it has to let go first.
 //!
-//! and loses it again if, while it can still stop, the first ceases to hold. Claims are numbered as they are given, and
-//! on the way a car stops before whatever zone an earlier one has not left yet: cars wait for earlier ones only, so
-//! that no circle of them waits for itself. The rule of the road decides among those who ask. Where four cars each have
-//! another at their right, or the main road is never free, it would not do: who has asked for [`PATIENCE`] seconds goes
-//! before all who have not, in the order in which they began to ask, by their indices at last.
+//! The car loses the claim again if condition 1 ceases to hold while it can still stop. Claims are numbered as they are
+//! given. On its way, a car stops before each zone that a car with an earlier claim has not left: cars wait for earlier
+//! ones only, so that no circle of cars waits for itself. The rule of the road decides among cars that ask. It does not
+//! suffice if four cars each have another at their right, or if the main road is never free. So a car that has asked
+//! for [`PATIENCE`] seconds goes before all that have not, in the order in which they began to ask, then by index.
 //!
-//! In a roundabout with one lane around it a car may wait between two arms, and claims the way from one to the next; it
-//! goes round whether or not there is room, for there always is while only those enter who have some, and so nobody
-//! counts on its being away soon. Where there are more lanes around it cars would wait in each other's way: there the
-//! whole way through is claimed at once.
+//! In a roundabout with one lane, a car may wait between two arms, and claims the stretch from one arm to the next. It
+//! goes round whether or not there is room: there is always room, as long as cars enter only if they have some. So no
+//! car counts on its being away soon. In a roundabout with more lanes, cars would wait in each other's way: there, a
+//! car claims the whole way through at once.
 //!
-//! That is the reservation of tiles of Dresner and Stone (2008), without an agent at the intersection.
+//! This is the reservation of tiles of Dresner and Stone (2008), without an agent at the intersection.
 
 use super::Traffic;
 use super::ahead::View;
@@ -28,49 +28,49 @@ use super::state::{Ask, Car, Claim};
 use crate::road::{LaneId, LaneKind};
 use std::cmp::Ordering;
 
-/// Seconds after which one no longer lets others go first.
+/// The seconds after which a car no longer lets others go first.
 const PATIENCE: f64 = 8.0;
-/// Seconds before a car asks in which those who have to let it go first do so already.
+/// The seconds before a car asks during which others already let it go first.
 const FOREWARNED: f64 = 3.0;
-/// Seconds after which a car without a goal turns elsewhere, because there is no room where it wants to go.
+/// The seconds after which a car without a goal takes another turn, because there is no room where it wants to go.
 const ELSEWHERE: f64 = 15.0;
-/// Deceleration in m/s² at which cars still stop where they lose leave to drive on.
+/// The deceleration in m/s² at which a car still stops if it loses leave to drive on.
 const FIRM: f64 = 3.0;
-/// Metres behind the car ahead that count as taken with it.
+/// The metres behind the car ahead that count as occupied by it.
 const ROOM: f64 = 1.5;
-/// Acceleration in m/s² that others are trusted to have where they leave a zone.
+/// The acceleration in m/s² that a car expects of others that leave a zone.
 const TRUSTED: f64 = 1.0;
 
 /// The lanes of an intersection that a car drives over between two places where it may stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Passage {
-    /// The last of them, by its index in the path.
+    /// The last of these lanes, by its index in the path.
     pub last: usize,
-    /// Whether there is room behind it.
+    /// `true` if there is room behind the passage.
     pub sure: bool,
 }
 
-/// A car that asks for leave, and could make use of it.
+/// A car that asks for leave and could use it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Asker {
     car: usize,
     ask: Ask,
     passage: Passage,
-    /// Since when it asks.
+    /// The time in seconds since which the car asks.
     since: f64,
     impatient: bool,
-    /// Whether it does not ask yet, and only is to be let go first.
+    /// `true` if the car does not ask yet, but others already let it go first.
     far: bool,
     granted: bool,
 }
 
 impl Asker {
-    /// Who is served first.
+    /// The order in which cars are served.
     fn order(&self, other: &Self) -> Ordering {
         other.impatient.cmp(&self.impatient).then(self.since.total_cmp(&other.since)).then(self.car.cmp(&other.car))
     }
 
-    /// Whether it lets another one go first, whose lane is a rival of its own.
+    /// Returns `true` if this car lets `other` go first. `rival` is the conflict of their lanes as this car sees it.
     fn lets_go(&self, other: &Self, rival: &Rival) -> bool {
         let (gives_way, given_way) = (rival.gives_way && !rival.given_way, rival.given_way && !rival.gives_way);
         match (self.impatient, other.impatient) {
@@ -119,18 +119,18 @@ impl Traffic {
         }
     }
 
-    /// Takes leave back that a car cannot make use of, while it can still stop.
+    /// Takes leave back from a car that cannot use it, while the car can still stop.
     fn confirm(&mut self, index: usize, ask: Ask) {
         let Car { speed, braking, .. } = self.cars[index];
         let stops = ask.distance > 0.5 + speed * speed / (2.0 * FIRM.min(braking));
         let useless = stops && (!ask.first || self.view().passage(index, &ask).is_none());
-        // The claims stay listed until the end of this step, which does no harm.
+        // The claims stay in the lists until the end of this step, which does no harm.
         if useless && self.cars[index].give_back(&ask) {
             self.ahead[index].ask = Some(Ask { held: false, ..ask });
         }
     }
 
-    /// Notes that a car asks, if it is near.
+    /// Notes that a car asks, if it is near enough.
     fn ask(&mut self, index: usize, ask: Ask, dt: f64) {
         let car = &self.cars[index];
         let near = car.asking_distance();
@@ -176,18 +176,18 @@ impl Traffic {
 }
 
 impl View<'_> {
-    /// What a car has to claim so that it can stop behind it without being in the way; none if it would not get there.
+    /// Returns the lanes to claim so that a car can stop behind them out of the way; `None` if it would not get there.
     pub fn passage(&self, index: usize, ask: &Ask) -> Option<Passage> {
         let car = &self.cars[index];
         let length = 2.0 * car.half;
         let mut last = ask.index;
-        // How far ahead what is claimed ends, and the lane that is looked at begins.
+        // The distances to the end of the claimed lanes, and to the beginning of the lane that is examined.
         let mut end = ask.base + self.map.length(car.path[last]);
         let mut base = end;
         let mut lanes = car.path.iter().enumerate().skip(ask.index + 1);
         while base - end < length + ROOM {
             let Some((k, &lane)) = lanes.next() else {
-                // The path is too short yet to tell, or the route ends here.
+                // The path is too short to decide, or the route ends here.
                 if car.complete { break } else { return None }
             };
             let cramped = !self.map.rivals(lane).is_empty() && base + self.map.line(lane) - end < length + ROOM;
@@ -198,12 +198,12 @@ impl View<'_> {
             base += self.map.length(lane);
         }
         let sure = self.has_room(index, ask, (last, end));
-        // Traffic goes round a roundabout whether or not it is full: only who enters asks for room.
+        // Traffic goes round a roundabout even if it is full: only entering cars need room.
         let goes_round = self.map.network.lane(car.path[last]).kind == LaneKind::RingAtArm;
         (sure || goes_round).then_some(Passage { last, sure })
     }
 
-    /// Whether there will be room for a car behind the lane `last` of its path, which ends `end` metres ahead.
+    /// Returns `true` if there will be room for a car behind lane `last` of its path, which ends `end` metres ahead.
     fn has_room(&self, index: usize, ask: &Ask, (last, end): (usize, f64)) -> bool {
         let car = &self.cars[index];
         let (first, last) = (car.path[ask.index], car.path[last]);
@@ -222,7 +222,7 @@ impl View<'_> {
                 let rear = base + body.rear;
                 match body.who {
                     Who::Zebra | Who::Foreign { .. } if car.heedless => {}
-                    // Whoever stands on the way; nearer ones keep the car from asking at all.
+                    // A body that stands on the way. Nearer bodies keep the car from asking at all.
                     Who::Zebra | Who::Foreign { .. } => {
                         if base + body.front > ask.distance {
                             return rear - end >= needed;
@@ -231,7 +231,7 @@ impl View<'_> {
                     Who::Car(other) | Who::Leaving(other) => {
                         let other = &self.cars[other as usize];
                         if base + body.middle() >= end {
-                            // Even at its hardest braking it leaves that much more room.
+                            // Even if the other car brakes as hard as it can, it leaves that much more room.
                             let stopping = 0.5 * body.speed * body.speed / car.braking;
                             return rear + stopping - end >= needed;
                         }
@@ -255,7 +255,7 @@ impl View<'_> {
         true
     }
 
-    /// Whether all who turned off at the beginning of a lane, `base` metres ahead, are sure to be out of its way.
+    /// Returns `true` if all cars that turned off at the start of a lane, `base` metres ahead, will surely move away.
     fn is_parted(&self, index: usize, lane: LaneId, base: f64) -> bool {
         self.map.forks(lane).iter().all(|fork| {
             let bodies = self.occupancy.on(fork.lane).iter();
@@ -264,7 +264,7 @@ impl View<'_> {
         })
     }
 
-    /// Whether a car may have the claim that it asks for.
+    /// Returns `true` if a car may have the claim that it asks for.
     pub fn may_go(&self, asker: &Asker, askers: &[Asker], asking: &Lists<usize>) -> bool {
         let car = &self.cars[asker.car];
         let mut base = asker.ask.base;
@@ -306,7 +306,7 @@ impl View<'_> {
     }
 }
 
-/// Seconds until so many metres are driven with a constant acceleration.
+/// Returns the seconds that a distance takes with constant acceleration.
 fn time(way: f64, speed: f64, acceleration: f64) -> f64 {
     if way <= 0.0 { 0.0 } else { ((speed * speed + 2.0 * acceleration * way).sqrt() - speed) / acceleration }
 }

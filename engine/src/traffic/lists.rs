@@ -1,8 +1,8 @@
-//! Lists of things by lane, filled anew at every tick.
+//! Lists of items by lane, filled again at every tick.
 
 use crate::road::LaneId;
 
-/// Lists of things by lane, filled anew at every tick.
+/// Lists of items by lane, filled again at every tick.
 #[derive(Debug)]
 pub(super) struct Lists<T> {
     heads: Vec<u32>,
@@ -40,7 +40,7 @@ impl<T> Lists<T> {
         *head = self.nodes.len() as u32 - 1;
     }
 
-    /// What was added for a lane, with its owners.
+    /// Returns the items that were added for a lane, with their owners.
     pub fn on(&self, lane: LaneId) -> impl Iterator<Item = (usize, &T)> {
         let mut next = self.heads[lane.index()];
         std::iter::from_fn(move || {

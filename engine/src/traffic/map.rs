@@ -1,39 +1,39 @@
-//! What traffic asks about lanes at every tick, found once for a network.
+//! Facts about lanes that traffic needs at every tick, computed once for each network.
 
 use crate::road::{Lane, LaneId, LaneKind, RoadNetwork};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Comfortable lateral acceleration in bends, in m/s².
+/// The comfortable lateral acceleration in bends, in m/s².
 pub(super) const LATERAL: f64 = 2.5;
-/// Lanes that part from one another have done so where their middles are this share of a lane's width apart.
+/// The share of a lane's width that the middles of two lanes are apart when the lanes count as parted.
 const APART: f64 = 0.75;
-/// Metres between the places at which lanes that part are looked at.
+/// The distance in metres between the places at which parting lanes are examined.
 const STEP: f64 = 0.25;
-/// Metres before the lane of an intersection, and before a zone in a roundabout, where one waits.
+/// The metres before the lane of an intersection, and before a zone in a roundabout, where cars wait.
 const BEFORE_LINE: f64 = 0.5;
 pub(super) const BEFORE_ZONE: f64 = 1.0;
 
-/// A zone of a lane that it shares with another lane.
+/// The zone in which a lane conflicts with another lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rival {
     pub lane: LaneId,
-    /// From where on along this lane one is in the way of the other.
+    /// The place along this lane from which on a car on it is in the way of the other lane.
     pub from: f64,
-    /// From where to where along the other lane it is in the way of this one.
+    /// The beginning and end of the zone along the other lane in which a car is in the way of this lane.
     pub other: (f64, f64),
-    /// Whether this lane gives way to the other, and the other to this one.
+    /// `true` if this lane gives way to the other lane. `given_way` is `true` if the other lane gives way to this lane.
     pub gives_way: bool,
     pub given_way: bool,
-    /// Whether both lead to the same lane.
+    /// `true` if both lanes lead to the same lane.
     pub merges: bool,
 }
 
-/// A lane that begins where this one does.
+/// A lane that begins at the same place as this lane.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fork {
     pub lane: LaneId,
-    /// Up to where along this lane and along the other one they are too close.
+    /// The places along this lane and along the other lane up to which the lanes are too close.
     pub apart: (f64, f64),
 }
 
@@ -42,7 +42,7 @@ struct Facts {
     length: f64,
     /// The comfortable speed in m/s.
     speed: f64,
-    /// Where one waits: metres along the lane, perhaps before its beginning.
+    /// The place where cars wait, in metres along the lane; negative if it lies before the beginning of the lane.
     line: f64,
     road: bool,
     through: bool,
@@ -50,7 +50,7 @@ struct Facts {
     forks: Range<u32>,
 }
 
-/// A network as traffic sees it.
+/// A network, with the facts that traffic needs.
 #[derive(Debug)]
 pub(super) struct Map {
     pub network: Arc<RoadNetwork>,
@@ -107,22 +107,22 @@ impl Map {
         self.lanes[lane.index()].length
     }
 
-    /// The comfortable speed on a lane: infinite where it is straight.
+    /// Returns the comfortable speed on a lane in m/s; infinite on a straight lane.
     pub fn speed(&self, lane: LaneId) -> f64 {
         self.lanes[lane.index()].speed
     }
 
-    /// Where one waits before a lane that has rivals.
+    /// Returns the place where cars wait before a lane that has rivals.
     pub fn line(&self, lane: LaneId) -> f64 {
         self.lanes[lane.index()].line
     }
 
-    /// Whether it runs along a road.
+    /// Returns `true` if the lane runs along a road.
     pub fn is_road(&self, lane: LaneId) -> bool {
         self.lanes[lane.index()].road
     }
 
-    /// Whether one does not stop between the lane before it and this one: within a roundabout with several lanes.
+    /// Returns `true` if cars do not stop between the previous lane and this lane: in a roundabout with several lanes.
     pub fn is_through(&self, lane: LaneId) -> bool {
         self.lanes[lane.index()].through
     }
@@ -137,17 +137,17 @@ impl Map {
         &self.forks[range.start as usize..range.end as usize]
     }
 
-    /// Whether two lanes run side by side.
+    /// Returns `true` if two lanes run side by side.
     pub fn beside(&self, lane: LaneId, other: LaneId) -> bool {
         self.network.lane(lane).beside().any(|beside| beside == other)
     }
 
-    /// The lane that a road goes on with where this lane ends, if it leads nowhere else.
+    /// Returns the road lane that continues this lane at its end, if this lane leads nowhere else.
     pub fn road_after(&self, lane: LaneId) -> Option<LaneId> {
         self.only_road(&self.network.lane(lane).successors)
     }
 
-    /// The lane of a road that leads to this one, if no other does.
+    /// Returns the road lane that leads to this lane, if no other lane does.
     pub fn road_before(&self, lane: LaneId) -> Option<LaneId> {
         self.only_road(&self.network.lane(lane).predecessors)
     }
@@ -159,13 +159,13 @@ impl Map {
         }
     }
 
-    /// A place on a lane as one beside it has it.
+    /// Converts a place on a lane to the corresponding place on a neighbouring lane.
     pub fn across(&self, s: f64, from: LaneId, to: LaneId) -> f64 {
         s * self.length(to) / self.length(from)
     }
 }
 
-/// How far along a lane the lane `other`, which begins where it does, is too close.
+/// Returns how far along a lane the lane `other`, which begins at the same place, is too close.
 fn parted(network: &RoadNetwork, lane: LaneId, other: LaneId) -> f64 {
     let (lane, other) = (network.lane(lane), network.lane(other));
     let steps = (lane.length() / STEP).ceil() as usize;

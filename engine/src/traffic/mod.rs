@@ -1,14 +1,14 @@
-//! Traffic: cars that drive over the lanes of a road network, each seeing what is around it.
+//! Traffic: cars that drive over the lanes of a road network and react to what is around them.
 //!
-//! [`Traffic`] is a simulation of its own, in lanes and metres along them, without physics and without streams: at
-//! every step each car looks ahead (`ahead.rs`), follows what is there by the intelligent driver model ([`Idm`]),
-//! claims the intersection before it (`junction.rs`), perhaps changes lanes (`change.rs`), and moves on. All decide on
-//! what they see at the beginning of the step, so that their order does not matter where they do not compete; where
-//! they do, their indices decide. A step costs time in proportion to the number of cars, and allocates nothing but
-//! where a car has to find another way.
+//! [`Traffic`] is a simulation of its own, in lanes and metres along them, without physics and without streams. At
+//! every step each car looks ahead (`ahead.rs`), follows the car ahead by the intelligent driver model ([`Idm`]),
+//! claims the next intersection (`junction.rs`), perhaps changes lanes (`change.rs`), and moves on. All cars decide on
+//! the state at the beginning of the step, so that their order does not matter unless they compete; then their indices
+//! decide. The time of a step is proportional to the number of cars. A step allocates memory only if a car has to find
+//! another way.
 //!
-//! Cars of up to 7 m by 2.3 m never touch one another. None waits for ever, unless the roads around a block are so full
-//! of cars that are to go round it that none of them has room to begin.
+//! Cars of up to 7 m by 2.3 m never touch one another. No car waits for ever, with one exception: if the roads around a
+//! block are so full of cars that want to go round it that none of them has room to begin.
 //!
 //! ```
 //! use paracosm_engine::road::grid_city;
@@ -52,7 +52,7 @@ use occupancy::{Body, Occupancy, Who};
 use state::{Car, Claim};
 use std::sync::Arc;
 
-/// Seconds between two thoughts about a lane change.
+/// The seconds between two decisions of a car about a lane change.
 const THOUGHT: f64 = 1.0;
 
 /// Cars on a road network.
@@ -60,53 +60,53 @@ const THOUGHT: f64 = 1.0;
 pub struct Traffic {
     map: Map,
     cars: Vec<Car>,
-    /// Seconds since the beginning.
+    /// The seconds since the beginning.
     time: f64,
-    /// Claims given so far.
+    /// The number of claims that were given so far.
     turns: u64,
     occupancy: Occupancy,
     claims: Lists<Claim>,
-    /// What lies ahead of every car.
+    /// What lies ahead of each car.
     ahead: Vec<Ahead>,
     askers: Vec<Asker>,
     asking: Lists<usize>,
-    /// The lanes to which somebody has begun to change in this step.
+    /// The lanes to which a car has begun to change in this step.
     changed: Vec<LaneId>,
     near: Near,
 }
 
-/// A car as it is now.
+/// The present state of a car.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CarState {
-    /// The middle of its rectangle, and where it faces.
+    /// The middle of the car's rectangle, and its heading.
     pub pose: Pose,
-    /// Its length in metres.
+    /// The length of the car in metres.
     pub length: f64,
-    /// Its width in metres.
+    /// The width of the car in metres.
     pub width: f64,
-    /// In m/s.
+    /// The speed of the car in m/s.
     pub speed: f64,
-    /// In m/s².
+    /// The acceleration of the car in m/s².
     pub acceleration: f64,
-    /// Its lane: from the beginning of a lane change on, the new one.
+    /// The lane of the car; from the beginning of a lane change on, the new lane.
     pub lane: LaneId,
-    /// Where its middle is, in metres along the lane.
+    /// The place of the car's middle, in metres along the lane.
     pub s: f64,
-    /// Metres to the left of the middle of its lane.
+    /// The distance from the middle of the lane in metres, positive to the left.
     pub offset: f64,
-    /// The side to which it is changing lanes.
+    /// The side to which the car is changing lanes.
     pub indicator: Option<Side>,
-    /// Metres that it has come.
+    /// The distance in metres that the car has travelled.
     pub travelled: f64,
-    /// Whether it has driven out of the network: it is nowhere then.
+    /// `true` if the car has driven out of the network. It is nowhere then.
     pub gone: bool,
 }
 
 impl Traffic {
-    /// Cars on the lanes of a network. What they do by chance follows from the seed and their indices.
+    /// Puts cars on the lanes of a network. Their random choices follow from the seed and their indices.
     ///
     /// # Errors
-    /// A car has a number that cannot be, a route that is none, or the place of another.
+    /// A value of a car is out of range, a route is not connected, or two cars overlap.
     pub fn new(network: Arc<RoadNetwork>, cars: Vec<TrafficCar>, seed: u64) -> Result<Self, TrafficError> {
         let map = Map::new(network);
         let cars: Vec<TrafficCar> = cars.into_iter().map(|car| car.planned(&map)).collect();
@@ -134,10 +134,10 @@ impl Traffic {
         Ok(traffic)
     }
 
-    /// Moves all on by `dt` seconds; `obstacles` are the bodies that are no part of the traffic.
+    /// Moves all cars on by `dt` seconds. `obstacles` are the bodies that are not part of the traffic.
     ///
     /// # Panics
-    /// `dt` is no positive number.
+    /// `dt` is not a finite number above 0.
     pub fn step(&mut self, dt: f64, obstacles: &[Obstacle]) {
         assert!(dt > 0.0 && dt.is_finite(), "a step takes {dt} s, expected more than 0");
         if self.time == 0.0 {
@@ -163,20 +163,20 @@ impl Traffic {
         self.time += dt;
     }
 
-    /// The network that it drives on.
+    /// Returns the network that the cars drive on.
     pub fn network(&self) -> &Arc<RoadNetwork> {
         &self.map.network
     }
 
-    /// All cars, in the order in which they were given.
+    /// Returns the present states of all cars, in the order in which the cars were given.
     pub fn cars(&self) -> impl ExactSizeIterator<Item = CarState> {
         (0..self.cars.len()).map(|index| self.car(index))
     }
 
-    /// A car.
+    /// Returns the present state of the car with this index.
     ///
     /// # Panics
-    /// There is none with this index.
+    /// There is no car with this index.
     pub fn car(&self, index: usize) -> CarState {
         let car = &self.cars[index];
         CarState {
@@ -194,11 +194,11 @@ impl Traffic {
         }
     }
 
-    /// Gives a car its speed from now on, in m/s, which it leaves only so as not to run into what is ahead; with `None`
-    /// it drives as the model has it again.
+    /// Sets the speed of a car in m/s from now on. The car deviates from it only to avoid a collision with a body
+    /// ahead. With `None`, the model drives the car again.
     ///
     /// # Panics
-    /// There is no car with this index, or the speed is no number from 0 on.
+    /// There is no car with this index, or the speed is not a finite number from 0 on.
     pub fn set_speed(&mut self, index: usize, speed: Option<f64>) {
         assert!(
             speed.is_none_or(|speed| speed >= 0.0 && speed.is_finite()),
@@ -208,22 +208,22 @@ impl Traffic {
         self.cars[index].extend_path(&self.map);
     }
 
-    /// Lets a car go at this speed in m/s right away: for the beginning.
+    /// Sets the present speed of a car in m/s at once, for the beginning of a run.
     ///
     /// # Panics
-    /// There is no car with this index, or the speed is no number from 0 on.
+    /// There is no car with this index, or the speed is not a finite number from 0 on.
     pub fn begin_at(&mut self, index: usize, speed: f64) {
         assert!(speed >= 0.0 && speed.is_finite(), "car {index} is to begin at {speed} m/s");
         self.cars[index].speed = speed;
     }
 
-    /// Sets the friction coefficient between tyre and road, for all cars from the next step on: they brake with no more
-    /// than it gives, and at most with 8 m/s², keep as far apart as that asks for, and take bends as slowly. At first
-    /// the road is dry. Cars that brake already when the road gets slippery may come to a stop too late. What is below
-    /// 0.01 counts as that much.
+    /// Sets the friction coefficient between tyre and road, for all cars from the next step on. It limits their
+    /// braking, which is at most 8 m/s²; they keep larger gaps and take bends more slowly accordingly. At first the
+    /// road is dry. Cars that are already braking when the road gets slippery may stop too late. Values below 0.01
+    /// count as 0.01.
     ///
     /// # Panics
-    /// It is no number from 0 on.
+    /// The friction is not a number from 0 on.
     pub fn set_friction(&mut self, friction: f64) {
         assert!(friction >= 0.0, "the friction of the road is {friction}, expected a number from 0 on");
         for car in &mut self.cars {
@@ -231,21 +231,21 @@ impl Traffic {
         }
     }
 
-    /// Sets the speed that a car wants to drive at, in m/s.
+    /// Sets the speed in m/s at which a car wants to drive.
     ///
     /// # Panics
-    /// There is no car with this index, or the speed is no number from 0 on.
+    /// There is no car with this index, or the speed is not a finite number from 0 on.
     pub fn set_desired_speed(&mut self, index: usize, speed: f64) {
         assert!(speed >= 0.0 && speed.is_finite(), "car {index} is to want {speed} m/s");
         self.cars[index].desired = speed;
     }
 
-    /// Makes a car begin a lane change that takes so many seconds, whoever is there. Whether it does: there is a lane,
-    /// the car is on a road, and it is not changing lanes already. A car with a route changes back when that asks for
-    /// it.
+    /// Makes a car begin a lane change that takes `duration` seconds, even if another car is in the way. Returns
+    /// `false` if there is no lane on this side, the car is not on a road, or it is changing lanes already. A car with
+    /// a route changes back when its route asks for it.
     ///
     /// # Panics
-    /// There is no car with this index, or the duration is not positive.
+    /// There is no car with this index, or the duration is not a finite number above 0.
     pub fn change_lane(&mut self, index: usize, side: Side, duration: f64) -> bool {
         assert!(duration > 0.0 && duration.is_finite(), "car {index} is to change lanes in {duration} s");
         let car = &mut self.cars[index];
@@ -263,7 +263,7 @@ impl Traffic {
         View { map: &self.map, cars: &self.cars, occupancy: &self.occupancy, claims: &self.claims }
     }
 
-    /// Finds what is on every lane, and who has claims on it.
+    /// Finds the bodies on every lane and the cars that have claims on it.
     fn see(&mut self, obstacles: &[Obstacle]) {
         let (map, cars) = (&self.map, &self.cars);
         self.occupancy.clear(|index, bodies| {
@@ -313,7 +313,7 @@ impl Traffic {
             }
             self.cars[index].next_thought += THOUGHT;
             let change = self.view().wanted_change(index, &self.ahead[index], dt);
-            // One at a time: nobody has seen the first of two.
+            // One change at a time, because the second car has not seen the first.
             if let Some((side, to, duration)) = change.filter(|(_, to, _)| !self.changed.contains(to)) {
                 self.cars[index].begin_change(side, to, duration, &self.map);
                 self.changed.push(to);
@@ -321,10 +321,10 @@ impl Traffic {
         }
     }
 
-    /// Claims whatever a car stands on at the start, or cannot stop before.
+    /// Claims the lanes that a car stands on at the start, or before which it cannot stop.
     fn claim_starts(&mut self) {
         for car in &mut self.cars {
-            // It may have been given another speed.
+            // The car may have been given another speed.
             car.extend_path(&self.map);
             claim_start(car, &self.map, &mut self.turns);
         }

@@ -1,9 +1,9 @@
-//! Bodies that are no part of the traffic, seen from its lanes.
+//! Places bodies that are not part of the traffic on its lanes.
 //!
-//! A body is on a lane where its rectangle reaches into the strip that cars need; that goes on being so for as long as
-//! it needs to get there when it moves towards it, and somebody who is about to walk over a zebra crossing is on the
-//! whole of it. Predictions are along straight lines, measured across the lane, so that who follows a bend beside it
-//! comes no nearer. A vehicle that has to give way is expected to, until it all but is in the way.
+//! A body is on a lane if its rectangle reaches into the strip that cars need, or will soon. Predictions are along
+//! straight lines, measured across the lane, so that a body that follows a bend beside the lane comes no nearer. A
+//! vehicle that has to give way is expected to do so, until it is almost in the way. A person who walks over a zebra
+//! crossing, or is about to, is on all of its lanes except those behind the person.
 
 use super::map::Map;
 use super::occupancy::{Body, Who};
@@ -11,39 +11,39 @@ use crate::geometry::Pose;
 use crate::road::{Bounds, Crossing, LaneId, RoadNetwork};
 use nalgebra::Vector2;
 
-/// A body that cars stop for: the car under test, a pedestrian, something that stands in the way.
+/// A body that cars stop for: the ego vehicle, a pedestrian, or an object that stands in the way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Obstacle {
-    /// The middle of its rectangle, and where that faces.
+    /// The middle of the body's rectangle, and its heading.
     pub pose: Pose,
-    /// Its length in metres.
+    /// The length of the body in metres.
     pub length: f64,
-    /// Its width in metres.
+    /// The width of the body in metres.
     pub width: f64,
-    /// Where it moves, in m/s.
+    /// The velocity of the body in m/s.
     pub velocity: Vector2<f64>,
 }
 
-/// Seconds ahead that a body is looked at.
+/// The seconds for which the motion of a body is predicted.
 const FORESEEN: f64 = 4.0;
-/// The same of a vehicle that has to give way: it no longer does.
+/// The same for a vehicle that has to give way: within this time it can no longer wait.
 const CANNOT_WAIT: f64 = 0.5;
-/// The cosine of the angle up to which a vehicle drives along a lane.
+/// The cosine of the largest angle at which a vehicle drives along a lane.
 const ALONG: f64 = 0.7;
-/// Metres on either side of a lane's middle that have to be clear for a car to pass, beyond its own half width.
+/// The metres on either side of a lane's middle that have to be clear for a car to pass, beyond the car's half width.
 const CLEARANCE: f64 = 0.3;
-/// Somebody who will step onto a zebra crossing in fewer seconds is let go.
+/// The seconds before a person steps onto a zebra crossing in which cars already let the person go first.
 const ABOUT_TO_ENTER: f64 = 2.0;
-/// Metres beside a zebra crossing where people still walk.
+/// The metres beside a zebra crossing where people still walk.
 const BESIDE_ZEBRA: f64 = 1.0;
-/// Metres before a zebra crossing where cars stop.
+/// The metres before a zebra crossing where cars stop.
 const BEFORE_ZEBRA: f64 = 1.0;
-/// What is longer is no pedestrian, in metres.
+/// The greatest length of a pedestrian in metres. A longer body is a vehicle.
 const LONGEST_PEDESTRIAN: f64 = 2.5;
-/// Who moves slower stands, in m/s.
+/// The speed in m/s below which a person stands.
 const STANDING: f64 = 0.1;
 
-/// Half the size of an obstacle along and across a direction.
+/// Returns half the size of an obstacle along and across a direction.
 fn extents(obstacle: &Obstacle, heading: f64) -> (f64, f64) {
     let (sin, cos) = libm::sincos(obstacle.pose.heading - heading);
     let (sin, cos) = (sin.abs(), cos.abs());
@@ -51,16 +51,16 @@ fn extents(obstacle: &Obstacle, heading: f64) -> (f64, f64) {
     (length * cos + width * sin, length * sin + width * cos)
 }
 
-/// Memory for what is near an obstacle, used again and again.
+/// Reused memory for the lanes near an obstacle.
 #[derive(Debug, Default)]
 pub(super) struct Near {
     lanes: Vec<LaneId>,
     open: Vec<usize>,
-    /// The lanes that it drives along, and those that follow.
+    /// The lanes that the obstacle drives along, and their successors.
     own: Vec<LaneId>,
 }
 
-/// Adds the bodies that an obstacle is on the lanes of a network, for cars up to `half_width`.
+/// Adds the bodies by which an obstacle occupies the lanes of a network, for cars up to `half_width`.
 pub(super) fn place(obstacle: &Obstacle, map: &Map, half_width: f64, near: &mut Near, bodies: &mut Vec<Body>) {
     let from = obstacle.pose.position;
     let to = from + obstacle.velocity * FORESEEN;
@@ -88,7 +88,7 @@ pub(super) fn place(obstacle: &Obstacle, map: &Map, half_width: f64, near: &mut 
     }
 }
 
-/// Whether it faces along a lane and has its middle on it.
+/// Returns `true` if the obstacle faces along a lane and has its middle on the lane.
 fn drives_along(obstacle: &Obstacle, network: &RoadNetwork, lane: LaneId) -> bool {
     let lane = network.lane(lane);
     let at = lane.curve.at(lane.curve.nearest(obstacle.pose.position));
@@ -138,7 +138,7 @@ fn on_crossing(obstacle: &Obstacle, crossing: &Crossing, network: &RoadNetwork, 
     if local.y.abs() - across > 0.5 * crossing.width + BESIDE_ZEBRA {
         return;
     }
-    // What it stands on, and where it will be once it is over the kerb.
+    // The parts that it stands on, and the place where it will be after `ABOUT_TO_ENTER` seconds.
     let (right, left) = (local.x - along, local.x + along);
     let steps = speed * ABOUT_TO_ENTER;
     if left + steps.max(0.0) < 0.0 || right + steps.min(0.0) > end {

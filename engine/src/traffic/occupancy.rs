@@ -1,32 +1,32 @@
-//! What is on every lane, in order.
+//! The bodies on every lane, in order.
 //!
-//! Bodies are dealt to their lanes in the order of the tick before, in which they are all but sorted; an insertion sort
-//! of each lane then takes linear time. Nothing is allocated once the lists have grown to their sizes.
+//! Bodies are distributed to their lanes in the order of the previous tick, in which they are almost sorted. An
+//! insertion sort of each lane then takes linear time. Nothing is allocated once the lists have grown to their sizes.
 
 use crate::road::LaneId;
 
-/// Something on a lane.
+/// A body on a lane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Body {
     pub lane: LaneId,
-    /// Where it ends and begins: metres along the lane, perhaps beyond its ends.
+    /// The rear and the front of the body, in metres along the lane; they may lie beyond its ends.
     pub rear: f64,
     pub front: f64,
-    /// Along the lane, in m/s.
+    /// The speed along the lane, in m/s.
     pub speed: f64,
     pub who: Who,
 }
 
-/// What a body is.
+/// The kind of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Who {
     /// A car of the traffic.
     Car(u32),
     /// The same car, on the lane that it is leaving.
     Leaving(u32),
-    /// Something else, that will be there in so many seconds.
+    /// Another body, which will be there in `soon` seconds.
     Foreign { soon: f64 },
-    /// A zebra crossing that somebody is walking over.
+    /// A zebra crossing that a person is walking over.
     Zebra,
 }
 
@@ -35,7 +35,7 @@ impl Body {
         0.5 * (self.rear + self.front)
     }
 
-    /// The car of the traffic that it is.
+    /// Returns the index of the traffic car, if the body is a car of the traffic.
     pub fn car(&self) -> Option<usize> {
         match self.who {
             Who::Car(car) | Who::Leaving(car) => Some(car as usize),
@@ -47,17 +47,17 @@ impl Body {
 /// The bodies on all lanes.
 #[derive(Debug)]
 pub(super) struct Occupancy {
-    /// Lane by lane, sorted by their middles within a lane.
+    /// The bodies, lane by lane, sorted by their middles within a lane.
     bodies: Vec<Body>,
-    /// Where the bodies of each lane begin and end.
+    /// The range in `bodies` of each lane.
     ranges: Vec<(u32, u32)>,
     /// The lanes with bodies.
     used: Vec<LaneId>,
-    /// Where the body of each car stands in `bodies`, and its other one while it changes lanes.
+    /// The index in `bodies` of each car, and of its second body while it changes lanes.
     ranks: Vec<[u32; 2]>,
     /// The order of cars in `bodies`.
     order: Vec<u32>,
-    /// What is to be sorted.
+    /// The bodies that have to be sorted.
     unsorted: Vec<Body>,
 }
 
@@ -73,7 +73,7 @@ impl Occupancy {
         }
     }
 
-    /// Begins anew: `place` is asked for the bodies of every car.
+    /// Empties the list of bodies to sort and fills it again: `place` adds the bodies of each car.
     pub fn clear(&mut self, mut place: impl FnMut(u32, &mut Vec<Body>)) {
         self.unsorted.clear();
         for car in &self.order {
@@ -81,12 +81,12 @@ impl Occupancy {
         }
     }
 
-    /// Where further bodies are added.
+    /// Returns the list to which further bodies are added.
     pub fn added(&mut self) -> &mut Vec<Body> {
         &mut self.unsorted
     }
 
-    /// Sorts what was added.
+    /// Sorts the bodies that were added.
     pub fn sort(&mut self) {
         for lane in self.used.drain(..) {
             self.ranges[lane.index()] = (0, 0);
@@ -135,25 +135,25 @@ impl Occupancy {
         }
     }
 
-    /// What is on a lane, in order.
+    /// Returns the bodies on a lane, in order.
     pub fn on(&self, lane: LaneId) -> &[Body] {
         let (begin, end) = self.ranges[lane.index()];
         &self.bodies[begin as usize..end as usize]
     }
 
-    /// What is on a car's lane ahead of it.
+    /// Returns the bodies ahead of a car on its lane.
     pub fn ahead_of(&self, car: usize) -> &[Body] {
         self.beyond(self.ranks[car][0])
     }
 
-    /// What is on a car's lane behind it, the last of them next to it.
+    /// Returns the bodies behind a car on its lane; the last body is next to the car.
     pub fn behind(&self, car: usize) -> &[Body] {
         let rank = self.ranks[car][0] as usize;
         let (begin, _) = self.ranges[self.bodies[rank].lane.index()];
         &self.bodies[begin as usize..rank]
     }
 
-    /// What is ahead of a car on the lane that it is leaving.
+    /// Returns the bodies ahead of a car on the lane that it is leaving.
     pub fn ahead_on_old_lane(&self, car: usize) -> &[Body] {
         match self.ranks[car][1] {
             u32::MAX => &[],

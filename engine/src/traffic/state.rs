@@ -1,4 +1,4 @@
-//! A car as it drives.
+//! The state of a car while it drives.
 
 use super::car::{Itinerary, TrafficCar};
 use super::idm::{Idm, hardest_braking};
@@ -8,51 +8,51 @@ use crate::geometry::{Pose, Side};
 use crate::road::LaneId;
 use std::collections::VecDeque;
 
-/// Speed in m/s above which a lane change takes the time that it is to take; below, it takes as long a way as at this.
+/// The speed in m/s up to which a lane change takes the same distance. Above, it takes its given duration.
 pub(super) const WALKING: f64 = 5.0;
 
-/// Metres that somebody may want to drive around a roundabout.
+/// The greatest distance in metres that a car may want to drive around a roundabout.
 const LONGEST_ROUND: f64 = 500.0;
 
-/// The next line on the path of a car.
+/// The next line on the path of a car, which it needs leave to pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ask {
-    /// Which lane of the path it belongs to, and how far ahead of the car's middle that begins.
+    /// The index in the path of the lane behind the line, and how far ahead of the car's middle this lane begins.
     pub index: usize,
     pub base: f64,
-    /// From the front to the line.
+    /// The distance from the car's front to the line.
     pub distance: f64,
-    /// Whether the car has leave to pass it.
+    /// `true` if the car has leave to pass the line.
     pub held: bool,
-    /// Whether nobody waits before it, or right behind it.
+    /// `true` if no other car will stop before the line or right behind it.
     pub first: bool,
 }
 
-/// The right to a lane of an intersection.
+/// The right of a car to drive on a lane of an intersection.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Claim {
     pub lane: LaneId,
-    /// How far the car will have come when its middle is at the beginning of the lane.
+    /// The distance that the car will have travelled when its middle is at the beginning of the lane.
     pub start: f64,
-    /// The same of the first lane of those that were claimed with it.
+    /// The same for the first of the lanes that were claimed together.
     pub entry: f64,
-    /// Claims are served in this order; those that were given together share it.
+    /// The order in which claims are served; claims that were given together share the number.
     pub turn: u64,
-    /// Whether the car is sure to leave it soon.
+    /// `true` if the car is sure to leave the lane soon.
     pub sure: bool,
 }
 
-/// A lane change.
+/// A lane change of a car.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
     pub side: Side,
-    /// The lane that is being left.
+    /// The lane that the car is leaving.
     pub from: Option<LaneId>,
-    /// How far to the left of its place on the new lane it began.
+    /// The offset at the start of the lane change: how far to the left of its place on the new lane the car was.
     pub start: f64,
-    /// From 0 to 1.
+    /// The progress from 0 to 1.
     pub progress: f64,
-    /// Seconds.
+    /// The duration in seconds.
     pub duration: f64,
 }
 
@@ -61,41 +61,41 @@ pub(super) struct Car {
     pub half: f64,
     pub width: f64,
     pub idm: Idm,
-    /// The hardest that it can brake on this road, in m/s².
+    /// The hardest braking of the car on this road, in m/s².
     pub braking: f64,
-    /// The share of the comfortable speed that the road lets it drive at in bends.
+    /// The share of the comfortable speed in bends that the road allows.
     pub grip: f64,
-    /// How far to the left of the middle of its lane it keeps.
+    /// How far to the left of the middle of its lane the car drives.
     keeps: f64,
     pub desired: f64,
-    /// The speed that it is given from outside.
+    /// The speed that is set from outside.
     pub given: Option<f64>,
     pub heedless: bool,
     pub changes_lanes: bool,
     pub itinerary: Itinerary,
-    /// Where its route ends, once its path holds the last lane.
+    /// The end of the route, in metres along its last lane.
     pub end: f64,
     pub lane: LaneId,
-    /// Where its middle is along the lane.
+    /// The place of the car's middle, in metres along the lane.
     pub s: f64,
     pub speed: f64,
     pub acceleration: f64,
     pub travelled: f64,
-    /// Its lane and those to come. Each is a successor of the one before, or lies beside it.
+    /// The lane of the car and the lanes to come. Each is a successor of the previous lane, or a neighbour of it.
     pub path: VecDeque<LaneId>,
-    /// Whether the path holds all that there is.
+    /// `true` if the path holds all lanes of the car's way.
     pub complete: bool,
-    /// Whether it has driven out of the network.
+    /// `true` if the car has driven out of the network.
     pub gone: bool,
     pub claims: Vec<Claim>,
-    /// Since when it has been waiting for a lane of an intersection.
+    /// The lane of an intersection that the car waits for, and since when.
     pub ticket: Option<(LaneId, f64)>,
-    /// Metres from its front to where it is going to stop of its own accord.
+    /// The metres from the car's front to the place where it will stop by itself.
     pub wall: f64,
     pub change: Option<Change>,
-    /// When it next thinks about a lane change.
+    /// The time of the next decision about a lane change.
     pub next_thought: f64,
-    /// Seconds that it has stood where it should have changed lanes.
+    /// The seconds that the car has stood at a place where it should have changed lanes.
     pub stuck: f64,
 }
 
@@ -129,36 +129,36 @@ impl Car {
             ticket: None,
             wall: f64::INFINITY,
             change: None,
-            // Not all at the same tick: the golden ratio's sequence.
+            // The cars do not decide at the same tick: this is the sequence of the golden ratio.
             next_thought: (index as f64 * 0.618_033_988_749_895).fract(),
             stuck: 0.0,
         }
     }
 
-    /// Drives on a road with this friction coefficient from now on.
+    /// Sets the friction coefficient of the road from now on.
     pub fn set_friction(&mut self, friction: f64) {
         self.braking = hardest_braking(friction);
         self.grip = (self.braking / LATERAL).min(1.0).sqrt();
     }
 
-    /// The deceleration in m/s² at which it likes to brake, and can.
+    /// Returns the deceleration in m/s² at which the car prefers to brake, limited by the road.
     pub fn deceleration(&self) -> f64 {
         self.idm.deceleration.min(self.braking)
     }
 
-    /// The greatest speed in m/s that it may have after the next step, but for some acceleration: who is given one does
-    /// not come to it little by little.
+    /// Returns the speed in m/s that the car may have after the next step, apart from some acceleration: a speed that
+    /// is set from outside applies at once.
     pub fn soon(&self) -> f64 {
         self.given.unwrap_or(0.0).max(self.speed)
     }
 
-    /// How far ahead it looks, in metres.
+    /// Returns how far ahead the car looks, in metres.
     pub fn horizon(&self) -> f64 {
         let speed = self.soon();
         self.half + 30.0 + speed * (2.0 + 0.6 * speed / self.deceleration())
     }
 
-    /// How far from a line it asks for leave to pass it, so that it need not brake where it gets it at once.
+    /// Returns the distance from a line at which the car asks for leave, far enough that it need not brake meanwhile.
     pub fn asking_distance(&self) -> f64 {
         let speed = self.soon();
         5.0 + speed * (1.0 + 0.5 * speed / self.deceleration())
@@ -171,8 +171,8 @@ impl Car {
             let changed = self.path.get(pair + 1).is_some_and(|next| map.beside(self.path[pair], *next));
             ahead += if changed { 0.0 } else { map.length(self.path[pair]) };
         }
-        // More than the horizon, so that this is not to be done at every tick, and as far as a road, so that it is
-        // known where an intersection is left.
+        // More than the horizon, so that this is not necessary at every tick, and up to a road, so that the exit of an
+        // intersection is known.
         let enough = self.horizon() + 50.0;
         while !self.complete {
             let last = self.path[self.path.len() - 1];
@@ -189,12 +189,12 @@ impl Car {
         }
     }
 
-    /// The claim on a lane of the path that begins `base` metres ahead of the car's middle.
+    /// Returns the claim on a lane of the path that begins `base` metres ahead of the car's middle.
     pub fn claim(&self, lane: LaneId, base: f64) -> Option<&Claim> {
         self.claims.iter().find(|claim| claim.lane == lane && (claim.start - self.travelled - base).abs() < 1.0)
     }
 
-    /// Gives back the claims that begin with the lane of `ask`; false if they begin with one before it.
+    /// Gives back the claims that begin with the lane of `ask`. Returns `false` if they begin with an earlier lane.
     pub fn give_back(&mut self, ask: &Ask) -> bool {
         let claim = self.claim(self.path[ask.index], ask.base).copied();
         let Some(claim) = claim.filter(|claim| claim.start == claim.entry) else { return false };
@@ -202,17 +202,17 @@ impl Car {
         true
     }
 
-    /// Whether it is sure to leave all that it has claimed soon.
+    /// Returns `true` if the car is sure to leave all its claimed lanes soon.
     pub fn is_sure(&self) -> bool {
         self.claims.iter().all(|claim| claim.sure)
     }
 
-    /// Where its rear is along a lane that it has a claim on.
+    /// Returns the place of the car's rear along a lane that it has a claim on.
     pub fn rear_on(&self, claim: &Claim) -> f64 {
         self.travelled - claim.start - self.half
     }
 
-    /// Moves on by a step of `dt` to this speed.
+    /// Moves the car on by a step of `dt` seconds to this speed.
     pub fn drive(&mut self, speed: f64, dt: f64, map: &Map) {
         self.acceleration = (speed - self.speed) / dt;
         let way = 0.5 * (self.speed + speed) * dt;
@@ -249,10 +249,10 @@ impl Car {
         };
     }
 
-    /// Metres to the left of the middle of its lane, and how fast that grows in m/s.
+    /// Returns the distance to the left of the middle of the lane in metres, and its rate of change in m/s.
     pub fn offset(&self) -> (f64, f64) {
         let Some(change) = &self.change else { return (self.keeps, 0.0) };
-        // The path of least jerk from rest to rest.
+        // The curve of least jerk from rest to rest.
         let p = change.progress;
         let share = p * p * p * (10.0 - p * (15.0 - 6.0 * p));
         let rate = 30.0 * p * p * (1.0 - p) * (1.0 - p) / change.duration * (self.speed / WALKING).min(1.0);

@@ -1,44 +1,44 @@
-//! Why a vehicle cannot be.
+//! The reasons why the description of a vehicle is not valid.
 
 use thiserror::Error;
 
-/// Why a vehicle cannot be.
+/// The reason why the description of a vehicle is not valid.
 #[derive(Debug, Clone, Copy, Error, PartialEq)]
 pub enum VehicleFlaw {
-    /// A parameter that has to be above 0.
+    /// A parameter is not a finite number above 0.
     #[error("the vehicle's {parameter} is {value}, expected a number above 0")]
     NotPositive {
-        /// The field of [`Vehicle`](super::Vehicle).
+        /// The name of the parameter: a field of [`Vehicle`](super::Vehicle).
         parameter: &'static str,
-        /// Its value, in the unit of the field.
+        /// The value of the parameter, in the unit of the field.
         value: f64,
     },
-    /// A parameter outside of its range.
+    /// A parameter is outside of its range.
     #[error("the vehicle's {parameter} is {value}, expected 0 to less than {most}")]
     OutOfRange {
-        /// The field of [`Vehicle`](super::Vehicle).
+        /// The name of the parameter: a field of [`Vehicle`](super::Vehicle).
         parameter: &'static str,
-        /// Its value, in the unit of the field.
+        /// The value of the parameter, in the unit of the field.
         value: f64,
-        /// The end of the range.
+        /// The upper end of the range, which does not belong to it.
         most: f64,
     },
-    /// An axle that carries less than its wheels.
+    /// An axle carries no more than the mass of its wheels.
     #[error("the vehicle's {axle} axle carries {carried:.1} kg, expected more than its {wheels} kg of wheels")]
     Axle {
-        /// `front` or `rear`.
+        /// The name of the axle: `front` or `rear`.
         axle: &'static str,
-        /// In kg.
+        /// The mass that the axle carries, in kg.
         carried: f64,
-        /// The mass of its two wheels, in kg.
+        /// The mass of the axle's two wheels, in kg.
         wheels: f64,
     },
-    /// Wheels with more yaw inertia than the whole car.
+    /// The wheels have at least as much yaw inertia as the whole car.
     #[error("the vehicle's yaw_inertia is {whole}, expected more than its wheels' {wheels:.1}")]
     YawInertia {
-        /// In kg m².
+        /// The yaw inertia of the whole car, in kg m².
         whole: f64,
-        /// In kg m².
+        /// The yaw inertia of the wheels, in kg m².
         wheels: f64,
     },
 }

@@ -1,21 +1,20 @@
-//! Motion along a straight way, exact within a step.
+//! Motion along a straight line, exact within a step.
 //!
-//! The acceleration is constant within a step, and standstill ends it: the stopping distance is v²/(2 a) whatever the
-//! step.
+//! The acceleration is constant within a step and ends at standstill. The stopping distance is v²/(2 a) for any step.
 
-/// How a car moves along its heading.
+/// The motion of a car along its heading.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Motion {
-    /// m/s, never below 0.
+    /// The speed in m/s, never below 0.
     pub speed: f64,
-    /// m/s² over the last step: the change of speed by its duration.
+    /// The acceleration in m/s² over the last step: the change of speed divided by the duration.
     pub acceleration: f64,
-    /// The way covered so far, in metres.
+    /// The distance covered so far, in metres.
     pub travelled: f64,
 }
 
 impl Motion {
-    /// The motion after `dt` seconds under a constant acceleration that a brake ends at standstill.
+    /// Returns the motion after `dt` seconds with a constant acceleration. Braking ends at standstill.
     pub fn after(self, acceleration: f64, dt: f64) -> Self {
         let speed = self.speed + acceleration * dt;
         let (speed, way) = if speed < 0.0 {

@@ -1,9 +1,9 @@
-//! What a car is made of, and what follows for it on a straight road.
+//! The parameters of a car, and the forces that follow from them on a straight road.
 
 use super::GRAVITY;
 use super::VehicleFlaw;
 
-/// Which wheels the engine drives.
+/// The wheels that the engine drives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Drive {
     /// The front wheels.
@@ -11,64 +11,64 @@ pub enum Drive {
     /// The rear wheels.
     #[default]
     Rear,
-    /// All four, each as its load allows.
+    /// All four wheels, each in proportion to its load.
     Four,
 }
 
-/// Dimensions, masses and limits of a car. Lengths in metres. The car's position is the middle of its box; its axles
-/// stand evenly about it.
+/// The dimensions, masses and limits of a car. Lengths are in metres. The position of a car is the middle of its box;
+/// the axles are at equal distances from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vehicle {
-    /// Bumper to bumper.
+    /// The length from bumper to bumper.
     pub length: f64,
-    /// Side to side.
+    /// The width from side to side.
     pub width: f64,
-    /// Road to roof.
+    /// The height from road to roof.
     pub height: f64,
-    /// Front axle to rear axle.
+    /// The distance from front axle to rear axle.
     pub wheelbase: f64,
-    /// Left wheel to right wheel.
+    /// The distance from left wheel to right wheel.
     pub track: f64,
-    /// Centre of gravity to front axle.
+    /// The distance from the centre of gravity to the front axle.
     pub front_axle: f64,
-    /// Height above the road of the centre of gravity (of the sprung mass, as the single-track model of the source
-    /// takes it), on which the load transfer acts.
+    /// The height of the centre of gravity above the road, on which the load transfer acts. It is that of the sprung
+    /// mass, as in the single-track model of the source.
     pub centre_of_gravity: f64,
-    /// All of it, in kg.
+    /// The mass of the whole car, in kg.
     pub mass: f64,
-    /// Moment of inertia about the vertical axis through the centre of gravity, in kg m².
+    /// The moment of inertia about the vertical axis through the centre of gravity, in kg m².
     pub yaw_inertia: f64,
-    /// Axle to road.
+    /// The radius of a wheel: the distance from axle to road.
     pub wheel_radius: f64,
-    /// Of one wheel, in kg.
+    /// The mass of one wheel, in kg.
     pub wheel_mass: f64,
-    /// Moment of inertia of one wheel about its axle, in kg m².
+    /// The moment of inertia of one wheel about its axle, in kg m².
     pub wheel_inertia: f64,
-    /// Frequency in Hz at which the body bounces on its springs.
+    /// The frequency in Hz at which the body bounces on its springs.
     pub ride_frequency: f64,
-    /// What the dampers take of the body's bouncing, by what would end it without overshoot.
+    /// The damping of the body's bouncing, as a share of the critical damping, which just prevents overshoot.
     pub damping_ratio: f64,
-    /// Side force of a tyre by its load and its slip angle, in 1/rad, where the angle is small.
+    /// The side force of a tyre divided by its load and its slip angle, in 1/rad, for small angles.
     pub cornering_stiffness: f64,
-    /// Which wheels the engine drives.
+    /// The wheels that the engine drives.
     pub drive: Drive,
-    /// How far the front wheels turn to either side, in radians.
+    /// The largest angle of the front wheels to either side, in radians.
     pub max_steering_angle: f64,
-    /// How fast they turn, in rad/s.
+    /// The largest rate at which the front wheels turn, in rad/s.
     pub max_steering_rate: f64,
-    /// What the engine and the brakes can do, in m/s², before the road limits them.
+    /// The greatest acceleration of the engine and deceleration of the brakes, in m/s², before the road limits them.
     pub max_acceleration: f64,
-    /// Speed in m/s above which the engine gives constant power, so that its acceleration falls as 1/v.
+    /// The speed in m/s above which the engine gives constant power, so that its acceleration falls as 1/v.
     pub switch_speed: f64,
-    /// Top speed in m/s.
+    /// The top speed in m/s.
     pub max_speed: f64,
 }
 
 impl Vehicle {
-    /// Vehicle 2 of the CommonRoad vehicle models, a BMW 320i (Althoff and Würsching, "CommonRoad: Vehicle
-    /// Models", 2020), with a roof 1.4 m above the road. The track is the mean of its axles', the ride frequency and
-    /// damping are those of its springs and dampers under its sprung mass, and a wheel is half of an axle's unsprung mass.
-    /// The inertia is that of a wheel of 15 inches; the source has one from a heavier car.
+    /// Vehicle 2 of the CommonRoad vehicle models, a BMW 320i (Althoff and Würsching, "CommonRoad: Vehicle Models",
+    /// 2020), with a roof 1.4 m above the road. The track is the mean of both axles' tracks. The ride frequency and
+    /// damping are those of the car's springs and dampers under its sprung mass. A wheel is half of an axle's unsprung
+    /// mass. The wheel inertia is that of a wheel of 15 inches; the source gives the value of a heavier car.
     pub const BMW_320I: Vehicle = Vehicle {
         length: 4.508,
         width: 1.610,
@@ -93,14 +93,14 @@ impl Vehicle {
         max_speed: 50.8,
     };
 
-    /// The acceleration in m/s² that a throttle in [-1, 1] gives at this speed on a road of this friction.
-    /// Below 0 it is a brake, and `throttle * max_acceleration` is asked of it.
+    /// Returns the acceleration in m/s² for a throttle in [-1, 1] at this speed on a road with this friction
+    /// coefficient. A throttle below 0 brakes, with a demand of `throttle * max_acceleration`.
     pub fn acceleration(&self, throttle: f64, speed: f64, friction: f64) -> f64 {
         let demand = self.demand(throttle, speed);
         if throttle < 0.0 { demand.max(-friction * GRAVITY) } else { demand.min(self.traction(friction)) }
     }
 
-    /// The same on a road that limits nothing.
+    /// Returns the same on a road that limits nothing.
     pub(super) fn demand(&self, throttle: f64, speed: f64) -> f64 {
         if throttle < 0.0 {
             return throttle * self.max_acceleration;
@@ -112,10 +112,10 @@ impl Vehicle {
         throttle * power * self.max_acceleration
     }
 
-    /// The acceleration in m/s² at which the driven wheels begin to spin.
+    /// Returns the acceleration in m/s² at which the driven wheels begin to spin.
     ///
-    /// Of the rear axle `a = mu N_r / m` with `N_r = m (g l_f + a h) / L`, solved for `a`, and likewise of the front
-    /// axle. A road so rough that the front wheels would lift (`mu h >= L`) limits nothing.
+    /// For the rear axle, it solves `a = mu N_r / m` with `N_r = m (g l_f + a h) / L` for `a`; likewise for the front
+    /// axle. A road with so much friction that the front wheels would lift (`mu h >= L`) limits nothing.
     fn traction(&self, friction: f64) -> f64 {
         let (grip, shift) = (friction * GRAVITY, friction * self.centre_of_gravity);
         match self.drive {
@@ -126,23 +126,23 @@ impl Vehicle {
         }
     }
 
-    /// Centre of gravity to rear axle, in metres.
+    /// Returns the distance from the centre of gravity to the rear axle, in metres.
     pub fn rear_axle(&self) -> f64 {
         self.wheelbase - self.front_axle
     }
 
-    /// How far its centre of gravity is ahead of its middle, in metres.
+    /// Returns how far the centre of gravity is ahead of the car's middle, in metres.
     pub(super) fn ahead(&self) -> f64 {
         0.5 * self.wheelbase - self.front_axle
     }
 
-    /// Moment of inertia of what is not a wheel about the vertical through the centre of gravity, in kg m².
+    /// Returns the moment of inertia without wheels about the vertical through the centre of gravity, in kg m².
     pub(super) fn body_inertia(&self) -> f64 {
         let arm = 0.25 * (self.wheelbase * self.wheelbase + self.track * self.track);
         self.yaw_inertia - 4.0 * (self.wheel_mass * arm + self.wheel_inertia)
     }
 
-    /// The loads in newtons on the front and on the rear axle under an acceleration in m/s².
+    /// Returns the loads in newtons on the front and on the rear axle at an acceleration in m/s².
     pub(super) fn axle_loads(&self, acceleration: f64) -> [f64; 2] {
         let (inertia, per_metre) = (acceleration * self.centre_of_gravity, self.mass / self.wheelbase);
         let front = per_metre * (GRAVITY * self.rear_axle() - inertia);
@@ -150,20 +150,20 @@ impl Vehicle {
         [front.max(0.0), rear.max(0.0)]
     }
 
-    /// The greatest torque of its engine, or of its brakes, on all wheels together, in N m.
+    /// Returns the greatest torque of the engine, or of the brakes, on all wheels together, in N m.
     pub fn max_torque(&self) -> f64 {
         self.max_acceleration * self.mass * self.wheel_radius
     }
 
-    /// The same car with this greatest torque, in N m.
+    /// Returns the same car with this greatest torque, in N m.
     pub fn with_max_torque(self, torque: f64) -> Self {
         Self { max_acceleration: torque / (self.mass * self.wheel_radius), ..self }
     }
 
-    /// The same car, if nothing is wrong with it.
+    /// Returns the same car, if its description is valid.
     ///
     /// # Panics
-    /// It has a [`Vehicle::flaw`].
+    /// The vehicle has a [`Vehicle::flaw`].
     pub(super) fn checked(&self) -> Self {
         if let Some(flaw) = self.flaw() {
             panic!("{flaw}");
@@ -171,7 +171,7 @@ impl Vehicle {
         *self
     }
 
-    /// Why it cannot be, if it cannot.
+    /// Returns the first mistake in the description, if there is one.
     pub fn flaw(&self) -> Option<VehicleFlaw> {
         let positive = [
             ("length", self.length),

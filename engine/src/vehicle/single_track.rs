@@ -1,66 +1,66 @@
-//! The model `single-track`: the wheels of an axle are one, and the car does not pitch or roll.
+//! The model `single-track`: a single wheel stands for the two wheels of an axle, and the car does not pitch or roll.
 //!
-//! The state is the velocity of the centre of gravity ahead (`u`) and to the left (`v`) and the yaw rate (`r`) of
-//! Newton's and Euler's equations in the plane (Rajamani, "Vehicle Dynamics and Control", 2012, chapter 2), with the
-//! longitudinal forces that the [`Vehicle`] allows and the side forces of a brush tyre, cut to the friction circle of the
-//! load that is on the axle.
+//! The state is the velocity of the centre of gravity ahead (`u`) and to the left (`v`) and the yaw rate (`r`) in
+//! Newton's and Euler's equations in the plane (Rajamani, "Vehicle Dynamics and Control", 2012, chapter 2). The forces
+//! are the longitudinal forces that the [`Vehicle`] allows and the side forces of a brush tyre, limited to the friction
+//! circle of the axle's load.
 //!
-//! Straight ahead nothing of this is needed and the motion is exact ([`Motion`]). Else a step goes by pieces of at most
-//! [`PIECE`] seconds, each a linearly implicit Euler step: the slip angle is a speed across divided by one along, so that
-//! the tyres become stiffer without bound as the car slows down, and an explicit step would blow up. The implicit one
-//! turns into the kinematic model there, in which the axles go where they point. Below [`SLOW`] a tyre's side force is
-//! viscous, and a car that slides at rest comes to rest.
+//! Straight ahead, none of this is needed and the motion is exact ([`Motion`]). In a bend, a step consists of pieces of
+//! at most [`PIECE`] seconds. Each is a linearly implicit Euler step: the slip angle is a speed across divided by a
+//! speed along, so that the tyres become stiffer without bound as the car slows down, and an explicit step would
+//! diverge. At low speed, the implicit step becomes the kinematic model, in which the axles move where they point.
+//! Below [`SLOW`] the side force of a tyre is viscous, and a sliding car comes to rest.
 
 use super::tyre::Tyre;
 use super::{Drive, Dynamics, Motion, Pedals, Vehicle, VehicleState, Wheel};
 use crate::geometry::Pose;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-/// Seconds that a piece of a step takes at most in a bend.
+/// The longest piece of a step in a bend, in seconds.
 const PIECE: f64 = 0.002;
-/// Speed in m/s below which slip is no longer relative to the speed.
+/// The speed in m/s below which slip is no longer relative to the speed.
 const SLOW: f64 = 0.1;
-/// Speeds in m/s and rad/s below which a car that brakes stands, and one that has stopped turning goes straight.
+/// The speeds in m/s and rad/s below which a braking car stands, and a car that has stopped turning goes straight.
 const STILL: f64 = 1e-9;
 
-/// A car as a dynamic bicycle.
+/// A car as a dynamic bicycle model.
 #[derive(Debug, Clone)]
 pub struct SingleTrack {
     vehicle: Vehicle,
     state: VehicleState,
-    /// What it was last told.
+    /// The last inputs: the throttle, and the friction of the road.
     throttle: f64,
     friction: f64,
     straight: Straight,
 }
 
-/// The straight way that the car is on.
+/// The straight line that the car moves on.
 #[derive(Debug, Clone, Copy)]
 struct Straight {
     from: Vector2<f64>,
     along: Vector2<f64>,
-    /// The way that the car had come when it began.
+    /// The distance that the car had travelled at the start of the line.
     travelled: f64,
 }
 
-/// An axle on the road: one wheel that has the loads and forces of two.
+/// An axle on the road, as one wheel that has the loads and forces of two.
 #[derive(Debug, Clone, Copy)]
 struct Axle {
     load: f64,
     tyre: Tyre,
-    /// By how much its speeds along and across grow with `u`, `v` and `r`; its forces act on them likewise.
+    /// The rates at which its speeds along and across grow with `u`, `v` and `r`. Its forces act on them likewise.
     forward: Vector3<f64>,
     left: Vector3<f64>,
-    /// Its speeds in m/s along and across.
+    /// The speeds of the axle in m/s along and across.
     speed: Vector2<f64>,
-    /// Its forces in newtons along and across.
+    /// The forces of the axle in newtons along and across.
     force: Vector2<f64>,
-    /// By how much the force across falls as the speed across grows, in N s/m.
+    /// The rate at which the force across falls as the speed across grows, in N s/m.
     damping: f64,
 }
 
 impl SingleTrack {
-    /// A car whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    /// Makes a car whose middle has the pose `start`, going straight ahead at `speed` m/s.
     ///
     /// # Panics
     /// The vehicle has a [`Vehicle::flaw`].
@@ -69,7 +69,7 @@ impl SingleTrack {
         Self { vehicle: vehicle.checked(), straight: Straight::from(&state), state, throttle: 0.0, friction: 0.0 }
     }
 
-    /// Whether it goes straight ahead and will go on so.
+    /// Returns `true` if the car goes straight ahead and will continue to do so.
     fn is_straight(&self, steering: f64) -> bool {
         let state = &self.state;
         steering == 0.0
@@ -122,17 +122,17 @@ impl SingleTrack {
         self.straight = Straight::from(&self.state);
     }
 
-    /// The velocity of the centre of gravity ahead and to the left, and the yaw rate.
+    /// Returns the velocity of the centre of gravity ahead and to the left, and the yaw rate.
     fn motion(&self) -> Vector3<f64> {
         let VehicleState { velocity, yaw_rate, .. } = self.state;
         Vector3::new(velocity.x, velocity.y + self.vehicle.ahead() * yaw_rate, yaw_rate)
     }
 
-    /// What `dt` seconds change in a motion.
+    /// Returns the change of a motion in `dt` seconds.
     fn change(&self, motion: &Vector3<f64>, dt: f64) -> Vector3<f64> {
         let mass = self.vehicle.mass;
         let (u, v, r) = (motion.x, motion.y, motion.z);
-        // The frame turns with the car: Newton's law in it, and its derivatives.
+        // The frame turns with the car. These are Newton's law in this frame and its derivatives.
         let mut force = mass * Vector3::new(v * r, -u * r, 0.0);
         let mut stiffness = mass * Matrix3::new(0.0, -r, -v, r, 0.0, u, 0.0, 0.0, 0.0);
         for axle in self.axles(motion, dt) {
@@ -144,7 +144,7 @@ impl SingleTrack {
         inverse.map_or(Vector3::repeat(f64::NAN), |inverse| inverse * force * dt)
     }
 
-    /// The axles of a car in this motion. Its brakes ask no more of them than what stops it within `dt` seconds.
+    /// Returns the axles of a car in this motion. The brakes' force is at most what stops the car within `dt` seconds.
     fn axles(&self, motion: &Vector3<f64>, dt: f64) -> [Axle; 2] {
         let vehicle = &self.vehicle;
         let demand = vehicle.acceleration(self.throttle, motion.x.max(0.0), self.friction);
@@ -194,7 +194,7 @@ impl Dynamics for SingleTrack {
         &self.state
     }
 
-    /// Both wheels of an axle do the same, each under half of its load.
+    /// Returns the wheels. Both wheels of an axle are equal, each with half of its load.
     fn wheels(&self) -> [Wheel; 4] {
         let [front, rear] = self.axles(&self.motion(), PIECE).map(|axle| axle.wheel());
         [front, front, rear, rear]
@@ -202,7 +202,7 @@ impl Dynamics for SingleTrack {
 }
 
 impl Straight {
-    /// What begins where the car is.
+    /// Returns the line that begins at the present position of the car.
     fn from(state: &VehicleState) -> Self {
         Self { from: state.position, along: state.pose().forward(), travelled: state.travelled }
     }

@@ -1,22 +1,22 @@
-//! The tyre of the single-track model: the brush model (Pacejka, "Tire and Vehicle Dynamics", 2012, chapter 3) with a
-//! parabolic pressure, in which bristles stick to the road until their force exceeds the friction.
+//! The tyre of both models: the brush model (Pacejka, "Tire and Vehicle Dynamics", 2012, chapter 3) with a parabolic
+//! pressure. Its bristles stick to the road until their force exceeds the friction.
 //!
-//! Its force grows as `mu N (1 - (1 - theta)³)` with `theta = C s / (3 mu)`, where `s` is the slip and `C` the stiffness
-//! by load, and is `mu N` once the whole contact patch slides (`theta >= 1`).
+//! The force is `mu N (1 - (1 - theta)³)` with `theta = C s / (3 mu)`, where `s` is the slip and `C` the stiffness by
+//! load. It is `mu N` as soon as the whole contact patch slides (`theta >= 1`).
 
 use nalgebra::Vector2;
 
-/// A tyre, or all of an axle together, on the road.
+/// A tyre on the road, or all tyres of an axle together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Tyre {
-    /// The most that it can push, in newtons: `mu N`.
+    /// The greatest force of the tyre, in newtons: `mu N`.
     pub limit: f64,
-    /// `theta` by slip.
+    /// `theta` divided by the slip.
     stiffness: f64,
 }
 
 impl Tyre {
-    /// A tyre of this stiffness by load, in 1/rad, under this load in newtons. Without friction it never sticks.
+    /// Makes a tyre with a stiffness by load in 1/rad, under a load in newtons. Without friction it has no force.
     pub fn new(stiffness: f64, friction: f64, load: f64) -> Self {
         if friction > 0.0 {
             Self { limit: friction * load, stiffness: stiffness / (3.0 * friction) }
@@ -25,8 +25,8 @@ impl Tyre {
         }
     }
 
-    /// The force in newtons at this slip, the tangent of the slip angle, and by how much it grows with it. It acts
-    /// against the slip.
+    /// Returns the force in newtons at this slip (the tangent of the slip angle), and the derivative of the force by
+    /// the slip. The force acts against the slip.
     pub fn side_force(&self, slip: f64) -> (f64, f64) {
         let sticking = (1.0 - self.stiffness * slip.abs()).max(0.0);
         let square = sticking * sticking;
@@ -34,22 +34,21 @@ impl Tyre {
         (force.copysign(slip), 3.0 * self.limit * self.stiffness * square)
     }
 
-    /// The force by slip at a slip of this size, in any direction.
+    /// Returns the force divided by the slip, at a slip of this size in any direction.
     pub fn secant(&self, slip: f64) -> f64 {
         let part = (self.stiffness * slip).min(1.0);
-        // 1 - (1 - theta)³ over theta.
+        // 1 - (1 - theta)³, divided by theta.
         let by_part = 3.0 - (3.0 - part) * part;
         if part < 1.0 { self.limit * self.stiffness * by_part } else { self.limit / slip }
     }
 
-    /// What is left of a force asked for, in newtons along and across the wheel: what is beyond the friction circle is
-    /// cut off.
+    /// Limits a force, in newtons along and across the wheel, to the friction circle.
     pub fn cut(&self, asked: Vector2<f64>) -> Vector2<f64> {
         let size = asked.norm();
         if size <= self.limit { asked } else { asked * (self.limit / size) }
     }
 
-    /// The slip ratio at which it pushes so: the force of a brush is opposite to its slip.
+    /// Returns the slip ratio at which the tyre has this force. The force of a brush is opposite to its slip.
     pub fn slip_ratio(&self, force: Vector2<f64>) -> f64 {
         let size = force.norm();
         if size == 0.0 {

@@ -1,9 +1,9 @@
-//! The bodies of a run and where they touch: the module that speaks to rapier and parry for them.
+//! The bodies of a run and their contacts. This module calls rapier and parry for them.
 //!
-//! Bodies follow poses that the vehicle model and the programs compute in 64 bits; rapier finds the contacts, and moves
-//! those that are [`Physical`](crate::object::Physical). Its pipeline takes longer than all else in a tick
-//! (BENCHMARKS.md), so where nothing is physical it is asked only when a body is within [`REACH`] of the car: nothing is
-//! integrated then, so a tick that was left out leaves no gap.
+//! Bodies follow poses that the vehicle model and the programs compute in 64 bits. Rapier finds the contacts, and moves
+//! [`Physical`](crate::object::Physical) bodies. Its pipeline takes longer than everything else in a tick
+//! (BENCHMARKS.md). Therefore, if nothing is physical, it runs only if a body is within [`REACH`] of the car: nothing
+//! is integrated then, so that a tick without it leaves no gap.
 
 mod physical;
 
@@ -17,44 +17,44 @@ use rapier3d::prelude::{
     ActiveCollisionTypes, ColliderBuilder, ColliderHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, SharedShape,
 };
 
-/// Height in metres of the floor of what has wheels above the road.
+/// The height above the road of the underside of bodies with wheels, in metres.
 const FLOOR: f64 = 0.2;
-/// Clearance in metres below which rapier is asked for contacts. Bodies approach by some 0.3 m a tick at most
-/// (30 m/s at 10 ms), and overlap is noticed at the tick at which it is there.
+/// The clearance in metres below which rapier looks for contacts. Bodies approach by at most about 0.3 m a tick (30 m/s
+/// at 10 ms), and an overlap is noticed at the tick at which it exists.
 const REACH: f64 = 0.05;
-/// What counts as touching, in metres: the resolution of rapier's 32-bit numbers some hundred metres out.
+/// The distance in metres that counts as touching: the resolution of rapier's 32-bit numbers at some hundred metres.
 const TOUCH: f64 = 1e-5;
 
-/// A contact of the car with another body.
+/// A contact of the ego vehicle with another body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Touching {
-    /// Its index among the bodies.
+    /// The index of the other body.
     pub body: usize,
     pub face: Face,
 }
 
-/// A body as rapier knows it.
+/// A body in rapier.
 #[derive(Debug, Clone)]
 struct Solid {
     handle: RigidBodyHandle,
     collider: ColliderHandle,
     shape: SharedShape,
-    /// Height of the shape's middle above the ground, in metres.
+    /// The height of the shape's middle above the ground, in metres.
     middle: f64,
-    /// Where it was a tick ago.
+    /// The pose one tick ago.
     before: Pose,
 }
 
-/// The car and what is around it. The car is the first of the bodies.
+/// The ego vehicle and the other bodies. The ego vehicle is the first body.
 pub(crate) struct World {
     physics: PhysicsWorld,
     solids: Vec<Solid>,
-    /// Those that the physics moves.
+    /// The bodies that the physics moves, if there are any.
     pushed: Option<Physics>,
 }
 
 impl World {
-    /// A world of these bodies, of which some are moved by the physics: their indices, and their masses in kg.
+    /// Makes a world of these bodies. `masses` gives the indices and masses in kg of the bodies that the physics moves.
     pub fn new(bodies: &[BodyState], masses: &[(usize, f64)]) -> Self {
         let mut physics = PhysicsWorld::default();
         let solids: Vec<Solid> = bodies
@@ -69,23 +69,23 @@ impl World {
         Self { physics, solids, pushed }
     }
 
-    /// Moves what the physics moves on by a tick of `dt` seconds, over ground of this friction, under these forces; the
-    /// others have moved already.
+    /// Moves the physical bodies on by a tick of `dt` seconds, with this friction of the ground and these forces. The
+    /// other bodies have already moved.
     pub fn advance(&mut self, bodies: &mut [BodyState], pushes: &[Vector2<f64>], friction: f64, dt: f64) {
         if let Some(pushed) = &mut self.pushed {
             pushed.step(&mut self.physics, &self.solids, bodies, pushes, friction, dt);
         }
     }
 
-    /// Remembers where everything is before it moves on.
+    /// Stores the poses of all bodies before they move on.
     pub fn begin_tick(&mut self, bodies: &[BodyState]) {
         for (solid, state) in self.solids.iter_mut().zip(bodies) {
             solid.before = state.pose;
         }
     }
 
-    /// Metres between the car and the nearest other body; infinite without any. Where they touch or overlap it is
-    /// the contact that says more, and this says [`TOUCH`].
+    /// Returns the distance in metres between the ego vehicle and the nearest other body; infinite if there is none. If
+    /// they touch or overlap, it returns [`TOUCH`], and the contact gives the details.
     pub fn clearance(&self, bodies: &[BodyState]) -> f64 {
         let Some((car, others)) = bodies.split_first() else { return f64::INFINITY };
         let mut nearest = f64::INFINITY;
@@ -98,7 +98,7 @@ impl World {
         nearest.max(TOUCH)
     }
 
-    /// The first of the other bodies that touches the car at this tick, and where it came upon it.
+    /// Returns the first of the other bodies that touches the ego vehicle at this tick, and the side that it touches.
     pub fn contact(&mut self, bodies: &[BodyState]) -> Option<Touching> {
         if self.clearance(bodies) > REACH {
             return None;
@@ -114,7 +114,7 @@ impl World {
         Some(Touching { body, face: self.face(bodies, body) })
     }
 
-    /// Shows rapier the present poses and lets it look for contacts.
+    /// Sets the present poses in rapier and finds contacts.
     fn show(&mut self, bodies: &[BodyState]) {
         let physics = &mut self.physics;
         for (solid, state) in self.solids.iter().zip(bodies) {
@@ -136,12 +136,12 @@ impl World {
         );
     }
 
-    /// The side of the car that a body came upon: where the two shapes first met on their way through the
-    /// last tick. The deepest overlap does not tell: a car that took a person with its corner at 15 m/s
+    /// Returns the side of the ego vehicle that a body touched: the side where the two shapes first met on their way
+    /// through the last tick. The deepest overlap is not enough: a car that hits a person with its corner at 15 m/s
     /// overlaps more from the front than from the side.
     fn face(&self, bodies: &[BodyState], other: usize) -> Face {
         let (car, solid) = (&self.solids[0], &self.solids[other]);
-        // Seen from the car, whose turning within one tick is left out.
+        // The motion as seen from the car; the rotation of the car within one tick is neglected.
         let start = car.before.to_local(solid.before.position);
         let end = bodies[0].pose.to_local(bodies[other].pose.position);
         let turned = Pose { position: start, heading: solid.before.heading - car.before.heading };
@@ -156,7 +156,7 @@ impl World {
         );
         let side = match hit {
             Ok(Some(hit)) => Vector2::new(f64::from(hit.normal1.x), f64::from(hit.normal1.y)),
-            // They overlapped already: the side that the other stands nearest to.
+            // They overlapped already, so this is the side that the other body is nearest to.
             _ => start.component_div(&bodies[0].body.outline.half_extent()),
         };
         match (side.x.abs() >= side.y.abs(), side.x > 0.0, side.y > 0.0) {
@@ -168,7 +168,7 @@ impl World {
     }
 }
 
-/// Two bodies that cover the same ground at the start, if there are any: the least indices.
+/// Returns the smallest indices of two bodies that cover the same ground at the start, if there are any.
 pub(crate) fn overlapping(bodies: &[BodyState]) -> Option<(usize, usize)> {
     let pairs = (0..bodies.len()).flat_map(|i| (i + 1..bodies.len()).map(move |j| (i, j)));
     pairs.into_iter().find(|&(i, j)| {
@@ -178,13 +178,13 @@ pub(crate) fn overlapping(bodies: &[BodyState]) -> Option<(usize, usize)> {
     })
 }
 
-/// Metres between two bodies, seen from above.
+/// Returns the distance in metres between two bodies, seen from above.
 fn distance(a: &BodyState, b: &BodyState) -> f64 {
     gap((&a.body.outline, &a.pose), (&b.body.outline, &b.pose))
 }
 
-/// The shape of a body, and the height of its middle above the ground: a box with a floor above it, a person upright, a
-/// ball.
+/// Returns the shape of a body and the height of its middle above the ground: a box, perhaps with space below it, an
+/// upright capsule, or a ball.
 fn shape(body: &Body, lies: bool) -> (SharedShape, f64) {
     match body.outline {
         Outline::Rectangle { length, width } => {
@@ -208,7 +208,7 @@ fn insert(physics: &mut PhysicsWorld, state: &BodyState, mass: Option<f64>) -> S
     };
     let collider = ColliderBuilder::new(shape.clone()).active_collision_types(ActiveCollisionTypes::all());
     let collider = match mass {
-        // The friction between it and the ground is the ground's.
+        // The friction between the body and the ground is that of the ground.
         Some(mass) => collider.mass(mass as f32).friction(0.0),
         None => collider,
     };

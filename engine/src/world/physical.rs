@@ -1,4 +1,4 @@
-//! Bodies that the physics moves: pushed by their programs and by what they run into, held by gravity and friction.
+//! Bodies that the physics moves: their programs and collisions push them, gravity and friction hold them.
 
 use super::{Solid, isometry};
 use crate::geometry::Pose;
@@ -7,24 +7,24 @@ use crate::vehicle::GRAVITY;
 use nalgebra::Vector2;
 use rapier3d::prelude::{CoefficientCombineRule, ColliderBuilder, ColliderHandle, PhysicsWorld, SharedShape};
 
-/// What rapier integrates.
+/// The bodies that rapier integrates.
 pub(super) struct Physics {
-    /// Indices of the bodies that it moves.
+    /// The indices of the bodies that it moves.
     moved: Vec<usize>,
     ground: ColliderHandle,
 }
 
 impl Physics {
-    /// Of these bodies, with the ground that they lie on.
+    /// Prepares these bodies, and the ground that they lie on.
     pub fn new(world: &mut PhysicsWorld, masses: &[(usize, f64)]) -> Self {
         world.gravity = [0.0, 0.0, -GRAVITY as f32].into();
-        // What lies on it has none of its own.
+        // Bodies on the ground have no friction of their own.
         let ground = ColliderBuilder::new(SharedShape::halfspace(parry3d::math::Vector::Z));
         let ground = world.colliders.insert(ground.friction_combine_rule(CoefficientCombineRule::Max));
         Self { moved: masses.iter().map(|(index, _)| *index).collect(), ground }
     }
 
-    /// Moves its bodies on by `dt` seconds, of which `pushes` has one force for each.
+    /// Moves the physical bodies on by `dt` seconds. `pushes` has one force for each of them.
     pub fn step(
         &mut self,
         world: &mut PhysicsWorld,

@@ -1,4 +1,4 @@
-//! What networks are taught, in which tests, and how long.
+//! The courses: what each network learns, in which tests, and for how long.
 
 use crate::scenario;
 use paracosm::engine::Program;
@@ -7,31 +7,32 @@ use paracosm::{Error, Study, StudyBuilder, scenarios};
 use paracosm_neural::learn::Recipe;
 use paracosm_neural::{CLONED, Model, Pilot};
 
-/// A round: tests in which lessons are given, then how often all lessons so far are gone through.
+/// A round of a course: tests in which lessons are noted, and then epochs over all lessons so far.
 pub struct Round {
     pub tests: usize,
     pub epochs: usize,
 }
 
-/// How a network comes to drive.
+/// The plan by which a network learns to drive.
 pub struct Course {
     /// The name of the network.
     pub name: &'static str,
-    /// Pixels across and down of what it sees.
+    /// The width and height in pixels of the images that the network sees.
     pub resolution: [u32; 2],
-    /// The standard deviation of what pushes steering and throttle while the expert drives.
+    /// The standard deviations of the noise that is added to steering and throttle while the expert drives.
     pub disturbance: [f64; 2],
-    /// How much an error of the steering and one of the throttle count, squared.
+    /// The weights of the squared errors of steering and throttle.
     pub weights: [f32; 2],
-    /// Every so-many-th run nothing is learnt from, if there is one to be spared.
+    /// If this is n, the network does not learn from every n-th run, which is used to measure its error. `None` if no
+    /// run can be spared.
     pub held_out: Option<usize>,
-    /// In the first one the expert drives, then the network.
+    /// The rounds. In the first round the expert drives, in later rounds the network.
     pub rounds: &'static [Round],
-    /// The conditions that it is trained in.
+    /// The conditions in which the network is trained.
     conditions: fn() -> Result<StudyBuilder, Error>,
 }
 
-/// Figures 10a and 10c: behind a slow leader in broad daylight.
+/// The course for Figures 10a and 10c: driving behind a slow leader in broad daylight.
 pub const FOLLOW: Course = Course {
     name: "follow",
     resolution: [100, 33],
@@ -50,7 +51,7 @@ pub const FOLLOW: Course = Course {
     },
 };
 
-/// Figure 9: on a straight road that a pedestrian crosses at 1 m/s, who sets out at any of the study's distances.
+/// The course for Figure 9: a pedestrian crosses a straight road at 1 m/s and sets out at any of the study's distances.
 pub const STOP: Course = Course {
     name: "stop",
     resolution: [120, 40],
@@ -67,13 +68,13 @@ pub const STOP: Course = Course {
     conditions: || Ok(Study::of(crate::crossing::PROGRAM).fix("speed", 1.0)),
 };
 
-/// Figure 10b: round the loop, always right, without fog.
+/// The course for Figure 10b: driving round the loop with right turns only, without fog.
 pub const LOOP: Course = Course {
     name: "loop",
     resolution: [100, 33],
     disturbance: [0.08, 0.1],
     weights: [4.0, 1.0],
-    // Of so few runs none can be spared.
+    // With so few runs, none can be spared.
     held_out: None,
     rounds: &[
         Round { tests: 1, epochs: 24 },
@@ -87,31 +88,31 @@ pub const LOOP: Course = Course {
     },
 };
 
-/// Once round the loop: every corner has another light.
+/// The scenario of the lessons on the loop: one round, in which every corner has different light.
 const LESSON: Program = Program::new("t-loop-lesson", "once round the loop", |s| {
     scenarios::find("t-loop").expect("it comes with the software").build(s);
     s.duration(52.0);
 });
 
 impl Course {
-    /// So many tests of the conditions that it is trained in.
+    /// Returns a study with this number of tests of the training conditions.
     pub fn study(&self, seed: u64, tests: usize) -> Result<StudyBuilder, Error> {
         Ok((self.conditions)()?.seed(seed).budget(tests))
     }
 
-    /// A study that the network drives which came of the course, as it comes with the software.
+    /// Returns the study, driven by the course's network that comes with the software.
     pub fn drives(&self, study: StudyBuilder) -> StudyBuilder {
         let pilot = Pilot::new(self.network());
         study.own_driver("cnn", move || Box::new(pilot.clone()))
     }
 
-    /// The network that came of the course, as it comes with the software.
+    /// Returns the course's network that comes with the software.
     pub fn network(&self) -> Model {
         let network = CLONED.iter().find(|network| network.name == self.name).expect("every course has been held");
         Model::read(network.contents).expect("it was written as a driver")
     }
 
-    /// How it learns.
+    /// Returns the settings of the learning.
     pub fn recipe(&self) -> Recipe {
         Recipe {
             resolution: self.resolution,
@@ -123,7 +124,7 @@ impl Course {
         }
     }
 
-    /// Where it comes from.
+    /// Returns the text in the network's file that says how the network was made.
     pub fn story(&self) -> String {
         let name = self.name;
         format!("made by: cargo run --release -p paracosm-experiments --features neural -- train-{name}")

@@ -1,7 +1,8 @@
-//! Examinations: what networks do in tests of the conditions that they were trained in, none of which a lesson was from.
+//! Examines networks in tests of the conditions that they were trained in. No lesson came from these tests.
 //!
-//! Beside each stands the expert who taught it, and `cruise`, who keeps its lane, told the truth about it, and brakes for
-//! nobody: where the latter passes as well, passing proves nothing of a network's brakes.
+//! The tests are also run with the expert who taught the network, and with `cruise`, which knows the true position of
+//! its lane, keeps in it, and never brakes for anybody. If `cruise` passes as well, a pass says nothing about a
+//! network's braking.
 
 use super::{Course, FOLLOW, LOOP, STOP, trials};
 use crate::sampling::write_csv;
@@ -11,26 +12,26 @@ use paracosm::oracles::Verdict;
 use paracosm::{StudyBuilder, Trial};
 use std::path::Path;
 
-/// How many tests a network is examined on.
+/// The number of tests in an examination.
 pub const EXAMINED: usize = 100;
 
-/// Where their tests begin in the sequence: no round of any course does so.
+/// The seed of the examination's tests, which no round of a course uses.
 const SEED: u64 = 1000;
 
-/// The drivers beside the network.
+/// The drivers with which the network is compared.
 const OTHERS: [&str; 2] = ["expert", "cruise"];
 
-/// The tests of a course's examination.
+/// Returns the study with the tests of a course's examination.
 pub fn tests(course: &Course) -> Result<StudyBuilder, paracosm::Error> {
     course.study(SEED, EXAMINED)
 }
 
-/// How many of the tests pass.
+/// Returns the number of tests that pass.
 pub fn passing(trials: &[Trial]) -> usize {
     trials.iter().filter(|trial| trial.verdict == Verdict::Pass).count()
 }
 
-/// Examines the networks that come with the software, and writes a table of each to a folder.
+/// Examines the networks that come with the software, and writes a table for each network to a folder.
 pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     let mut text = format!("{:<12}{:>8}{:>8}{:>8}  of {EXAMINED} tests\n", "network", "passes", OTHERS[0], OTHERS[1]);
     for course in [&FOLLOW, &STOP, &LOOP] {
@@ -46,7 +47,7 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     print(&text)
 }
 
-/// A row for each test of each driver.
+/// Writes a table with a row for each test of each driver.
 fn table(path: &Path, driven: &[(&str, Vec<Trial>)]) -> Done {
     let parameters = driven[0].1[0].test.iter().map(|(name, _)| name.to_string());
     let columns = ["driver", "verdict", "violated", "travelled"].map(str::to_owned);

@@ -1,8 +1,8 @@
-//! Behavioural cloning: how the networks were made that come with the software.
+//! Behavioural cloning: makes the networks that come with the software.
 //!
-//! A course has tests in which an expert drives; a network learns from its images and controls, then drives itself, and
-//! learns from what the expert says to that. Everything follows from seeds: the tests, the disturbances, the first weights
-//! and the order of the lessons.
+//! A course has tests in which an expert drives. A network learns from the images and the expert's controls. Then the
+//! network drives, and learns from the controls that the expert would have given. Everything follows from seeds: the
+//! tests, the disturbances, the first weights and the order of the lessons.
 
 mod courses;
 pub mod exam;
@@ -22,7 +22,7 @@ use teacher::{Notes, Teacher};
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// Teaches a network and writes it to a folder.
+/// Teaches a network and writes it to a folder, with a table of its progress.
 pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
     let began = Instant::now();
     let mut lessons: Vec<Lesson> = Vec::new();
@@ -57,7 +57,7 @@ pub fn run(course: &Course, out: &Path, bar: &ProgressBar) -> Done {
     print(&format!("{name}: {passed} of {of} tests of its training conditions pass; {minutes:.1} min\n"))
 }
 
-/// What is noted in a round of a course, its runs numbered from `first` on.
+/// Returns the lessons noted in a round of a course. The runs are numbered from `first` on.
 fn taught(
     course: &Course,
     round: usize,
@@ -68,7 +68,7 @@ fn taught(
     let notes = Notes::default();
     let seed = round as u64 + 1;
     let (taken, resolution) = (notes.clone(), course.resolution);
-    // The network's own mistakes are enough of a disturbance.
+    // The network's own mistakes disturb the car enough.
     let disturbance = if pupil.is_some() { [0.0; 2] } else { course.disturbance };
     let expert = || driver::find("expert").and_then(|kind| kind.build(&[])).expect("there is an expert");
     let study = course.study(seed, course.rounds[round].tests)?.own_driver("teacher", move || {
@@ -78,7 +78,7 @@ fn taught(
     trials(&study, bar)?;
     drop(study);
     let mut runs = std::mem::take(&mut *notes.lock().expect("nobody panics while taking notes"));
-    // By what they are, since the order in which tests end is a matter of chance.
+    // Runs are sorted by their contents, because the order in which tests end is random.
     let key = |run: &Vec<Lesson>| -> Vec<u32> {
         run.iter().flat_map(|lesson| [lesson.speed, lesson.control[0], lesson.control[1]]).map(f32::to_bits).collect()
     };

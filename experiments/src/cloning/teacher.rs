@@ -1,9 +1,9 @@
-//! Whoever shows a network how to drive: an expert, who at every image says what should be done.
+//! The teacher of a network: a driver with an expert who says for every image what should be done.
 //!
-//! At first the expert drives, and a disturbance pushes the car about, so that the network sees how one comes back. Then the
-//! network drives and the expert only says what it should have done, where the network's own mistakes have taken the car
-//! (Ross, Gordon, Bagnell, "A Reduction of Imitation Learning and Structured Prediction to No-Regret Online Learning",
-//! 2011).
+//! At first the expert drives, and a disturbance pushes the car about, so that the network sees how to come back. Then
+//! the network drives, and the expert only says what it would have done, in situations that the network's own mistakes
+//! have led to (Ross, Gordon, Bagnell, "A Reduction of Imitation Learning and Structured Prediction to No-Regret Online
+//! Learning", 2011).
 
 use paracosm::engine::driver::{Driver, Equipment, Fault};
 use paracosm::engine::sensor::{Cameras, Chance, Image, Rig};
@@ -13,36 +13,36 @@ use paracosm_neural::{PERIOD, Pilot, camera};
 use std::mem::take;
 use std::sync::{Arc, Mutex};
 
-/// The lessons of runs, in the order in which they ended.
+/// The lessons of each run, in the order in which the runs ended.
 pub type Notes = Arc<Mutex<Vec<Vec<Lesson>>>>;
 
-/// How much of a disturbance is left after a step: a time constant of half a second.
+/// The share of a disturbance that is left after a step, which is a time constant of about half a second.
 const LEFT: f64 = 0.8;
 
-/// This many metres beside its way nothing can be learnt any more.
+/// The distance from its route, in metres, from which on the car is lost and the lesson ends.
 const LOST: f64 = 3.0;
 
-/// With everybody this many metres behind there is nothing to learn any more either.
+/// The lesson ends when all other road users are this many metres behind the car.
 const PAST: f64 = 60.0;
 
-/// A driver that takes notes.
+/// A driver that notes lessons.
 pub struct Teacher {
     expert: Box<dyn Driver>,
-    /// Who drives instead.
+    /// The network that drives instead of the expert, if any.
     pupil: Option<Pilot>,
     resolution: [u32; 2],
-    /// The standard deviation of what is added to steering and throttle.
+    /// The standard deviations of the noise that is added to steering and throttle.
     disturbance: [f64; 2],
     seed: u64,
     notes: Notes,
     run: Vec<Lesson>,
     seen: Option<Image>,
-    /// Where the disturbance comes from, once a run has begun, and what it is.
+    /// The source of the disturbance and its present values; `None` until a run has begun.
     pushed: Option<(Chance, [f64; 2])>,
 }
 
 impl Teacher {
-    /// A teacher who drives and is pushed so much, or lets the pupil drive.
+    /// Makes a teacher. Without a pupil, the expert drives with this disturbance; with a pupil, the pupil drives.
     pub fn new(
         expert: Box<dyn Driver>,
         pupil: Option<Pilot>,
@@ -61,7 +61,7 @@ impl Teacher {
         }
     }
 
-    /// What is added now: noise that changes slowly, the same in every run that begins alike.
+    /// Returns the present disturbance. It changes slowly, and is the same in every run that begins in the same way.
     fn push(&mut self, observation: &Observation) -> [f64; 2] {
         let seed = self.seed;
         let (chance, push) = self.pushed.get_or_insert_with(|| {

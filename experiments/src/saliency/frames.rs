@@ -1,5 +1,5 @@
-//! What the network is shown: the first image of a test behind a leader, drawn again with the leader elsewhere, in another
-//! colour, or without it, so that nothing else differs.
+//! Draws the images that the network is shown: the first image of a test behind a leader, with the leader elsewhere, in
+//! another colour, or absent, so that nothing else differs.
 
 use crate::cloning::FOLLOW;
 use crate::scenario;
@@ -13,22 +13,22 @@ use paracosm_neural::camera;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 
-/// The places of the leader and of the car among the bodies, and the number of the leader's pixels in a mask.
+/// The indices of the car and of the leader among the bodies, and the leader's id in the instance image.
 const CAR: usize = 0;
 const LEADER: usize = 1;
 const LEADERS_ID: u16 = 2;
 
-/// Where a leader is to be, and how it looks.
+/// The place and the colour of a leader.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scene {
-    /// Metres between the bumpers; `None` where there is no leader.
+    /// The distance between the bumpers in metres; `None` without a leader.
     pub gap: Option<f64>,
-    /// Metres to the left of the lane's middle.
+    /// The distance of the leader from the middle of the lane, in metres to the left.
     pub beside: f64,
     pub colour: Colour,
 }
 
-/// An image with the pixels of the leader.
+/// An image, and for every pixel whether it shows the leader.
 #[derive(Debug, Clone)]
 pub struct Seen {
     pub image: Image,
@@ -44,7 +44,7 @@ impl Seen {
         self.image.height as usize
     }
 
-    /// The first and the last column and row of the leader.
+    /// Returns the first and the last column, and the first and the last row, of the leader's pixels.
     pub fn bounds(&self) -> Option<[usize; 4]> {
         let width = self.width();
         let pixels = || self.leader.iter().enumerate().filter(|pixel| *pixel.1).map(|(i, _)| (i % width, i / width));
@@ -53,7 +53,7 @@ impl Seen {
         Some([left, right, top, bottom])
     }
 
-    /// The mean colour of the leader.
+    /// Returns the mean colour of the leader's pixels.
     pub fn leaders_colour(&self) -> Colour {
         let count = self.leader.iter().filter(|mine| **mine).count().max(1);
         [0, 1, 2].map(|channel| {
@@ -63,16 +63,16 @@ impl Seen {
     }
 }
 
-/// Where scenes are drawn.
+/// A studio that draws scenes.
 pub struct Studio {
     projector: Projector,
     film: Film,
-    /// What all scenes are made from.
+    /// The shot that all scenes are made from.
     first: Shot,
 }
 
 impl Studio {
-    /// One with the first image of a test in the conditions of training.
+    /// Opens a studio with the first image of a test in the training conditions.
     pub fn open() -> Result<Self, Failure> {
         let study = FOLLOW.drives(scenario("follow-leader")?).build()?;
         let mut worker = Worker::new(&study)?;
@@ -85,7 +85,7 @@ impl Studio {
         Ok(Self { projector: Projector::new(&cameras, outputs)?, film, first })
     }
 
-    /// Draws these scenes.
+    /// Draws these scenes and returns their images in order.
     pub fn draw(&mut self, scenes: &[Scene]) -> Result<Vec<Seen>, Failure> {
         self.film.shots[0] = scenes.iter().map(|scene| arranged(&self.first, scene)).collect();
         let mut seen = Vec::new();
@@ -102,7 +102,7 @@ impl Studio {
     }
 }
 
-/// A shot with the leader elsewhere.
+/// Returns a copy of a shot with the leader as the scene says.
 fn arranged(shot: &Shot, scene: &Scene) -> Shot {
     let mut shot = shot.clone();
     let car = shot.moment.bodies[CAR];

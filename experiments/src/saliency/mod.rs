@@ -1,8 +1,10 @@
-//! Which pixels the network that follows goes by, and whether it follows red pixels, as the paper guesses of its own.
+//! Finds which pixels decide the answers of the network that follows a leader, and whether it follows red pixels, as
+//! the paper guesses of its own network.
 //!
-//! Three things are done to what it sees, at one speed. Each place is covered with grey, and what that changes is how much the
-//! place matters. A red rectangle of the leader's size is put anywhere into the empty road. And the leader is moved away, in
-//! red, in white, beside the road, or as a bare rectangle, and the throttle read off.
+//! The study changes the network's images in three ways, at one speed. First, each place is covered with grey; the
+//! change of the answer says how much the place matters. Second, a red rectangle of the leader's size is put anywhere
+//! into the empty road. Third, the throttle is read for a leader at growing distance: red, white, beside the road, or
+//! only a rectangle.
 
 mod frames;
 mod occlusion;
@@ -22,27 +24,27 @@ use thiserror::Error;
 const RED: Colour = [190, 25, 30];
 const WHITE: Colour = [235, 235, 235];
 
-/// What the network is told of its speed, in m/s, and how far ahead the leader is on the maps, in metres.
+/// The speed that the network is told, in m/s, and the distance of the leader on the maps, in metres.
 const SPEED: f64 = 8.0;
 const GAP: f64 = 8.0;
-/// The greatest gap at which the throttle is read off, in metres.
+/// The greatest distance at which the throttle is read, in metres.
 const FARTHEST: u8 = 30;
-/// The side of the patch that covers, in pixels; odd, so that it has a middle.
+/// The side of the grey patch in pixels, an odd number, so that the patch has a middle.
 const PATCH: usize = 5;
-/// Metres to the left, on the other lane, and to the right, on the grass.
+/// The place of the leader beside the lane's middle, in metres to the left: on the other lane, and on the grass.
 const ONCOMING: f64 = 3.5;
 const GRASS: f64 = -6.0;
 
-/// The frames that are covered: a name, and the leader.
+/// The frames that are covered, each with a name and the leader's colour, if there is a leader.
 const FRAMES: [(&str, Option<Colour>); 3] =
     [("red leader", Some(RED)), ("white leader", Some(WHITE)), ("nobody", None)];
 
-/// The answers, in the order in which the network gives them.
+/// The network's answers, in the network's order.
 const OUTPUTS: [&str; 2] = ["Steering", "Throttle"];
 const STEERING: usize = 0;
 const THROTTLE: usize = 1;
 
-/// A frame with what covering its places changes.
+/// A frame, and the change of the answer when each of its places is covered.
 struct Covered {
     name: &'static str,
     seen: Seen,
@@ -82,14 +84,14 @@ pub fn run(out: &Path, bar: &ProgressBar) -> Done {
     print(&format!("{shares}{}{table}", anywhere(&red_anywhere, &nobody.seen, &rectangle)))
 }
 
-/// A rectangle as large and as red as the leader.
+/// A rectangle with the leader's size, place and mean colour.
 struct Rectangle {
     size: [usize; 2],
     middle: [usize; 2],
     colour: Colour,
 }
 
-/// An image of a leader without a pixel of it.
+/// An image in which no pixel shows the leader.
 #[derive(Debug, Error)]
 #[error("the leader is not to be seen")]
 struct Unseen;
@@ -100,8 +102,8 @@ fn rectangle_of(seen: &Seen) -> Result<Rectangle, Unseen> {
     Ok(Rectangle { size, middle: [left + size[0] / 2, top + size[1] / 2], colour: seen.leaders_colour() })
 }
 
-/// A row for each frame: what the network sees, and what covering its places changes in throttle and steering; below, what a
-/// red rectangle changes.
+/// Returns a row of panels for each frame: the image, and how covering each place changes the throttle and the
+/// steering. The last row shows how a red rectangle changes them.
 fn panels(
     model: &Model,
     all: &[Covered],
@@ -120,7 +122,7 @@ fn panels(
     let most = [0, 1].map(|output| largest(red_anywhere.iter(), output));
     let what = format!("{width} x {height} red pixels around it");
     let mut last = row("red rectangle", &painted, answer, red_anywhere, most, &what);
-    // What is behind the rectangle's changes is the empty road.
+    // Behind the changes by the rectangle, the panels show the empty road.
     last[1..].iter_mut().for_each(|panel| panel.rgb.clone_from(&nobody.rgb));
     panels.extend(last);
     Ok(panels)
@@ -159,7 +161,7 @@ fn row(
     ]
 }
 
-/// Every number of the maps.
+/// Returns all numbers of the maps as CSV.
 fn maps(all: &[Covered], red_anywhere: &[[f64; 2]]) -> String {
     let mut rows = vec!["what,column,row,leader,steering,throttle".to_owned()];
     let mut add = |what: &str, seen: &Seen, changes: &[[f64; 2]]| {
@@ -173,10 +175,10 @@ fn maps(all: &[Covered], red_anywhere: &[[f64; 2]]) -> String {
     rows.join("\n") + "\n"
 }
 
-/// How much of all change the leader has, against its share of the places.
+/// Returns the leader's share of all changes, beside the leader's share of the places, as CSV.
 fn shares(all: &[Covered]) -> String {
     let mut rows = vec!["frame,steering,throttle,share_of_places,share_of_throttle,share_of_steering".to_owned()];
-    // Where nobody is, the places are those of the red leader.
+    // In the frame without a leader, the places are those of the red leader.
     let red = touching(&all[0].seen, PATCH);
     for Covered { name, seen, answer: [steering, throttle], changes } in all {
         let places = if seen.leader.contains(&true) { touching(seen, PATCH) } else { red.clone() };
@@ -187,7 +189,7 @@ fn shares(all: &[Covered]) -> String {
     rows.join("\n") + "\n"
 }
 
-/// What a red rectangle does where the leader would be, and elsewhere.
+/// Says how a red rectangle changes the throttle at the leader's place, on average, and at most.
 fn anywhere(changes: &[[f64; 2]], seen: &Seen, rectangle: &Rectangle) -> String {
     let [column, row] = rectangle.middle;
     let there = changes[row * seen.width() + column][THROTTLE];
@@ -204,7 +206,7 @@ fn anywhere(changes: &[[f64; 2]], seen: &Seen, rectangle: &Rectangle) -> String 
     )
 }
 
-/// The throttle by the distance of what may be taken for a leader.
+/// Returns the throttle by the distance of each thing that may be taken for a leader, as a chart and as CSV.
 fn by_gap(model: &Model, studio: &mut Studio) -> Result<(Lines, String), Box<dyn std::error::Error + Send + Sync>> {
     let gaps: Vec<f64> = (3..=FARTHEST).map(f64::from).collect();
     let scenes = |beside: f64, colour: Colour| -> Vec<Scene> {

@@ -1,5 +1,5 @@
-//! How much each place of an image matters: a patch is put there, and the network asked again (Zeiler and Fergus,
-//! "Visualizing and Understanding Convolutional Networks", 2014).
+//! Measures how much each place of an image matters: a patch covers the place, and the network is asked again (Zeiler
+//! and Fergus, "Visualizing and Understanding Convolutional Networks", 2014).
 
 use super::frames::Seen;
 use paracosm::engine::object::Colour;
@@ -7,10 +7,11 @@ use paracosm::engine::sensor::Image;
 use paracosm_neural::{AnswerError, Model};
 use rayon::prelude::*;
 
-/// What the network takes for nothing: it takes half of the range off every colour.
+/// The colour that is zero to the network, which subtracts half of the range from every colour.
 pub const NOTHING: Colour = [128; 3];
 
-/// By how much steering and throttle change with a patch of this width and height in the middle of which each pixel is.
+/// Returns for each pixel how much steering and throttle change if a patch of this width and height covers the image
+/// around the pixel.
 pub fn changes(
     model: &Model,
     image: &Image,
@@ -27,7 +28,7 @@ pub fn changes(
     (0..width * height).into_par_iter().map(change).collect()
 }
 
-/// The image with a patch around a pixel, as far as it is on the image.
+/// Returns the image with a patch around a pixel. The part of the patch beyond the image is left out.
 pub fn covered(image: &Image, [column, row]: [usize; 2], patch: [usize; 2], fill: Colour) -> Image {
     let (width, height) = (image.width as usize, image.height as usize);
     let mut rgb = image.rgb.clone();
@@ -43,7 +44,7 @@ pub fn covered(image: &Image, [column, row]: [usize; 2], patch: [usize; 2], fill
     Image { rgb, ..image.clone() }
 }
 
-/// The places at which a square patch of this side covers something of the leader.
+/// Returns the places at which a square patch of this side covers a pixel of the leader.
 pub fn touching(seen: &Seen, side: usize) -> Vec<bool> {
     let (width, height) = (seen.width(), seen.height());
     let reach = side / 2;
@@ -56,7 +57,7 @@ pub fn touching(seen: &Seen, side: usize) -> Vec<bool> {
     (0..width * height).map(touches).collect()
 }
 
-/// Which share of all change lies at these places.
+/// Returns the share of all changes that lies at these places.
 pub fn share(changes: &[[f64; 2]], output: usize, places: &[bool]) -> f64 {
     let sum = |of: &dyn Fn(usize) -> bool| -> f64 {
         changes.iter().enumerate().filter(|(i, _)| of(*i)).map(|(_, change)| change[output].abs()).sum()

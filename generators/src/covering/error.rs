@@ -1,5 +1,6 @@
 //! Why a covering array cannot be constructed.
 
+use paracosm_space::plural;
 use thiserror::Error;
 
 /// Why a covering array cannot be constructed.
@@ -37,7 +38,7 @@ pub enum CoveringError {
         parameters: usize,
     },
     /// An existing test with too many or too few levels.
-    #[error("test {index} has {found} levels, expected {expected}")]
+    #[error("test {index} has {}, expected {expected}", plural(*found, "level"))]
     Ragged {
         /// The test's position, from 0.
         index: usize,

@@ -1,22 +1,22 @@
-//! The large empty boxes around, and how well a point breaks them.
+//! The large empty boxes around a place, and how well a point breaks them.
 
 use paracosm_coverage::empty_boxes::EmptyBoxes;
 
-/// Boxes smaller than this share of the largest do not count.
+/// The least volume of a box that counts, as a share of the largest box.
 const LARGE: f64 = 0.65;
 
 /// The large boxes that a point can break.
 pub(super) struct Holes {
     dims: usize,
-    /// For each the eighth power of its volume over the largest's.
+    /// For each box, the eighth power of the ratio of its volume to the largest volume.
     weights: Vec<f64>,
-    /// For each, axis by axis, its lower end and one over its width.
+    /// For each box, axis by axis, its lower end and one over its width.
     sides: Vec<(f64, f64)>,
 }
 
 impl Holes {
-    /// Those that meet the room, which has a lower end and a width along each axis; `largest` is the volume of the
-    /// largest empty box, here or elsewhere, that others are compared with.
+    /// Collects the large boxes that meet the room, which has a lower end and a width along each axis. `largest` is
+    /// the volume of the largest empty box, here or elsewhere, with which the boxes are compared.
     pub fn around(boxes: &EmptyBoxes, room: &[(f64, f64)], largest: f64) -> Self {
         let dims = room.len();
         let mut holes = Self { dims, weights: Vec::new(), sides: Vec::new() };
@@ -34,12 +34,12 @@ impl Holes {
         holes
     }
 
-    /// Whether there is none.
+    /// Returns `true` if there is no large box.
     pub fn is_empty(&self) -> bool {
         self.weights.is_empty()
     }
 
-    /// By how much a point changes the sum of the eighth powers of all volumes.
+    /// The amount by which a point changes the sum of the eighth powers of all volumes.
     pub fn left_by(&self, point: &[f64]) -> f64 {
         let mut sum = 0.0;
         for (weight, sides) in self.weights.iter().zip(self.sides.chunks_exact(self.dims)) {

@@ -1,9 +1,9 @@
-//! The next test where it breaks the largest holes that any k parameters show, discrete and continuous at once.
+//! Places the next test where it breaks the largest holes of any k parameters, discrete and continuous at once.
 //!
-//! Every choice of k parameters, with every combination of values of the discrete ones among them, is a *view* of the
-//! tests: a set of points over its continuous parameters, with empty boxes of its own, or just the question whether
-//! there is such a test. The k-wise dispersion is the largest hole of all views. A test is a point of many views, and
-//! is to break as much as it can in all of them: it starts in the largest hole, and its coordinates are chosen one
+//! A *view* of the tests is a choice of k parameters, with a combination of values of the discrete ones among them.
+//! It is a set of points over its continuous parameters, with empty boxes of its own, or just the question whether
+//! such a test exists. The k-wise dispersion is the largest hole of all views. A test is a point of many views, and
+//! should break as much as possible in all of them. It starts in the largest hole. Its coordinates are chosen one
 //! after the other, twice over, each from two dozen candidates by the sum that [`Holes`] explains.
 //!
 //! On a discrete space alone this is the greedy covering array of Cohen, Dalal, Fredman and Patton (The AETG system,
@@ -19,59 +19,59 @@ use rand::Rng;
 use rand::seq::SliceRandom;
 use rand_pcg::Pcg64;
 
-/// Beginnings of which the best is taken.
+/// The number of beginnings, of which the best is taken.
 const BEGINNINGS: usize = 3;
 
-/// How often each coordinate is chosen: once from anywhere, then near what it is.
+/// The number of times that each coordinate is chosen: first from anywhere, then near its first value.
 const ROUNDS: usize = 2;
 
-/// Candidates for a coordinate.
+/// The number of candidates for a coordinate.
 const CANDIDATES: usize = 24;
 
-/// How far candidates of the second round are from the first one's choice, at most.
+/// The greatest distance of candidates of the second round from the choice of the first round.
 const NEAR: f64 = 0.02;
 
-/// More views are a mistake rather than a plan.
+/// The greatest number of views: more are a mistake rather than a plan.
 const MOST_VIEWS: usize = 200_000;
 
-/// How many boxes all views keep together.
+/// The number of boxes that all views keep together.
 const MOST_BOXES: usize = 2_000_000;
 
-/// Some of the parameters, with values for the discrete ones, and the holes that they show.
+/// A choice of parameters, with values for the discrete ones, and the holes that it shows.
 struct View {
     projection: Projection,
-    /// Its parameters among all, the continuous ones first.
+    /// The positions of the view's parameters among all parameters, the continuous ones first.
     coordinates: Vec<usize>,
     holes: Kept,
 }
 
-/// What is known of a view.
+/// The state of a view.
 #[expect(clippy::large_enum_variant, reason = "nearly all are the large one")]
 enum Kept {
     /// The empty boxes over its continuous parameters.
     Boxes(EmptyBoxes),
-    /// Whether a test has its values, where all of its parameters are discrete.
+    /// `true` if a test has the values of the view, all of whose parameters are discrete.
     Covered(bool),
 }
 
-/// The holes of a view that count at the moment.
+/// The holes of a view that count now.
 enum Hole {
     /// Large boxes.
     Boxes(Holes),
-    /// Values that no test has, which is as bad as can be.
+    /// Values that no test has: the worst possible hole.
     Row,
 }
 
-/// The holes of all views that count at the moment.
+/// The holes of all views that count now.
 struct LargeHoles<'a> {
     dims: usize,
     rules: &'a Rules,
     holes: Vec<(&'a Projection, Hole)>,
-    /// The positions of those that each coordinate belongs to.
+    /// For each coordinate, the positions of its holes.
     of_coordinate: Vec<Vec<usize>>,
 }
 
-/// The tests so far, and the holes that they show in any k parameters.
+/// The tests so far, and the holes that they leave in any k parameters.
 pub(crate) struct KwiseGreedy {
     dims: usize,
     rules: Rules,
@@ -80,7 +80,7 @@ pub(crate) struct KwiseGreedy {
 }
 
 impl KwiseGreedy {
-    /// Tests that fill the holes that `existing` ones leave in any `k` of the parameters.
+    /// Prepares tests that fill the holes that `existing` tests leave in any `k` of the parameters.
     ///
     /// # Errors
     /// `k` is not in 1 to the number of parameters, or there are too many views.
@@ -115,7 +115,7 @@ impl KwiseGreedy {
         Ok(greedy)
     }
 
-    /// Takes one more test.
+    /// Adds a test.
     fn add(&mut self, test: &Point) {
         for View { projection, holes, .. } in &mut self.views {
             if projection.selects(test) {
@@ -143,14 +143,14 @@ impl KwiseGreedy {
     }
 }
 
-/// The parameters of a projection among all, the continuous ones first.
+/// The positions of a projection's parameters among all parameters, the continuous ones first.
 fn coordinates(projection: &Projection, dims: usize) -> Vec<usize> {
     let discrete = projection.fixed.iter().map(|(parameter, _)| dims + parameter);
     projection.axes.iter().copied().chain(discrete).collect()
 }
 
 impl<'a> LargeHoles<'a> {
-    /// Those beside a largest one of all views.
+    /// Collects the holes that count beside the largest hole of all views.
     fn of(views: &'a [View], largest: f64, dims: usize, rules: &'a Rules) -> Self {
         let of_coordinate = vec![Vec::new(); dims + rules.levels().len()];
         let mut large = Self { dims, rules, holes: Vec::new(), of_coordinate };
@@ -164,7 +164,7 @@ impl<'a> LargeHoles<'a> {
         large
     }
 
-    /// By how much a test changes the sum over the views that a coordinate belongs to, or over all.
+    /// The amount by which a test changes the sum over the views of a coordinate, or over all views.
     fn left_by(&self, coordinate: Option<usize>, test: &Point) -> f64 {
         let left = |(projection, hole): &(&Projection, Hole)| match hole {
             _ if !projection.selects(test) => 0.0,
@@ -177,14 +177,14 @@ impl<'a> LargeHoles<'a> {
         }
     }
 
-    /// A test in the largest hole of a view that also breaks others well.
+    /// A test in the largest hole of a view that also breaks other holes well.
     fn begin(&self, first: &View, rng: &mut Pcg64) -> Point {
         let View { projection, holes: kept, .. } = first;
         let mut test = Point {
             continuous: (0..self.dims).map(|_| rng.random()).collect(),
             discrete: self.random_row(&projection.fixed, rng),
         };
-        // Along its axes the test stays in the hole, and it keeps the hole's values.
+        // Along the axes of the view the test stays in the hole, and it keeps the hole's values.
         let mut rooms = vec![(0.0, 1.0); self.dims];
         if let Kept::Boxes(boxes) = kept {
             for (&axis, (lower, width)) in projection.axes.iter().zip(room(boxes.largest())) {
@@ -208,7 +208,8 @@ impl<'a> LargeHoles<'a> {
         test
     }
 
-    /// A row with these values that keeps the constraints, its parameters chosen at random one after the other.
+    /// A row with these values that satisfies the constraints; the other parameters get random levels, one after the
+    /// other.
     fn random_row(&self, fixed: &[(usize, usize)], rng: &mut Pcg64) -> Vec<usize> {
         let levels = self.rules.levels();
         let mut chosen = fixed.to_vec();
@@ -223,7 +224,7 @@ impl<'a> LargeHoles<'a> {
         chosen.into_iter().map(|(_, level)| level).collect()
     }
 
-    /// Moves a test along an axis to where it breaks most.
+    /// Moves a test along an axis to the place where it breaks most.
     fn choose_number(&self, axis: usize, (lower, width): (f64, f64), round: usize, test: &mut Point, rng: &mut Pcg64) {
         let now = test.continuous[axis];
         let mut best = (self.left_by(Some(axis), test), now);
@@ -242,10 +243,10 @@ impl<'a> LargeHoles<'a> {
         test.continuous[axis] = best.1;
     }
 
-    /// Gives a test the level of a parameter at which it breaks most.
+    /// Gives a test the level of a parameter with which it breaks most.
     fn choose_level(&self, parameter: usize, test: &mut Point) {
         let mut best = (f64::INFINITY, test.discrete[parameter]);
-        // From a random level on, so that no level is preferred where there is nothing to choose.
+        // From a random level on, so that no level is preferred if all are equally good.
         let (levels, start) = (self.rules.levels()[parameter], test.discrete[parameter]);
         for level in (start..levels).chain(0..start) {
             test.discrete[parameter] = level;
@@ -270,7 +271,7 @@ impl View {
         }
     }
 
-    /// The holes that count beside a largest one of all views.
+    /// The holes that count beside the largest hole of all views.
     fn hole(&self, largest: f64) -> Option<Hole> {
         match &self.holes {
             Kept::Covered(covered) => (!covered).then_some(Hole::Row),

@@ -1,14 +1,14 @@
-//! The next test where it breaks the largest holes: points of low dispersion, any number of them, after any others.
+//! Places the next test where it breaks the largest holes: points of low dispersion, any number, after any others.
 //!
-//! A point in the very centre of the largest empty box is worse than Halton's: coordinates collide, and boxes that
-//! are alike are cut alike. Instead a point is sought near the centre that also breaks other large boxes well. How
-//! bad a set is, is the sum of the eighth powers of its empty boxes' volumes, a smooth stand-in for the largest:
+//! A point in the very centre of the largest empty box is worse than Halton's: coordinates collide, and equal boxes
+//! are cut equally. Instead a point near the centre is sought that also breaks other large boxes well. The badness of
+//! a set is the sum of the eighth powers of its empty boxes' volumes, a smooth substitute for the largest volume:
 //! each box that holds the new point is replaced by the `2d` parts that it leaves. Parts that are not maximal count
-//! too; to leave them out takes far longer and gains nothing. Some two dozen random candidates are compared,
-//! and the best is moved by ever smaller random steps.
+//! too; to leave them out takes far longer and gains nothing. Some two dozen random candidates are compared, and the
+//! best is moved by ever smaller random steps.
 //!
-//! The dispersion over that of Halton's points from index 1, 20 seeds, and the time on one core (the example `greedy`
-//! prints the table):
+//! The table shows the dispersion, divided by that of Halton's points from index 1, for 20 seeds, and the time on one
+//! core (the example `greedy` prints the table):
 //!
 //! | d | n   | median | quartiles    | ms a point |
 //! | - | --- | ------ | ------------ | ---------- |
@@ -19,13 +19,13 @@
 //! | 5 | 200 | 0.536  | 0.526, 0.548 | 3.59       |
 //! | 8 | 100 | 0.495  | 0.487, 0.499 | 3.32       |
 //!
-//! Trying the most promising points to the end, up to twenty points ahead, changes these little; points of
+//! To try the most promising points to the end, up to twenty points ahead, changes these numbers little. Points of
 //! several of the largest boxes make them worse.
 //!
-//! [`EmptyBoxes`] knows all boxes as long as they are not too many. Where they are, in five dimensions and more or
-//! after some hundred tests, it keeps the larger ones, and later what is left of these: then the point is no
-//! longer in the very largest box for certain, and the gain shrinks slowly with the number of points (0.68 of
-//! Halton's dispersion for d = 3 and n = 2000, 0.76 for d = 4 and 0.91 for d = 5 with n = 1000).
+//! [`EmptyBoxes`] knows all boxes as long as there are not too many. In five dimensions and more, or after some
+//! hundred tests, there are too many. It then keeps the larger boxes, and later the parts that are left of them. The
+//! point is then no longer certain to be in the very largest box, and the gain shrinks slowly with the number of
+//! points (0.68 of Halton's dispersion for d = 3 and n = 2000, 0.76 for d = 4 and 0.91 for d = 5 with n = 1000).
 
 mod holes;
 mod kwise;
@@ -43,7 +43,7 @@ use rand::Rng;
 use rand_pcg::Pcg64;
 
 impl Strategy {
-    /// Every point where it breaks the largest empty boxes.
+    /// Points that each break the largest empty boxes.
     pub const GREEDY: Self = Self::of(&Descriptor {
         name: "greedy",
         about: "every test into the largest holes: the lowest dispersion, at some milliseconds a test",
@@ -53,20 +53,20 @@ impl Strategy {
     });
 }
 
-/// In how many dimensions points take seconds at most: a box has 2d parts with 2d faces each.
+/// The greatest number of dimensions for which a point takes seconds at most: a box has 2d parts with 2d faces each.
 const MOST_DIMS: usize = 1_000;
 
-/// Random candidates for a point.
+/// The number of random candidates for a point.
 const CANDIDATES: usize = 24;
 
-/// Random steps from the best of them.
+/// The number of random steps from the best candidate.
 const STEPS: usize = 60;
 
-/// The first step, as a share of the room, and what a step that does not help leaves of its length.
+/// The first step, as a share of the room, and the factor by which a step that does not help is shortened.
 const FIRST_STEP: f64 = 0.25;
 const SHORTER: f64 = 0.93;
 
-/// The part of the largest box, in its middle, in which points are placed.
+/// The share of the largest box, around its middle, in which points are placed.
 const ROOM: f64 = 0.7;
 
 /// The points so far, and the holes between them.
@@ -77,10 +77,10 @@ pub(crate) struct Greedy {
 }
 
 impl Greedy {
-    /// Points of `[0,1)^dims` that fill the holes that `existing` ones leave.
+    /// Prepares points of `[0,1)^dims` that fill the holes that `existing` points leave.
     ///
     /// # Errors
-    /// `dims` is 0, or an existing point has another number of coordinates or one that is not in `[0,1]`.
+    /// `dims` is 0, or an existing point has another number of coordinates or a coordinate that is not in `[0,1]`.
     pub(crate) fn new(
         dims: usize,
         rng: Pcg64,
@@ -123,7 +123,7 @@ impl Greedy {
     }
 }
 
-/// Where in a box a point may be placed: along each axis the lower end and the width.
+/// The room in a box where a point may be placed: along each axis the lower end and the width.
 fn room(hole: &LargestEmptyBox) -> Vec<(f64, f64)> {
     let sides = hole.lower.iter().zip(&hole.upper);
     let middle = |(lower, upper): (&f64, &f64)| {
@@ -133,12 +133,12 @@ fn room(hole: &LargestEmptyBox) -> Vec<(f64, f64)> {
     sides.map(middle).collect()
 }
 
-/// As many boxes as can be looked after in some milliseconds: a box has `2d` parts with `2d` faces each.
+/// The number of boxes that can be handled in some milliseconds: a box has `2d` parts with `2d` faces each.
 fn most_boxes(dims: usize) -> usize {
     (2_500_000 / dims.saturating_mul(dims).max(1)).clamp(100, 100_000)
 }
 
-/// A number mirrored in the end that it is beyond. Moving it to the end would make coordinates collide.
+/// A number that is mirrored at the end that it exceeds. If it were moved to the end, coordinates would collide.
 fn reflect(x: f64, lower: f64, upper: f64) -> f64 {
     if x < lower {
         2.0 * lower - x

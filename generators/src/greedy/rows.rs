@@ -1,4 +1,4 @@
-//! Greedy points for every discrete row, each row's as low in dispersion as if it were alone.
+//! Greedy points for every discrete row: each row's points are as low in dispersion as if the row were alone.
 
 use super::Greedy;
 use crate::seeded::{Purpose, seeded};
@@ -6,7 +6,7 @@ use crate::sequence::RowSet;
 use std::collections::HashMap;
 use std::sync::Mutex;
 
-/// Greedy points for every discrete row, found as they are asked for and remembered.
+/// Greedy points for every discrete row, which are found when they are asked for, and then remembered.
 pub(crate) struct GreedyRows {
     dims: usize,
     seed: u64,
@@ -14,14 +14,14 @@ pub(crate) struct GreedyRows {
     rows: Mutex<HashMap<u64, Row>>,
 }
 
-/// The points of a row so far, and what finds the next.
+/// The points of a row so far, and the method that finds the next point.
 struct Row {
     greedy: Greedy,
     points: Vec<Vec<f64>>,
 }
 
 impl GreedyRows {
-    /// `existing` holds the points that a row has already, by its number.
+    /// Prepares the points of all rows. `existing` holds the existing points of each row, by the row's number.
     pub(crate) fn new(dims: usize, seed: u64, existing: HashMap<u64, Vec<Vec<f64>>>) -> Self {
         Self { dims, seed, existing, rows: Mutex::default() }
     }

@@ -1,14 +1,14 @@
-//! Random corners: the control that a search should beat.
+//! Random corners: the baseline that a search for failures should beat.
 //!
-//! Many benchmarks fail where every input is at one of its ends. What finds failures only because it goes to ends is no
-//! better than this: every coordinate by itself at a random one of them.
+//! Many benchmarks fail if every input is at one of its ends. A search that finds failures only because it goes to
+//! the ends is no better than this strategy, which puts every coordinate independently at a random end.
 
 use super::Sequence;
 use super::uniform::Uniform;
 use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// Independent random corners of the cube, which repeat: a control.
+    /// Independent random corners of the cube, which repeat: a baseline for searches.
     pub const RANDOM_CORNERS: Self = Self::of(&Descriptor {
         name: "random-corners",
         about: "every parameter at a random end: the control that a search for failures should beat",

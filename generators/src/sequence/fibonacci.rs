@@ -1,20 +1,20 @@
 //! The Fibonacci lattice, for two coordinates.
 //!
-//! With two Fibonacci numbers f' < f in a row, point i of f is (i/f, i f'/f modulo 1). No set of f points has a
-//! smaller dispersion on the torus, where boxes go on across the border (Breneis and Hinrichs, "Fibonacci
+//! Let f' < f be two consecutive Fibonacci numbers. Point i of f points is (i/f, i f'/f modulo 1). No set of f points
+//! has a smaller dispersion on the torus, where boxes go on across the border (Breneis and Hinrichs, "Fibonacci
 //! lattices have minimal dispersion on the two-dimensional torus", 2020).
 //!
-//! Users ask for n points, not for Fibonacci numbers. They get (i/n, i f'/f modulo 1), where f is the first
-//! Fibonacci number that is at least n: the first n points of a lattice, widened to fill the cube. That is the
-//! lattice itself for n = f, exactly n points otherwise, and since f'/f hardly differs from the golden section,
-//! about as even in between.
+//! Users ask for n points, not for Fibonacci numbers. They get (i/n, i f'/f modulo 1), where f is the first Fibonacci
+//! number that is at least n: the first n points of a lattice, widened to fill the cube. For n = f that is the
+//! lattice itself. For other n there are exactly n points, about as even, because f'/f hardly differs from the golden
+//! section.
 
 use super::per_row::PerRow;
 use super::{per_row::RowSet, radical::ratio, shift::Shift};
 use crate::strategy::{Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// The Fibonacci lattice in two dimensions; with a seed shifted.
+    /// The Fibonacci lattice in two dimensions; a seed shifts it.
     pub const FIBONACCI: Self = Self::of(&Descriptor {
         name: "fibonacci",
         about: "the most even lattice for just two parameters, by exactly the budget of tests",
@@ -27,13 +27,13 @@ impl Strategy {
     });
 }
 
-/// The lattice, both of its axes shifted or none.
+/// The lattice, with both axes shifted or none.
 pub(crate) struct Fibonacci {
     seed: Option<u64>,
 }
 
 impl Fibonacci {
-    /// The plain set, with shifted copies for the rows after the first, or with a seed shifted ones throughout.
+    /// Makes the plain set with shifted copies for the rows after the first; with a seed all sets are shifted.
     pub(crate) fn new(seed: Option<u64>) -> Self {
         Self { seed }
     }
@@ -48,7 +48,7 @@ impl RowSet for Fibonacci {
     }
 }
 
-/// The first Fibonacci number that is at least `size`, and the one before it.
+/// The first Fibonacci number that is at least `size`, preceded by the Fibonacci number before it.
 fn around(size: u64) -> (u128, u128) {
     let (mut before, mut number) = (1, 1);
     while number < u128::from(size) {

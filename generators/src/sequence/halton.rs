@@ -1,4 +1,4 @@
-//! The Halton sequence (section 3.2 of the paper): dispersion O(1/n), any number of points.
+//! The Halton sequence (section 3.2 of the paper), with dispersion O(1/n) and any number of points.
 //!
 //! Coordinate i of point j is the radical inverse of j in the i-th prime: its digits mirrored at the point.
 
@@ -10,7 +10,7 @@ use super::{
 use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// The Halton sequence, the paper's choice; with a seed shifted modulo 1 by a random vector.
+    /// The Halton sequence, the paper's choice; a seed shifts it modulo 1 by a random vector.
     pub const HALTON: Self = Self::of(&Descriptor {
         name: "halton",
         about: "low-dispersion sequence of any length: the default for up to about ten parameters",
@@ -33,7 +33,7 @@ pub(crate) struct Halton {
 }
 
 impl Halton {
-    /// The plain sequence, or with a seed a shifted one.
+    /// Makes the plain sequence, or with a seed a shifted one.
     pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
         Self { bases: primes().take(dims).collect(), shift: Shift::of_row(dims, seed, 0) }
     }

@@ -1,12 +1,12 @@
 //! The Halton sequence with random digits (Owen, "A randomized Halton algorithm in R", arXiv 1706.02808, 2017).
 //!
-//! In large bases the plain sequence climbs in long parallel stripes: the first 50 points of the axes 31 and 37
-//! lie close to the diagonal. Here every position of every base has a random permutation of its own, through
-//! which the digit at that position goes before it is mirrored. That breaks up the stripes and makes each point
-//! uniformly random; any b^k points in a row still fill the b^k intervals of length b^-k, one each.
+//! In large bases the plain sequence climbs in long parallel stripes: the first 50 points of the axes 31 and 37 lie
+//! close to the diagonal. Here every position of every base has its own random permutation, which changes the digit
+//! at that position before the digit is mirrored. That breaks up the stripes and makes each point uniformly random.
+//! Any b^k consecutive points still fill the b^k intervals of length b^-k, one point each.
 //!
-//! A number has infinitely many leading zeros, and those are permuted too: otherwise point 0 would stay where it
-//! is in all low digits. Digits below 2^-53 make no difference to a double and are left out.
+//! A number has infinitely many leading zeros, and these are permuted too: otherwise all low digits of point 0 would
+//! stay as they are. Digits below 2^-53 make no difference to a double and are left out.
 
 use super::{
     Sequence,
@@ -32,7 +32,7 @@ impl Strategy {
     });
 }
 
-/// The permutations of as many dimensions take 37 MB, and twice as many four times that.
+/// The greatest number of dimensions: its permutations take 37 MB, and twice as many dimensions take four times that.
 pub(crate) const MOST_DIMS: usize = 1000;
 
 /// The scrambled sequence of one seed.
@@ -40,17 +40,18 @@ pub(crate) struct HaltonScrambled {
     axes: Vec<Axis>,
 }
 
-/// One coordinate.
+/// One coordinate of the sequence.
 struct Axis {
     base: u64,
-    /// The permutations one after the other, that of the last digit, which becomes the first, at the front.
+    /// The permutations one after the other. The permutation of the last digit, which becomes the first digit, comes
+    /// first.
     permutations: Vec<u16>,
     /// The base to the power of the number of digits.
     scale: u128,
 }
 
 impl HaltonScrambled {
-    /// The sequence of a seed in at most [`MOST_DIMS`] dimensions.
+    /// Makes the sequence of a seed in at most [`MOST_DIMS`] dimensions.
     pub(crate) fn new(dims: usize, seed: u64) -> Self {
         Self { axes: primes().take(dims).enumerate().map(|(axis, base)| Axis::new(axis, base, seed)).collect() }
     }
@@ -60,7 +61,7 @@ impl Axis {
     fn new(axis: usize, base: u64, seed: u64) -> Self {
         let mut rng = seeded(seed, Purpose::Scramble, axis as u64);
         let (mut permutations, mut scale) = (Vec::new(), 1);
-        // No index has more digits.
+        // No index has more digits than this.
         while scale < u128::from(INDICES) {
             let start = permutations.len();
             permutations.extend(0..base as u16);

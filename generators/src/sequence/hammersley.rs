@@ -1,7 +1,7 @@
-//! The Hammersley set (Hammersley, Ann. New York Acad. Sci. 86, 1960): Halton with a coordinate to spare.
+//! The Hammersley set (Hammersley, Ann. New York Acad. Sci. 86, 1960): Halton with one evenly spaced coordinate.
 //!
-//! Of n points, point i has i/n as its first coordinate and the radical inverses of i in the first primes as the
-//! others. One prime fewer is one source of unevenness fewer, at the price that n is known beforehand.
+//! Point i of n points has i/n as its first coordinate, and the radical inverses of i in the first primes as the
+//! others. One prime fewer means one source of unevenness fewer, but n must be known beforehand.
 
 use super::per_row::PerRow;
 use super::{
@@ -12,7 +12,7 @@ use super::{
 use crate::strategy::{ANY, Descriptor, Look, MarkShape, Method, MethodKind, Strategy};
 
 impl Strategy {
-    /// The Hammersley set; with a seed shifted.
+    /// The Hammersley set; a seed shifts it.
     pub const HAMMERSLEY: Self = Self::of(&Descriptor {
         name: "hammersley",
         about: "halton with one axis evenly spaced: more even than halton, by exactly the budget",
@@ -25,7 +25,7 @@ impl Strategy {
     });
 }
 
-/// The Hammersley set, all of its axes shifted or none.
+/// The Hammersley set, with all axes shifted or none.
 pub(crate) struct Hammersley {
     dims: usize,
     bases: Vec<u64>,
@@ -33,7 +33,7 @@ pub(crate) struct Hammersley {
 }
 
 impl Hammersley {
-    /// The plain set, with shifted copies for the rows after the first, or with a seed shifted ones throughout.
+    /// Makes the plain set with shifted copies for the rows after the first; with a seed all sets are shifted.
     pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
         Self { dims, bases: primes().take(dims - 1).collect(), seed }
     }

@@ -1,12 +1,12 @@
 //! The R-sequence: a Kronecker sequence that generalises the golden section (Roberts, "The Unreasonable
 //! Effectiveness of Quasirandom Sequences", 2018).
 //!
-//! Point i is 1/2 + i a modulo 1, where a = (1/g, 1/g^2, ..., 1/g^d) and g is the root above 1 of
-//! x^(d+1) = x + 1: the golden ratio for d = 1, the plastic number for d = 2. Roberts' program starts with what is
-//! index 1 here; index 0 is the centre of the cube.
+//! Point i is 1/2 + i a modulo 1, where a = (1/g, 1/g^2, ..., 1/g^d) and g is the root above 1 of x^(d+1) = x + 1:
+//! the golden ratio for d = 1, the plastic number for d = 2. Roberts' program starts with index 1 of this sequence.
+//! Index 0 is the centre of the cube.
 //!
-//! A coordinate is an integer, in units of 2^-64, and wraps round as they do. So nothing is lost far out: from
-//! wherever a stretch starts, it is the beginning shifted. The steps have the precision of a double, which
+//! A coordinate is an integer in units of 2^-64, and wraps round as integers do. So no precision is lost at large
+//! indices: a stretch of the sequence is its beginning, shifted. The steps have the precision of a double, which
 //! begins to matter after some 2^26 points.
 
 use super::{Sequence, radical::INDICES, unit};
@@ -15,7 +15,7 @@ use crate::strategy::{ANY, Descriptor, Endless, Look, MarkShape, Method, MethodK
 use rand::Rng;
 
 impl Strategy {
-    /// The R-sequence, a Kronecker sequence; with a seed from a random point.
+    /// The R-sequence, a Kronecker sequence; a seed starts it at a random point.
     pub const KRONECKER: Self = Self::of(&Descriptor {
         name: "kronecker",
         about: "golden steps on every axis: a sequence of any length, for few parameters",
@@ -30,14 +30,14 @@ impl Strategy {
     });
 }
 
-/// The sequence from one point on.
+/// The sequence from a start on.
 pub(crate) struct Kronecker {
-    /// Where the sequence starts and how far it steps, per axis.
+    /// The start and the step of each axis.
     axes: Vec<(u64, u64)>,
 }
 
 impl Kronecker {
-    /// From the centre of the cube, or with a seed from a random point.
+    /// Makes the sequence from the centre of the cube, or with a seed from a random point.
     pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
         let mut rng = seed.map(|seed| seeded(seed, Purpose::Shift, 0));
         let mut start = || rng.as_mut().map_or(1 << 63, Rng::random);
@@ -67,7 +67,7 @@ fn steps(dims: usize) -> impl Iterator<Item = u64> {
 /// The root above 1 of x^(dims+1) = x + 1.
 fn ratio(dims: usize) -> f64 {
     let exponent = 1.0 / (dims as f64 + 1.0);
-    // Each step brings it nearer by a factor of 3 at least.
+    // Each iteration reduces the error by a factor of at least 3.
     (0..64).fold(2.0, |x, _| libm::pow(1.0 + x, exponent))
 }
 

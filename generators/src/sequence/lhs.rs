@@ -1,8 +1,8 @@
 //! Latin hypercubes (McKay, Beckman, Conover, Technometrics 21, 1979).
 //!
-//! Of n points there is exactly one in each of the n equal cells of every axis, so each parameter for itself is
-//! covered as evenly as n points can. The point is anywhere in its cell, or in the middle of it. The set depends
-//! on its size: it is made whole, for the whole budget.
+//! If every axis is divided into n equal cells, n points have exactly one point in each cell of every axis. So each
+//! single parameter is covered as evenly as n points can. The point is anywhere in its cell, or in the middle. The
+//! set depends on its size: it is made as a whole, for the whole budget.
 
 use super::Sequence;
 use super::per_row::PerRow;
@@ -30,7 +30,7 @@ impl Strategy {
 }
 
 impl Strategy {
-    /// A Latin hypercube of points at the centres of their cells.
+    /// A Latin hypercube whose points are at the centres of their cells.
     pub const LHS_CENTRED: Self = Self::of(&Descriptor {
         name: "lhs-centred",
         about: "Latin hypercube with tests in the middle of their cells: no two close on any axis",
@@ -49,7 +49,7 @@ fn cells(dims: usize, seed: Option<u64>, deal: Deal, place: Place) -> Result<Box
 
 const MOST_COORDINATES: u64 = 10_000_000;
 
-/// Where in its cell a point is.
+/// The place of a point in its cell.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
     Random,
@@ -59,14 +59,14 @@ pub(crate) enum Place {
 /// One Latin hypercube for each row, one after the other.
 pub(crate) struct Lhs {
     dims: usize,
-    /// The number of points from the start of one hypercube to that of the next.
+    /// The number of points from the start of one hypercube to the start of the next.
     block: u64,
     coordinates: Vec<f64>,
 }
 
 impl Lhs {
-    /// Hypercubes of just the sizes that the rows need: a larger one with a point missing would leave a cell of
-    /// every axis empty.
+    /// Makes hypercubes of exactly the sizes that the rows need: a larger hypercube with a missing point would leave
+    /// a cell of every axis empty.
     pub(crate) fn new(dims: usize, seed: u64, deal: &Deal, place: Place) -> Result<Self, GeneratorError> {
         let points = deal.indices();
         if points.saturating_mul(dims as u64) > MOST_COORDINATES {
@@ -98,10 +98,10 @@ impl RowSet for Lhs {
     }
 }
 
-/// A number strictly inside cell `cell` of `size`, `jitter / 2^32` of the way through it.
+/// A number strictly inside cell `cell` of `size` cells, `jitter / 2^32` of the way through the cell.
 ///
-/// Of the jitter 24 bits count, and half a step is added: the position is then exact, and at least 2^-25 of a
-/// cell from its ends, more than the division by at most 10^7 < 2^24 cells can round away.
+/// Only 24 bits of the jitter count, and half a step is added. The position is then exact, and at least 2^-25 of a
+/// cell from the cell's ends. That is more than the division by at most 10^7 < 2^24 cells can round away.
 fn inside(cell: u64, size: u64, jitter: u32) -> f64 {
     let within = (f64::from(jitter >> 8) + 0.5) / f64::from(1 << 24);
     (cell as f64 + within) / size as f64

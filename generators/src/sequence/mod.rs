@@ -1,9 +1,8 @@
-//! Point sets of the unit cube, by index.
+//! Sets of points in the unit cube, each point computed from its index.
 //!
-//! A sequence computes its points from their index alone and remembers nothing. So it does not matter in what
-//! portions points are asked for, a campaign resumes where it stopped without going through what came before,
-//! and every row of a discrete family can be given a stretch of its own. Sets that depend on their size become
-//! sequences in `per_row`.
+//! A sequence computes its points from their index alone and remembers nothing. So the sizes of the requests do not
+//! matter, a campaign resumes where it stopped without repeating earlier points, and every row of a discrete family
+//! can be given its own stretch. `per_row` turns sets that depend on their size into sequences.
 
 mod corners;
 mod fibonacci;

@@ -1,27 +1,27 @@
 //! Nested uniform scrambling (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995) in base 2.
 //!
-//! Every bit of a coordinate is flipped or not by a coin of its own for each value of all bits above it. So
-//! halves are exchanged, then within each half its halves, and so on: a tree of coins. Every elementary interval
-//! is mapped onto one of the same shape, and a net stays a net.
+//! For each value of all bits above it, a coin of its own decides whether a bit of a coordinate is flipped. So the
+//! two halves may be exchanged, then the halves of each half, and so on: a tree of coins. Every elementary interval
+//! is mapped onto an interval of the same shape, and a net stays a net.
 //!
-//! The coins are hashed instead of stored, after Burley ("Practical Hash-based Owen Scrambling", JCGT 9(4),
-//! 2020). His hash does all bits at once and mixes them none too well; ours hashes the bits above with SplitMix64
-//! and is the definition itself. A word of hash is 64 coins, and six levels of the tree need 63.
+//! The coins are hashed instead of stored, after Burley ("Practical Hash-based Owen Scrambling", JCGT 9(4), 2020).
+//! His hash treats all bits at once and mixes them imperfectly. This module hashes the bits above with SplitMix64,
+//! and so follows the definition exactly. A word of hash is 64 coins, and six levels of the tree need 63.
 
 use crate::seeded::mix;
 
-/// The levels of the tree that one hash decides.
+/// The number of levels of the tree that one hash decides.
 const LEVELS: u32 = 6;
 
-/// As many hashes as decide the 53 bits that a double keeps.
+/// The number of hashes that decide the 53 bits that a double keeps.
 const HASHES: u32 = 9;
 
-/// The word with its upper 54 bits scrambled and its other ones cleared; `key` is the tree.
+/// The word with its upper 54 bits scrambled and its other bits cleared; `key` selects the tree.
 pub(super) fn scramble(word: u64, key: u64) -> u64 {
     let mut scrambled = 0;
     for hash in 0..HASHES {
         let depth = hash * LEVELS;
-        // The bits above, with a bit in front of them that tells how many they are.
+        // The bits above, preceded by a bit that marks their number.
         let above = (1 << depth) | word.unbounded_shr(64 - depth);
         let coins = mix(key ^ above);
         // The node of the subtree, numbered as in a heap: the children of k are 2k and 2k+1.

@@ -1,13 +1,13 @@
-//! Sets that depend on their size, one for every discrete row.
+//! Makes a sequence of sets that depend on their size, one set for every discrete row.
 //!
-//! Half of a Latin hypercube is none, so a row cannot be given a stretch of a longer one: its set is made for
-//! just as many tests as the row is dealt. To the rest of the crate the rows' sets, one after the other, are a
+//! Half of a Latin hypercube is not a Latin hypercube, so a row cannot be given a stretch of a longer set: its set is
+//! made for exactly the number of its tests. To the rest of the crate the rows' sets, one after the other, are a
 //! sequence like any other, which ends with the budget.
 
 use super::{Sequence, radical::INDICES};
 use crate::deal::Deal;
 
-/// A point set of every size, and another one for every row.
+/// A set of points for every size and every row.
 pub(crate) trait RowSet: Send + Sync {
     /// Point `index` of the `size` points of row `row`.
     fn point(&self, row: u64, size: u64, index: u64) -> Vec<f64>;
@@ -15,7 +15,7 @@ pub(crate) trait RowSet: Send + Sync {
 
 /// The rows' sets, one after the other.
 ///
-/// The last point of a block stays unused where its row is dealt one test fewer.
+/// The last point of a block stays unused if its row has one test fewer.
 pub(crate) struct PerRow<S> {
     deal: Deal,
     set: S,

@@ -1,13 +1,13 @@
 //! Shifts modulo 1 by one random vector (Cranley and Patterson, SIAM J. Numer. Anal. 13, 1976).
 //!
-//! A shift makes every point uniformly random and keeps the evenness of the set, up to a box that is cut at the
-//! border of the cube. Hence it serves two ends: repetitions of a deterministic set, and copies of one for the
-//! rows of a discrete family, which would otherwise all be tested at the very same points.
+//! A shift makes every point uniformly random and keeps the evenness of the set, except for a box that is cut at the
+//! border of the cube. It serves two purposes: repetitions of a deterministic set, and copies of a set for the rows
+//! of a discrete family, which would otherwise all be tested at the same points.
 
 use crate::seeded::{Purpose, seeded};
 use rand::Rng;
 
-/// A vector to shift by; one of zeros leaves every coordinate as it is, to the last bit.
+/// The vector of a shift. A vector of zeros leaves every coordinate unchanged, to the last bit.
 pub(super) struct Shift(Vec<f64>);
 
 impl Shift {
@@ -15,13 +15,13 @@ impl Shift {
         Self(vec![0.0; dims])
     }
 
-    /// The random shift of this seed and, within it, of this number.
+    /// Makes the random shift of this seed and, within it, of this number.
     pub(super) fn random(dims: usize, seed: u64, number: u64) -> Self {
         let mut rng = seeded(seed, Purpose::Shift, number);
         Self((0..dims).map(|_| rng.random()).collect())
     }
 
-    /// The shift of a row's copy of a set: one of its own, but none for the first row where no seed was given.
+    /// The shift of a row's copy of a set: its own random shift, but none for the first row without a seed.
     pub(super) fn of_row(dims: usize, seed: Option<u64>, row: u64) -> Self {
         match (seed, row) {
             (None, 0) => Self::none(dims),
@@ -35,7 +35,7 @@ impl Shift {
     }
 }
 
-/// `u + shift` modulo 1. Both are at most 1 - 2^-53, and so their sum is at most 2 - 2^-52, which is a double.
+/// `u + shift` modulo 1. Both are at most 1 - 2^-53, so that their sum is at most 2 - 2^-52, which is a double.
 fn rotate(u: f64, shift: f64) -> f64 {
     let sum = u + shift;
     if sum < 1.0 { sum } else { sum - 1.0 }

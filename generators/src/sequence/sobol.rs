@@ -1,13 +1,13 @@
 //! The Sobol sequence: more even than Halton in many dimensions, best in powers of two.
 //!
-//! The direction numbers are those of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008; file new-joe-kuo-6.21201), which
-//! the crate `sobol` carries; of that crate nothing else is used, since it can only go from a point to the next.
-//! Point i takes the bits of i in Gray code (Antonov and Saleev, 1979), which is the order of scipy and most other
-//! implementations: the same first 2^m points as without, for every m. A coordinate is a 64-bit word; an index
-//! below 2^53 makes use of its upper 53 bits, and so the plain points are exact.
+//! The direction numbers are those of Joe and Kuo (SIAM J. Sci. Comput. 30, 2008; file new-joe-kuo-6.21201), from the
+//! crate `sobol`. Nothing else of that crate is used, because it can only go from a point to the next. Point i uses
+//! the bits of i in Gray code (Antonov and Saleev, 1979), which is the order of scipy and most other implementations.
+//! For every m the first 2^m points are the same as without Gray code. A coordinate is a 64-bit word. An index below
+//! 2^53 uses its upper 53 bits, so that the plain points are exact.
 //!
-//! The origin belongs to the net of the first 2^m points, and so the sequence starts with it (Owen, "On dropping
-//! the first Sobol' point", 2020). With a seed it is shifted digitally: the same random bits flipped in all points.
+//! The origin belongs to the net of the first 2^m points, so that the sequence starts with it (Owen, "On dropping the
+//! first Sobol' point", 2020). A seed shifts the sequence digitally: it flips the same random bits in all points.
 
 use super::{Sequence, owen, radical::INDICES, unit};
 use crate::seeded::{Purpose, seeded};
@@ -16,7 +16,7 @@ use rand::Rng;
 use sobol::params::{JoeKuoD6, JoeKuoD6Dim};
 
 impl Strategy {
-    /// The Sobol sequence; with a seed digitally shifted.
+    /// The Sobol sequence; a seed shifts it digitally.
     pub const SOBOL: Self = Self::of(&Descriptor {
         name: "sobol",
         about: "digital sequence for many parameters; best with a power of two of tests",
@@ -47,13 +47,13 @@ impl Strategy {
     });
 }
 
-/// For how many dimensions there are direction numbers.
+/// The number of dimensions for which there are direction numbers.
 pub(crate) const MOST_DIMS: usize = 21_201;
 
-/// The bits of an index.
+/// The number of bits of an index.
 const BITS: usize = 53;
 
-/// For each bit of an index what it flips in a coordinate.
+/// For each bit of an index, the bits that it flips in a coordinate.
 type Directions = [u64; BITS];
 
 /// The sequence, randomised or not.
@@ -62,22 +62,22 @@ pub(crate) struct Sobol {
     randomisation: Randomisation,
 }
 
-/// With a word for each axis.
+/// The random change of the sequence, with a word for each axis.
 enum Randomisation {
     /// The bits to flip.
     Shift(Vec<u64>),
-    /// The trees of an Owen scrambling.
+    /// The keys of the trees of an Owen scrambling.
     Owen(Vec<u64>),
 }
 
 impl Sobol {
-    /// The plain sequence in at most [`MOST_DIMS`] dimensions, or with a seed a digitally shifted one.
+    /// Makes the plain sequence in at most [`MOST_DIMS`] dimensions, or with a seed a digitally shifted one.
     pub(crate) fn new(dims: usize, seed: Option<u64>) -> Self {
         let shift = seed.map_or_else(|| vec![0; dims], |seed| words(dims, seed, Purpose::Shift));
         Self { axes: directions(dims), randomisation: Randomisation::Shift(shift) }
     }
 
-    /// The scrambled sequence of a seed in at most [`MOST_DIMS`] dimensions.
+    /// Makes the scrambled sequence of a seed in at most [`MOST_DIMS`] dimensions.
     pub(crate) fn owen(dims: usize, seed: u64) -> Self {
         Self { axes: directions(dims), randomisation: Randomisation::Owen(words(dims, seed, Purpose::Scramble)) }
     }
@@ -116,7 +116,7 @@ fn words(dims: usize, seed: u64, purpose: Purpose) -> Vec<u64> {
 
 /// The directions of all axes.
 fn directions(dims: usize) -> Vec<Directions> {
-    // The tables are packed; unpacking the longest one takes a while.
+    // The tables are packed, and the longest takes a while to unpack.
     let table = match dims {
         ..=100 => JoeKuoD6::minimal(),
         101..=1000 => JoeKuoD6::standard(),
@@ -127,7 +127,7 @@ fn directions(dims: usize) -> Vec<Directions> {
     [first].into_iter().chain(table.dim_params.iter().map(of_polynomial)).take(dims).collect()
 }
 
-/// The directions that follow from a primitive polynomial and the numbers to begin with (Joe and Kuo, equation 2).
+/// The directions that follow from a primitive polynomial and its initial numbers (Joe and Kuo, equation 2).
 fn of_polynomial(JoeKuoD6Dim { a, m, .. }: &JoeKuoD6Dim) -> Directions {
     let degree = m.len();
     let mut directions = [0; BITS];
@@ -136,7 +136,7 @@ fn of_polynomial(JoeKuoD6Dim { a, m, .. }: &JoeKuoD6Dim) -> Directions {
             Some(&m) => u64::from(m) << (63 - k),
             None => {
                 let begin = directions[k - degree] ^ (directions[k - degree] >> degree);
-                // The coefficients between the first and the last, which are 1.
+                // The coefficients between the first and the last coefficient, which are both 1.
                 let inner = (1..degree).filter(|i| (a >> (degree - 1 - i)) & 1 == 1);
                 inner.fold(begin, |word, i| word ^ directions[k - i])
             }

@@ -1,6 +1,6 @@
 //! Independent uniformly random points: the baseline.
 //!
-//! PCG can jump ahead in logarithmic time, which makes even these a sequence by index.
+//! PCG can jump ahead in logarithmic time, so that even random points are a sequence by index.
 
 use super::Sequence;
 use crate::seeded::{Purpose, seeded};

@@ -1,20 +1,20 @@
-//! As many points for every discrete row as it takes: sets that are (k, epsilon)-covering in the paper's sense.
+//! Gives every discrete row as many points as it needs: sets that are (k, epsilon)-covering in the paper's sense.
 //!
-//! Section 3.1 asks of every row that its own continuous points leave no empty box above epsilon. How many points that
-//! takes no bound tells, so it is measured. Every row has several sets to choose from, which grow side by side: the
-//! block of the sequence that [`Deal`] gives it, and copies that are shifted each in its own way. A row's hole is that of
-//! the set with the smallest, at the number of points that the row has by now.
+//! Section 3.1 demands of every row that its own continuous points leave no empty box above epsilon. No bound tells
+//! how many points that takes, so it is measured. Every row chooses among several sets, which grow side by side: the
+//! block of the sequence that [`Deal`] gives it, and copies that are each shifted in their own way. A row's hole is
+//! the largest hole of its best set, at the number of points that the row has so far.
 //!
-//! The next point goes to the row with the largest hole, until none is above epsilon or the budget is spent. Of these
-//! sets nothing does better: a row's hole never grows with its points, so whoever wants the largest hole smaller has
-//! to give the row that has it a point. Hence without a budget there are as few tests as these sets allow, and under one
-//! no row is left worse than with equal shares. That is true as long as the boxes fit in memory ([`row`]); beyond, it is
-//! no more than likely.
+//! The next point goes to the row with the largest hole, until no hole is above epsilon or the budget is spent. With
+//! these sets no other way does better: a row's hole never grows with its points, so the largest hole shrinks only if
+//! its row gets a point. Hence, without a budget there are as few tests as these sets allow, and with a budget no row
+//! is left worse than with equal shares. That is true as long as the boxes fit in memory ([`row`]); beyond that it is
+//! only likely.
 //!
-//! Random points are chosen in this way too: whoever asks for an epsilon does not ask for independent ones.
+//! Random points are chosen in this way too: a user who asks for an epsilon does not ask for independent points.
 //!
-//! Which set a row uses is known only when it gets no more points, so all is planned before the first test. Of what was
-//! planned the tests come first that split the largest holes: a campaign that is stopped has looked at all rows.
+//! A row's set is known only when the row gets no more points, so everything is planned before the first test. The
+//! tests that split the largest holes come first, so that a campaign that is stopped early has visited all rows.
 
 mod row;
 
@@ -28,16 +28,16 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-/// How many sets a row chooses from, and how many there are for all rows if these are many.
+/// The number of sets that a row chooses from, and the greatest number of sets of all rows together.
 const SETS: u64 = 16;
 const MOST_SETS: u64 = 1 << 14;
 
-/// The length of a row's block where the budget does not say one.
+/// The length of a row's block if the budget does not determine it.
 const LONG: u64 = 1 << 20;
 
-/// Tests that go where the largest hole is, until none is above epsilon.
+/// Tests that go where the largest hole is, until no hole is above epsilon.
 pub(crate) struct Spread {
-    /// What is to be planned; nothing once it is.
+    /// The work to be planned; `None` once it is planned.
     plan: Option<Plan>,
     planned: Planned,
 }
@@ -46,16 +46,17 @@ pub(crate) struct Spread {
 #[derive(Default)]
 struct Planned {
     rows: Vec<(Vec<usize>, Set)>,
-    /// For each test its row and the number of its point.
+    /// For each test, its row and the number of its point.
     tests: std::vec::IntoIter<(usize, u64)>,
 }
 
 impl Spread {
-    /// Points of `strategy` for the rows of `family`, no two of which are alike; those that `existing` tests have count.
+    /// Prepares points of `strategy` for the rows of `family`, which are all different. Points of `existing` tests
+    /// count.
     ///
     /// # Errors
-    /// Epsilon is not in (0, 1), the strategy makes sets of a size that has to be known beforehand, or has no point at
-    /// index `first`.
+    /// Epsilon is not in (0, 1), or the strategy makes sets of a size that must be known beforehand, or it has no
+    /// point at index `first`.
     pub(crate) fn new(
         strategy: Strategy,
         request: &Request,
@@ -107,11 +108,11 @@ struct Plan {
 }
 
 impl Plan {
-    /// Gives points to the row with the largest hole for as long as it takes; then says what set each row has, and the
-    /// order of the tests.
+    /// Gives points to the row with the largest hole as long as necessary. Then determines the set of each row, and
+    /// the order of the tests.
     fn carry_out(mut self) -> Planned {
-        // Volumes are not below 0, and their bits are in their order. Of rows alike the one with the fewest points comes
-        // next, then the first.
+        // Volumes are not below 0, so that their bits have their order. Among rows with equal holes, the one with the
+        // fewest points comes next, then the first.
         let key = |number: usize, row: &Row| (row.hole().to_bits(), Reverse((row.points(), number)));
         let mut open = BinaryHeap::new();
         for (number, row) in self.rows.iter_mut().enumerate() {
@@ -150,11 +151,11 @@ struct Sets {
     strategy: Strategy,
     dims: usize,
     seed: u64,
-    /// The sequence of which every row has a block that no other row touches.
+    /// The sequence of which every row has a block that no other row uses.
     plain: Arc<dyn Sequence>,
     first: u64,
     block: u64,
-    /// How many shifted copies a row has besides.
+    /// The number of shifted copies that a row has as well.
     copies: u64,
 }
 
@@ -165,7 +166,7 @@ impl Sets {
         let (plain, deal): (Arc<dyn Sequence>, Deal) = match strategy.sequence(dims, request.seed) {
             Some(sequence) if request.budget == usize::MAX => (sequence.into(), long),
             Some(sequence) => (sequence.into(), Deal::new(family.len(), request.budget as u64)),
-            // Greedy points are those of one row, whose number says which.
+            // Greedy points belong to one row, whose number selects it.
             None => {
                 let rows = GreedyRows::new(dims, seed, family.points_of_rows(request.existing));
                 (Arc::new(PerRow::new(long, rows)), long)

@@ -1,29 +1,29 @@
-//! A discrete row that has several sets of points to choose from, and the largest hole that each of them leaves.
+//! A discrete row that chooses among several sets of points, and the largest hole that each set leaves.
 //!
-//! The sets grow side by side, and to know their holes all empty boxes are kept, of which there are many in three
-//! dimensions and more. While there are few, all sets stay in the running. Where there are many the worst sets are
-//! let go until two are left, the row's own block and the best of the others; where these take more memory than a row
-//! has, the better of the two is left, and at last its smaller boxes are forgotten.
+//! The sets grow side by side. To know their holes, all empty boxes are kept, and there are many in three dimensions
+//! and more. While there are few boxes, all sets are kept. If there are many, the worst sets are dropped until two
+//! are left: the row's own block and the best of the others. If these two take more memory than a row has, only the
+//! better one is left, and in the end its smaller boxes are forgotten.
 
 use crate::sequence::Sequence;
 use paracosm_coverage::dispersion::is_at_most;
 use paracosm_coverage::{Deadline, PointSet, empty_boxes::EmptyBoxes};
 use std::sync::Arc;
 
-/// How much memory the boxes of all rows take together, in bytes.
+/// The memory that the boxes of all rows may take together, in bytes.
 const MOST_MEMORY: usize = 200_000_000;
 
-/// How many faces may have to be looked at when a point splits all boxes: a box has `2d` parts with `2d` faces each.
+/// The greatest number of faces to look at when a point splits all boxes: a box has `2d` parts with `2d` faces each.
 const MOST_FACES: usize = 500_000_000;
 
-/// How many boxes a row's sets may have together while more than two are compared.
+/// The greatest number of boxes of a row's sets while more than two sets are compared.
 const MOST_COMPARED: usize = 20_000;
 
-/// When a row is done, and what it may take.
+/// The limits of a row: when it is done, and the memory that it may take.
 pub(super) struct Limits {
     pub(super) epsilon: f64,
     pub(super) deadline: Deadline,
-    /// The boxes of a row.
+    /// The greatest number of boxes of a row.
     most: usize,
 }
 
@@ -51,11 +51,11 @@ impl Set {
     }
 }
 
-/// A set as far as it has grown.
+/// A set with the points that it has so far.
 struct Candidate {
     set: Set,
     boxes: EmptyBoxes,
-    /// The largest hole before each of the points.
+    /// For each point, the largest hole before the point was added.
     holes: Vec<f64>,
 }
 
@@ -75,13 +75,14 @@ impl Candidate {
 pub(super) struct Row {
     discrete: Vec<usize>,
     existing: Vec<Vec<f64>>,
-    /// Those of the existing points.
+    /// The boxes of the existing points.
     boxes: EmptyBoxes,
-    /// What there is to choose from; nothing before the first point.
+    /// The sets to choose from; empty before the first point.
     candidates: Vec<Candidate>,
-    /// The one with the smallest hole.
+    /// The index of the candidate with the smallest hole.
     best: usize,
-    /// With how many points it is looked again whether they are enough, where the boxes do not tell.
+    /// The number of points at which the row is checked again, if the boxes do not show whether the points are
+    /// enough.
     look_at: usize,
 }
 
@@ -96,24 +97,24 @@ impl Row {
         self.candidates.get(self.best).map_or(&self.boxes, |best| &best.boxes)
     }
 
-    /// The largest hole of the set with the smallest.
+    /// The largest hole of the best set.
     pub(super) fn hole(&self) -> f64 {
         self.boxes().dispersion().lower
     }
 
-    /// How many points it has been given.
+    /// The number of points that the row was given.
     pub(super) fn points(&self) -> usize {
         self.candidates.first().map_or(0, |candidate| candidate.holes.len())
     }
 
-    /// Whether no hole is above epsilon.
+    /// Checks that no hole is above epsilon.
     pub(super) fn is_enough(&mut self, limits: &Limits) -> bool {
         let hole = self.boxes().dispersion();
         let points = self.existing.len() + self.points();
         if hole.upper <= limits.epsilon || hole.lower > limits.epsilon || points < self.look_at {
             return hole.upper <= limits.epsilon;
         }
-        // Boxes were forgotten that may be larger: search.
+        // Larger boxes may have been forgotten: search for them.
         self.look_at = points + points.div_ceil(20);
         let best = self.candidates.get(self.best);
         let new = best.into_iter().flat_map(|best| (0..best.holes.len()).map(|number| best.set.point(number as u64)));
@@ -122,13 +123,13 @@ impl Row {
         is_at_most(&points, limits.epsilon, limits.deadline) == Some(true)
     }
 
-    /// Gives it the sets that it chooses from, its own block first.
+    /// Gives the row the sets that it chooses from, its own block first.
     pub(super) fn choose_from(&mut self, sets: Vec<Set>) {
         let candidate = |set| Candidate { set, boxes: self.boxes.clone(), holes: Vec::new() };
         self.candidates = sets.into_iter().map(candidate).collect();
     }
 
-    /// Gives it one more point. Whether it goes on then: its holes are too large, and there are more points.
+    /// Gives the row a point. Returns `true` if it needs another point, and there is one.
     pub(super) fn grow(&mut self, limits: &Limits) -> bool {
         let number = self.points() as u64;
         if !self.candidates.iter().any(|candidate| candidate.set.has(number)) {
@@ -142,7 +143,7 @@ impl Row {
         !self.is_enough(limits)
     }
 
-    /// Lets go of the worst sets where there are too many boxes to keep them all.
+    /// Drops the worst sets if there are too many boxes to keep them all.
     fn let_go(&mut self, most: usize) {
         let boxes = |candidates: &[Candidate]| candidates.iter().map(|candidate| candidate.boxes.len()).sum::<usize>();
         let worst = |candidates: &[Candidate]| {
@@ -157,7 +158,7 @@ impl Row {
         }
     }
 
-    /// The row with the set that it has chosen, and the largest hole before each point; nothing if it has none.
+    /// The row with its chosen set and the largest hole before each point; `None` instead of these if it has no set.
     pub(super) fn chosen(mut self) -> (Vec<usize>, Option<(Set, Vec<f64>)>) {
         let chosen = (!self.candidates.is_empty()).then(|| self.candidates.swap_remove(self.best));
         (self.discrete, chosen.map(|candidate| (candidate.set, candidate.holes)))

@@ -1,6 +1,6 @@
-//! How a strategy is told from others in a figure.
+//! The look of a strategy in a figure, which tells it from other strategies.
 
-/// The shapes of marks.
+/// The shape of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MarkShape {
     /// A circle.
@@ -22,17 +22,17 @@ pub struct Look {
     pub colour: (u8, u8, u8),
     /// The shape of the marks.
     pub shape: MarkShape,
-    /// Whether the marks are filled.
+    /// `true` if the marks are filled.
     pub filled: bool,
 }
 
 impl Look {
-    /// Filled marks of a colour such as `0xd5_5e00`.
+    /// Makes filled marks of a colour such as `0xd5_5e00`.
     pub const fn filled(colour: u32, shape: MarkShape) -> Self {
         Self { colour: ((colour >> 16) as u8, (colour >> 8) as u8, colour as u8), shape, filled: true }
     }
 
-    /// Hollow marks of a colour such as `0xd5_5e00`.
+    /// Makes hollow marks of a colour such as `0xd5_5e00`.
     pub const fn hollow(colour: u32, shape: MarkShape) -> Self {
         Self { filled: false, ..Self::filled(colour, shape) }
     }

@@ -1,7 +1,7 @@
-//! A strategy is a descriptor: its name, what it is for, what it can do, and how a generator of it is built.
+//! Describes each strategy by a descriptor: its name, its use, its abilities, and how its generator is built.
 //!
-//! Lists, help, figures and the conformance suite read the descriptors. A strategy is described in the file that implements
-//! it, and named in the list of that file's folder ([`sequence`](crate::sequence), [`adaptive`](crate::adaptive)).
+//! Lists, help, figures and the conformance suite read the descriptors. The file that implements a strategy describes
+//! it, and the list of that file's folder names it ([`sequence`](crate::sequence), [`adaptive`](crate::adaptive)).
 
 mod look;
 
@@ -14,82 +14,83 @@ use paracosm_space::rules::Rules;
 use std::fmt;
 use std::ops::RangeInclusive;
 
-/// How tests are chosen: a handle to the [`Descriptor`] of a strategy. Strategies of the same name are equal.
+/// A method that chooses tests: a handle to the [`Descriptor`] of a strategy. Two strategies with the same name are
+/// equal.
 #[derive(Clone, Copy)]
 pub struct Strategy(&'static Descriptor);
 
-/// All that the software knows of a strategy.
+/// The description of a strategy.
 #[derive(Debug)]
 pub struct Descriptor {
     /// The name by which users ask for the strategy. No two strategies have the same name.
     pub name: &'static str,
     /// When to use the strategy, in one line.
     pub about: &'static str,
-    /// How many continuous coordinates the strategy covers, if a space has any.
+    /// The numbers of continuous coordinates that the strategy covers, if the space has continuous coordinates.
     pub dims: RangeInclusive<usize>,
-    /// How curves of the strategy look in figures.
+    /// The look of the strategy's curves in figures.
     pub look: Look,
-    /// How the strategy makes tests.
+    /// The method that makes the tests.
     pub method: Method,
 }
 
-/// How a strategy makes tests.
+/// The method by which a strategy makes tests.
 #[derive(Debug, Clone, Copy)]
 pub struct Method(pub(crate) MethodKind);
 
-/// Any number of coordinates.
+/// Any number of coordinates, but at least one.
 pub(crate) const ANY: RangeInclusive<usize> = 1..=usize::MAX;
 
-/// Builds the sets of all rows: of so many dimensions, a seed, and how many tests each row is dealt.
+/// Builds the sets of all rows from the number of dimensions, a seed, and the number of tests of each row.
 pub(crate) type BuildSets = fn(usize, Option<u64>, Deal) -> Result<Box<dyn Sequence>, GeneratorError>;
 
-/// Builds a generator that learns. The rules are those of the request's space.
+/// Builds a generator that learns. `Rules` are the rules of the request's space.
 pub(crate) type BuildSearch = fn(&Descriptor, &Request, Rules) -> Result<Box<dyn Generator>, GeneratorError>;
 
-/// Builds a generator of one's own.
+/// A function that builds a custom generator, which is not of this crate.
 pub type BuildOwn = fn(&Request) -> Result<Box<dyn Generator>, GeneratorError>;
 
-/// The kinds of methods.
+/// The kind of a method.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum MethodKind {
-    /// Points by their index.
+    /// A sequence, which computes each point from its index.
     Sequence(Endless),
-    /// Sets that are made for the number of tests that a row is dealt.
+    /// Sets that are made for the number of tests of a row.
     Sets {
-        /// Whether there is a set without chance.
+        /// `true` if there is a set without chance.
         plain: bool,
-        /// The sets of all rows, one after the other.
+        /// Builds the sets of all rows, one after the other.
         build: BuildSets,
     },
-    /// Points in the largest holes of the points that are there.
+    /// Points in the largest holes between the existing points.
     Holes,
     /// Tests that follow the robustness of the tests so far.
     Search {
-        /// Whether the search is after one failure, whatever it violates.
+        /// `true` if the search looks for one failure of any requirement.
         seeks_a_failure: bool,
-        /// The search as a generator.
+        /// Builds the search as a generator.
         build: BuildSearch,
     },
-    /// A generator that is not of this crate.
+    /// A custom generator, which is not of this crate.
     Own(BuildOwn),
 }
 
-/// A sequence that goes on.
+/// A sequence without a fixed end.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Endless {
-    /// The index of the first point where nothing is said; none of a sequence that has no order to skip in.
+    /// The default index of the first point; `None` if the sequence has no order in which points can be skipped.
     pub first: Option<u64>,
-    /// Whether there is a sequence without chance.
+    /// `true` if there is a sequence without chance.
     pub plain: bool,
-    /// Whether enough points leave no hole.
+    /// `true` if enough points leave no hole.
     pub fills: bool,
-    /// The sequence of so many dimensions and a seed.
+    /// Builds the sequence from the number of dimensions and a seed.
     pub build: fn(usize, Option<u64>) -> Box<dyn Sequence>,
 }
 
 /// Points of `[0,1)^d`, numbered from 0.
 pub(crate) trait Sequence: Send + Sync {
-    /// How many points there are.
+    /// The number of points.
     fn len(&self) -> u64;
 
     /// The point at `index`, which is below [`Sequence::len`].
@@ -97,51 +98,51 @@ pub(crate) trait Sequence: Send + Sync {
 }
 
 impl Method {
-    /// A generator of one's own, which counts as open loop. It closes the parameters of a request itself, the discrete ones
-    /// included.
+    /// Makes the method of a custom generator, which counts as open loop. The generator must handle all parameters of
+    /// a request itself, including the discrete ones.
     pub const fn own(build: BuildOwn) -> Self {
         Self(MethodKind::Own(build))
     }
 }
 
 impl Strategy {
-    /// The strategy of a descriptor.
+    /// Makes the strategy of a descriptor.
     pub const fn of(descriptor: &'static Descriptor) -> Self {
         Self(descriptor)
     }
 
-    /// The name by which users ask for it.
+    /// Returns the name by which users ask for the strategy.
     pub fn name(self) -> &'static str {
         self.0.name
     }
 
-    /// When to use it, in one line.
+    /// Returns one line about when to use the strategy.
     pub fn about(self) -> &'static str {
         self.0.about
     }
 
-    /// How many continuous coordinates it can cover, if a space has any.
+    /// Returns the numbers of continuous coordinates that the strategy covers, if a space has continuous coordinates.
     pub fn dims(self) -> RangeInclusive<usize> {
         self.0.dims.clone()
     }
 
-    /// How curves of it look in figures: the same in every figure.
+    /// Returns the look of the strategy's curves, which is the same in every figure.
     pub fn look(self) -> Look {
         self.0.look
     }
 
-    /// Whether it has a plain set, which takes no chance: what a [`Request`] without a seed gives.
+    /// Returns `true` if the strategy has a plain set without chance, which a [`Request`] without a seed gives.
     pub fn has_plain_set(self) -> bool {
         matches!(self.kind(), MethodKind::Sequence(Endless { plain: true, .. }) | MethodKind::Sets { plain: true, .. })
     }
 
-    /// Whether the tests of a request have rows of the discrete family; `greedy` may look at discrete and continuous
-    /// parameters together instead, and adaptive strategies do.
+    /// Returns `true` if the tests of a request have rows of the discrete family. Adaptive strategies have none, and
+    /// `greedy` may treat discrete and continuous parameters together instead.
     pub fn has_rows(self, request: &Request) -> bool {
         let &Request { space, k, aim, .. } = request;
         let (dims, parameters) = (space.dims(), space.levels().len());
         let default = if parameters == 0 { Aim::Dispersion } else { Aim::KwiseDispersion };
-        // Of all parameters together, the k-wise dispersion is the dispersion.
+        // For all parameters together, the k-wise dispersion is the dispersion.
         let is_dispersion = parameters == 0 && k.unwrap_or(2.min(dims)) == dims;
         match self.kind() {
             MethodKind::Sequence(_) | MethodKind::Sets { .. } => true,
@@ -152,22 +153,24 @@ impl Strategy {
         }
     }
 
-    /// Whether it learns from the robustness of the tests, and so has to be told how they went.
+    /// Returns `true` if the strategy learns from the robustness of the tests, so that it must be told the results.
     pub fn is_adaptive(self) -> bool {
         matches!(self.kind(), MethodKind::Search { .. })
     }
 
-    /// Whether it is after a failure, whatever it violates; an adaptive strategy that is not maps where tests fail.
+    /// Returns `true` if the strategy looks for a failure of any requirement. Other adaptive strategies map where
+    /// tests fail.
     pub fn seeks_a_failure(self) -> bool {
         matches!(self.kind(), MethodKind::Search { seeks_a_failure: true, .. })
     }
 
-    /// Whether it puts tests where the tests that are there leave the largest holes, and so extends them.
+    /// Returns `true` if the strategy puts tests into the largest holes of the existing tests, and so extends them.
     pub fn fills_holes(self) -> bool {
         matches!(self.kind(), MethodKind::Holes)
     }
 
-    /// The index of its first point where nothing is said; none where there is no sequence to skip in.
+    /// Returns the default index of the strategy's first point; `None` if it has no sequence in which points can be
+    /// skipped.
     pub fn first_index(self) -> Option<u64> {
         match self.kind() {
             MethodKind::Sequence(endless) => endless.first,
@@ -183,7 +186,8 @@ impl Strategy {
         self.0.method.0
     }
 
-    /// The strategy as a sequence that goes on; none where it makes sets of their size, or looks at what is there.
+    /// The strategy as a sequence without a fixed end; `None` if it makes sets of a given size or looks at existing
+    /// tests.
     pub(crate) fn sequence(self, dims: usize, seed: Option<u64>) -> Option<Box<dyn Sequence>> {
         match self.kind() {
             MethodKind::Sequence(endless) => Some((endless.build)(dims, seed)),
@@ -191,8 +195,8 @@ impl Strategy {
         }
     }
 
-    /// Whether its points can be asked for one by one, without saying beforehand how many there will be, and leave no
-    /// hole in the end.
+    /// Returns `true` if the points can be asked for one by one, without a number known beforehand, and leave no hole
+    /// in the end.
     pub(crate) fn goes_on(self) -> bool {
         matches!(self.kind(), MethodKind::Sequence(Endless { fills: true, .. }) | MethodKind::Holes)
     }

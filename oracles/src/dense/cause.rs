@@ -1,31 +1,31 @@
-//! What the robustness of a formula comes down to in dense time.
+//! Finds the cause of a formula's robustness in dense time.
 //!
-//! An operator is worth what one of its operands is worth at some instant in sight, so that one gets from the formula down
-//! to a comparison, step by step. Of all instants it is the first whose worth is nearest: where lines were followed to where
-//! they cross, rounding leaves no two numbers the same. Of an operand that stays as it is for a while it is one in the midst
-//! of that, since at its ends two parts are worth the same, and one of them by chance. Where an operand jumps it matters
-//! whether one stands at that instant or on which side of it, and time bounds are rounded, too; so one looks from the instant
-//! itself or from a hair's breadth before or after it, and what is far nearer than that is the same instant.
+//! The worth of an operator equals the worth of an operand at an instant in sight. So the search goes from the formula
+//! down to a comparison. It takes the first instant with the nearest worth: lines were followed to their crossings, so
+//! rounding leaves no two numbers exactly the same. If an operand is constant for a while, it takes an instant in the
+//! middle: at the ends, another part may have the same worth by chance. If an operand jumps, the side of the instant
+//! matters, and time bounds are rounded, too. So the search looks from the instant itself or from a tiny distance (a
+//! hair) before or after it. Instants that are much nearer to each other than a hair are the same instant.
 
 use super::piece::between;
 use super::wave::Wave;
 use crate::{Connective, Formula, Interval, Modality, Sequence};
 
-/// What worths and times may be rounded by, relative to their size: far more than a formula's sums are, far less than
-/// anything takes or is worth.
+/// The relative rounding of worths and times. It is far more than the rounding of a formula's sums, and far less than
+/// any duration or worth that matters.
 const ROUNDING: f64 = 1e-12;
 
-/// How far beside an instant one looks from, on a trace of so many seconds.
+/// Returns the small distance beside an instant from which the search looks, on a trace that ends at `end` seconds.
 pub(super) fn hair(end: f64) -> f64 {
     ROUNDING * end.max(1.0)
 }
 
-/// How near instants are that are the same, on a trace of so many seconds.
+/// Returns the distance below which two instants are the same, on a trace that ends at `end` seconds.
 fn same(end: f64) -> f64 {
     0.25 * hair(end)
 }
 
-/// What comes right before an instant, the instant itself, or what comes right after it.
+/// The side of an instant: right before it, the instant itself, or right after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Side {
     Before,
@@ -53,14 +53,14 @@ impl Moment {
     }
 }
 
-/// A part of the formula, when it counts, and what it is worth then.
+/// A part of the formula, the moment at which it counts, and its worth at this moment.
 struct Step<'f> {
     part: &'f Formula,
     moment: Moment,
     worth: f64,
 }
 
-/// The parts of a formula, each with what it is worth over time.
+/// The parts of a formula, each with its worth over time.
 pub(super) struct Causes<'f> {
     /// The time of the last sample.
     pub end: f64,
@@ -68,7 +68,7 @@ pub(super) struct Causes<'f> {
 }
 
 impl<'f> Causes<'f> {
-    /// The part on which it depends that the formula is worth this at time 0, and when that counts.
+    /// Returns the part of the formula that gives it this worth at time 0, and the time at which the part counts.
     pub fn of(&self, formula: &'f Formula, worth: f64) -> (&'f Formula, f64) {
         let mut step = Step { part: formula, moment: Moment::at(0.0), worth };
         while let Some(next) = self.after(&step) {
@@ -77,7 +77,8 @@ impl<'f> Causes<'f> {
         (step.part, step.moment.time)
     }
 
-    /// The operand of a part, and when it counts; none of what has no operands, or sees nothing of them.
+    /// Returns the operand that gives a part its worth, and the moment at which it counts. `None` if the part has no
+    /// operands or sees none.
     fn after(&self, step: &Step<'f>) -> Option<Step<'f>> {
         let Step { moment, worth, .. } = *step;
         match step.part {
@@ -117,7 +118,7 @@ impl<'f> Causes<'f> {
         Reader { points, same: same(self.end), place: 0, is_plain: is_plain(part) }
     }
 
-    /// From where one looks at a moment.
+    /// Returns the time from which the search looks at a moment.
     fn eye(&self, moment: Moment) -> f64 {
         let hair = hair(self.end);
         let aside = match moment.side {
@@ -133,20 +134,20 @@ impl<'f> Causes<'f> {
     }
 }
 
-/// What a temporal operator sees at a moment, written by its sibling that takes maxima.
+/// The sight of a temporal operator at a moment, expressed by its counterpart that takes maxima.
 struct View {
     interval: Interval,
     moment: Moment,
     eye: f64,
     end: f64,
     past: bool,
-    /// What operands and operator are multiplied by for the sibling.
+    /// The factor that converts operands and operator for the counterpart.
     sign: f64,
 }
 
 impl View {
-    /// The moment at which the operator gets its worth, and whether from its goal rather than from what has to hold up to
-    /// then, if anything has to.
+    /// Returns the moment from which the operator gets its worth. The boolean is `true` if the worth comes from the
+    /// goal, and `false` if it comes from the operand that has to hold before.
     fn responsible(&self, hold: Option<Reader>, goal: Reader, worth: f64) -> Option<(bool, Moment)> {
         let [from, to] = self.window();
         if from > to {
@@ -177,13 +178,13 @@ impl View {
         Some((is_goal, self.placed(found)))
     }
 
-    /// Between which instants of the trace the operator looks.
+    /// Returns the first and the last instant of the trace at which the operator looks.
     fn window(&self) -> [f64; 2] {
         let [first, last] = self.edges();
         [first.min(last).max(0.0), first.max(last).min(self.end)]
     }
 
-    /// The nearer and the farther edge of the window.
+    /// Returns the nearer and the farther edge of the window.
     fn edges(&self) -> [f64; 2] {
         let Interval { start, end, .. } = self.interval;
         [start, end].map(|by| {
@@ -193,7 +194,8 @@ impl View {
         })
     }
 
-    /// The instants from here to the far edge of the window between which operands are straight, going away from here.
+    /// Returns the instants between which the operands are straight, from here to the far edge of the window, the
+    /// nearest first.
     fn instants(&self, operands: [Option<&Reader>; 2], [from, to]: [f64; 2]) -> Vec<f64> {
         let [first, last] = [from.min(self.eye), to.max(self.eye)];
         let mut instants = vec![self.eye, from, to];
@@ -209,7 +211,8 @@ impl View {
         instants
     }
 
-    /// What was found where one looks from or at an edge of the window belongs to the moment beside which one looks.
+    /// Moves a moment that was found at an edge of the window, or at the eye, back to the moment beside which the
+    /// search looks.
     fn placed(&self, found: Moment) -> Moment {
         let aside = self.eye - self.moment.time;
         let edge = self.eye == found.time || self.edges().contains(&found.time);
@@ -220,7 +223,8 @@ impl View {
     }
 }
 
-/// The least that something came to, and when; `is_firm` unless another part may be worth the same then by chance.
+/// The least worth so far, and its moment. `is_firm` is `false` if another part may have the same worth there by
+/// chance.
 #[derive(Clone, Copy)]
 struct Least {
     worth: f64,
@@ -228,29 +232,29 @@ struct Least {
     is_firm: bool,
 }
 
-/// Going away from where an operator stands.
+/// A search that moves away from the instant of an operator.
 struct Scan<'w> {
     window: [f64; 2],
-    /// What takes no longer is but rounding.
+    /// The shortest duration. Anything shorter is only rounding.
     hair: f64,
-    /// Instants so near are the same.
+    /// The distance below which two instants are the same.
     same: f64,
     goal: Reader<'w>,
     hold: Option<Reader<'w>>,
     sign: f64,
-    /// Of what had to hold so far.
+    /// The least worth of the operand that had to hold so far.
     weakest: Least,
     nearest: Nearest<(bool, Moment)>,
 }
 
 impl Scan<'_> {
-    /// What has to hold, and the goal.
+    /// Returns the worth of the operand that has to hold, and the worth of the goal.
     fn worths(&mut self, moment: Moment) -> [f64; 2] {
         let hold = self.hold.as_mut().map_or(f64::INFINITY, |hold| self.sign * hold.at(moment));
         [hold, self.sign * self.goal.at(moment)]
     }
 
-    /// Is at an instant. The goal may be reached before anything had to hold here.
+    /// Visits an instant. The goal may be reached before the other operand has to hold here.
     fn be(&mut self, moment: Moment) {
         let [hold, goal] = self.worths(moment);
         self.reach(goal, moment, self.goal.is_plain);
@@ -267,7 +271,7 @@ impl Scan<'_> {
             let end = [near, far].into_iter().find(|end| (time - end.time).abs() <= hair);
             end.unwrap_or(Moment::at(time))
         };
-        // Until then the hold is above the goal.
+        // Up to this share of the piece, `hold` is above the goal.
         let meets = if g1 > h1 { (h0 - g0) / ((h0 - g0) + (g1 - h1)) } else { 1.0 };
         self.pass(ends[0], near);
         let [holds_still, goal_still] = [is_near(h0, h1), is_near(g0, g1)];
@@ -278,7 +282,7 @@ impl Scan<'_> {
         if goal_still && lasts && (h0 > g0 || h0.min(h1) >= g0) {
             self.reach(g0, at(0.5 * meets), true);
         }
-        // The greatest of a piece is at its ends, or where a falling hold meets a rising goal.
+        // The greatest value of a piece is at its ends, or at the meeting of a falling `hold` and a rising goal.
         if !holds_still && !goal_still && h0 > g0 && g1 > h1 {
             let meeting = g0 + (g1 - g0) * meets;
             self.pass([meeting; 2], at(meets));
@@ -295,7 +299,7 @@ impl Scan<'_> {
         self.hold.as_ref().is_none_or(|hold| hold.is_plain)
     }
 
-    /// Goes on past a moment at which something has to hold.
+    /// Passes a moment at which the operand has to hold.
     fn hold(&mut self, worth: f64, moment: Moment, is_firm: bool) {
         let Least { worth: least, is_firm: was_firm, .. } = self.weakest;
         if if is_near(worth, least) { is_firm && !was_firm } else { worth < least } {
@@ -313,7 +317,7 @@ impl Scan<'_> {
         }
     }
 
-    /// Reaches the goal at a moment, if that is in the window.
+    /// Reaches the goal at a moment, if the moment is in the window.
     fn reach(&mut self, goal: f64, moment: Moment, is_firm: bool) {
         if self.sees(moment) {
             let Least { worth, moment: when, is_firm: held_firmly } = self.weakest;
@@ -326,7 +330,7 @@ impl Scan<'_> {
     }
 }
 
-/// The first of what is offered whose worth is nearest to the one that is sought, but for rounding; firm before others.
+/// The first offer whose worth is nearest to the sought worth, up to rounding. A firm offer is better than others.
 struct Nearest<T> {
     sought: f64,
     distance: f64,
@@ -347,17 +351,17 @@ impl<T> Nearest<T> {
     }
 }
 
-/// How far apart two worths are, but for rounding.
+/// Returns the distance of two worths, or 0 if they are the same up to rounding.
 fn distance(worth: f64, other: f64) -> f64 {
     if is_near(worth, other) { 0.0 } else { (worth - other).abs() }
 }
 
-/// Whether two worths are the same but for rounding.
+/// Returns `true` if two worths are the same up to rounding.
 fn is_near(worth: f64, other: f64) -> bool {
     worth == other || (worth - other).abs() <= ROUNDING * other.abs().clamp(1.0, f64::MAX)
 }
 
-/// Whether only one thing can be worth what it is worth at an instant.
+/// Returns `true` if only one part of the formula can be the cause of its worth.
 fn is_plain(formula: &Formula) -> bool {
     match formula {
         Formula::Not(inner) => is_plain(inner),
@@ -366,10 +370,10 @@ fn is_plain(formula: &Formula) -> bool {
     }
 }
 
-/// Reads a function of time at one moment after the other; moments near each other are quickly found.
+/// Reads a function of time at one moment after another. Neighbouring moments are found quickly.
 struct Reader<'w> {
     points: &'w [(f64, f64)],
-    /// Instants so near are the same.
+    /// The distance below which two instants are the same.
     same: f64,
     place: usize,
     is_plain: bool,

@@ -1,9 +1,9 @@
-//! Formulas in dense time: between two samples signals are straight lines, and nothing that happens there is missed.
+//! Evaluates formulas in dense time: signals are straight lines between samples, and every instant counts.
 //!
-//! Every sub-formula becomes a piecewise linear function of time, from the comparisons up. Comparisons must be
-//! piecewise linear for that: sums, differences, `abs`, `min`, `max`, and products with and quotients by constants.
-//! Robustness jumps where a window comes to see the first instant of a trace or loses sight of the last one; then it has
-//! a value at that very instant beside the limits on both sides, and all three count in what looks there.
+//! Every sub-formula becomes a piecewise linear function of time. So comparisons must be piecewise linear: sums,
+//! differences, `abs`, `min`, `max`, and products with and quotients by constants. The robustness jumps when a window
+//! reaches the first instant of the trace or leaves the last one. At this instant it has a value of its own beside the
+//! limits on both sides. An operator that sees this instant takes all three into account.
 
 mod cause;
 mod piece;
@@ -21,7 +21,7 @@ use track::{Track, reaches};
 use wave::Wave;
 use window::Window;
 
-/// What a formula is worth at the beginning of a trace that has samples.
+/// Evaluates a formula at the beginning of a trace that has samples.
 pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, EvaluationError> {
     let [robustness, lower, upper] = Dense::new(trace).track(formula, 0.0, &mut |_, _| {})?.first();
     let truth = if lower > 0.0 {
@@ -34,21 +34,21 @@ pub(crate) fn evaluate(formula: &Formula, trace: &Trace) -> Result<Evaluation, E
     Ok(Evaluation { truth, robustness, lower, upper })
 }
 
-/// What its robustness on a trace that has samples comes down to. It takes no more than the worth of every part over time,
-/// which is asked for once and kept.
+/// Finds the cause of the formula's robustness on a trace that has samples. It needs only the worth of every part over
+/// time, which is computed once and kept.
 pub(crate) fn explain<'f>(formula: &'f Formula, trace: &Trace) -> Result<Cause<'f>, EvaluationError> {
     let dense = Dense::new(trace);
     let mut parts = Vec::new();
     let whole = dense.track(formula, 0.0, &mut |part, wave| parts.push((part, wave.clone())))?;
     let [robustness, ..] = whole.first();
     let (part, time) = Causes { end: dense.end, parts }.of(formula, robustness);
-    // What counts at a sample counts at its time as it is written elsewhere.
+    // A time near a sample becomes exactly the sample's time, as it is written elsewhere.
     let sample = (time / trace.dt()).round() * trace.dt();
     let time = if (time - sample).abs() <= hair(dense.end) { sample } else { time };
     Ok(Cause { time, part, robustness })
 }
 
-/// A trace in dense time.
+/// A trace with straight lines between its samples.
 struct Dense<'a> {
     trace: &'a Trace,
     /// The time of the last sample.
@@ -60,8 +60,8 @@ impl<'a> Dense<'a> {
         Self { trace, end: (trace.len() - 1) as f64 * trace.dt() }
     }
 
-    /// What the formula is worth from time 0 at least to `needed`; `keep` sees what that is by what was recorded, of the
-    /// formula and of all its parts.
+    /// Computes the worth of the formula from time 0 at least to `needed`. `keep` gets the worth for the recorded
+    /// samples, of the formula and of all its parts.
     fn track<'f>(
         &self,
         formula: &'f Formula,
@@ -131,9 +131,9 @@ impl<'a> Dense<'a> {
         })
     }
 
-    /// The expression over time; nothing if it is not piecewise linear.
+    /// Computes the expression over time. `None` if it is not piecewise linear.
     fn number(&self, expression: &Expression) -> Result<Option<Wave>, EvaluationError> {
-        // Minima and maxima would swallow what is no number.
+        // `min` and `max` would hide a NaN.
         let finite = |number: f64| {
             let what = || EvaluationError::NoValue { what: expression.to_string(), time: 0.0 };
             if number.is_finite() { Ok(number) } else { Err(what()) }
@@ -199,23 +199,23 @@ impl<'a> Dense<'a> {
     }
 }
 
-/// A temporal operator, written by its sibling that looks ahead and takes maxima.
+/// A temporal operator, expressed by its counterpart that looks ahead and takes maxima.
 #[derive(Clone, Copy)]
 struct Scope {
     interval: Interval,
     past: bool,
     dual: bool,
-    /// Until when it is asked for, and its operands therefore.
+    /// The last time at which the operator is needed, and the last time at which its operands are therefore needed.
     needed: f64,
     asked: f64,
-    /// Whether nothing is in sight beyond the end of the trace.
+    /// `true` if nothing is in sight beyond the end of the trace.
     ends: bool,
-    /// What its operands are worth beyond the end, if that is not nothing.
+    /// The worth of the operands beyond the end, or `None` if nothing lies there.
     outside: Option<f64>,
 }
 
 impl Scope {
-    /// The operator, of which `apply` computes the sibling.
+    /// Computes the operator. `apply` computes its counterpart.
     fn track<const N: usize>(self, operands: [Track; N], apply: impl Fn(Self, [Wave; N]) -> Wave) -> Track {
         let operator = |scope: Self, waves: [Wave; N]| scope.back(apply(scope, waves.map(|wave| scope.ahead(wave))));
         let known = operands.iter().map(|track| track.settled).fold(f64::INFINITY, f64::min);
@@ -244,13 +244,13 @@ impl Scope {
         }
     }
 
-    /// An operand of the operator as its sibling takes it.
+    /// Converts an operand of the operator for the counterpart.
     fn ahead(&self, wave: Wave) -> Wave {
         let wave = if self.past { wave.cut(self.needed).reversed() } else { wave };
         if self.dual { wave.scaled(-1.0) } else { wave }
     }
 
-    /// What the sibling comes to, as the operator has it.
+    /// Converts the result of the counterpart back for the operator.
     fn back(&self, wave: Wave) -> Wave {
         let wave = if self.past { wave.reversed().cut(self.needed) } else { wave };
         if self.dual { wave.scaled(-1.0) } else { wave }
@@ -274,7 +274,7 @@ impl Scope {
         let outside = self.outside.unwrap_or(f64::NEG_INFINITY);
         let mut until = Wave::until(&hold, &goal, outside);
         if end.is_finite() {
-            // The goal is in sight, and it is reached, in sight or not: then it is reached in sight.
+            // If the goal is in sight, and it is reached anywhere, then it is reached in sight.
             let needed = self.asked.min(self.needed + start);
             until = until.min(&goal.greatest(Window::closed(0.0, end - start), needed, outside));
         }
@@ -287,7 +287,7 @@ impl Scope {
     }
 }
 
-/// The value of an expression without signals.
+/// Returns the value of an expression without signals.
 fn constant(expression: &Expression) -> Option<f64> {
     Some(match expression {
         Expression::Number(number) => *number,

@@ -1,6 +1,6 @@
-//! Straight lines between two instants, and where they cross.
+//! Straight lines between two instants, and the points at which they cross.
 
-/// The value at an instant of the line through two points.
+/// Returns the value at an instant of the line through two points.
 pub(super) fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> f64 {
     if time <= t0 || v0 == v1 {
         v0
@@ -11,7 +11,7 @@ pub(super) fn between((t0, v0): (f64, f64), (t1, v1): (f64, f64), time: f64) -> 
     }
 }
 
-/// Lines from one instant to another, which may be the earlier one, or from one value to another at the same instant.
+/// Lines from one instant to another. The second instant may be earlier, or the same: then the lines are jumps.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Piece<const N: usize> {
     pub from: f64,
@@ -20,13 +20,13 @@ pub(super) struct Piece<const N: usize> {
 }
 
 impl<const N: usize> Piece<N> {
-    /// Appends what `join` makes of the lines after their beginning, with a breakpoint wherever two of them cross.
+    /// Appends the breakpoints of the joined lines, except the first, with a breakpoint wherever two lines cross.
     #[inline]
     pub fn push(self, points: &mut Vec<(f64, f64)>, join: impl Fn([f64; N]) -> f64) {
         let Self { from, to, lines } = self;
         let mut crossings = [f64::INFINITY; 3];
         let mut count = 0;
-        // At a jump there is nothing between the values.
+        // A jump has no instants between its values.
         let lasting = if from == to { &lines[..0] } else { &lines[..] };
         for (i, a) in lasting.iter().enumerate() {
             for b in &lines[..i] {
@@ -43,7 +43,7 @@ impl<const N: usize> Piece<N> {
         let mut last = from;
         for share in &crossings[..count] {
             let time = from + (to - from) * share;
-            // Rounding may leave it no instant of its own.
+            // After rounding, the crossing may have no instant of its own.
             if time != last && time != to {
                 let values = lines.map(|(v0, v1)| if v0 == v1 { v0 } else { v0 + (v1 - v0) * share });
                 push(points, (time, join(values)));
@@ -54,7 +54,7 @@ impl<const N: usize> Piece<N> {
     }
 }
 
-/// Appends a breakpoint. Of those between equal values none is kept, and of three at an instant one if it is no jump.
+/// Appends a breakpoint. Drops a breakpoint between two equal values. Of three equal values at one instant, keeps one.
 pub(super) fn push(points: &mut Vec<(f64, f64)>, point: (f64, f64)) {
     if let [.., before, last] = points[..]
         && before.1 == point.1

@@ -1,30 +1,31 @@
-//! What a formula is worth over time, up to the end of the trace and with an eye on what comes after it.
+//! The worth of a formula over time, for the recorded samples and for the worst and best continuation.
 
 use super::wave::{TOLERANCE, Wave};
 
-/// Whether a time is as late as another one, but for rounding.
+/// Returns `true` if `time` is not before `other`, up to rounding.
 pub(super) fn reaches(time: f64, other: f64) -> bool {
     time + TOLERANCE * other.max(1.0) >= other
 }
 
 /// The worth of a formula over time.
 pub(super) struct Track {
-    /// By what was recorded.
+    /// The worth for the recorded samples.
     pub recorded: Wave,
-    /// Until when that is all there is to it; before time 0 if it never is.
+    /// The time up to which the continuation has no influence. It is negative if the continuation always has
+    /// influence.
     pub settled: f64,
-    /// What it is from that time or time 0 on, counted from there, had the trace gone on in the worst and in the best
-    /// way.
+    /// The worth for the worst and the best continuation, from `settled` on (or from time 0 on). Times are counted
+    /// from there.
     pub open: Option<[Wave; 2]>,
 }
 
 impl Track {
-    /// A track that depends on nothing that was not recorded, until the time for which it is asked.
+    /// Makes a track that depends on recorded samples only, up to the time `needed`.
     pub fn settled(recorded: Wave, needed: f64) -> Self {
         Self { recorded, settled: needed, open: None }
     }
 
-    /// At time 0: by what was recorded, at worst and at best.
+    /// Returns the worth at time 0: for the recorded samples, the worst possible, and the best possible.
     pub fn first(&self) -> [f64; 3] {
         let recorded = self.recorded.first();
         match &self.open {
@@ -50,7 +51,7 @@ impl Track {
         Self { recorded: join(&self.recorded, &other.recorded), settled, open }
     }
 
-    /// From a time on, counted from there, at worst or at best.
+    /// Returns the worst or the best worth from a time on, with times counted from this time.
     pub fn after(&self, side: usize, time: f64) -> Wave {
         match &self.open {
             None => self.recorded.after(time),

@@ -1,29 +1,29 @@
-//! Piecewise linear functions of time, and what operators make of them.
+//! Piecewise linear functions of time, and the results of operators on them.
 //!
-//! The algorithms are those of Donzé, Ferrère and Maler ("Efficient robust monitoring for STL", CAV 2013): maxima over
-//! a moving window by a monotone wedge of breakpoints beside the values at the window's two ends, and `until` segment by
-//! segment from the end. All take time linear in the number of breakpoints. Where a function jumps it has a value of its
-//! own beside the limits on both sides, so that windows are closed as they are written.
+//! The algorithms are those of Donzé, Ferrère and Maler ("Efficient robust monitoring for STL", CAV 2013). The maximum
+//! over a moving window comes from a monotone wedge of breakpoints and the values at both ends of the window. `until`
+//! is computed segment by segment from the end. All algorithms take time linear in the number of breakpoints. Where a
+//! function jumps it has a value of its own beside the limits on both sides, so that windows can include their ends.
 
 use super::piece::{Piece, between, push};
 use super::window::{Sliding, Window};
 
-/// How far beyond its end a function may be asked because of rounded sums of time bounds, relative to that time.
+/// The time after its end at which a function may be read, relative to the end. Sums of time bounds are rounded.
 pub(super) const TOLERANCE: f64 = 1e-9;
 
-/// A piecewise linear function from time 0 on, as its breakpoints. Where it jumps three follow at one instant: the limit
-/// from below, the value, and the limit from above; at its beginning and end the missing limit is the value. It may be
-/// infinite from one breakpoint to the next.
+/// A piecewise linear function from time 0 on, stored as its breakpoints. A jump has three breakpoints at one instant:
+/// the limit from below, the value, and the limit from above. At the beginning and the end, the missing limit equals
+/// the value. The function may be infinite from one breakpoint to the next.
 #[derive(Debug, Clone)]
 pub(super) struct Wave(Vec<(f64, f64)>);
 
 impl Wave {
-    /// The function through these points, of which there is one at time 0.
+    /// Makes the function through these points. One point is at time 0.
     pub fn new(points: Vec<(f64, f64)>) -> Self {
         Self(points)
     }
 
-    /// The same value from time 0 to `end`.
+    /// Makes the function with the same value from time 0 to `end`.
     pub fn constant(value: f64, end: f64) -> Self {
         Self(vec![(0.0, value), (end, value)])
     }
@@ -32,7 +32,7 @@ impl Wave {
         &self.0
     }
 
-    /// The end and the value there.
+    /// Returns the time of the end and the value there.
     pub fn last(&self) -> (f64, f64) {
         self.0[self.0.len() - 1]
     }
@@ -41,18 +41,18 @@ impl Wave {
         self.last().0
     }
 
-    /// The value at time 0.
+    /// Returns the value at time 0.
     pub fn first(&self) -> f64 {
         self.0[0].1
     }
 
-    /// Every value times a number.
+    /// Multiplies every value by a number.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.0.iter_mut().for_each(|point| point.1 *= factor);
         self
     }
 
-    /// Run backwards from its end.
+    /// Returns the function run backwards from its end.
     pub fn reversed(mut self) -> Self {
         let end = self.end();
         self.0.reverse();
@@ -60,7 +60,7 @@ impl Wave {
         self
     }
 
-    /// The function up to an instant.
+    /// Returns the function up to an instant.
     pub fn cut(mut self, end: f64) -> Self {
         let within = self.0.partition_point(|point| point.0 < end);
         if within < self.0.len() {
@@ -71,7 +71,7 @@ impl Wave {
         self
     }
 
-    /// The function from an instant on, counted from there.
+    /// Returns the function from an instant on, with times counted from this instant.
     pub fn after(&self, time: f64) -> Self {
         let from = self.0.partition_point(|point| point.0 < time);
         let [_, value, above] = self.around(from, time);
@@ -82,7 +82,8 @@ impl Wave {
         Self(points)
     }
 
-    /// The function and, after its end, another one, of whose beginning only what comes right after it is left.
+    /// Continues the function with another one after its end. The other one gives only the limit from above at the
+    /// joint.
     pub fn followed_by(mut self, other: &Self) -> Self {
         let (end, value) = self.last();
         let before = self.0.partition_point(|point| point.0 < end);
@@ -95,7 +96,7 @@ impl Wave {
         self
     }
 
-    /// The limit from below, the value and the limit from above at an instant, before which there are so many breakpoints.
+    /// Returns the limit from below, the value and the limit from above at an instant behind `before` breakpoints.
     fn around(&self, before: usize, time: f64) -> [f64; 3] {
         let here = self.0[before..].iter().take_while(|point| point.0 <= time).count();
         if here > 0 {
@@ -105,25 +106,25 @@ impl Wave {
         [before.checked_sub(1).map_or(next.1, |last| between(self.0[last], next, time)); 3]
     }
 
-    /// The greatest value of all.
+    /// Returns the greatest value.
     pub fn greatest_of_all(&self) -> f64 {
         self.0.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Every value more by a number.
+    /// Adds a number to every value.
     pub fn raised(mut self, by: f64) -> Self {
         self.0.iter_mut().for_each(|point| point.1 += by);
         self
     }
 
-    /// The sum of two functions.
+    /// Returns the sum of two functions.
     pub fn sum(&self, other: &Self) -> Self {
         let mut result = Vec::with_capacity(self.0.len() + other.0.len());
         self.together(other, |Piece { to, lines: [a, b], .. }| push(&mut result, (to, a.1 + b.1)));
         Self(result)
     }
 
-    /// Two functions joined at each instant by one that is linear wherever neither is the greater by turns.
+    /// Joins two functions at each instant. `join` has to be linear between the instants at which the functions cross.
     fn joined(&self, other: &Self, join: impl Fn([f64; 2]) -> f64) -> Self {
         let mut result = Vec::with_capacity(self.0.len() + other.0.len());
         self.together(other, |piece| piece.push(&mut result, &join));
@@ -138,8 +139,8 @@ impl Wave {
         self.joined(other, |[a, b]| a.min(b))
     }
 
-    /// The pieces over which two functions are both linear, before them the instant 0. Where one jumps there are two that
-    /// take no time, from the limit from below to the value and on to the limit from above.
+    /// Visits the pieces on which both functions are linear, in order. The first piece is the instant 0. At a jump
+    /// there are two pieces of no duration: from the limit from below to the value, and on to the limit from above.
     fn together(&self, other: &Self, mut visit: impl FnMut(Piece<2>)) {
         let (mut i, mut j) = (0, 0);
         let mut now = 0.0;
@@ -162,12 +163,12 @@ impl Wave {
         }
     }
 
-    /// The time of breakpoint `i`, of which there may be none.
+    /// Returns the time of breakpoint `i`, or infinity if the breakpoint does not exist.
     fn time(&self, i: usize) -> f64 {
         self.0.get(i).map_or(f64::INFINITY, |point| point.0)
     }
 
-    /// Goes on from breakpoint `i` to the last at this instant, and tells what the function is around it.
+    /// Moves `i` to the last breakpoint at this instant, and returns both limits with the value between them.
     fn leap(&self, i: &mut usize, time: f64) -> [f64; 3] {
         let around = self.around(*i + usize::from(self.0[*i].0 < time), time);
         while self.time(*i + 1) <= time {
@@ -176,7 +177,7 @@ impl Wave {
         around
     }
 
-    /// The values at two instants of the piece that begins with breakpoint `i`.
+    /// Returns the values at two instants of the piece that begins with breakpoint `i`.
     fn line(&self, i: usize, from: f64, to: f64) -> (f64, f64) {
         let first = self.0[i];
         match self.0.get(i + 1) {
@@ -185,7 +186,7 @@ impl Wave {
         }
     }
 
-    /// The greatest value over a window, seen from the instants from 0 to `needed`; beyond the end it is `outside`.
+    /// Returns the greatest value in a window that moves from 0 to `needed`. Beyond the end the value is `outside`.
     pub fn greatest(mut self, window: Window, needed: f64, outside: f64) -> Self {
         let (last, value) = self.last();
         if needed + window.end > last + TOLERANCE * last.max(1.0) {
@@ -212,7 +213,7 @@ impl Wave {
         }
     }
 
-    /// The greatest value from each instant on, that beyond the end included.
+    /// Returns the greatest value from each instant on. The value beyond the end, `outside`, counts too.
     pub fn greatest_from_now(self, outside: f64) -> Self {
         let mut result = Vec::with_capacity(self.0.len());
         let (end, last) = self.last();
@@ -228,7 +229,7 @@ impl Wave {
         Self(result)
     }
 
-    /// What `hold until goal` is worth at each instant, however late the goal; beyond the end it is `outside`.
+    /// Returns the worth of `hold until goal` at each instant, without a time bound. Beyond the end it is `outside`.
     pub fn until(hold: &Self, goal: &Self, outside: f64) -> Self {
         let mut pieces = Vec::with_capacity(hold.0.len() + goal.0.len());
         hold.together(goal, |piece| pieces.push(piece));
@@ -237,11 +238,11 @@ impl Wave {
         let mut rest = goal.1.max(hold.1.min(outside));
         result.push((to, rest));
         for Piece { from, to, lines: [(h0, h1), (g0, g1)] } in pieces.drain(1..).rev() {
-            // The best goal that is reached within this piece or after it, as far as `hold` is not what limits it.
+            // The best goal that is reached within this piece or after it, if `hold` does not limit it.
             let (hold, best) = if h1 > h0 || from == to {
                 ((h1, h0), rest)
             } else {
-                // `hold` is least where the goal is reached.
+                // A falling `hold` is least at the instant at which the goal is reached.
                 let meeting = if g1 > g0 { meeting((h0, h1), (g0, g1)) } else { f64::NEG_INFINITY };
                 ((f64::INFINITY, f64::INFINITY), meeting.max(h1.min(rest)))
             };
@@ -249,7 +250,7 @@ impl Wave {
             piece.push(&mut result, |[goal, hold, best]| goal.max(hold.min(best)));
             rest = result[result.len() - 1].1;
             if from != to {
-                // What comes after an instant is reached only by way of what `hold` is right after it.
+                // The instants after this one are reached only through the value of `hold` right after it.
                 rest = rest.min(h0);
             }
         }
@@ -258,7 +259,7 @@ impl Wave {
     }
 }
 
-/// The greatest that the lesser of a falling and a rising line comes to.
+/// Returns the greatest value of the minimum of a falling and a rising line.
 fn meeting((h0, h1): (f64, f64), (g0, g1): (f64, f64)) -> f64 {
     if h0 > g0 && g1 > h1 {
         let share = (h0 - g0) / ((h0 - g0) + (g1 - h1));

@@ -1,17 +1,17 @@
-//! The greatest value in sight as a window slides along a piecewise linear function.
+//! The greatest value of a piecewise linear function in a sliding window.
 //!
-//! The breakpoints in sight that may yet be the greatest are kept in a monotone wedge (D. Lemire, "Streaming
+//! A monotone wedge keeps the breakpoints in sight that may still become the greatest (D. Lemire, "Streaming
 //! maximum-minimum filter using no more than three comparisons per element", 2006).
 
 use super::piece::{Piece, between};
 use std::collections::VecDeque;
 
-/// What is in sight from an instant, counted from there.
+/// The times that are in sight from an instant, counted from this instant.
 #[derive(Clone, Copy)]
 pub(super) struct Window {
     pub start: f64,
     pub end: f64,
-    /// Whether the last instant itself is in sight.
+    /// `true` if the last instant itself is in sight.
     pub is_closed: bool,
 }
 
@@ -25,7 +25,7 @@ impl Window {
     }
 }
 
-/// A window on its way, and the breakpoints that it has come by.
+/// A moving window, and the breakpoints that it has reached.
 pub(super) struct Sliding<'w> {
     points: &'w [(f64, f64)],
     window: Window,
@@ -35,7 +35,7 @@ pub(super) struct Sliding<'w> {
 }
 
 impl<'w> Sliding<'w> {
-    /// A window that comes to time 0.
+    /// Makes a window that is about to reach time 0.
     pub fn new(points: &'w [(f64, f64)], window: Window) -> Self {
         let mut sliding = Self { points, window, wedge: VecDeque::new(), entered: 0, left: 0 };
         sliding.enter(points.partition_point(|point| point.0 - window.end < 0.0));
@@ -43,8 +43,8 @@ impl<'w> Sliding<'w> {
         sliding
     }
 
-    /// Passes the breakpoints on which an end of the window stands at an instant. Where one of them is a jump it tells the
-    /// greatest value in sight at that instant, and the limit from above.
+    /// Passes the breakpoints at which an end of the window stands at this instant. If one of them is a jump, returns
+    /// the greatest value in sight at this instant, and the limit from above.
     pub fn pass(&mut self, now: f64) -> Option<[f64; 2]> {
         let Window { start, end, is_closed } = self.window;
         let due = |from: usize, by: f64| self.points[from..].iter().take_while(|point| point.0 - by <= now).count();
@@ -62,7 +62,7 @@ impl<'w> Sliding<'w> {
         if leaving == 0 {
             value = value.max(self.at(self.left, now + start));
         }
-        // The limit from below comes into sight first, then the value; they go out of sight in the same order.
+        // The limit from below comes into sight before the value. They leave the sight in the same order.
         let last = if is_closed { entering / 2 } else { 0 };
         self.enter(entered.min(self.entered + last + 1));
         self.leave(self.left + leaving / 2);
@@ -72,13 +72,15 @@ impl<'w> Sliding<'w> {
         Some([value, self.value(now)])
     }
 
-    /// The greatest value in sight from an instant, once what stands at the ends of the window was passed.
+    /// Returns the greatest value in sight from an instant, after the breakpoints at the ends of the window were
+    /// passed.
     pub fn value(&self, now: f64) -> f64 {
         let Window { start, end, .. } = self.window;
         self.highest().max(self.at(self.left, now + start)).max(self.at(self.entered, now + end))
     }
 
-    /// The values at the ends of the window and the greatest between them, until the next breakpoint or `needed`.
+    /// Returns the values at the ends of the window and the greatest value between them, until the next breakpoint or
+    /// `needed`.
     pub fn piece(&self, from: f64, needed: f64) -> Piece<3> {
         let Window { start, end, .. } = self.window;
         let until = |next: usize, by: f64| self.points.get(next).map_or(needed, |point| point.0 - by);
@@ -110,7 +112,7 @@ impl<'w> Sliding<'w> {
         self.wedge.front().map_or(f64::NEG_INFINITY, |i| self.points[*i].1)
     }
 
-    /// The value at a time before breakpoint `next` and after the one before it.
+    /// Returns the value at a time between breakpoint `next` and the breakpoint before it.
     fn at(&self, next: usize, time: f64) -> f64 {
         match (next.checked_sub(1), self.points.get(next)) {
             (Some(before), Some(point)) => between(self.points[before], *point, time),

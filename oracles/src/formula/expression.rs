@@ -1,4 +1,4 @@
-//! Arithmetic on signals: what formulas compare.
+//! Arithmetic expressions over signals: the numbers that formulas compare.
 
 use super::Formula;
 use crate::Comparison;
@@ -7,22 +7,22 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// An operation on two numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arithmetic {
-    /// `+`
+    /// The sum `a + b`.
     Add,
-    /// `-`
+    /// The difference `a - b`.
     Subtract,
-    /// `*`
+    /// The product `a * b`.
     Multiply,
-    /// `/`, as IEEE 754 has it: a number other than 0 by 0 is infinite, 0 by 0 has no value
+    /// The quotient `a / b` of IEEE 754. A number other than 0 divided by 0 is infinite; 0 / 0 has no value.
     Divide,
-    /// `min(a, b)`
+    /// The lesser number, `min(a, b)`.
     Least,
-    /// `max(a, b)`
+    /// The greater number, `max(a, b)`.
     Greatest,
 }
 
 impl Arithmetic {
-    /// The result, which is NaN where an operand is.
+    /// Returns the result of the operation. It is NaN if an operand is NaN.
     pub(crate) fn apply(self, left: f64, right: f64) -> f64 {
         match self {
             Arithmetic::Add => left + right,
@@ -36,38 +36,39 @@ impl Arithmetic {
     }
 }
 
-/// A number made of signals, at each tick. [`Display`](std::fmt::Display) writes it so that it can be parsed again.
+/// An arithmetic expression over signals. It has a value at each tick. [`Display`](std::fmt::Display) writes a text
+/// that can be parsed again.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expression {
-    /// The same number at every tick.
+    /// A number that is the same at every tick.
     Number(f64),
-    /// The sample of the signal of that name.
+    /// The sample of the signal with this name.
     Signal(String),
-    /// `-x`
+    /// The negated number `-x`.
     Negate(Box<Expression>),
-    /// `abs(x)`
+    /// The absolute value `abs(x)`.
     Absolute(Box<Expression>),
     /// An operation on two expressions.
     Binary(Arithmetic, Box<Expression>, Box<Expression>),
 }
 
-/// The signal of this name.
+/// Makes an expression of the signal with this name.
 pub fn signal(name: impl Into<String>) -> Expression {
     Expression::Signal(name.into())
 }
 
 impl Expression {
-    /// Its distance from 0.
+    /// Makes the absolute value of the expression.
     pub fn abs(self) -> Self {
         Expression::Absolute(Box::new(self))
     }
 
-    /// The lesser of the two.
+    /// Makes the lesser of the two expressions.
     pub fn min(self, other: impl Into<Expression>) -> Self {
         self.binary(Arithmetic::Least, other)
     }
 
-    /// The greater of the two.
+    /// Makes the greater of the two expressions.
     pub fn max(self, other: impl Into<Expression>) -> Self {
         self.binary(Arithmetic::Greatest, other)
     }
@@ -76,42 +77,42 @@ impl Expression {
         Expression::Binary(operation, Box::new(self), Box::new(other.into()))
     }
 
-    /// `self < other`
+    /// Makes the formula `self < other`.
     pub fn below(self, other: impl Into<Expression>) -> Formula {
         self.compare(Comparison::Below, other)
     }
 
-    /// `self <= other`
+    /// Makes the formula `self <= other`.
     pub fn at_most(self, other: impl Into<Expression>) -> Formula {
         self.compare(Comparison::AtMost, other)
     }
 
-    /// `self > other`
+    /// Makes the formula `self > other`.
     pub fn above(self, other: impl Into<Expression>) -> Formula {
         self.compare(Comparison::Above, other)
     }
 
-    /// `self >= other`
+    /// Makes the formula `self >= other`.
     pub fn at_least(self, other: impl Into<Expression>) -> Formula {
         self.compare(Comparison::AtLeast, other)
     }
 
-    /// `self == other`
+    /// Makes the formula `self == other`.
     pub fn equal_to(self, other: impl Into<Expression>) -> Formula {
         self.compare(Comparison::Equal, other)
     }
 
-    /// `self != other`
+    /// Makes the formula `self != other`.
     pub fn different_from(self, other: impl Into<Expression>) -> Formula {
         self.compare(Comparison::Different, other)
     }
 
-    /// The two compared so.
+    /// Makes the formula that compares the two expressions in this way.
     pub fn compare(self, comparison: Comparison, other: impl Into<Expression>) -> Formula {
         Formula::Compare(self, comparison, other.into())
     }
 
-    /// Calls back for each signal, from left to right.
+    /// Calls `visit` for each signal, from left to right.
     pub(crate) fn for_each_signal<'a>(&'a self, visit: &mut impl FnMut(&'a str)) {
         match self {
             Expression::Number(_) => {}

@@ -1,42 +1,42 @@
-//! The truth of a formula as early as it can be known.
+//! Decides the truth of a formula as early as possible.
 //!
-//! A tick of a sub-formula is decided once, for good, and then tells those that it is part of: what is decided at a
-//! tick goes up the graph as runs of ticks. Every operator keeps the runs of its operands that may still matter, so that
-//! the work is proportional to how often truths change, and not to how far the formula looks ahead.
+//! Each tick of a sub-formula is decided once. Its truth then goes up the graph to the operators that use the
+//! sub-formula, as runs of ticks. Every operator keeps only the runs of its operands that may still matter. So the
+//! work is proportional to the number of changes of truths, and not to the time that the formula looks ahead.
 
 use super::runs::{Run, Runs};
 use crate::core::{Core, CoreKind, Id, Sight};
 use crate::ticks::FOREVER;
 
-/// Ticks of a node at which it is now known to hold, or not to.
+/// A run of ticks of a node, and its truth at these ticks, which has just been decided.
 type Event = (Run, bool);
 
 #[derive(Debug, Clone)]
 enum Operator {
-    /// A statement about the tick itself, decided from outside.
+    /// A statement about the tick itself. The caller decides its truth.
     Atom(Id),
-    /// One of the two holds.
+    /// At least one of the two operands holds.
     Or { operands: [Id; 2], no: [Runs; 2] },
     /// The operand holds at a tick in sight.
     Any { operand: Id, start: usize, sight: Sight, yes: Runs, no: Runs },
-    /// `goal` holds at a tick, however far, and `hold` until then.
+    /// `goal` holds at a tick, at any distance, and `hold` holds until then.
     Until { hold: Id, goal: Id, past: bool, holds: Reach, fails: Reach, goal_no: Runs, hold_no: Runs },
 }
 
 #[derive(Debug, Clone)]
 struct Node {
     operator: Operator,
-    /// Operands and result are negated.
+    /// `true` if the operands and the result are negated.
     dual: bool,
-    /// The ticks that are decided.
+    /// The ticks whose truth is decided.
     done: Runs,
 }
 
-/// Follows a formula tick by tick.
+/// Follows a formula tick by tick, and decides its truth.
 #[derive(Debug, Clone)]
 pub(super) struct Decider {
     nodes: Vec<Node>,
-    /// What was decided at this tick, by node.
+    /// The truths decided at this tick, by node.
     events: Vec<Vec<Event>>,
 }
 
@@ -56,7 +56,7 @@ impl Decider {
                     if sight.end >= FOREVER {
                         until
                     } else {
-                        // The goal is in sight, and it is reached, in sight or not: then it is reached in sight.
+                        // If the goal is in sight, and it is reached anywhere, then it is reached in sight.
                         let seen = decider.any(goal, 0, sight, dual);
                         decider.or([seen, until], !dual)
                     }
@@ -81,7 +81,8 @@ impl Decider {
         self.add(Operator::Any { operand, start, sight, yes: Runs::default(), no: Runs::default() }, dual)
     }
 
-    /// Learns the truths of the atoms at the next tick, `now`; the truth of the formula at tick 0 if that decides it.
+    /// Takes the truths of the atoms at the next tick, `now`. Returns the truth of the formula at tick 0 if it is
+    /// decided now.
     pub fn step(&mut self, now: usize, atoms: impl Fn(Id) -> Option<bool>) -> Option<bool> {
         for (id, node) in self.nodes.iter_mut().enumerate() {
             let (operands, own) = self.events.split_at_mut(id);
@@ -159,7 +160,7 @@ impl Node {
                         }
                     }
                 }
-                // The tick is new, and what it sees may have been decided before.
+                // The tick is new, and the truths that it depends on may have been decided before.
                 match now.checked_sub(*start) {
                     None => decide((now, now), false),
                     Some(last) => {
@@ -192,7 +193,7 @@ impl Node {
                         fails.open(run, |run| decide(run, false));
                         hold_no.within(run).for_each(|run| fails.seed(run, |run| decide(run, false)));
                         if *past && run.0 == 0 {
-                            // Before the first tick nothing was reached.
+                            // Before the first tick the goal was never reached.
                             fails.seed((0, 0), |run| decide(run, false));
                         }
                     }
@@ -207,7 +208,7 @@ impl Node {
     }
 }
 
-/// The ticks from which a seed can be reached by way of a corridor: going on in time or, for the past, back.
+/// The ticks from which a seed can be reached through a corridor: forwards in time or, for the past, backwards.
 #[derive(Debug, Clone)]
 struct Reach {
     past: bool,
@@ -220,7 +221,7 @@ impl Reach {
         Self { past, corridor: Runs::default(), reached: Runs::default() }
     }
 
-    /// Adds seeds; calls back with what is reached.
+    /// Adds seeds, and calls `new` with the ticks that become reached.
     fn seed(&mut self, run: Run, mut new: impl FnMut(Run)) {
         self.reached.complete(run, &mut new);
         let next = if self.past { Some(run.1 + 1) } else { run.0.checked_sub(1) };
@@ -230,7 +231,7 @@ impl Reach {
         }
     }
 
-    /// Widens the corridor; calls back with what is reached.
+    /// Widens the corridor, and calls `new` with the ticks that become reached.
     fn open(&mut self, run: Run, mut new: impl FnMut(Run)) {
         let (from, to) = self.corridor.insert(run);
         if self.past {

@@ -1,9 +1,8 @@
-//! Formulas followed tick by tick, while the trace is being recorded.
+//! Evaluates formulas tick by tick, while the trace is being recorded.
 //!
-//! Two machines run side by side. One ([`decider`]) knows of truths only and says what the formula comes to at the
-//! first tick at which that can be known at all. The other ([`stream`]) computes the robustness, late by as much as the
-//! formula looks ahead, and settles at the end what is open then. Both take constant time per tick on average, whatever
-//! the time bounds.
+//! Two parts work side by side. The [`decider`] uses truths only, and reports the truth of the formula at the first
+//! tick at which it is certain. The [`stream`] computes the robustness. It is late by the time that the formula looks
+//! ahead, and computes the rest at the end. Both take constant time per tick on average, for any time bounds.
 
 mod decider;
 mod runs;
@@ -16,7 +15,7 @@ use crate::{Evaluation, EvaluationError, Formula, Truth};
 use decider::Decider;
 use stream::Stream;
 
-/// A formula that is told the samples as they come.
+/// A monitor that evaluates a formula while the samples come in.
 ///
 /// ```
 /// use paracosm_oracles::{Formula, Monitor, Truth};
@@ -29,16 +28,16 @@ use stream::Stream;
 /// assert_eq!(monitor.finish(false).robustness, -5.0);
 /// ```
 ///
-/// Its memory is fixed by the time bounds of the formula, with two exceptions. An operator of the future without an
-/// end, within another temporal operator, keeps what it is told. And truths that stay undecided are remembered as long
-/// as they do, by their changes.
+/// The time bounds of the formula limit the memory, with two exceptions. An operator of the future without an end,
+/// inside another temporal operator, stores all of its samples. Undecided truths are stored as long as they are
+/// undecided, by the ticks at which they change.
 #[derive(Debug, Clone)]
 pub struct Monitor {
     core: Core,
     columns: usize,
     dt: f64,
     needed: Vec<usize>,
-    /// What the atoms are worth at this tick, by node.
+    /// The worth of each atom at this tick, by node.
     atoms: Vec<Option<Worth>>,
     ticks: usize,
     truth: Truth,
@@ -47,13 +46,13 @@ pub struct Monitor {
 }
 
 impl Monitor {
-    /// A monitor for rows of these signals, `dt` seconds apart.
+    /// Makes a monitor for rows of these signals, `dt` seconds apart.
     ///
     /// # Errors
     /// The formula names another signal, or has a time bound between two samples.
     ///
     /// # Panics
-    /// `dt` is no positive number.
+    /// `dt` is not a positive number.
     pub fn new(formula: &Formula, signals: &[String], dt: f64) -> Result<Self, EvaluationError> {
         assert!(dt > 0.0, "a sample period is a positive number of seconds");
         let (core, _) = Core::new(formula, signals, dt)?;
@@ -71,14 +70,14 @@ impl Monitor {
         })
     }
 
-    /// Learns the samples of the next tick, in the order of the signals; what the formula's truth is by now. Once it
-    /// holds or is violated it stays so.
+    /// Takes the samples of the next tick, in the order of the signals, and returns the truth of the formula so far. A
+    /// truth that is decided does not change any more.
     ///
     /// # Errors
     /// A number that the formula depends on is NaN. The tick then does not count.
     ///
     /// # Panics
-    /// The row has another number of samples than there are signals.
+    /// The number of samples in the row differs from the number of signals.
     pub fn step(&mut self, row: &[f64]) -> Result<Truth, EvaluationError> {
         assert_eq!(row.len(), self.columns, "one sample per signal");
         let now = self.ticks;
@@ -99,15 +98,16 @@ impl Monitor {
         Ok(self.truth)
     }
 
-    /// The truth by now.
+    /// Returns the truth of the formula so far.
     pub fn truth(&self) -> Truth {
         self.truth
     }
 
-    /// Bounds of the robustness that hold whatever follows, on the side of 0 that the truth says once it is decided.
+    /// Returns bounds of the robustness that hold for every continuation. Once the truth is decided, they lie on its
+    /// side of 0.
     ///
-    /// They are not always the closest: those take time in proportion to what the formula looks ahead, and are what
-    /// [`finish`](Self::finish) gives on a clone of the monitor.
+    /// They are not always the closest bounds. The time for those is proportional to the time that the formula looks
+    /// ahead; call [`finish`](Self::finish) on a clone of the monitor to get them.
     pub fn bounds(&self) -> (f64, f64) {
         let (lower, upper) = self.stream.bounds(&self.core, self.core.nodes.len() - 1);
         let (lower, upper) = match self.truth {
@@ -118,8 +118,8 @@ impl Monitor {
         (lower.robustness(), upper.robustness())
     }
 
-    /// What the formula is worth on the trace so far: exactly what [`Formula::evaluate`] says of it, `complete` or cut
-    /// short.
+    /// Returns the evaluation of the formula on the trace so far. It is exactly the result of [`Formula::evaluate`] on
+    /// this trace, which is either `complete` or cut short.
     pub fn finish(self, complete: bool) -> Evaluation {
         if self.ticks == 0 {
             return Evaluation::UNKNOWN;

@@ -1,18 +1,18 @@
-//! Sets of ticks that consist of few runs.
+//! Sets of ticks that are stored as runs of consecutive ticks.
 
 use std::collections::VecDeque;
 
-/// A run of ticks, both ends included.
+/// A run of consecutive ticks: the first and the last.
 pub(super) type Run = (usize, usize);
 
-/// A set of ticks, as its runs in order; no two of them touch.
+/// A set of ticks, stored as its runs in order. No two runs touch each other.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Runs(VecDeque<Run>);
 
 impl Runs {
-    /// Adds the ticks of a run; the run that they are now part of.
+    /// Adds the ticks of a run, and returns the run that they are part of now.
     pub fn insert(&mut self, (from, to): Run) -> Run {
-        // The usual case: time goes on.
+        // The usual case: the new run follows the last one.
         if let Some(last) = self.0.back_mut()
             && last.0 <= from
             && last.1 + 1 >= from
@@ -30,34 +30,34 @@ impl Runs {
         joined
     }
 
-    /// The run with this tick.
+    /// Returns the run that contains this tick.
     pub fn containing(&self, tick: usize) -> Option<Run> {
         let run = *self.0.get(self.0.partition_point(|run| run.1 < tick))?;
         (run.0 <= tick).then_some(run)
     }
 
-    /// The part of the first run that has ticks in common with this one.
+    /// Returns the common ticks of a run and the first run of the set that has some.
     pub fn first_within(&self, (from, to): Run) -> Option<Run> {
         let run = *self.0.get(self.0.partition_point(|run| run.1 < from))?;
         (run.0 <= to).then_some((run.0.max(from), run.1.min(to)))
     }
 
-    /// The last tick that the set has in common with a run.
+    /// Returns the last tick that the set and a run have in common.
     pub fn last_within(&self, (from, to): Run) -> Option<usize> {
         let run = *self.0.get(self.0.partition_point(|run| run.0 <= to).checked_sub(1)?)?;
         (run.1 >= from).then_some(run.1.min(to))
     }
 
-    /// The ticks that the set has in common with a run, as runs in order.
+    /// Returns the ticks that the set and a run have in common, as runs in order.
     pub fn within(&self, (from, to): Run) -> impl Iterator<Item = Run> {
         let first = self.0.partition_point(|run| run.1 < from);
         let overlapping = self.0.range(first..).take_while(move |run| run.0 <= to);
         overlapping.map(move |run| (run.0.max(from), run.1.min(to)))
     }
 
-    /// Calls back for each run of ticks that a run has and the set has not, and adds them.
+    /// Adds the ticks of a run. Calls `new` for each run of ticks that the set did not have.
     pub fn complete(&mut self, (from, to): Run, mut new: impl FnMut(Run)) {
-        // The usual case again: nothing is known of what comes after the last run.
+        // Again the usual case: the new run does not begin before the last one.
         let mut next = match self.0.back() {
             Some(last) if last.0 <= from => from.max(last.1 + 1),
             _ => from,
@@ -84,7 +84,7 @@ impl Runs {
         self.insert((from, to));
     }
 
-    /// The first tick that is not in the set.
+    /// Returns the first tick that is not in the set.
     pub fn first_absent(&self) -> usize {
         self.0.front().filter(|run| run.0 == 0).map_or(0, |run| run.1 + 1)
     }

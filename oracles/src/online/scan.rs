@@ -1,33 +1,33 @@
-//! One temporal operator, fed with the values of its operand in the order of their ticks.
+//! Computes one temporal operator from the values of its operand, in the order of their ticks.
 
 use crate::core::Sight;
 use crate::fold::{Fold, Window, suffixes};
 use crate::ticks::FOREVER;
 use std::collections::VecDeque;
 
-/// How the values in sight are kept.
+/// The values in sight, in the form in which they are stored.
 #[derive(Debug, Clone)]
 enum Seen<T> {
-    /// Folded to one: the operator sees everything before it, or is asked about the first tick only.
+    /// A single fold. The operator sees all values before it, or only its first tick is needed.
     All(T),
-    /// A window of them.
+    /// A window of values.
     Last(Window<T>),
-    /// All of them, until the end of the trace is known.
+    /// All values, until the end of the trace is known.
     Kept(Vec<T>),
 }
 
-/// A fold over the ticks in sight, at each tick.
+/// A fold over the ticks in sight, for each tick.
 #[derive(Debug, Clone)]
 pub(super) struct Scan<T> {
     past: bool,
     start: usize,
-    /// How many values are in sight, less one.
+    /// The number of values in sight, less one.
     span: usize,
-    /// How many results are asked for.
+    /// The number of results that are needed.
     needed: usize,
     values: usize,
     results: usize,
-    /// Values that a look into the past has not come to yet.
+    /// The values that an operator of the past does not see yet.
     delayed: VecDeque<T>,
     seen: Seen<T>,
 }
@@ -46,7 +46,7 @@ impl<T: Fold> Scan<T> {
         Self { past: sight.past, start, span, needed, values: 0, results: 0, delayed: VecDeque::new(), seen }
     }
 
-    /// Takes the operand's value at the next tick; the result at the next tick of the operator, if that is complete.
+    /// Takes the operand's value at the next tick. Returns the operator's result at its next tick if it is complete.
     pub fn push(&mut self, value: T) -> Option<T> {
         if self.results == self.needed {
             return None;
@@ -80,7 +80,7 @@ impl<T: Fold> Scan<T> {
         if self.delayed.len() <= self.start { T::NEUTRAL } else { self.delayed.pop_front().expect("just pushed") }
     }
 
-    /// What the first result comes to by the values so far, if that is all that is asked for.
+    /// Returns the first result for the values so far, if only this result is needed.
     pub fn first(&self) -> Option<T> {
         match self.seen {
             Seen::All(fold) if !self.past => Some(fold),
@@ -88,7 +88,8 @@ impl<T: Fold> Scan<T> {
         }
     }
 
-    /// The results that were not complete, on a trace of so many ticks, beyond which every value is `outside`.
+    /// Returns the results that are not complete, on a trace of `ticks` ticks. All values beyond its end are
+    /// `outside`.
     pub fn rest(&mut self, ticks: usize, outside: T) -> Vec<T> {
         let missing = ticks.min(self.needed).saturating_sub(self.results);
         match &mut self.seen {
@@ -102,7 +103,7 @@ impl<T: Fold> Scan<T> {
     }
 }
 
-/// The folds from each of so many values to the last one and what is outside.
+/// Returns the first `count` folds: each from a value to the last value and `outside`.
 fn folded<T: Fold>(values: &[T], count: usize, outside: T) -> Vec<T> {
     let mut values = values.to_vec();
     suffixes(&mut values, outside);

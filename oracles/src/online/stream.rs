@@ -1,8 +1,8 @@
-//! The robustness of a formula, computed along with the trace.
+//! Computes the robustness of a formula while the trace is being recorded.
 //!
-//! Every node passes on what it is worth at its next tick as soon as that is certain: an operator that looks `b` ticks
-//! ahead is `b` ticks late. What is not certain when the trace ends is settled by what lies beyond the end, once for
-//! what was recorded, once for the worst and once for the best that could have followed.
+//! Every node passes on its worth at its next tick as soon as the worth is certain. So an operator that looks `b`
+//! ticks ahead is `b` ticks late. At the end of the trace, the uncertain values are computed three times: for the
+//! recorded samples only, for the worst and for the best continuation.
 
 use super::scan::Scan;
 use crate::core::{Beyond, Core, CoreKind, Id, Node};
@@ -10,7 +10,7 @@ use crate::fold::{Clamp, Fold, Reversed};
 use crate::worth::Worth;
 use std::collections::VecDeque;
 
-/// Values of two operands, waiting for one another.
+/// The values of two operands that wait for each other.
 type Queues = [VecDeque<Worth>; 2];
 
 #[derive(Debug, Clone)]
@@ -22,18 +22,18 @@ enum State {
     Since(Queues, Scan<Reversed<Clamp>>),
 }
 
-/// Follows a formula tick by tick.
+/// Follows a formula tick by tick, and computes its robustness.
 #[derive(Debug, Clone)]
 pub(super) struct Stream {
     states: Vec<State>,
-    /// What each node is worth at its next tick, if that became certain at this one.
+    /// The worth of each node at its next tick, if this tick made it certain.
     values: Vec<Option<Worth>>,
-    /// What each node is worth at its first tick, if that is certain.
+    /// The worth of each node at its first tick, if it is certain.
     firsts: Vec<Option<Worth>>,
 }
 
 impl Stream {
-    /// A stream of a formula whose nodes are needed for so many ticks.
+    /// Makes a stream for a formula. `needed` has the number of ticks that are needed of each node.
     pub fn new(core: &Core, needed: &[usize]) -> Self {
         let state = |(node, needed): (&Node, &usize)| match node.kind {
             CoreKind::Atom(_) => State::Atom,
@@ -52,7 +52,7 @@ impl Stream {
         }
     }
 
-    /// Learns what the atoms are worth at the next tick.
+    /// Takes the worth of the atoms at the next tick.
     pub fn step(&mut self, core: &Core, atoms: &[Option<Worth>]) {
         for (id, node) in core.nodes.iter().enumerate() {
             let value = |operand: Id| self.values[operand].map(|worth| worth.flipped(node.dual));
@@ -70,7 +70,7 @@ impl Stream {
         }
     }
 
-    /// Between which bounds the formula's worth lies, by what is certain of its parts.
+    /// Returns bounds of a node's worth at its first tick, from the values of its parts that are certain.
     pub fn bounds(&self, core: &Core, id: Id) -> (Worth, Worth) {
         if let Some(worth) = self.firsts[id] {
             return (worth, worth);
@@ -92,7 +92,7 @@ impl Stream {
         })
     }
 
-    /// What the formula is worth on the trace so far, if it ends after this many ticks.
+    /// Returns the worth of the formula on the trace so far, if the trace ends after this many ticks.
     pub fn finish(mut self, core: &Core, needed: &[usize], ticks: usize, complete: bool, beyond: Beyond) -> Worth {
         let root = core.nodes.len() - 1;
         let mut rests: Vec<Vec<Worth>> = Vec::with_capacity(core.nodes.len());
@@ -128,8 +128,8 @@ impl Stream {
 }
 
 impl State {
-    /// Takes the operands' values at their next ticks, of those that have one; the value of the node, if both have come
-    /// to its next tick.
+    /// Takes the operands' values at their next ticks, if they are known. Returns the node's value at its next tick,
+    /// if the values of both operands for this tick have come.
     fn meet(&mut self, left: Option<Worth>, right: Option<Worth>) -> Option<Worth> {
         let (State::Or(queues) | State::Until(queues, _) | State::Since(queues, _)) = self else { return None };
         let (left, right) = pair(queues, left, right)?;

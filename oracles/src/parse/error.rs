@@ -1,18 +1,18 @@
-//! What a parser has to say to people.
+//! The error of the parser of formulas.
 
 use thiserror::Error;
 
-/// Text that is no formula: where, what stands there, and what was expected instead.
+/// The reason why a text is not a formula: the place, the text found there, and the text that was expected.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("column {column}: found {found}, expected {expected}{}", remark(.help))]
 pub struct ParseError {
     /// The position in the text, counted in characters from 1.
     pub column: usize,
-    /// What stands there.
+    /// The text at this position, as a token.
     pub found: String,
-    /// What could stand there.
+    /// The tokens that may stand at this position.
     pub expected: String,
-    /// What may have been meant.
+    /// A hint for the author, such as the word that was probably meant.
     pub help: Option<String>,
 }
 

@@ -1,6 +1,6 @@
-//! Formulas from text, by precedence climbing (Pratt, "Top down operator precedence", POPL 1973).
+//! Parses formulas from text, by precedence climbing (Pratt, "Top down operator precedence", POPL 1973).
 //!
-//! From weak to strong:
+//! The operators, from the weakest to the strongest:
 //!
 //! | | |
 //! | --- | --- |
@@ -14,10 +14,10 @@
 //! | `*` `/` | |
 //! | `-` in front | |
 //!
-//! Behind a temporal operator may stand its interval: `[0,30]`, `[2,inf]`, or `~[0,0.25]`, whose bounds are rounded
-//! outward to whole samples. Functions are `abs(x)`, `min(x, y)` and `max(x, y)`; `true` and `false` are formulas, and
-//! so is a signal that stands where a formula is expected. A name that is a word of the language, or has other
-//! characters than letters, digits, `_` and `.`, stands in quotation marks.
+//! A temporal operator may have an interval behind it: `[0,30]`, `[2,inf]`, or `~[0,0.25]`, whose bounds are rounded
+//! outward to whole samples. The functions are `abs(x)`, `min(x, y)` and `max(x, y)`. `true` and `false` are formulas.
+//! A signal is a formula if it stands where a formula is expected. A name needs quotation marks if it is a word of the
+//! language, or has other characters than letters, digits, `_` and `.`.
 
 mod error;
 mod operator;
@@ -31,7 +31,7 @@ use operator::{Infix, strength};
 use std::str::FromStr;
 use token::Token;
 
-/// How deep a formula may be nested: more than anybody writes, less than the stack holds.
+/// The greatest depth of a formula: deeper than people write, and less deep than the stack allows.
 const DEEPEST: usize = 200;
 
 const WORDS: [&str; 17] = [
@@ -60,7 +60,7 @@ const A_NUMBER: &str = "a number or a signal";
 const A_COMPARISON: &str = "a comparison such as `<`";
 const AN_OPERATOR: &str = "an operator or the end";
 
-/// Whether a signal of this name needs no quotation marks.
+/// Returns `true` if the name of a signal needs no quotation marks.
 pub(crate) fn is_plain_name(name: &str) -> bool {
     token::is_word(name) && !is_reserved(name)
 }
@@ -70,10 +70,10 @@ fn is_reserved(word: &str) -> bool {
 }
 
 impl Formula {
-    /// Parses a formula over these signals; one that it names beside them is refused, with the nearest of them.
+    /// Parses a formula over these signals. If it names another signal, the error suggests the nearest of them.
     ///
     /// # Errors
-    /// The text is no formula, or speaks of another signal.
+    /// The text is not a formula, or names another signal.
     ///
     /// ```
     /// # use paracosm_oracles::Formula;
@@ -85,7 +85,7 @@ impl Formula {
     }
 }
 
-/// Parses a formula over whatever signals it names.
+/// Parses a formula over any signals.
 impl FromStr for Formula {
     type Err = ParseError;
 
@@ -103,7 +103,7 @@ fn parse(text: &str, signals: Option<Vec<&str>>) -> Result<Formula, ParseError> 
     Ok(parser.formula(value)?.0)
 }
 
-/// What a piece of text turned out to be, with the depth of its nesting.
+/// A parsed piece of text, with the depth of its nesting.
 enum Value {
     Formula(Formula, usize),
     Number(Expression, usize),
@@ -112,7 +112,7 @@ enum Value {
 struct Parser<'a> {
     tokens: Vec<(usize, Token)>,
     at: usize,
-    /// How many values are being parsed, one within the other.
+    /// The number of values that are being parsed, one inside the other.
     open: usize,
     signals: Option<Vec<&'a str>>,
 }
@@ -140,7 +140,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The next piece, where something else should be.
+    /// Returns the error that something else was expected instead of the next token.
     fn unexpected(&self, expected: &str) -> ParseError {
         self.refuse(expected, self.misspelt())
     }
@@ -150,7 +150,7 @@ impl Parser<'_> {
         ParseError { column: *column, found: token.to_string(), expected: expected.to_owned(), help }
     }
 
-    /// A name with a value behind it may be a word of the language, misspelt.
+    /// Suggests a word of the language if the previous name is probably a mistyped word: a value follows it.
     fn misspelt(&self) -> Option<String> {
         let Token::Word(previous) = &self.tokens[self.at.checked_sub(1)?].1 else { return None };
         let value = matches!(self.next(), Token::Symbol("(" | "[" | "~") | Token::Word(_) | Token::Number(_));
@@ -160,7 +160,7 @@ impl Parser<'_> {
         nearest(previous, WORDS).map(|word| format!("did you mean `{word}` before it?"))
     }
 
-    /// A value whose operators bind at least as strongly as `least`.
+    /// Parses a value whose operators bind at least as strongly as `least`.
     fn value(&mut self, least: u8, expected: &str) -> Result<Value, ParseError> {
         self.open += 1;
         if self.open > DEEPEST {
@@ -189,7 +189,7 @@ impl Parser<'_> {
         self.refuse(&format!("a formula nested no deeper than {DEEPEST}"), None)
     }
 
-    /// The depth of what joins parts as deep as these.
+    /// Returns the depth of a value that joins two parts of these depths.
     fn deeper(&self, left: usize, right: usize) -> Result<usize, ParseError> {
         let depth = 1 + left.max(right);
         if depth > DEEPEST { Err(self.too_deep()) } else { Ok(depth) }
@@ -232,7 +232,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A value as a formula: a signal standing alone is a truth.
+    /// Converts a value into a formula. A signal alone is a formula.
     fn formula(&self, value: Value) -> Result<(Formula, usize), ParseError> {
         match value {
             Value::Formula(formula, depth) => Ok((formula, depth)),
@@ -241,7 +241,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A value as a number, for the operator that is next.
+    /// Converts a value into a number, for the operator that comes next.
     fn number(&self, value: Value) -> Result<(Expression, usize), ParseError> {
         match value {
             Value::Number(number, depth) => Ok((number, depth)),
@@ -329,7 +329,7 @@ impl Parser<'_> {
         Ok(Value::Number(Expression::Signal(name), 1))
     }
 
-    /// `abs`, or an operation written as a function of two numbers.
+    /// Parses `abs`, or an operation that is written as a function of two numbers.
     fn function(&mut self, operation: Option<Arithmetic>) -> Result<Value, ParseError> {
         self.advance();
         self.expect("(")?;
@@ -352,7 +352,7 @@ impl Parser<'_> {
         self.number(value)
     }
 
-    /// The interval behind a temporal operator, if there is one.
+    /// Parses the interval behind a temporal operator, if there is one.
     fn interval(&mut self) -> Result<Interval, ParseError> {
         let outward = self.is_next("~");
         if outward {
@@ -374,7 +374,7 @@ impl Parser<'_> {
         Ok(interval)
     }
 
-    /// A time bound, with the place where it stands.
+    /// Parses a time bound, and returns its place and its value.
     fn bound(&mut self, expected: &str, endless: bool) -> Result<(usize, f64), ParseError> {
         let at = self.at;
         let bound = match self.next() {

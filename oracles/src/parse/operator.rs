@@ -3,7 +3,7 @@
 use super::token::Token;
 use crate::{Arithmetic, Comparison, Connective, Sequence};
 
-/// How strongly operators bind, see the [module](super).
+/// The strengths with which operators bind, see the [module](super).
 pub(super) mod strength {
     pub const IMPLIES: u8 = 1;
     pub const OR: u8 = 2;
@@ -26,7 +26,7 @@ pub(super) enum Infix {
 }
 
 impl Infix {
-    /// The operator that a piece of text is.
+    /// Finds the operator that a token stands for.
     pub fn of(token: &Token) -> Option<Self> {
         let symbol = match token {
             Token::Word(word) => word.as_str(),
@@ -48,7 +48,7 @@ impl Infix {
         })
     }
 
-    /// How strongly it binds.
+    /// Returns how strongly the operator binds.
     pub fn strength(self) -> u8 {
         match self {
             Infix::Join(Connective::Implies) => strength::IMPLIES,
@@ -61,7 +61,7 @@ impl Infix {
         }
     }
 
-    /// What to do instead of chaining it.
+    /// Returns advice for a user who chained the operator.
     pub fn unchained(self) -> &'static str {
         match self {
             Infix::Compare(_) => "comparisons do not chain: write `a < b and b < c`",

@@ -1,13 +1,13 @@
-//! Formulas cut into words, numbers and symbols.
+//! Divides the text of a formula into words, numbers and symbols.
 
 use super::ParseError;
 
-/// A piece of the text.
+/// A token of the text.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Token {
     Number(f64),
     Word(String),
-    /// A name in quotation marks, which is never taken for a word of the language.
+    /// A name in quotation marks. It is never a word of the language.
     Quoted(String),
     Symbol(&'static str),
     End,
@@ -25,11 +25,12 @@ impl std::fmt::Display for Token {
     }
 }
 
-/// Longer ones first, where one begins with another. The colon has no meaning; it is refused where it stands.
+/// The symbols of the language. A symbol comes before the symbols that it begins with. The colon has no meaning; the
+/// parser refuses it.
 const SYMBOLS: [&str; 18] =
     ["->", "<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "(", ")", "[", "]", ",", "~", ":"];
 
-/// How other languages write what this one has.
+/// Symbols of other languages, with the symbols of this language for them.
 const FOREIGN: [(&str, &str); 16] = [
     ("&&", "and"),
     ("&", "and"),
@@ -49,7 +50,7 @@ const FOREIGN: [(&str, &str); 16] = [
     ("◇", "eventually"),
 ];
 
-/// The pieces of the text with their columns, the last one [`Token::End`].
+/// Returns the tokens of the text with their columns. The last token is [`Token::End`].
 pub(super) fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
     let mut tokens = Vec::new();
     let mut rest = text;
@@ -68,7 +69,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(usize, Token)>, ParseError> {
     Ok(tokens)
 }
 
-/// The piece that the text begins with, and how many bytes it takes.
+/// Returns the token at the start of the text, and its length in bytes.
 fn token(text: &str, first: char, column: usize) -> Result<(Token, usize), ParseError> {
     if first.is_ascii_digit() || first == '.' {
         return number(text, column);
@@ -80,7 +81,7 @@ fn token(text: &str, first: char, column: usize) -> Result<(Token, usize), Parse
     if first == '"' || first == '\'' {
         return quoted(text, first, column);
     }
-    // Foreign symbols that begin like one of ours are those that are longer.
+    // A symbol of this language wins: `==` and `!=` begin like the foreign `=` and `!`, but are longer.
     let foreign = FOREIGN.iter().find(|(foreign, _)| text.starts_with(foreign));
     let own = SYMBOLS.iter().find(|symbol| text.starts_with(**symbol));
     match (own, foreign) {
@@ -108,12 +109,13 @@ fn is_inner(c: char) -> bool {
     c.is_alphanumeric() || c == '_' || c == '.'
 }
 
-/// Whether a name is cut out of a text as one word.
+/// Returns `true` if the name is divided off from a text as one word.
 pub(super) fn is_word(name: &str) -> bool {
     name.starts_with(is_initial) && name.chars().all(is_inner)
 }
 
-/// A decimal number; what follows it directly belongs to it, so that `3x` is a mistake rather than two pieces.
+/// Reads a decimal number. The characters directly behind it belong to it, so that `3x` is an error and not two
+/// tokens.
 fn number(text: &str, column: usize) -> Result<(Token, usize), ParseError> {
     let mut length = text.find(|c| !is_inner(c)).unwrap_or(text.len());
     let signed = text[..length].ends_with(['e', 'E']) && text[length..].starts_with(['+', '-']);
@@ -132,7 +134,7 @@ fn number(text: &str, column: usize) -> Result<(Token, usize), ParseError> {
     }
 }
 
-/// A name in quotation marks, in which a backslash takes the next character as it is.
+/// Reads a name in quotation marks. A backslash takes the next character literally.
 fn quoted(text: &str, mark: char, column: usize) -> Result<(Token, usize), ParseError> {
     let mut name = String::new();
     let mut characters = text.char_indices().skip(1);

@@ -1,9 +1,10 @@
-//! The figures of a bench: for every scenario how many runs are still without a failure, and recall over dispersion.
+//! Draws the figures of a bench: for every scenario, the share of runs still without a failure, and recall over
+//! dispersion.
 
 use crate::plot::{Entry, Picture, PlotFrame, Series, Shares, Survivals, Waiting};
 use paracosm_analysis::bench::{BenchCell, Benched, Row};
 
-/// All figures with their names.
+/// Draws all figures and returns them with their names.
 pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
     let mut figures = Vec::new();
     for target in &benched.bench.targets {
@@ -17,7 +18,7 @@ pub(super) fn all(benched: &Benched) -> Vec<(String, Picture)> {
     figures
 }
 
-/// The curves of Kaplan and Meier.
+/// Returns the Kaplan-Meier curves of a scenario's strategies.
 fn survival(benched: &Benched, scenario: &str) -> Survivals {
     let (budget, seeds) = (benched.bench.budget, benched.bench.seeds);
     let curve = |cell: &BenchCell| {
@@ -49,7 +50,7 @@ fn survival(benched: &Benched, scenario: &str) -> Survivals {
     }
 }
 
-/// A mark for every run; none where recall or dispersion is not known, or has no logarithm.
+/// Returns a chart with a mark for every run; `None` if a run's recall or dispersion is unknown, or a dispersion is 0.
 fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
     let mut range = (f64::INFINITY, 0.0_f64);
     let mut all = Vec::new();
@@ -79,7 +80,7 @@ fn recall(benched: &Benched, scenario: &str) -> Option<Shares> {
     })
 }
 
-/// The lines of the legend, from the greatest to the least of a number.
+/// Returns the lines of the legend, sorted by `rank` from the greatest to the least.
 fn entries(
     benched: &Benched,
     scenario: &str,
@@ -91,7 +92,7 @@ fn entries(
     ranked(benched, scenario, rank).into_iter().map(entry).collect()
 }
 
-/// The cells of a scenario, from the greatest to the least of a number.
+/// Returns the cells of a scenario, sorted by `rank` from the greatest to the least.
 fn ranked<'a>(benched: &'a Benched, scenario: &'a str, rank: impl Fn(&BenchCell) -> f64) -> Vec<&'a BenchCell> {
     let mut cells: Vec<&BenchCell> = benched.of_target(scenario).collect();
     cells.sort_by(|a, b| rank(b).total_cmp(&rank(a)));

@@ -1,4 +1,4 @@
-//! The folder of a bench: what the rows say as CSV and LaTeX, and the figures.
+//! Writes the folder of a bench: the results as CSV and LaTeX, and the figures.
 
 use super::{figures, latex};
 use crate::write_up::{maybe, write_csv, write_pictures};
@@ -7,8 +7,9 @@ use paracosm_campaign::Error;
 use paracosm_campaign::files::write_whole;
 use std::path::Path;
 
-/// Writes what the rows say to the folder: `summary.csv`, `correlations.csv`, `standings.csv`, `survival.csv`,
-/// `table.tex`, and for each scenario the curves of Kaplan and Meier and recall over dispersion as SVG and PNG.
+/// Writes the results of a bench to a folder. The files are `summary.csv`, `correlations.csv`, `standings.csv`,
+/// `survival.csv`, `table.tex`, and for each scenario the Kaplan-Meier curves and recall over dispersion as SVG and
+/// PNG.
 ///
 /// # Errors
 /// A file cannot be written.

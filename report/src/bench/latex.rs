@@ -1,10 +1,10 @@
-//! The bench as a LaTeX table in the manner of the package booktabs.
+//! Writes a bench as a LaTeX table in the style of the package booktabs.
 
 use crate::write_up::latex::{LEVEL, escaped, p_value, ratio};
 use paracosm_analysis::bench::{BenchCell, Benched};
 use std::fmt::Write;
 
-/// The table, ready to be `\input`.
+/// Returns the table, ready to be `\input`.
 pub(super) fn table(benched: &Benched) -> String {
     let bench = &benched.bench;
     let baseline = escaped(bench.baseline.name());

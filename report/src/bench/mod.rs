@@ -1,4 +1,4 @@
-//! A bench written up: tables, figures, LaTeX and CSV.
+//! Writes up a bench as tables, figures, LaTeX and CSV.
 
 mod figures;
 mod files;

@@ -1,15 +1,15 @@
-//! The bench as tables for people.
+//! Writes a bench as plain-text tables for people.
 
 use crate::write_up::{p_value, three_digits};
 use paracosm_analysis::bench::{BenchCell, Benched};
 use paracosm_analysis::statistics::Versus;
 use std::fmt::Write;
 
-/// What a column shows of a strategy.
+/// A function that returns the number of a strategy that a column shows.
 type Value = fn(&BenchCell) -> Option<f64>;
 
-/// For every scenario how soon each strategy finds a failure and what it knows after all its tests; then how the
-/// strategies stand over all scenarios.
+/// Returns the tables of a bench. They show for every scenario how soon each strategy finds a failure and what each
+/// strategy knows after all its tests, and then how the strategies compare over all scenarios.
 pub fn table(benched: &Benched) -> String {
     let mut text = String::new();
     for target in &benched.bench.targets {

@@ -1,13 +1,14 @@
-//! The figures of a comparison: for every measure and dimension the values over the budgets, and beside them how the
-//! strategies stand against the baseline.
+//! Draws the figures of a comparison: for every measure and dimension, the values over the budgets, and beside the
+//! values the ratio of each strategy to the baseline.
 
 use crate::plot::{Entry, LogLog, LogLogCurve, Picture, Plane, PlotFrame};
 use paracosm_analysis::compare::{Compared, ComparisonCell};
 use paracosm_coverage::Measure;
 use paracosm_generators::Look;
 use paracosm_generators::Strategy;
+use paracosm_space::plural;
 
-/// All figures with their names.
+/// Draws all figures and returns them with their names.
 pub(super) fn all(compared: &Compared) -> Vec<(String, Picture)> {
     let mut figures = Vec::new();
     for measure in compared.measures() {
@@ -20,7 +21,7 @@ pub(super) fn all(compared: &Compared) -> Vec<(String, Picture)> {
     figures
 }
 
-/// A figure; none where nothing was measured, or something is 0 and has no logarithm.
+/// Returns a figure; `None` if nothing was measured, or if a value is 0 and so has no logarithm.
 fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
     let budgets = compared.budgets(measure, dims);
     let most = *budgets.last()?;
@@ -41,7 +42,7 @@ fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
     let ratios = Plane { x, y, level: Some(1.0), curves: lines.iter().map(ratios).collect() };
     let compares = ratios.curves.iter().any(|curve| !curve.marks.is_empty());
     let crosses = values.curves.iter().any(|curve| !curve.crosses.is_empty());
-    // From top to bottom as the lines end.
+    // The legend lists the strategies from top to bottom as their lines end.
     let end = |strategy: &Strategy| at(*strategy, most).map_or(0.0, |cell| cell.median);
     strategies.sort_by(|a, b| end(b).total_cmp(&end(a)));
     let entry = |strategy: Strategy| {
@@ -53,7 +54,10 @@ fn chart(compared: &Compared, measure: Measure, dims: usize) -> Option<LogLog> {
     let seeds = compared.comparison.seeds;
     let frame = PlotFrame {
         title: format!("{}{}, d = {dims}", label[..1].to_uppercase(), &label[1..]),
-        note: format!("left: medians of {seeds} seeds with quartiles{right}; marks of one n stand beside each other"),
+        note: format!(
+            "left: medians of {} with quartiles{right}; marks of the same n stand beside each other",
+            plural(seeds, "seed")
+        ),
         legend: ["strategy".into(), if budgets.len() > 1 { "slope".into() } else { String::new() }],
         entries: strategies.into_iter().map(entry).collect(),
         cross: crosses.then(|| "plain set, without seed".into()),
@@ -66,14 +70,14 @@ fn has_logarithms(cell: &ComparisonCell) -> bool {
     cell.quartiles.into_iter().chain(cell.plain).chain(versus).all(|value| value > 0.0 && value.is_finite())
 }
 
-/// Medians and quartiles, and the plain sets.
+/// Returns the medians with their quartiles, and the values of the plain sets as crosses.
 fn values((look, cells): &(Look, Vec<&ComparisonCell>)) -> LogLogCurve {
     let marks = cells.iter().map(|cell| (cell.budget as f64, cell.median, cell.quartiles)).collect();
     let crosses = cells.iter().filter_map(|cell| Some((cell.budget as f64, cell.plain?))).collect();
     LogLogCurve { look: *look, marks, crosses }
 }
 
-/// Ratios to the baseline with their intervals.
+/// Returns the ratios to the baseline with their intervals.
 fn ratios((look, cells): &(Look, Vec<&ComparisonCell>)) -> LogLogCurve {
     let versus =
         |cell: &&ComparisonCell| cell.versus.as_ref().map(|versus| (cell.budget as f64, versus.ratio, versus.interval));

@@ -1,4 +1,4 @@
-//! The folder of a comparison: every set as a row, what is said of them, and the figures.
+//! Writes the folder of a comparison: a row for every set, their statistics, and the figures.
 
 use super::{figures, latex};
 use crate::write_up::{maybe, write_csv, write_pictures};
@@ -9,8 +9,8 @@ use paracosm_campaign::files::write_whole;
 use paracosm_coverage::Measure;
 use std::path::Path;
 
-/// Writes `sets.csv`, `summary.csv`, `slopes.csv`, `table.tex`, and for each measure in each dimension a figure as
-/// SVG and PNG, such as `dispersion-d2.svg`, to a folder that is there.
+/// Writes `sets.csv`, `summary.csv`, `slopes.csv`, `table.tex`, and for each measure in each dimension a figure as SVG
+/// and PNG, such as `dispersion-d2.svg`, to a folder that exists.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -22,7 +22,7 @@ pub fn write(compared: &Compared, folder: &Path) -> Result<(), Error> {
     write_pictures(folder, &figures::all(compared))
 }
 
-/// A row for every set. Plain sets have no seed; a measure that was not taken leaves its columns empty.
+/// Returns a row for every set. Plain sets have no seed. The columns of a measure that was not taken are empty.
 fn set_rows(compared: &Compared) -> Vec<Vec<String>> {
     let measures: Vec<Measure> =
         compared.comparison.all_measures().into_iter().filter(|m| *m != Measure::K_WISE).collect();

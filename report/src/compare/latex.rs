@@ -1,4 +1,4 @@
-//! The comparison as LaTeX tables in the manner of the package booktabs, one for each measure.
+//! Writes a comparison as LaTeX tables in the style of the package booktabs, one table for each measure.
 
 use crate::write_up::latex::{LEVEL, escaped, in_math, ratio};
 use crate::write_up::three_digits;
@@ -6,7 +6,7 @@ use paracosm_analysis::compare::{Compared, ComparisonCell};
 use paracosm_coverage::Measure;
 use std::fmt::Write;
 
-/// The tables of all measures, ready to be `\input`.
+/// Returns the tables of all measures, ready to be `\input`.
 pub(super) fn tables(compared: &Compared) -> String {
     let mut text = String::from("% Needs \\usepackage{booktabs}. Every number is in summary.csv and slopes.csv.\n");
     for measure in compared.measures() {
@@ -35,7 +35,7 @@ fn table(text: &mut String, compared: &Compared, measure: Measure) {
          \\label{{tab:{}}}\n",
         escaped(&capitalised(&compared.label(measure))),
         comparison.seeds,
-        measure.name().replace('_', "-"),
+        measure.name(),
     );
     let _ = writeln!(text, "\\begin{{tabular}}{{rl{}rlrr}}\n\\toprule", "r".repeat(budgets.len()));
     let heads: String = budgets.iter().map(|n| format!(" & $n={n}$")).collect();
@@ -48,7 +48,7 @@ fn table(text: &mut String, compared: &Compared, measure: Measure) {
             for &n in &budgets {
                 let shown = compared.shown(measure, d);
                 let cells = || shown.iter().filter_map(|&s| compared.cell(measure, d, n, s));
-                // Nothing is known to be the lowest where a value is a bracket.
+                // If a value is only a bracket, no value is known to be the lowest.
                 let known = cells().all(|cell| cell.exact);
                 let medians = cells().filter(|_| known).map(|cell| cell.median);
                 let least = medians.fold(f64::INFINITY, f64::min);

@@ -1,4 +1,4 @@
-//! A comparison written up: tables, figures, LaTeX and CSV.
+//! Writes up a comparison as tables, figures, LaTeX and CSV.
 
 mod figures;
 mod files;

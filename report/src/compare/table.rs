@@ -1,12 +1,13 @@
-//! The comparison as tables for people.
+//! Writes a comparison as plain-text tables for people.
 
 use crate::write_up::{p_value, three_digits};
 use paracosm_analysis::compare::{Compared, ComparisonCell};
 use paracosm_coverage::Measure;
+use paracosm_space::plural;
 use std::fmt::Write;
 
-/// For every measure and dimension a table: the medians over the budgets, their slope, and at the largest budget how
-/// each strategy stands against the baseline.
+/// Returns a table for every measure and dimension. It shows the medians over the budgets, their slope, and how each
+/// strategy compares with the baseline at the largest budget.
 pub fn table(compared: &Compared) -> String {
     let mut text = String::new();
     for measure in compared.measures() {
@@ -21,7 +22,7 @@ fn block(compared: &Compared, text: &mut String, measure: Measure, dims: usize) 
     let budgets = compared.budgets(measure, dims);
     let Some(&most) = budgets.last() else { return };
     let (label, seeds) = (compared.label(measure), compared.comparison.seeds);
-    let _ = writeln!(text, "{label}, d = {dims}: median over {seeds} seeds");
+    let _ = writeln!(text, "{label}, d = {dims}: median over {}", plural(seeds, "seed"));
     let _ = write!(text, "  {:<17}", "strategy");
     for n in &budgets {
         let _ = write!(text, "{:>10}", format!("n = {n}"));

@@ -1,7 +1,7 @@
-//! A film of a run as an animated GIF, small: a frame says only what is not as in the frame before.
+//! Writes a film of a run as an animated GIF of small size: a frame stores only what differs from the frame before.
 //!
-//! A GIF has 256 colours. They are the most frequent ones, after Heckbert's popularity algorithm ("Color Image
-//! Quantization for Frame Buffer Display", 1982), which suits pictures of few flat colours.
+//! A GIF has at most 256 colours. The film uses the most frequent colours, by Heckbert's popularity algorithm ("Color
+//! Image Quantization for Frame Buffer Display", 1982), which suits pictures with few flat colours.
 
 use super::raster::{draw, opaque, rasterised};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
@@ -10,25 +10,25 @@ use std::collections::BTreeMap;
 use std::error::Error as StdError;
 use std::io::Write;
 
-/// Seconds that a frame of a drawn film is shown.
+/// The seconds for which a frame of a drawn film is shown.
 const SECONDS: f64 = 0.1;
-/// Hundredths of a second that the last frame is shown, and that every other one is at least: most who show films take
-/// less for a slip and slow down.
+/// The hundredths of a second for which the last frame is shown, and the least for every other frame. Most players take
+/// a shorter time for a mistake and slow down.
 const LAST_DELAY: u16 = 250;
 const LEAST_DELAY: u64 = 2;
-/// How many frames the colours are taken from.
+/// The number of frames that the colours are taken from.
 const SAMPLES: usize = 12;
-/// The index that says: as it was before.
+/// The colour index of a pixel that is as in the frame before.
 const UNCHANGED: u8 = 255;
-/// How many bits of red, green and blue tell two colours apart.
+/// The number of bits of red, green and blue by which two colours are distinguished.
 const BITS: u32 = 5;
 
 type Failure = Box<dyn StdError + Send + Sync>;
 
-/// The film as the contents of a GIF file that repeats for ever.
+/// Returns the film as the contents of a GIF file that repeats for ever.
 ///
 /// # Errors
-/// The encoder fails: the film is more than 65,535 pixels wide, say.
+/// Returns an error if the encoder fails, for example because the film is more than 65,535 pixels wide.
 pub fn film_gif(film: &Animation) -> Result<Vec<u8>, Failure> {
     let scenes: Vec<_> = film.scenes.iter().map(|scene| rasterised(scene, 1.0)).collect();
     let pixels = |index: usize| {
@@ -49,36 +49,36 @@ pub fn film_gif(film: &Animation) -> Result<Vec<u8>, Failure> {
     Ok(file)
 }
 
-/// A film that repeats for ever, written frame by frame.
+/// A writer of a film that repeats for ever, frame by frame.
 pub struct Reel<W: Write> {
     encoder: Encoder<W>,
     palette: Palette,
     width: usize,
     /// The pixels of the last frame.
     before: Option<Vec<u8>>,
-    /// The last frame, which is not written until it is known how long it is shown, and when it comes in hundredths of a
-    /// second.
+    /// The last frame, and its time in hundredths of a second. The frame is written when it is known for how long it is
+    /// shown.
     waiting: Option<(Frame<'static>, u64)>,
 }
 
 impl<W: Write> Reel<W> {
-    /// A film of so many pixels across and down in these colours.
+    /// Begins a film of this width and height in pixels, in these colours.
     ///
     /// # Errors
-    /// It is more than 65,535 pixels wide, or nothing can be written.
+    /// Returns an error if the film is more than 65,535 pixels wide, or nothing can be written.
     pub fn begin(file: W, [width, height]: [u32; 2], palette: Palette) -> Result<Self, Failure> {
         let mut encoder = Encoder::new(file, u16::try_from(width)?, u16::try_from(height)?, &palette.colours)?;
         encoder.set_repeat(Repeat::Infinite)?;
         Ok(Self { encoder, palette, width: width as usize, before: None, waiting: None })
     }
 
-    /// Adds a frame that comes at this time, later than all before: red, green and blue of each pixel. One that comes sooner
-    /// after the last than frames can be shown is left out.
+    /// Adds a frame at this time, which is later than all earlier times. `pixels` holds red, green and blue of each
+    /// pixel. A frame that comes too soon after the last frame to be shown is left out.
     ///
     /// # Errors
-    /// Nothing can be written.
+    /// Returns an error if nothing can be written.
     pub fn show(&mut self, pixels: &[u8], seconds: f64) -> Result<(), Failure> {
-        // Times are rounded and not what is between them, so that a film runs at the right speed.
+        // The times are rounded, not the differences between them, so that a film runs at the right speed.
         let time = (100.0 * seconds).round() as u64;
         if let Some((frame, since)) = &mut self.waiting {
             let delay = time.saturating_sub(*since);
@@ -95,10 +95,10 @@ impl<W: Write> Reel<W> {
         Ok(())
     }
 
-    /// Writes the last frame, which is shown for longer.
+    /// Writes the last frame, which is shown for longer than the others.
     ///
     /// # Errors
-    /// Nothing can be written.
+    /// Returns an error if nothing can be written.
     pub fn end(mut self) -> Result<(), Failure> {
         if let Some((mut last, _)) = self.waiting.take() {
             last.delay = LAST_DELAY;
@@ -109,11 +109,12 @@ impl<W: Write> Reel<W> {
     }
 }
 
-/// The least rectangle that holds all that changed; what did not change within it is left as it was.
+/// Returns a frame of the smallest rectangle that holds all changed pixels. Unchanged pixels in the rectangle are
+/// transparent.
 fn changes(before: Option<&[u8]>, now: &[u8], width: usize) -> Frame<'static> {
     let same = |i: usize| before.is_some_and(|before| before[i] == now[i]);
     let changed = (0..now.len()).filter(|i| !same(*i)).map(|i| (i % width, i / width));
-    // A frame that changes nothing is one pixel that stays as it is.
+    // A frame without a change is one pixel that stays as it is.
     let corners = changed.fold(None, |corners, (x, y)| {
         let (left, top, right, bottom) = corners.unwrap_or((x, y, x, y));
         Some((left.min(x), top.min(y), right.max(x), bottom.max(y)))
@@ -133,21 +134,21 @@ fn changes(before: Option<&[u8]>, now: &[u8], width: usize) -> Frame<'static> {
     }
 }
 
-/// How often which colours are in pictures.
+/// A count of the colours of pictures.
 #[derive(Default)]
 pub struct Colours {
-    /// By bin how many pixels there are, and the sums of their red, green and blue.
+    /// For each bin of colours, the number of pixels and the sums of their red, green and blue.
     bins: BTreeMap<usize, (u64, [u64; 3])>,
 }
 
 impl Colours {
-    /// Whether no picture was counted.
+    /// Returns `true` if no picture was counted.
     #[cfg(feature = "camera")]
     pub fn are_none(&self) -> bool {
         self.bins.is_empty()
     }
 
-    /// Counts those of a picture: red, green and blue of each pixel.
+    /// Counts the colours of a picture, given as red, green and blue of each pixel.
     pub fn count(&mut self, picture: &[u8]) {
         for rgb in picture.chunks_exact(3) {
             let (count, sums) = self.bins.entry(bin([rgb[0], rgb[1], rgb[2]])).or_default();
@@ -156,7 +157,7 @@ impl Colours {
         }
     }
 
-    /// The most frequent ones.
+    /// Returns the most frequent colours.
     pub fn palette(self) -> Palette {
         let mut bins: Vec<_> = self.bins.into_values().collect();
         bins.sort_by(|a, b| b.cmp(a));
@@ -168,9 +169,9 @@ impl Colours {
 
 /// The colours of a film.
 pub struct Palette {
-    /// Red, green and blue of each, 255 at most.
+    /// Red, green and blue of each colour; at most 255 colours.
     colours: Vec<u8>,
-    /// The index of the nearest one, by bin, where it has been looked for.
+    /// For each bin, the index of the nearest colour if it has been searched for.
     nearest: Vec<Option<u8>>,
 }
 
@@ -186,7 +187,7 @@ impl Palette {
     }
 }
 
-/// Which colours are taken for one.
+/// Returns the bin of a colour. Colours of one bin are not distinguished.
 fn bin(rgb: [u8; 3]) -> usize {
     rgb.into_iter().fold(0, |bin, part| bin << BITS | usize::from(part >> (8 - BITS)))
 }
@@ -196,7 +197,7 @@ mod tests {
     use super::*;
     use paracosm_engine::picture::{Contour, Drawing, Frame as Still, PathSegment, PictureItem};
 
-    /// A square of this colour at a place on nothing.
+    /// Draws a square of this colour at a place, without a background.
     fn square(at: f64, colour: [u8; 3], side: f64) -> Drawing {
         let corners = [[at, 0.0], [at + side, 0.0], [at + side, side], [at, side]];
         let mut segments = vec![PathSegment::Move(corners[0])];
@@ -213,7 +214,7 @@ mod tests {
         let still = |i: usize| Still {
             scene: usize::from(i >= 12),
             time: i as f64,
-            // It stands still for a while.
+            // The square stands still for a while.
             drawing: square(2.0 * i.min(8) as f64, [200, 0, 0], 10.0),
         };
         let film = Animation { scenes, frames: (0..20).map(still).collect() };

@@ -1,16 +1,16 @@
-//! The bar beside a map that says which colour means what.
+//! Draws the bar beside a map that shows which colour stands for which number.
 
 use super::DrawResult;
 use super::{HPos, INK, Pos, VPos, ink, level};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// What a bar says.
+/// The bar's label, steps and numbers.
 pub(super) struct Bar<'a> {
     pub label: &'a str,
-    /// How many rectangles it is made of.
+    /// The number of rectangles that form the bar.
     pub steps: usize,
-    /// Which numbers stand where, from 0 at the bottom to 1 at the top.
+    /// The numbers with their places, from 0 at the bottom to 1 at the top.
     pub ticks: Vec<(f64, String)>,
 }
 

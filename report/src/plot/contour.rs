@@ -1,15 +1,17 @@
-//! The line along which a field on a grid has a value: marching squares (Lorensen and Cline 1987, in the plane).
+//! Finds the line along which a field on a grid has a given value, by marching squares (Lorensen and Cline 1987, in the
+//! plane).
 
 /// A place in grid coordinates: `(i, j)` is the node in column i and row j.
 pub(super) type Place = (f64, f64);
 
-/// The pieces of the line `field == level`, joined as far as they meet; `field` is asked at `columns` times `rows` nodes.
+/// Returns the pieces of the line `field == level`, joined where they meet; `field` is evaluated at `columns` times
+/// `rows` nodes.
 ///
-/// Where the field is no number at a corner of a cell, there is no line in it.
-/// Where the line crosses itself in a cell, the mean of its corners says which of them belong together.
+/// A cell with a corner where the field is NaN has no line. If two pieces of line cross a cell, the mean of its corners
+/// decides which crossing points are joined.
 pub(super) fn contour(columns: usize, rows: usize, level: f64, field: impl Fn(usize, usize) -> f64) -> Vec<Vec<Place>> {
     let above = |i: usize, j: usize| field(i, j) > level;
-    // Where the line crosses the edge between two neighbours that it divides.
+    // The place where the line crosses the edge between two neighbouring nodes on different sides of it.
     let crossing = |a: (usize, usize), b: (usize, usize)| {
         let (at, to) = (field(a.0, a.1), field(b.0, b.1));
         let t = ((level - at) / (to - at)).clamp(0.0, 1.0);
@@ -19,7 +21,7 @@ pub(super) fn contour(columns: usize, rows: usize, level: f64, field: impl Fn(us
     let mut pieces = Vec::new();
     for j in 0..rows.saturating_sub(1) {
         for i in 0..columns.saturating_sub(1) {
-            // Around the cell; edge k goes from corner k to the next.
+            // The corners in order around the cell; edge k goes from corner k to the next.
             let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
             if corners.iter().any(|&(i, j)| field(i, j).is_nan()) {
                 continue;
@@ -27,13 +29,13 @@ pub(super) fn contour(columns: usize, rows: usize, level: f64, field: impl Fn(us
             let is_above = corners.map(|(i, j)| above(i, j));
             let next = |k: usize| (k + 1) % 4;
             let crossed: Vec<usize> = (0..4).filter(|&k| is_above[k] != is_above[next(k)]).collect();
-            // Every edge once, in the same direction from either of its cells, so that pieces meet to the last bit.
+            // Both cells of an edge compute its crossing in the same direction, so that pieces meet to the last bit.
             let at = |k: usize| crossing(corners[k].min(corners[next(k)]), corners[k].max(corners[next(k)]));
             match crossed[..] {
                 [a, b] => pieces.push([at(a), at(b)]),
                 [a, b, c, d] => {
                     let middle = corners.iter().map(|&(i, j)| field(i, j)).sum::<f64>() / 4.0 > level;
-                    // The corners that are not like the middle are cut off.
+                    // The two corners that differ from the middle are cut off.
                     let pairs = if is_above[0] == middle { [[a, b], [c, d]] } else { [[d, a], [b, c]] };
                     pieces.extend(pairs.map(|pair| pair.map(at)));
                 }
@@ -44,7 +46,7 @@ pub(super) fn contour(columns: usize, rows: usize, level: f64, field: impl Fn(us
     joined(pieces)
 }
 
-/// Pieces as lines, as long as they come.
+/// Joins pieces to lines that are as long as possible.
 fn joined(mut pieces: Vec<[Place; 2]>) -> Vec<Vec<Place>> {
     let mut lines = Vec::new();
     while let Some([a, b]) = pieces.pop() {
@@ -76,7 +78,7 @@ mod tests {
         assert_eq!(lines.len(), 1);
         assert_eq!(lines[0].first(), lines[0].last());
         assert!(lines[0].iter().all(|(x, y)| (libm::hypot(x - 10.2, y - 9.7) - 6.5).abs() < 0.03));
-        // Round once: the angles sum up to a full turn.
+        // The line goes round once: the angles sum up to a full turn.
         let turn = |pair: &[Place]| {
             let (a, b) = ((pair[0].0 - 10.2, pair[0].1 - 9.7), (pair[1].0 - 10.2, pair[1].1 - 9.7));
             libm::atan2(a.0 * b.1 - a.1 * b.0, a.0 * b.0 + a.1 * b.1)

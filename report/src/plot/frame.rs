@@ -1,4 +1,4 @@
-//! What stands around the planes of a chart: two lines above them and a legend beside them.
+//! Draws what surrounds the planes of a chart: two lines of text above them, and a legend beside them.
 
 use super::symbol::{LINE, Symbol, rgb};
 use super::{HPos, INK, ink, level};
@@ -8,30 +8,30 @@ use plotters::prelude::*;
 
 /// The width of the legend, in pixels of the SVG.
 pub(super) const LEGEND: u32 = 230;
-/// The height of the lines above, in pixels of the SVG.
+/// The height of the text above the planes, in pixels of the SVG.
 pub(super) const HEADER: u32 = 67;
 /// The size of text, in pixels of the SVG.
 pub(super) const TEXT: f64 = 16.0;
 
-/// Title, note and legend.
+/// The title, the note and the legend of a chart.
 #[derive(Debug, Clone)]
 pub struct PlotFrame {
     /// The first line above the planes.
     pub title: String,
-    /// The second line, smaller.
+    /// The second line above the planes, in smaller letters.
     pub note: String,
-    /// What stands above the two columns of the legend.
+    /// The headings of the two columns of the legend.
     pub legend: [String; 2],
     /// The lines of the legend.
     pub entries: Vec<Entry>,
-    /// What a cross is, if there are any.
+    /// The meaning of a cross; `None` if there are no crosses.
     pub cross: Option<String>,
 }
 
 /// A line of the legend.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// The mark of the curve.
+    /// The mark and colour of the curve.
     pub look: Look,
     /// The name of the curve.
     pub name: String,
@@ -43,7 +43,8 @@ type Areas<B> = (DrawingArea<B, Shift>, DrawingArea<B, Shift>);
 type Result<T, B> = std::result::Result<T, DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 impl PlotFrame {
-    /// Draws the lines above; what is left for the planes, so wide, and for the legend.
+    /// Draws the lines above the planes. Returns the area of the planes, `width` pixels wide, and the area of the
+    /// legend.
     pub(super) fn split<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,

@@ -1,27 +1,27 @@
-//! Numbers over the pixels of an image, as how much each of them matters to a driver that sees it.
+//! Draws numbers over the pixels of an image, such as how much each pixel matters to a driver that sees the image.
 //!
-//! The image is grey where the number is zero, and takes the colours of Okabe and Ito on either side of it: orange for more,
-//! blue for less.
+//! The image is grey where the number is zero. Other pixels take colours of Okabe and Ito: orange if the number is
+//! positive, blue if it is negative.
 
 use super::DrawResult;
 use super::{INK, ink};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// An image, and a number for each of its pixels.
+/// An image with a number for each of its pixels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeatMap {
-    /// The first line above it.
+    /// The first line above the image.
     pub title: String,
-    /// The second line, smaller.
+    /// The second line above the image, in smaller letters.
     pub note: String,
-    /// Pixels across.
+    /// The width of the image in pixels.
     pub width: u32,
-    /// Red, green and blue of each pixel, from the top left.
+    /// Red, green and blue of each pixel, row by row from the top left.
     pub rgb: Vec<u8>,
-    /// A number for each pixel; none at all shows the image as it is.
+    /// A number for each pixel. If the list is empty, the image is shown in its own colours.
     pub values: Vec<f64>,
-    /// The number, and its negative, whose colours are full.
+    /// The absolute value from which on a pixel has the full colour.
     pub most: f64,
 }
 
@@ -36,7 +36,7 @@ const HEADER: u32 = 50;
 const MARGIN: u32 = 12;
 
 impl HeatMap {
-    /// Width and height of its panel in pixels of the SVG.
+    /// Returns the width and height of the image with its margins, in pixels of the SVG.
     pub(super) fn size(&self) -> (u32, u32) {
         (self.width * CELL + 2 * MARGIN, self.rows() * CELL + HEADER + MARGIN)
     }
@@ -45,11 +45,11 @@ impl HeatMap {
         (self.rgb.len() / 3) as u32 / self.width
     }
 
-    /// The colour of a pixel.
+    /// Returns the colour of a pixel.
     fn colour(&self, pixel: usize) -> RGBColor {
         let [red, green, blue] = [0, 1, 2].map(|channel| self.rgb[3 * pixel + channel]);
         let Some(value) = self.values.get(pixel) else { return RGBColor(red, green, blue) };
-        // Paler than it was, so that the colours stand out.
+        // The grey is paler than the image, so that the colours stand out.
         let luma = 0.299 * f64::from(red) + 0.587 * f64::from(green) + 0.114 * f64::from(blue);
         let grey = 110.0 + 0.57 * luma;
         let strength = (value.abs() / self.most).min(1.0);
@@ -58,7 +58,7 @@ impl HeatMap {
         RGBColor(red, green, blue)
     }
 
-    /// Draws it over the whole area, every length in pixels times `scale`.
+    /// Draws the image over the whole area, every length in pixels times `scale`.
     pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: u32) -> DrawResult<B> {
         let px = |length: f64| (length * f64::from(scale)).round() as i32;
         let style = |size: f64| ink(size * f64::from(scale));
@@ -68,7 +68,7 @@ impl HeatMap {
         let place =
             |column: u32, row: u32| (((MARGIN + column * CELL) * scale) as i32, ((HEADER + row * CELL) * scale) as i32);
         for row in 0..self.rows() {
-            // Pixels of one colour side by side are one rectangle, so that the SVG stays small.
+            // Neighbouring pixels of one colour are drawn as one rectangle, so that the SVG stays small.
             let mut first = 0;
             while first < self.width {
                 let colour = |column: u32| self.colour((row * self.width + column) as usize);

@@ -1,5 +1,5 @@
-//! Curves over an axis, as of speeds over time, told apart as those of other charts by the colours of Okabe and Ito and, in
-//! grey, by the names at their sides.
+//! Draws curves over an axis, such as speeds over time. Curves are told apart by the colours of Okabe and Ito, as in
+//! other charts, and without colour by the names above the chart.
 
 use super::DrawResult;
 use super::map::{Axis, Ends};
@@ -12,13 +12,13 @@ use plotters::prelude::*;
 pub struct Lines {
     /// The first line above the curves.
     pub title: String,
-    /// The second line, smaller.
+    /// The second line above the curves, in smaller letters.
     pub note: String,
     /// The horizontal axis.
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// The curves with their names, at most six. What is no number is left out.
+    /// The curves with their names, at most six. A value that is not finite leaves a gap in its curve.
     pub curves: Vec<(String, Vec<(f64, f64)>)>,
 }
 

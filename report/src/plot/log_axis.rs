@@ -1,10 +1,10 @@
-//! A logarithmic axis: equal factors are equal lengths.
+//! A logarithmic axis: equal factors have equal lengths.
 
 use super::map::round_step;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::{Range, RangeInclusive};
 
-/// A logarithmic axis with the numbers that are written at it.
+/// A logarithmic axis with the numbers written along it.
 #[derive(Debug, Clone)]
 pub(super) struct Log {
     pub lo: f64,
@@ -13,7 +13,8 @@ pub(super) struct Log {
 }
 
 impl Log {
-    /// An axis over sizes, which are the numbers at it, with a share of it as room at the ends.
+    /// Makes an axis over sizes, which are the numbers written along it. `room` is the share of the axis left free at
+    /// each end.
     pub fn over(sizes: &[f64], room: f64) -> Self {
         let (least, most) = (sizes[0], sizes[sizes.len() - 1]);
         let mut axis = Self::from_to(least, most, room);
@@ -27,7 +28,8 @@ impl Log {
         axis
     }
 
-    /// An axis from a value to another with round numbers between, with a share of it as room at the ends.
+    /// Makes an axis from one value to another, with round numbers between. `room` is the share of the axis left free
+    /// at each end.
     pub fn from_to(least: f64, most: f64, room: f64) -> Self {
         // A single value stands in the middle.
         let widened = if most > least { (least, most) } else { (least / 2.0, most * 2.0) };
@@ -36,25 +38,25 @@ impl Log {
         Self { lo, hi, numbers: round_numbers(lo, hi) }
     }
 
-    /// Where a value is along the axis: 0 at its lower end, 1 at its upper.
+    /// Returns the place of a value along the axis, from 0 at the lower end to 1 at the upper end.
     fn share(&self, value: f64) -> f64 {
         libm::log(value / self.lo) / libm::log(self.hi / self.lo)
     }
 
-    /// The value a share of the axis further.
+    /// Returns the value that is a share of the axis further along.
     pub fn moved(&self, value: f64, share: f64) -> f64 {
         value * libm::pow(self.hi / self.lo, share)
     }
 
-    /// The smallest distance of two numbers, as a share of the axis.
+    /// Returns the smallest distance of two neighbouring numbers, as a share of the axis.
     pub fn least_gap(&self) -> f64 {
         let gaps = self.numbers.windows(2).map(|pair| self.share(pair[1]) - self.share(pair[0]));
         gaps.fold(1.0, f64::min)
     }
 }
 
-/// Four round numbers or more, but not too many to be read: powers of ten if they are enough, some numbers between them
-/// if not, or even steps where the ends are not far apart.
+/// Returns at least four round numbers, but not too many to be read. They are powers of ten if they are enough,
+/// otherwise some numbers between them as well, or even steps if the ends are not far apart.
 fn round_numbers(lo: f64, hi: f64) -> Vec<f64> {
     const ENOUGH: RangeInclusive<usize> = 4..=9;
     let powers = libm::floor(libm::log10(lo)) as i32..=libm::ceil(libm::log10(hi)) as i32;

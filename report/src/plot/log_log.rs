@@ -1,8 +1,8 @@
-//! Values over sizes, both axes logarithmic: a power law is a straight line.
+//! Draws values over sizes with two logarithmic axes, so that a power law is a straight line.
 //!
-//! Every size has a mark for each curve with a whisker from quartile to quartile; marks of one size stand beside each
+//! At every size, each curve has a mark with a whisker from quartile to quartile. Marks of one size stand beside each
 //! other, so that whiskers do not cover each other. Curves are told apart by the colours of Okabe and Ito (Color
-//! Universal Design, 2008), which differ for any colour vision, and by the shapes of their marks, also in grey.
+//! Universal Design, 2008), which differ for any colour vision, and without colour by the shapes of their marks.
 
 use super::frame::{PlotFrame, TEXT};
 use super::log_axis::Log;
@@ -16,42 +16,42 @@ use plotters::prelude::*;
 /// The width of a plane, in pixels of the SVG.
 pub(super) const PLANE: u32 = 500;
 
-/// A chart: planes side by side, and a legend for all of them.
+/// A chart of planes side by side, with one legend for all of them.
 #[derive(Debug, Clone)]
 pub struct LogLog {
-    /// What stands around the planes.
+    /// The text and the legend around the planes.
     pub frame: PlotFrame,
-    /// At least one.
+    /// The planes, at least one.
     pub planes: Vec<Plane>,
 }
 
-/// Two logarithmic axes with curves over the same sizes.
+/// A plane with two logarithmic axes and curves over the same sizes.
 #[derive(Debug, Clone)]
 pub struct Plane {
-    /// What the horizontal axis shows.
+    /// The label of the horizontal axis.
     pub x: String,
-    /// What the vertical axis shows, written above it.
+    /// The label of the vertical axis, written above it.
     pub y: String,
-    /// A value with a line of its own.
+    /// A value at which a horizontal line is drawn.
     pub level: Option<f64>,
-    /// The curves, the last on top.
+    /// The curves. Later curves are drawn over earlier ones.
     pub curves: Vec<LogLogCurve>,
 }
 
-/// The values of one curve, all above 0.
+/// A curve, with values above 0.
 #[derive(Debug, Clone)]
 pub struct LogLogCurve {
     /// The mark and colour of the curve.
     pub look: Look,
-    /// Size, value, and the ends of the whisker.
+    /// The marks, each with its size, its value, and the two ends of its whisker.
     pub marks: Vec<(f64, f64, [f64; 2])>,
-    /// Sizes with values that are drawn as crosses without a line.
+    /// The crosses, each with its size and its value. No line joins them.
     pub crosses: Vec<(f64, f64)>,
 }
 
 type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
-/// How far apart marks of one size are, as a share of the horizontal axis.
+/// The distance between neighbouring marks of one size, as a share of the horizontal axis.
 const APART: f64 = 0.0075;
 impl LogLog {
     /// Draws the chart over the whole area, every length in pixels times `scale`.
@@ -92,7 +92,7 @@ impl Plane {
         let many = self.curves.len();
         let step = APART.min(0.5 * x.least_gap() / many as f64);
         let beside = |i: usize, size: f64| x.moved(size, (i as f64 - (many as f64 - 1.0) / 2.0) * step);
-        // Lines first, then whiskers, then marks: what matters most is never covered.
+        // Lines come first, then whiskers, then marks, so that the most important things are never covered.
         for (i, curve) in self.curves.iter().enumerate() {
             let line = curve.marks.iter().map(|(size, value, _)| (beside(i, *size), *value));
             plane.draw(&PathElement::new(line.collect::<Vec<_>>(), rgb(curve.look).stroke_width(px(LINE))))?;
@@ -125,7 +125,7 @@ impl Plane {
         Ok(())
     }
 
-    /// Axes with room around all that is drawn.
+    /// Returns axes with room around everything that is drawn.
     fn axes(&self) -> (Log, Log) {
         let marks = || self.curves.iter().flat_map(|curve| &curve.marks);
         let crosses = || self.curves.iter().flat_map(|curve| &curve.crosses);

@@ -1,4 +1,4 @@
-//! The failure map: every test a mark at the values of two of its parameters, as in the paper's Figure 9.
+//! Draws the failure map: every test is a mark at the values of two parameters, as in the paper's Figure 9.
 
 use super::DrawResult;
 use super::mark::{Drawn, Mark, ORDER};
@@ -9,23 +9,24 @@ use paracosm_analysis::failure_estimate;
 use paracosm_analysis::failure_estimate::{Axes, AxesFlaw, FailureEstimate};
 use paracosm_campaign::{Error, Log, Trial};
 use paracosm_oracles::Verdict;
+use paracosm_space::plural;
 use paracosm_space::{Coordinate, Domain};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use std::ops::Range;
 
-/// An axis: what it shows and from where to where.
+/// The label and the range of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// The name with its unit.
+    /// The name of the axis, with the unit.
     pub label: String,
-    /// The least and the greatest value.
+    /// The least and the greatest value of the axis.
     pub range: (f64, f64),
 }
 
 impl Axis {
-    /// The axis of a continuous coordinate.
+    /// Returns the axis of a continuous coordinate; `None` if the coordinate is discrete.
     fn of(coordinate: &Coordinate) -> Option<Self> {
         match coordinate.parameter.domain {
             Domain::Interval { lo, hi } => Some(Self { label: coordinate.label(), range: (lo, hi) }),
@@ -34,46 +35,47 @@ impl Axis {
     }
 }
 
-/// Tests as marks in a plane: red crosses where they fail, blue dots where they pass.
+/// A failure map, which shows tests as marks in a plane. Failing tests are red crosses, passing tests are blue dots.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailureMap {
     /// The first line above the map.
     pub title: String,
-    /// What stands below it, smaller, in up to three lines.
+    /// The text below the title, in smaller letters, in up to three lines.
     pub note: String,
-    /// What varies too, though the map does not show it.
+    /// The names of the coordinates that vary too, although the map does not show them.
     pub others: Vec<String>,
     /// The horizontal axis.
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// The tests.
+    /// The tests, each with its two coordinates and its mark.
     pub marks: Vec<(f64, f64, Mark)>,
-    /// How probable a failure is, if that is to be seen behind the tests.
+    /// The estimated probability of failure, if the map shows it behind the tests.
     pub estimate: Option<FailureEstimate>,
-    /// A number of each test, if the dots are to be tinted by it.
+    /// A number of each test, if the map colours the dots by it.
     pub tints: Option<Tints>,
 }
 
-/// How wide the bar of shades is with its numbers, in heights of the text.
+/// The width of the bar of shades with its numbers, as a multiple of the size of text.
 const BAR: f64 = 5.4;
 
-/// The size of the note, how far its lines are apart, both in heights of the text, and how many there are at most: what does
-/// not fit is in the campaign's files.
+/// The size of the note, the distance of its lines, both as multiples of the size of text, and the greatest number of
+/// lines. Text that does not fit can be read in the campaign's files.
 const NOTE: f64 = 0.85;
 const LINE: f64 = 1.2;
 const NOTE_LINES: usize = 3;
 
 impl FailureMap {
-    /// The map of a campaign over its first two continuous coordinates; `None` where it has less than two.
+    /// Makes the map of a campaign over its first two continuous coordinates. `None` if there are fewer.
     pub fn of(log: &Log) -> Option<Self> {
         Self::at(log, [0, 1], |trial| Mark::Verdict(trial.verdict))
     }
 
-    /// The map of a campaign over the continuous coordinates with these names, with the probability of failure.
+    /// Makes the map of a campaign over two continuous coordinates by name, with the probability of failure.
     ///
     /// # Errors
-    /// A name is none of a continuous coordinate, or both are one; a trial is none of the study's space.
+    /// Returns an error if a name is not the name of a continuous coordinate, if both names are the same, or if a trial
+    /// does not belong to the study's space.
     pub fn over(log: &Log, names: [&str; 2]) -> Result<Self, Error> {
         let axes = failure_estimate::axes(log.study(), names)?;
         let mark = |trial: &Trial| Mark::Verdict(trial.verdict);
@@ -81,10 +83,11 @@ impl FailureMap {
         Ok(Self { estimate: FailureEstimate::of(log, axes)?, ..map })
     }
 
-    /// The map of a campaign that shows whose fault its failures are, over the continuous coordinates with these names.
+    /// Makes the map of a campaign over the two continuous coordinates with these names; it shows whose fault each
+    /// failure is.
     ///
     /// # Errors
-    /// A name is none of a continuous coordinate, or both are one.
+    /// Returns an error if a name is not the name of a continuous coordinate, or if both names are the same.
     pub fn of_blame(log: &Log, blame: &Blame, names: [&str; 2]) -> Result<Self, AxesFlaw> {
         let axes = failure_estimate::axes(log.study(), names)?;
         let mark = |trial: &Trial| match blame.of(trial.index) {
@@ -105,7 +108,7 @@ impl FailureMap {
         let mark = |trial: &Trial| Some((at(trial, &x)?, at(trial, &y)?, mark(trial)));
         Some(Self {
             title: study.title(),
-            note: format!("{} tests, strategy {}", trials.len(), study.sampling()),
+            note: format!("{}, strategy {}", plural(trials.len(), "test"), study.sampling()),
             others: study.space().coordinates().filter(|c| ![x, y].contains(c)).map(|c| c.name()).collect(),
             x: Axis::of(&x)?,
             y: Axis::of(&y)?,
@@ -115,7 +118,8 @@ impl FailureMap {
         })
     }
 
-    /// The second line: what the map shows, and what varies too though it does not show it.
+    /// Returns the text below the title. It names the contents of the map, and the coordinates that vary although the
+    /// map does not show them.
     fn note(&self) -> String {
         let others = self.others.join(", ");
         match (self.others.is_empty(), &self.estimate) {
@@ -167,7 +171,7 @@ impl FailureMap {
             .y_labels(if small { 7 } else { 12 })
             .draw()?;
         let along = (0, (body.dim_in_pixel().1 - px(3.3 * text)) as i32);
-        // A thousand marks have room; more of them become smaller, so that they do not run together.
+        // A thousand marks have room. If there are more, they become smaller, so that they do not run together.
         let crowd = (self.marks.len() as f64 / 1000.0).max(1.0);
         let side = (side / crowd.sqrt()).max(1.2) * scale;
         if let (Some(estimate), Some(bar)) = (&self.estimate, &bar) {
@@ -181,7 +185,7 @@ impl FailureMap {
             tints.draw_bar(bar, along, text * scale)?;
         }
         for mark in ORDER {
-            // A tinted dot says that it passed.
+            // On a map with tints, a tinted dot without another mark is a passing test.
             let hidden = self.tints.is_some() && mark == Mark::Verdict(Verdict::Pass);
             let marks = self.marks.iter().filter(|other| other.2 == mark && !hidden);
             chart.draw_series(marks.map(|(x, y, _)| EmptyElement::at((*x, *y)) + Drawn { mark, side }))?;
@@ -189,7 +193,7 @@ impl FailureMap {
         Ok(())
     }
 
-    /// Title, note, and the legend with counts.
+    /// Draws the title, the note, and the legend with counts.
     fn draw_header<B: DrawingBackend>(
         &self,
         area: &DrawingArea<B, Shift>,
@@ -229,7 +233,7 @@ impl FailureMap {
     }
 }
 
-/// A range with both ends among its numbers, since they are what a reader of a map asks for first.
+/// A range of an axis. The numbers along the axis include both ends, because readers of a map look for the ends first.
 pub(super) struct Ends(pub (f64, f64));
 
 impl Ranged for Ends {
@@ -251,7 +255,8 @@ impl Ranged for Ends {
 }
 
 impl Ends {
-    /// The numbers at the axis: both ends, and round ones between them, no more than so many steps.
+    /// Returns the numbers along the axis. They are both ends and round numbers between them, at most about `most`
+    /// steps.
     pub(super) fn numbers(&self, most: usize) -> Vec<f64> {
         let (lo, hi) = self.0;
         let step = round_step((hi - lo) / most.max(2) as f64);
@@ -266,13 +271,13 @@ impl Ends {
 
 impl ValueFormatter<f64> for Ends {
     fn format(value: &f64) -> String {
-        // Steps are round, so that six digits hide nothing but rounding errors.
+        // Steps are round numbers, so that six digits hide only rounding errors.
         let text = format!("{value:.6}");
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     }
 }
 
-/// The least of 1, 2, 5, 10, 20, 50, ... and their tenths and hundredths that is at least `width`.
+/// Returns the least of 1, 2, 5, 10, 20, 50, ... and their tenths, hundredths and so on that is at least `width`.
 pub(super) fn round_step(width: f64) -> f64 {
     let mut power = 1e-6;
     loop {

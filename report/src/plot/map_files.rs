@@ -1,15 +1,15 @@
-//! The files of a map in the folder of its campaign.
+//! Writes the files of a map in the folder of its campaign.
 
 use super::{FailureMap, Picture};
 use paracosm_campaign::{Artefact, Error, Failure};
 use std::path::PathBuf;
 
-/// A map as pictures, and as the numbers behind it if a probability was estimated.
+/// A map as pictures, and as a table of numbers if a probability was estimated.
 #[derive(Debug, Clone, Copy)]
 pub enum MapFiles<'m> {
-    /// Where tests fail.
+    /// The map that shows where tests fail.
     Failures(&'m FailureMap),
-    /// Whose fault the failures are.
+    /// The map that shows whose fault the failures are.
     Blame(&'m FailureMap),
 }
 

@@ -1,5 +1,5 @@
-//! The marks of a failure map: what became of a test, or whose fault its failure is. They are told apart by their colours
-//! with any colour vision (Paul Tol's vibrant scheme), and in grey by their shapes.
+//! The marks of a failure map: the verdict of a test, or whose fault its failure is. The marks are told apart by
+//! colours that differ for any colour vision (Paul Tol's vibrant scheme), and without colour by their shapes.
 
 use super::INK;
 use paracosm_analysis::blame::Preventability;
@@ -15,16 +15,17 @@ const ORANGE: RGBColor = RGBColor(0xee, 0x77, 0x33);
 const MAGENTA: RGBColor = RGBColor(0xee, 0x33, 0x77);
 const GREY: RGBColor = RGBColor(0x88, 0x88, 0x88);
 
-/// What a map shows of a test.
+/// The property of a test that a map shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
-    /// What became of it.
+    /// The verdict of the test.
     Verdict(Verdict),
-    /// Whose fault its failure is.
+    /// The blame for the failure of the test, as the reference drivers tell it.
     Fault(Preventability),
 }
 
-/// In the order in which they are drawn and listed: what matters most is drawn last, over all else.
+/// The marks in the order in which they are drawn. The most important marks are drawn last, over all others. The legend
+/// lists them in reverse order.
 pub(super) const ORDER: [Mark; 9] = [
     Mark::Verdict(Verdict::Pass),
     Mark::Verdict(Verdict::Inconclusive),
@@ -38,7 +39,7 @@ pub(super) const ORDER: [Mark; 9] = [
 ];
 
 impl Mark {
-    /// Whether the legend lists it even if there is none, on a map of faults or on one of verdicts.
+    /// Returns `true` if the legend lists the mark even if no test has it; `of_faults` is true for a map of faults.
     pub(super) fn is_listed(self, of_faults: bool) -> bool {
         match self {
             Self::Verdict(Verdict::Pass) => true,
@@ -58,7 +59,7 @@ impl fmt::Display for Mark {
     }
 }
 
-/// A mark, `side` pixels from its middle to its end.
+/// A mark to be drawn, `side` pixels from its middle to its end.
 pub(super) struct Drawn {
     pub mark: Mark,
     pub side: f64,

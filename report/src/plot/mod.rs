@@ -1,8 +1,8 @@
-//! Pictures, as SVG for papers and PNG for everything else.
+//! Draws pictures, as SVG for papers and as PNG for everything else.
 //!
-//! Both come from the same drawing code; the PNG is drawn at twice the size, so that it is sharp on any screen. Failure
-//! maps and charts are plotters', which draws pixels on a canvas of ours; pictures of worlds and runs are the engine's.
-//! The font is in the program: pictures look the same on a machine without any.
+//! The same code draws both. The PNG has twice the size, so that it is sharp on any screen. The crate plotters draws
+//! failure maps and charts, for PNG on a canvas of our own; the engine draws pictures of worlds and runs. The font is
+//! part of the program, so that pictures look the same on a machine without fonts.
 
 mod animation;
 mod bar;
@@ -45,30 +45,30 @@ use plotters::style::{FontStyle, register_font};
 use std::error::Error as StdError;
 use std::sync::Once;
 
-/// What drawing to a backend comes to.
+/// The result of drawing to a backend.
 type DrawResult<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
-/// Open Sans, Apache License 2.0 (see the folder).
+/// The font Open Sans, Apache License 2.0 (see its folder).
 const FONT: &[u8] = include_bytes!("font/OpenSans-Regular.ttf");
-/// The name by which it is drawn; viewers of an SVG that do not have it take their own sans-serif.
+/// The name of the font in pictures. Viewers of an SVG that do not have this font use their own sans-serif font.
 const FAMILY: &str = "Open Sans, sans-serif";
-/// How much larger than the SVG the PNG is.
+/// The size of the PNG as a multiple of the size of the SVG.
 const PNG_SCALE: u32 = 2;
 
 const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
 
-/// The style of a text.
+/// Returns the style of a text.
 fn ink(size: f64) -> TextStyle<'static> {
     TextStyle::from((FAMILY, size).into_font()).color(&INK)
 }
 
-/// That of a text in a line with what is drawn beside it: its middle is where it is put.
+/// Returns the style of a text that is centred vertically on its place, beside something on the same line.
 fn level(size: f64, along: HPos) -> TextStyle<'static> {
     ink(size).pos(Pos::new(along, VPos::Center))
 }
 
-/// Failure maps or images side by side in rows, or a chart.
+/// A picture of failure maps or images side by side in rows, or of a chart.
 #[derive(Debug, Clone)]
 pub struct Picture {
     panels: Vec<Panel>,
@@ -77,7 +77,7 @@ pub struct Picture {
     size: (u32, u32),
 }
 
-/// What a picture is made of.
+/// A part of a picture.
 #[derive(Debug, Clone)]
 enum Panel {
     Map(FailureMap),
@@ -91,50 +91,50 @@ enum Panel {
 type Drawn = Result<(), Box<dyn StdError + Send + Sync>>;
 
 impl Picture {
-    /// A picture of one map.
+    /// Makes a picture of one map.
     pub fn of(map: FailureMap) -> Self {
         Self { panels: vec![Panel::Map(map)], columns: 1, size: (900, 680) }
     }
 
-    /// A picture of values over sizes.
+    /// Makes a picture of values over sizes.
     pub fn of_log_log(chart: LogLog) -> Self {
         let size = (frame::LEGEND + log_log::PLANE * chart.planes.len() as u32, 520);
         Self { panels: vec![Panel::LogLog(chart)], columns: 1, size }
     }
 
-    /// A picture of shares over sizes.
+    /// Makes a picture of shares over sizes.
     pub fn of_shares(chart: Shares) -> Self {
         Self { panels: vec![Panel::Shares(chart)], columns: 1, size: (frame::LEGEND + shares::PLANE, 520) }
     }
 
-    /// A picture of how many still wait.
+    /// Makes a picture of survival curves, which show how many runs still wait for an event.
     pub fn of_survivals(chart: Survivals) -> Self {
         let size = (frame::LEGEND + survival::PLANE, frame::HEADER + chart.height());
         Self { panels: vec![Panel::Survivals(chart)], columns: 1, size }
     }
 
-    /// A picture of charts of curves, one below the other.
+    /// Makes a picture of charts of curves, one below the other.
     ///
     /// # Panics
-    /// There is no chart.
+    /// Panics if there is no chart.
     pub fn of_lines(charts: Vec<Lines>) -> Self {
         assert!(!charts.is_empty(), "a picture shows something");
         Self { panels: charts.into_iter().map(Panel::Lines).collect(), columns: 1, size: (900, 420) }
     }
 
-    /// A picture of several maps, `columns` in a row.
+    /// Makes a picture of several maps, `columns` in a row.
     ///
     /// # Panics
-    /// There is no map or no column.
+    /// Panics if there is no map or no column.
     pub fn grid(columns: usize, maps: Vec<FailureMap>) -> Self {
         assert!(columns > 0 && !maps.is_empty(), "a picture shows something");
         Self { panels: maps.into_iter().map(Panel::Map).collect(), columns, size: (480, 440) }
     }
 
-    /// A picture of several images of one size, `columns` in a row.
+    /// Makes a picture of several images of one size, `columns` in a row.
     ///
     /// # Panics
-    /// There is no image or no column.
+    /// Panics if there is no image or no column.
     pub fn of_images(columns: usize, images: Vec<HeatMap>) -> Self {
         assert!(columns > 0 && !images.is_empty(), "a picture shows something");
         let size = images[0].size();
@@ -146,10 +146,10 @@ impl Picture {
         (self.size.0 * self.columns as u32, self.size.1 * rows as u32)
     }
 
-    /// The picture as the text of an SVG file.
+    /// Returns the picture as the text of an SVG file.
     ///
     /// # Errors
-    /// The plotter fails.
+    /// Returns an error if the plotter fails.
     pub fn svg(&self) -> Result<String, Box<dyn StdError + Send + Sync>> {
         let mut text = String::new();
         let area = SVGBackend::with_string(&mut text, self.extent()).into_drawing_area();
@@ -158,10 +158,10 @@ impl Picture {
         Ok(text)
     }
 
-    /// The picture as the contents of a PNG file.
+    /// Returns the picture as the contents of a PNG file.
     ///
     /// # Errors
-    /// The plotter fails.
+    /// Returns an error if the plotter or the encoder fails.
     pub fn png(&self) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
         let (width, height) = self.extent();
         let (width, height) = (width * PNG_SCALE, height * PNG_SCALE);
@@ -194,7 +194,7 @@ impl Picture {
     }
 }
 
-/// Makes the font of the program known.
+/// Registers the font of the program with the plotter.
 fn with_font() {
     static REGISTERED: Once = Once::new();
     REGISTERED.call_once(|| {
@@ -203,7 +203,7 @@ fn with_font() {
     });
 }
 
-/// The contents of a PNG file with these pixels, red, green and blue of each.
+/// Returns the contents of a PNG file with these pixels, with red, green and blue of each.
 fn encode_png(width: u32, height: u32, pixels: &[u8]) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
     let mut file = Vec::new();
     let mut encoder = ::png::Encoder::new(&mut file, width, height);

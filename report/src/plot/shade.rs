@@ -1,5 +1,5 @@
-//! The probability of failure behind the marks of a failure map: a shade, the line at one half, a hatch where it is not sure
-//! on which side of it a place is, grey where tests cannot be built, and what these mean.
+//! Draws the probability of failure behind the marks of a failure map: shades, a line at one half, hatching where it is
+//! undecided on which side of one half the probability is, grey where tests cannot be built, and the legend of these.
 
 use super::DrawResult;
 use super::bar::Bar;
@@ -10,19 +10,20 @@ use paracosm_generators::FailingShare;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// So many shades are told apart: runs of cells of one shade are one rectangle.
+/// The number of different shades. Neighbouring cells of one shade are drawn as one rectangle.
 const SHADES: usize = 20;
 
-/// From all pass to all fail, between them white: pale ends of Paul Tol's sunset scheme, so that marks stand out.
+/// The colours of places where all tests pass and where all tests fail, with white between them. They are pale ends of
+/// Paul Tol's sunset scheme, so that marks stand out.
 const PASSING: [f64; 3] = [171.0, 206.0, 230.0];
 const FAILING: [f64; 3] = [250.0, 178.0, 140.0];
 
 const HATCH: RGBColor = RGBColor(0xa8, 0xa8, 0xa8);
 
-/// Where most tests cannot be built.
+/// The colour of places where most tests cannot be built.
 const INVALID: RGBColor = RGBColor(0xd4, 0xd4, 0xd4);
 
-/// The colour of a probability.
+/// Returns the colour of a probability.
 fn colour(probability: f64) -> RGBColor {
     let shade = ((probability * SHADES as f64) as usize).min(SHADES - 1);
     let off = (shade as f64 + 0.5) / SHADES as f64 * 2.0 - 1.0;
@@ -31,7 +32,7 @@ fn colour(probability: f64) -> RGBColor {
     RGBColor(channel(0), channel(1), channel(2))
 }
 
-/// A grid of cells, a node at each of their corners, in the pixels of an area.
+/// A grid of cells with a node at each of their corners, in the pixels of an area.
 struct Cells<'a> {
     estimate: &'a FailureEstimate,
     size: (f64, f64),
@@ -51,33 +52,33 @@ impl<'a> Cells<'a> {
         self.estimate.y.len() - 1
     }
 
-    /// Where a place of the grid is; the first row is at the bottom.
+    /// Returns the pixel of a place on the grid; the first row is at the bottom.
     fn pixel(&self, (i, j): (f64, f64)) -> (i32, i32) {
         let x = i / self.columns() as f64 * self.size.0;
         let y = (1.0 - j / self.rows() as f64) * self.size.1;
         (x.round() as i32, y.round() as i32)
     }
 
-    /// What is known at a cell's corners; `None` where at most one of them is valid.
+    /// Returns the estimates at a cell's corners; `None` if at most one corner is valid.
     fn corners(&self, i: usize, j: usize) -> Option<Vec<&FailingShare>> {
         let corners = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
         let known: Vec<_> = corners.iter().filter_map(|&(i, j)| self.estimate.at(i, j)).collect();
         (known.len() > 1).then_some(known)
     }
 
-    /// The colour of the mean probability at a cell's corners.
+    /// Returns the colour of the mean probability at a cell's corners.
     fn colour(&self, i: usize, j: usize) -> RGBColor {
         let mean = |known: Vec<&FailingShare>| known.iter().map(|share| share.mean).sum::<f64>() / known.len() as f64;
         self.corners(i, j).map_or(INVALID, |known| colour(mean(known)))
     }
 
-    /// Whether any corner of a cell is not decided.
+    /// Returns `true` if any corner of a cell is not decided.
     fn is_open(&self, i: usize, j: usize) -> bool {
         self.corners(i, j).is_some_and(|known| known.iter().any(|share| decided(share).is_none()))
     }
 }
 
-/// Draws the shades of an estimate over the whole of an area, whose sides are the axes.
+/// Draws the shades of an estimate over a whole area, whose sides are the axes.
 pub(super) fn draw_shades<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     estimate: &FailureEstimate,
@@ -92,7 +93,7 @@ pub(super) fn draw_shades<B: DrawingBackend>(
     Ok(())
 }
 
-/// Draws the line at one half and the hatch over the same area; lengths are times `scale`.
+/// Draws the line at one half and the hatching over the same area; lengths are multiplied by `scale`.
 pub(super) fn draw_lines<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     estimate: &FailureEstimate,
@@ -100,7 +101,8 @@ pub(super) fn draw_lines<B: DrawingBackend>(
 ) -> DrawResult<B> {
     let cells = Cells::over(area, estimate);
     let at = |i: usize, j: usize| cells.pixel((i as f64, j as f64));
-    // Along each diagonal, on a fine grid every other one: a run of open cells is one stroke.
+    // The hatching runs along the diagonals; on a fine grid only some diagonals are drawn. A run of undecided cells is
+    // one stroke.
     let every = cells.columns().div_ceil(30);
     for diagonal in (1 - cells.rows() as isize..cells.columns() as isize).step_by(every) {
         let begin = (-diagonal).max(0) as usize;
@@ -120,7 +122,8 @@ pub(super) fn draw_lines<B: DrawingBackend>(
     Ok(())
 }
 
-/// Runs of equal values, each with its first place and the one after its last; nothing where there is none.
+/// Returns runs of equal values, each with its first place and the place after its last. Places without a value belong
+/// to no run.
 fn runs<T: PartialEq>(len: usize, value: impl Fn(usize) -> Option<T>) -> Vec<(usize, usize, T)> {
     let mut runs: Vec<(usize, usize, T)> = Vec::new();
     for at in 0..len {
@@ -139,7 +142,7 @@ pub(super) fn draw_bar<B: DrawingBackend>(area: &DrawingArea<B, Shift>, along: (
     Bar { label: "probability of failure", steps: SHADES, ticks: ticks.into() }.draw(area, along, colour, text)
 }
 
-/// What a key of the legend is a sample of.
+/// The kinds of samples in the legend.
 #[derive(PartialEq)]
 enum Key {
     Line,
@@ -147,7 +150,7 @@ enum Key {
     Grey,
 }
 
-/// Draws what the line, the hatch and, if there is any, the grey mean, from a place on.
+/// Draws the legend of the line, of the hatching and, if there is any, of the grey, beginning at a place.
 pub(super) fn draw_key<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     estimate: &FailureEstimate,

@@ -1,4 +1,4 @@
-//! Shares over sizes: a logarithmic axis from left to right, and from bottom to top 0 to 1. Clouds of marks.
+//! Draws shares over sizes as clouds of marks: the horizontal axis is logarithmic, the vertical axis goes from 0 to 1.
 
 use super::frame::{PlotFrame, TEXT};
 use super::log_axis::Log;
@@ -11,27 +11,27 @@ use plotters::prelude::*;
 /// The width of the plane, in pixels of the SVG.
 pub(super) const PLANE: u32 = 640;
 
-/// A chart of shares.
+/// A chart of shares over sizes.
 #[derive(Debug, Clone)]
 pub struct Shares {
-    /// What stands around the plane.
+    /// The text and the legend around the plane.
     pub frame: PlotFrame,
-    /// What the horizontal axis shows.
+    /// The label of the horizontal axis.
     pub x: String,
-    /// What the vertical axis shows, written above it.
+    /// The label of the vertical axis, written above it.
     pub y: String,
-    /// The least and the greatest size, above 0.
+    /// The least and the greatest size, both above 0.
     pub range: (f64, f64),
-    /// What is drawn, the last on top.
+    /// The series. Later series are drawn over earlier ones.
     pub series: Vec<Series>,
 }
 
-/// What belongs to one line of the legend.
+/// The marks of one line of the legend.
 #[derive(Debug, Clone)]
 pub struct Series {
     /// The mark and colour of the series.
     pub look: Look,
-    /// Places of marks.
+    /// The places of the marks, each with its size and its share.
     pub marks: Vec<(f64, f64)>,
 }
 

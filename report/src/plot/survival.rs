@@ -1,7 +1,7 @@
-//! How many runs still wait for something, over what they have spent: the curves of Kaplan and Meier from 0 on, and below
-//! them, in numbers, how many that are.
+//! Draws Kaplan-Meier curves: how many runs still wait for an event, over the tests that they have spent, beginning at
+//! 0. A table below the curves gives these numbers.
 //!
-//! The horizontal axis is linear, so that the area under a curve is the restricted mean that the legend tells.
+//! The horizontal axis is linear, so that the area under a curve is the restricted mean that the legend shows.
 
 use super::frame::{PlotFrame, TEXT};
 use super::map::Ends;
@@ -15,49 +15,49 @@ use plotters::prelude::*;
 pub(super) const PLANE: u32 = 640;
 const HEIGHT: u32 = 440;
 
-/// How much of the width is left and right of the axis, and how far lines of the table are apart.
+/// The room left and right of the horizontal axis, and the distance of the lines of the table.
 const LEFT: f64 = 3.8 * TEXT;
 const RIGHT: f64 = 1.4 * TEXT;
 const ROW: f64 = 1.25 * TEXT;
 
-/// Half the length of the tick of what is censored, in pixels.
+/// Half the length of the tick that marks a censored curve, in pixels.
 const TICK: f64 = 6.0;
 
-/// So many steps the axis has at most.
+/// The greatest number of steps of the axis.
 const STEPS: usize = 6;
 
-/// A chart of curves.
+/// A chart of survival curves, with a table.
 #[derive(Debug, Clone)]
 pub struct Survivals {
-    /// What stands around the plane.
+    /// The text and the legend around the plane.
     pub frame: PlotFrame,
-    /// What the horizontal axis shows, and the vertical one, written above it.
+    /// The labels of the horizontal axis and of the vertical axis; the latter is written above it.
     pub axes: [String; 2],
-    /// What the numbers below the plane are.
+    /// The heading of the table below the plane.
     pub numbers: String,
-    /// Where the horizontal axis ends.
+    /// The greatest value of the horizontal axis.
     pub horizon: f64,
     /// The curves, in the order of the legend.
     pub curves: Vec<Waiting>,
 }
 
-/// Who waits.
+/// A group of runs that wait for an event, with its curve.
 #[derive(Debug, Clone)]
 pub struct Waiting {
     /// The mark and colour of the curve.
     pub look: Look,
-    /// The times at which the share falls, in ascending order, with its value from then on.
+    /// The times at which the share of waiting runs falls, in ascending order, with the share from then on.
     pub steps: Vec<(f64, f64)>,
-    /// When each ends its waiting; infinite where it does not.
+    /// The time at which each run's waiting ends; infinite if it does not end.
     pub ends: Vec<f64>,
-    /// Whether any of those that do not might have with more time.
+    /// True if a run that did not end its waiting might have ended it with more time.
     pub censored: bool,
 }
 
 type Result<B> = std::result::Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
 impl Survivals {
-    /// The height of the chart below the lines above it, in pixels of the SVG.
+    /// Returns the height of the curves and the table together, in pixels of the SVG.
     pub(super) fn height(&self) -> u32 {
         HEIGHT + (ROW * (self.curves.len() as f64 + 1.6)) as u32
     }
@@ -105,7 +105,7 @@ impl Survivals {
         self.frame.draw_legend(&legend, scale)
     }
 
-    /// Draws how many still wait at each tick, in a line for each curve.
+    /// Draws the table, which says how many runs of each curve still wait at each tick of the axis.
     fn draw_table<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, ticks: &[f64], scale: f64) -> Result<B> {
         let px = |length: f64| (length * scale).round() as i32;
         let size = 0.8 * TEXT * scale;
@@ -126,12 +126,12 @@ impl Survivals {
 }
 
 impl Waiting {
-    /// The share that waits after this time.
+    /// Returns the share of runs that still wait after this time.
     fn at(&self, time: f64) -> f64 {
         self.steps.iter().take_while(|step| step.0 <= time).last().map_or(1.0, |step| step.1)
     }
 
-    /// The curve with its corners; where nobody waits any more it ends.
+    /// Returns the curve with its corners. The curve ends where no run waits any more.
     fn corners(&self, horizon: f64) -> Vec<(f64, f64)> {
         let mut corners = vec![(0.0, 1.0)];
         for &(time, share) in self.steps.iter().take_while(|step| step.0 <= horizon) {
@@ -144,8 +144,9 @@ impl Waiting {
         corners
     }
 
-    /// Where the curve comes down to a height of its own, so that marks of curves that are one stand beside each other; of
-    /// one that stays above, a place towards its end.
+    /// Returns the place of the curve's mark, which is where the curve falls to `height`. Every curve has another
+    /// height, so that marks of equal curves stand beside each other. If the curve stays above the height, the place is
+    /// towards its end.
     fn mark(&self, height: f64, horizon: f64) -> (f64, f64) {
         let falls = self.steps.iter().find(|step| step.1 <= height && step.0 <= horizon);
         falls.map_or_else(

@@ -1,4 +1,4 @@
-//! Marks of curves: shapes that are told apart without colour, too.
+//! Draws the marks of curves, whose shapes can be told apart without colour.
 
 use paracosm_generators::{Look, MarkShape};
 use plotters::element::{Drawable, PointCollection};
@@ -7,19 +7,19 @@ use plotters_backend::DrawingErrorKind;
 
 /// The size of marks, in pixels of the SVG.
 const SIDE: f64 = 4.2;
-/// The width of lines. Half of it is a whole number of pixels in either picture: what the plotter rounds, it rounds
-/// alike for lines of any direction.
+/// The width of lines. Half of it is a whole number of pixels in both the SVG and the PNG, so that the plotter rounds
+/// in the same way for lines of any direction.
 pub(super) const LINE: f64 = 2.0;
 
-/// The colour of curves of a look.
+/// Returns the colour of curves of a look.
 pub(super) fn rgb(look: Look) -> RGBColor {
     let (r, g, b) = look.colour;
     RGBColor(r, g, b)
 }
 
-/// A mark, `side` pixels from its middle to its end.
+/// A mark of a curve, `side` pixels from its middle to its end.
 pub(super) struct Symbol {
-    /// None is a cross.
+    /// The shape; `None` is a cross.
     shape: Option<MarkShape>,
     colour: RGBColor,
     filled: bool,
@@ -35,7 +35,7 @@ impl Symbol {
         Self { shape: None, colour, filled: true, side: SIDE * scale }
     }
 
-    /// Fills the mark, a share of its size.
+    /// Fills the shape of the mark at a share of its size.
     fn fill<B: DrawingBackend>(
         &self,
         backend: &mut B,
@@ -43,7 +43,7 @@ impl Symbol {
         share: f64,
         colour: RGBColor,
     ) -> std::result::Result<(), DrawingErrorKind<B::ErrorType>> {
-        // Shapes of about the same area.
+        // The shapes have about the same area.
         let corners: &[(f64, f64)] = match self.shape {
             Some(MarkShape::Circle) => {
                 return backend.draw_circle((x, y), (1.1 * share * self.side).round() as u32, &colour, true);

@@ -1,4 +1,4 @@
-//! A number of each test as the tint of its dot on a map, and a bar that says which tint means what.
+//! Colours the dots of a map by a number of each test, and draws a bar that shows which colour stands for which number.
 
 use super::DrawResult;
 use super::bar::Bar;
@@ -7,26 +7,27 @@ use plotters::coord::ranged1d::Ranged;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-/// A number of every test of a map.
+/// A number for every test of a map, shown as the colour of its dot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tints {
-    /// Its name with its unit.
+    /// The name of the number, with its unit.
     pub label: String,
-    /// From the palest to the darkest; what lies beyond is as an end.
+    /// The numbers of the palest and of the darkest colour. A number beyond the range has the colour of that end.
     pub range: (f64, f64),
-    /// In the order of the map's marks.
+    /// The numbers, in the order of the map's marks.
     pub values: Vec<f64>,
 }
 
-// From pale to dark in one hue after another, and so in grey, too: some of the colours of ColorBrewer's YlGnBu (Brewer).
+// The colours go from pale to dark through several hues, so that they are ordered in grey, too. They are some of the
+// colours of ColorBrewer's YlGnBu (Brewer).
 const COLOURS: [[f64; 3]; 5] =
     [[255.0, 255.0, 204.0], [161.0, 218.0, 180.0], [65.0, 182.0, 196.0], [44.0, 127.0, 184.0], [37.0, 52.0, 148.0]];
 
-/// So many tints does the bar show.
+/// The number of colours that the bar shows.
 const STEPS: usize = 40;
 
 impl Tints {
-    /// The colour of a number.
+    /// Returns the colour of a number.
     pub(super) fn colour(&self, value: f64) -> RGBColor {
         let share = ((value - self.range.0) / (self.range.1 - self.range.0)).clamp(0.0, 1.0);
         let place = share * (COLOURS.len() - 1) as f64;

@@ -1,19 +1,20 @@
-//! Texts that are longer than a picture is wide: in several lines, and cut where even these do not suffice.
+//! Breaks texts that are wider than a picture into lines, and cuts them if the lines do not suffice.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-/// How much wider texts are drawn than plotters takes them to be: it measures by the height of the font, of which Open Sans
-/// has 1.362 in an em, and writes a font's size down as 1.24 of an em.
+/// The ratio of the drawn width of a text to the width that plotters assumes. Plotters measures by the height of the
+/// font, of which Open Sans has 1.362 in an em, and writes a font's size as 1.24 of an em.
 const WIDER: f64 = 1.1;
 
-/// What stands for the rest of a text.
+/// The mark that stands for the rest of a text that was cut.
 const REST: &str = " ..";
 
-/// Lines of a text, or why it could not be measured.
+/// The lines of a text, or the reason why the text could not be measured.
 type Lines<B> = std::result::Result<Vec<String>, DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
-/// The text in lines of at most so many pixels, no more than `most` of them: what does not fit is left out, and dots say so.
+/// Breaks a text into at most `most` lines of at most `width` pixels. Text that does not fit is left out, and dots say
+/// so.
 pub(super) fn wrapped<B: DrawingBackend>(
     area: &DrawingArea<B, Shift>,
     text: &str,
@@ -36,7 +37,7 @@ pub(super) fn wrapped<B: DrawingBackend>(
     }
     lines.push(line);
     for line in &mut lines {
-        // The dots, or a word that is wider than the picture by itself.
+        // Shortens a line that is too wide because of the dots, or because of a single word wider than the picture.
         while !fits(line)? {
             let mut kept: Vec<char> = line.trim_end_matches(REST).chars().collect();
             kept.pop();
@@ -51,7 +52,7 @@ mod tests {
     use super::super::{ink, with_font};
     use super::*;
 
-    /// The lines of a text in 200 pixels.
+    /// Returns the lines of a text in 200 pixels.
     fn lines(text: &str, most: usize) -> Vec<String> {
         with_font();
         let mut svg = String::new();

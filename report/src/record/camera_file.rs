@@ -1,4 +1,4 @@
-//! Reads files of cameras. What is wrong is said with its key and line, what was found and what was expected.
+//! Reads files of cameras. An error names the key and the line, and says what was found and what was expected.
 
 use super::VariedCameras;
 use super::varied::middle;
@@ -13,62 +13,62 @@ use thiserror::Error;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// What a file may say beside the settings of cameras.
+/// The keys that a file may have at its top level.
 const TOP: [&str; 2] = ["seed", "camera"];
-/// What may be the same in all tests only: images of a set have one size, and times are those of ticks.
+/// The settings that cannot vary from test to test: all images of a data set have one size, and images come at ticks.
 const ALWAYS_THE_SAME: [&str; 2] = [RESOLUTION, "rate"];
 
-/// What is wrong with a file of cameras.
+/// An error in a file of cameras.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum CameraFileFlaw {
-    /// It is no TOML.
+    /// The file is not TOML.
     #[error("{}", .0.message())]
     Syntax(toml::de::Error),
-    /// It has no camera.
+    /// The file describes no camera.
     #[error("found no camera, expected a table [camera.NAME]")]
     NoCamera,
-    /// A key is none of its own.
+    /// A key at the top level of the file is unknown.
     #[error("there is no key `{key}`, expected `seed` or tables [camera.NAME]{}", did_you_mean(.nearest))]
     TopKey {
-        /// The key.
+        /// The unknown key.
         key: String,
-        /// A key that was perhaps meant.
+        /// The known key that is most similar, if any is similar.
         nearest: Option<&'static str>,
     },
-    /// A name is none that a folder can have everywhere.
+    /// The name of a camera is not valid as the name of a folder on every system.
     #[error("camera `{camera}`: expected a name of letters, digits, - and _, which becomes that of a folder")]
     Name {
-        /// The name.
+        /// The name of the camera.
         camera: String,
     },
-    /// A camera does not say what every camera has to say.
+    /// A camera lacks a key that every camera needs.
     #[error("camera `{camera}` has no `{key}`, expected {expected}")]
     Missing {
-        /// The camera.
+        /// The name of the camera.
         camera: String,
-        /// The key.
+        /// The missing key.
         key: &'static str,
-        /// What is to be said, with an example.
+        /// The meaning of the key, with an example.
         expected: String,
     },
-    /// A value is of another kind.
+    /// A value has the wrong type or the wrong form.
     #[error("{what} is {found}, expected {expected}")]
     Value {
-        /// The key, with its camera.
+        /// The key, with the camera that it belongs to.
         what: String,
-        /// What stands there.
+        /// The text of the value in the file.
         found: String,
-        /// What is expected.
+        /// The form of value that is expected.
         expected: String,
     },
-    /// A key that no camera has, or a camera that cannot be.
+    /// A camera has an unknown key, or settings with which no camera can be built.
     #[error(transparent)]
     Camera(#[from] NoCamera),
 }
 
 impl Reason for CameraFileFlaw {}
 
-/// What is wrong, and in which line, from 1.
+/// An error in a file of cameras, with its line, counted from 1.
 #[derive(Debug, PartialEq)]
 pub(super) struct Flaw {
     pub line: Option<usize>,
@@ -77,7 +77,7 @@ pub(super) struct Flaw {
 
 type Entry<'a> = Spanned<DeValue<'a>>;
 
-/// Reads the text of a file.
+/// Reads the text of a file of cameras.
 pub(super) fn parse(text: &str) -> Result<VariedCameras, Flaw> {
     let reader = Reader { text };
     let root = DeTable::parse(text).map_err(|error| Flaw {
@@ -106,15 +106,15 @@ pub(super) fn parse(text: &str) -> Result<VariedCameras, Flaw> {
     Ok(read)
 }
 
-/// What a file says of a setting.
+/// The value that a file gives to a setting.
 enum Given {
-    /// A number for all tests.
+    /// One number for all tests.
     Once(f64),
-    /// What the tests vary it over.
+    /// The range or the values over which tests vary the setting.
     Varied(Domain),
 }
 
-/// A file that is being read.
+/// The reader of a file.
 struct Reader<'t> {
     text: &'t str,
 }
@@ -128,7 +128,7 @@ impl Reader<'_> {
         Flaw { line: Some(self.line(span)), flaw }
     }
 
-    /// That something has the wrong value.
+    /// Returns the error that a value has the wrong type or form.
     fn flaw(&self, value: &Entry<'_>, what: &str, expected: &str) -> Flaw {
         let found = self.text[value.span()].trim().to_owned();
         let (what, expected) = (what.to_owned(), expected.to_owned());
@@ -190,7 +190,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// The values of the settings that share a key.
+    /// Splits the value of a key into the values of the settings that share this key.
     fn parts<'a>(
         &self,
         camera: &str,
@@ -251,12 +251,12 @@ fn no_camera(name: &str, flaw: CameraFlaw) -> CameraFileFlaw {
     NoCamera { camera: name.to_owned(), flaw }.into()
 }
 
-/// Whether every camera has to say this key.
+/// Returns `true` if every camera needs this key.
 fn is_required(key: &str) -> bool {
     key == RESOLUTION || camera_settings().iter().any(|setting| setting.key == key && setting.default.is_none())
 }
 
-/// The meaning of a key, with an example.
+/// Returns the meaning of a key, with an example.
 fn expected(key: &str) -> String {
     if key == RESOLUTION {
         return format!("pixels across and down, such as `{RESOLUTION} = [640, 480]`");
@@ -268,7 +268,7 @@ fn expected(key: &str) -> String {
     format!("{}, such as `{key} = {example}`", about.join(", "))
 }
 
-/// What the tests vary a setting over: `LO..HI` or `A,B,C`.
+/// Reads the range `LO..HI` or the list of values `A,B,C` over which tests vary a setting.
 fn domain(text: &str) -> Option<Domain> {
     let number = |text: &str| text.trim().parse().ok().filter(|number: &f64| number.is_finite());
     if let Some((lo, hi)) = text.split_once("..") {

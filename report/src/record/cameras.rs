@@ -1,4 +1,4 @@
-//! The cameras of a recording: those that it has where nothing is said, and those of a file.
+//! The cameras of a recording: the standard cameras, and cameras from a file.
 
 use super::VariedCameras;
 use super::camera_file::{Flaw, parse};
@@ -8,9 +8,9 @@ use paracosm_render::camera_settings;
 use std::fs;
 use std::path::Path;
 
-/// The file of the cameras of a recording without a file of its own: one camera at the front with 200 x 66 pixels, as
-/// networks that drive are fed, and ten images a second. It says all settings of the lens with their defaults, for users to
-/// change.
+/// Returns the text of the standard file of cameras, which a recording uses if it is given no file. The file has one
+/// camera at the front with 200 x 66 pixels, the size that networks for driving commonly take, and ten images a second.
+/// It lists all settings of the lens with their defaults, so that users can change them.
 pub fn standard_cameras_file() -> String {
     let of_lens = camera_settings().iter().filter(CameraSetting::is_of_lens);
     let line = |setting: CameraSetting| {
@@ -20,12 +20,12 @@ pub fn standard_cameras_file() -> String {
     of_lens.map(line).fold(include_str!("cameras.toml").to_owned(), |file, line| file + &line)
 }
 
-/// The cameras of a recording without a file of its own: those of [`standard_cameras_file`].
+/// Returns the cameras of [`standard_cameras_file`], which a recording uses if it is given no file.
 pub fn standard_cameras() -> Cameras {
     toml::from_str(&standard_cameras_file()).expect("the file that comes with the program is sound")
 }
 
-/// A camera at the front for people to look at: 640 x 480 pixels.
+/// Returns one camera at the front for people to look at, with 640 x 480 pixels.
 pub fn cameras_for_people() -> Cameras {
     let mut cameras = standard_cameras();
     for camera in cameras.all.values_mut() {
@@ -34,10 +34,11 @@ pub fn cameras_for_people() -> Cameras {
     cameras
 }
 
-/// Reads and checks a file.
+/// Reads and checks a file of cameras.
 ///
 /// # Errors
-/// It cannot be read, is no TOML, or describes a camera that there is not; the error names the key and the line.
+/// Returns an error if the file cannot be read, is not TOML, or describes a camera that cannot be built. The error
+/// names the key and the line.
 pub fn read_cameras(path: &Path) -> Result<VariedCameras, Error> {
     let text = fs::read_to_string(path).map_err(Error::io("read", path))?;
     parse(&text).map_err(|Flaw { line, flaw }| Error::in_file(path, line, flaw))

@@ -1,6 +1,6 @@
-//! What one camera sees of a test, for people: as a film in an MP4 or a GIF file, or as a folder of PNG files.
+//! Writes what one camera sees of a test, for people: a film as an MP4 or a GIF file, or a folder of PNG files.
 //!
-//! Images are written as they are drawn, so that no more than a few of them are in memory.
+//! Each image is written as soon as it is drawn, so that only a few images are in memory.
 
 use super::image::{Pixels, write};
 use super::missing::Missing;
@@ -12,6 +12,7 @@ use paracosm_campaign::files::is_new;
 use paracosm_campaign::{Error, Failure, Reason, Trial, Worker};
 use paracosm_engine::sensor::{CameraSpec, Cameras};
 use paracosm_render::{Stages, WantedImages};
+use paracosm_space::plural;
 use paracosm_space::{did_you_mean, nearest};
 use rayon::prelude::*;
 use std::error::Error as StdError;
@@ -22,7 +23,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
-/// Where a clip goes: a file, or a folder that does not exist yet.
+/// The destination of a clip, which is a file, or a folder that does not exist yet.
 #[derive(Debug)]
 pub struct Clip {
     path: PathBuf,
@@ -30,7 +31,7 @@ pub struct Clip {
     stop: Arc<AtomicBool>,
 }
 
-/// What a clip is written as.
+/// The format of a clip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Form {
     Mp4,
@@ -61,36 +62,36 @@ impl Reel {
     }
 }
 
-/// A name that no film can have.
+/// The name of a clip has an ending that is not known.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "--camera {}: found the ending `.{ending}`, expected FILE.mp4, FILE.gif, or a FOLDER without an ending for PNG files{}",
     path.display(), did_you_mean(.nearest)
 )]
 pub struct UnknownEnding {
-    /// The file.
+    /// The path of the clip.
     pub path: PathBuf,
-    /// Its ending.
+    /// The unknown ending.
     pub ending: String,
-    /// An ending that was perhaps meant.
+    /// The known ending that is most similar, if any is similar.
     pub nearest: Option<&'static str>,
 }
 
-/// A film of nothing.
+/// A film would have no image.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("the camera saw nothing: {why}")]
 pub struct NothingSeen {
-    /// Why, in words.
+    /// The reason, in words.
     pub why: String,
 }
 
 impl Reason for UnknownEnding {}
 
 impl Clip {
-    /// A clip in a file that ends in `.mp4` or `.gif`, or in a folder of images, whose name has no ending.
+    /// Makes a clip in a file that ends in `.mp4` or `.gif`, or in a folder of images, whose name has no ending.
     ///
     /// # Errors
-    /// It exists, or its name has another ending.
+    /// Returns an error if the folder exists already, or the name has another ending.
     pub fn new(path: &Path) -> Result<Self, Error> {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let form = match ending.as_deref() {
@@ -108,16 +109,17 @@ impl Clip {
         Ok(Self { path: path.to_owned(), form, stop: Arc::default() })
     }
 
-    /// The same, which is given up and leaves nothing behind once `stop` is set.
+    /// Returns the same clip, but the writing stops and leaves no file behind once `stop` is set.
     pub fn until(self, stop: Arc<AtomicBool>) -> Self {
         Self { stop, ..self }
     }
 
-    /// Films a test of a worker's study with the first of these cameras; in words, a line each, what was written and what
-    /// there was not to see.
+    /// Films a test of a worker's study with the first of these cameras. Returns lines of text that say what was
+    /// written and which images are missing.
     ///
     /// # Errors
-    /// There is no adapter, the test is not the one that was logged, nothing was seen, or nothing can be written.
+    /// Returns an error if there is no adapter, the test is not the test that was logged, nothing was seen, or nothing
+    /// can be written.
     pub fn write(&self, worker: &mut Worker, trial: &Trial, cameras: &Cameras) -> Result<Vec<String>, Error> {
         let film = Film::of(worker, trial, cameras, &Stages::default())?;
         let mut projector = Projector::new(cameras, WantedImages { rgb: true, ..WantedImages::default() })?;
@@ -127,7 +129,7 @@ impl Clip {
             Form::Images => self.write_images(&film, &mut projector, &mut missing, camera.resolution)?,
             Form::Mp4 | Form::Gif => self.write_film(&film, &mut projector, &mut missing, camera)?,
         };
-        let written = format!("{images} images of camera `{name}` written to {}", self.path.display());
+        let written = format!("{} of camera `{name}` written to {}", plural(images, "image"), self.path.display());
         Ok(std::iter::once(written).chain(missing.notes()).collect())
     }
 
@@ -167,7 +169,7 @@ impl Clip {
         Ok(images)
     }
 
-    /// The colours of a film.
+    /// Chooses the colours of a film.
     fn colours(
         &self,
         film: &Film,
@@ -175,7 +177,8 @@ impl Clip {
         missing: &mut Missing<'_>,
     ) -> Result<plot::Colours, Error> {
         let mut colours = plot::Colours::default();
-        // Where the camera is inside something in all of the few, it may still see something in others.
+        // The camera may be inside something in each of the few sampled images, and still see something in other
+        // images.
         for some in [&film.sample(), film] {
             if colours.are_none() {
                 projector.show(some, 0, |shots| {
@@ -216,12 +219,12 @@ impl Clip {
         Ok(images)
     }
 
-    /// Whether nobody has had enough of it.
+    /// Returns an error if the writing has been interrupted.
     fn go_on(&self) -> Result<(), Error> {
         if self.stop.load(Ordering::Relaxed) { Err(Error::Interrupted) } else { Ok(()) }
     }
 
-    /// Fails and says why there is nothing to see.
+    /// Fails with the reason why there is nothing to see.
     fn nothing(&self, film: &Film, missing: &mut Missing<'_>) -> Result<(), Error> {
         let thing = film.shots[0].first().map(|_| "it is inside something at all times".to_owned());
         let why = thing.or_else(|| missing.notes().into_iter().next()).unwrap_or_default();

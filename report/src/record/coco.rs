@@ -1,5 +1,5 @@
-//! Boxes as the COCO format has them (Lin et al. 2014): images, annotations, categories, and beside them what COCO does
-//! not know: how much is hidden, and the box in space.
+//! Writes boxes in the COCO format (Lin et al. 2014): images, annotations and categories. Two things that COCO does not
+//! define are added: the share of an object that is hidden, and the box in space.
 
 use super::{Rendering, Shot};
 use paracosm_campaign::Error;
@@ -9,10 +9,10 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// The file of the boxes, of a test and of all.
+/// The name of the file of boxes; each test has such a file, and so has the whole data set.
 pub(super) const ANNOTATIONS: &str = "annotations.json";
 
-/// What it holds.
+/// The contents of a file of boxes.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Annotations {
     images: Vec<Image>,
@@ -23,7 +23,7 @@ pub(super) struct Annotations {
 #[derive(Debug, Serialize, Deserialize)]
 struct Image {
     id: usize,
-    /// Its colours, or else another image of it that is kept, if any is.
+    /// The colour image, or else another kind of image that is kept, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     file_name: Option<String>,
     width: u32,
@@ -38,12 +38,12 @@ struct Annotation {
     id: usize,
     image_id: usize,
     category_id: u8,
-    /// Left, top, width and height in pixels.
+    /// The left edge, the top edge, the width and the height of the visible box, in pixels.
     bbox: [u32; 4],
-    /// Pixels that are seen.
+    /// The number of visible pixels.
     area: u32,
     iscrowd: u8,
-    /// The id in the instance image: the same thing has it in all images of a test.
+    /// The id in the instance image; a thing has the same id in all images of a test.
     instance: u16,
     attributes: Attributes,
     #[serde(rename = "box3d")]
@@ -52,16 +52,16 @@ struct Annotation {
 
 #[derive(Debug, Serialize, Deserialize)]
 struct Attributes {
-    /// From 0, all of it is seen, to 1.
+    /// The hidden share, from 0 (the whole object is visible) to 1.
     occlusion: Option<f64>,
 }
 
-/// In the camera's coordinates: x forward, y to the left, z up, metres.
+/// A box in the camera's coordinates: x forward, y to the left, z up, in metres.
 #[derive(Debug, Serialize, Deserialize)]
 struct InSpace {
     center: [f64; 3],
     size: [f64; 3],
-    /// A unit quaternion: w, x, y, z.
+    /// The rotation as a unit quaternion w, x, y, z.
     rotation: [f64; 4],
 }
 
@@ -72,13 +72,13 @@ struct Category {
 }
 
 impl Annotations {
-    /// Nothing yet, in the classes that there are.
+    /// Makes a file without images that lists all classes.
     pub fn new() -> Self {
         let categories = (0..).zip(Semantic::names()).map(|(id, name)| Category { id, name: (*name).to_owned() });
         Self { categories: categories.collect(), ..Self::default() }
     }
 
-    /// Adds a picture of a camera that is in this file, if it is kept.
+    /// Adds an image of a camera, with its boxes. `file_name` is `None` if the image itself is not kept.
     pub fn add(&mut self, camera: &str, file_name: Option<String>, shot: &Shot, picture: &Rendering) {
         let image_id = self.images.len() + 1;
         let (width, height) = (picture.frame.width(), picture.frame.height());
@@ -91,8 +91,8 @@ impl Annotations {
     }
 }
 
-/// Writes the annotations of many tests as those of one set: ids go on from test to test, and names of files begin with the
-/// folder of the test. Each test is known by the name of its folder below `top`, and no more than one of them is in memory.
+/// Merges the annotations of many tests into one file. Ids continue from test to test, and names of files begin with
+/// the folder of the test. `tests` are the names of the folders below `top`. Only one test is in memory at a time.
 pub(super) fn merge(top: &Path, tests: &[String], file: &mut impl Write) -> Result<(), Error> {
     let failed = |error: io::Error| Error::io("write", &top.join(ANNOTATIONS))(error);
     let read = |test: &String| -> Result<Annotations, Error> {
@@ -129,14 +129,14 @@ pub(super) fn merge(top: &Path, tests: &[String], file: &mut impl Write) -> Resu
     lists.write("\n]\n}\n").and_then(|()| lists.file.flush()).map_err(failed)
 }
 
-/// Lists in JSON, written element by element.
+/// A writer of lists in JSON, element by element.
 struct Lists<'a, W> {
     first: bool,
     file: &'a mut W,
 }
 
 impl<W: Write> Lists<'_, W> {
-    /// Writes what is between lists; the next element is the first of its list.
+    /// Writes the text between two lists. The next element is then the first element of its list.
     fn write(&mut self, text: &str) -> io::Result<()> {
         self.first = true;
         self.file.write_all(text.as_bytes())

@@ -1,6 +1,7 @@
-//! A labelled data set: a folder for each test, with the images of its cameras and all that is known of them.
+//! Records a labelled data set: a folder for each test, with the images of its cameras and their labels.
 //!
-//! A test's folder gets its name when it is whole, so that one that is there is done, whatever happened since.
+//! The folder of a test gets its final name only when the folder is complete. So a folder with this name is always
+//! complete, even after a crash.
 
 use super::coco::{ANNOTATIONS, Annotations, merge};
 use super::image::{Pixels, depth_words, write};
@@ -22,29 +23,29 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use thiserror::Error;
 
-/// What the recording is of, beside the campaign's own files.
+/// The file that describes the recording, beside the campaign's own files.
 const RECORDING: &str = "recording.json";
 
-/// What is kept of what cameras see.
+/// The outputs that a recording keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Kept {
-    /// Colours.
+    /// True if the colour images are kept.
     pub rgb: bool,
-    /// The class of every pixel.
+    /// True if the class of every pixel is kept.
     pub semantic: bool,
-    /// How far away it is.
+    /// True if the depth of every pixel is kept.
     pub depth: bool,
-    /// Which thing it is.
+    /// True if the id of the visible thing is kept for every pixel.
     pub instance: bool,
-    /// The boxes around things.
+    /// True if the boxes around things are kept.
     pub boxes: bool,
 }
 
 impl Kept {
-    /// Everything.
+    /// All outputs.
     pub const ALL: Self = Self { rgb: true, semantic: true, depth: true, instance: true, boxes: true };
 
-    /// What has to be drawn.
+    /// Returns the images that have to be drawn for these outputs.
     pub fn outputs(self) -> WantedImages {
         WantedImages {
             rgb: self.rgb,
@@ -57,33 +58,33 @@ impl Kept {
     }
 }
 
-/// The outputs by name.
+/// The names of the outputs.
 const NAMES: [&str; 5] = ["rgb", "semantic", "depth", "instance", "boxes"];
 
-/// What is wrong with a list of outputs.
+/// An error in a list of outputs.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum OutputsFlaw {
-    /// It is empty.
+    /// The list is empty.
     #[error("found no output, expected some of {}", NAMES.join(", "))]
     Nothing,
-    /// An output has no such name.
+    /// An output has an unknown name.
     #[error("there is no output `{name}`, expected some of {}{}", NAMES.join(", "), did_you_mean(.nearest))]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// A name that was perhaps meant.
+        /// The known name that is most similar, if any is similar.
         nearest: Option<&'static str>,
     },
 }
 
-/// A recording that cannot be continued.
+/// The folder holds a recording with other cameras, outputs or colours, so that the recording cannot be continued.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
     "{} holds a recording with other cameras, outputs or colours; repeat the command that began it, or write elsewhere \
      with --out", path.display()
 )]
 pub struct OtherRecording {
-    /// The file that says what it is of.
+    /// The file that describes the recording.
     pub path: PathBuf,
 }
 
@@ -93,7 +94,7 @@ impl Reason for OtherRecording {}
 impl FromStr for Kept {
     type Err = OutputsFlaw;
 
-    /// Some of `rgb,semantic,depth,instance,boxes`.
+    /// Reads a list of some of the names `rgb,semantic,depth,instance,boxes`.
     fn from_str(list: &str) -> Result<Self, OutputsFlaw> {
         if list.trim().is_empty() {
             return Err(OutputsFlaw::Nothing);
@@ -110,22 +111,22 @@ impl FromStr for Kept {
     }
 }
 
-/// What a data set is, so that one is never continued as another.
+/// The description of a data set, by which a later recording with other settings is refused.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Recording {
     kept: Kept,
-    /// The seed of colours, where they are drawn.
+    /// The seed of the random colours, if colours are random.
     colours: Option<u64>,
-    /// The cameras; settings that tests vary are in the middle of their ranges, which the study has.
+    /// The cameras. A setting that tests vary has the middle of its range here; the study holds the range.
     cameras: Cameras,
 }
 
-/// What came of recording a test.
+/// The result of recording a test.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recorded {
-    /// How many images it has, of all cameras.
+    /// The number of images of all cameras.
     pub images: usize,
-    /// Which images it has not, and why, a sentence each.
+    /// A sentence for each kind of missing image, with the reason.
     pub notes: Vec<String>,
 }
 
@@ -139,10 +140,12 @@ pub struct Dataset {
 }
 
 impl Dataset {
-    /// The data set in the folder of a campaign, begun if there is none. Tests vary what [`VariedCameras::open`] opened.
+    /// Opens the data set in the folder of a campaign, and begins it if there is none. The tests vary the settings that
+    /// [`VariedCameras::open`] opened.
     ///
     /// # Errors
-    /// The folder cannot be written, or there is a data set of other cameras, outputs or colours.
+    /// Returns an error if the folder cannot be written, or if it holds a data set of other cameras, outputs or
+    /// colours.
     pub fn open(
         folder: &Path,
         cameras: impl Into<VariedCameras>,
@@ -156,7 +159,7 @@ impl Dataset {
             let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
             let mut there: Recording =
                 serde_json::from_str(&text).map_err(|error| Error::in_file(&file, error.line(), error))?;
-            // A setting that came with a later version was not said then.
+            // An older version did not write the settings that later versions added.
             camera_settings().complete(&mut there.cameras);
             if there != recording {
                 return Err(OtherRecording { path: file }.into());
@@ -167,15 +170,16 @@ impl Dataset {
         Ok(Self { folder: folder.to_owned(), recording, cameras, stages: Stages::default() })
     }
 
-    /// Whether a test is recorded.
+    /// Returns `true` if a test is recorded.
     pub fn has(&self, trial: &Trial) -> bool {
         self.path(trial).exists()
     }
 
-    /// Records a test with a projector of its cameras and outputs.
+    /// Records a test. The projector must have the data set's cameras and outputs.
     ///
     /// # Errors
-    /// The test is not the one that was logged, its images cannot be drawn, or its folder cannot be written.
+    /// Returns an error if the test is not the test that was logged, its images cannot be drawn, or its folder cannot
+    /// be written.
     pub fn record(&self, worker: &mut Worker, trial: &Trial, projector: &mut Projector) -> Result<Recorded, Error> {
         let cameras = self.cameras.of_test(&trial.test);
         let mut film = Film::of(worker, trial, &cameras, &self.stages)?;
@@ -192,7 +196,7 @@ impl Dataset {
         }
         let recorded = self.write((&film, &cameras, trial), projector, &part);
         if recorded.is_err() {
-            // It is of no use to anybody; that it cannot be removed changes nothing.
+            // The unfinished folder is of no use. Failing to remove it changes nothing.
             let _ = fs::remove_dir_all(&part);
         }
         let recorded = recorded?;
@@ -200,10 +204,11 @@ impl Dataset {
         Ok(recorded)
     }
 
-    /// Writes one file of boxes for those of these tests that are recorded, beside their folders: what loaders of COCO take.
+    /// Writes one file with the boxes of all recorded tests among `trials`, beside the folders of the tests. Programs
+    /// that read COCO files load this file.
     ///
     /// # Errors
-    /// A file of a test cannot be read, or this one not be written.
+    /// Returns an error if a file of a test cannot be read, or the new file cannot be written.
     pub fn finish<'t>(&self, trials: impl IntoIterator<Item = &'t Trial>) -> Result<(), Error> {
         if !self.recording.kept.boxes {
             return Ok(());
@@ -271,7 +276,7 @@ impl Dataset {
 }
 
 impl Kept {
-    /// The folders of a camera's images.
+    /// Returns the folders of a camera's images.
     fn kinds(self) -> impl Iterator<Item = &'static str> {
         let kinds =
             [(self.rgb, "rgb"), (self.semantic, "semantic"), (self.depth, "depth"), (self.instance, "instance")];
@@ -303,7 +308,7 @@ fn write_images(camera: &Path, shot: &Shot, picture: &Rendering, kept: Kept) -> 
 const CONTROLS: &str =
     "camera,frame,time,arrival,x,y,heading,speed,travelled,steering,throttle,light,fog,rain,inside\n";
 
-/// A line of `controls.csv`. Names of cameras need no quotes; those of things get them where they do.
+/// Returns a line of `controls.csv`. Names of cameras never need quotes; names of things are quoted if necessary.
 fn control_line(camera: &str, shot: &Shot, latency: f64, inside: Option<&Inside>) -> String {
     let Shot { number, time, moment, control } = shot;
     let arrival = time + latency;
@@ -318,13 +323,14 @@ fn control_line(camera: &str, shot: &Shot, latency: f64, inside: Option<&Inside>
     )
 }
 
-/// A field of a CSV file.
+/// Returns a field of a CSV file, quoted if necessary.
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// What `calibration.json` holds: each camera's matrix, which takes x to the right, y down and z forward to pixels, and
-/// where it is mounted; and those of its settings that vary from test to test.
+/// Returns the contents of `calibration.json`. It holds each camera's matrix, which maps x to the right, y down and z
+/// forward to pixels, the place where the camera is mounted, and the values of the camera's settings that vary from
+/// test to test.
 fn calibration<'n>(
     cameras: &'n Cameras,
     varied: impl Fn(&'n str) -> BTreeMap<&'static str, f64>,

@@ -1,4 +1,4 @@
-//! A test as its cameras have it: the moments at which they open their shutters, not drawn yet.
+//! Runs a test again and notes what its cameras see at each exposure. The images are drawn later.
 
 use paracosm_campaign::reasons::ModelFlaw;
 use paracosm_campaign::study::Appearances;
@@ -11,58 +11,58 @@ use paracosm_render::{Cast, Stage, Stages};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// An image that is to be drawn.
+/// An exposure of a camera, whose image is still to be drawn.
 #[derive(Debug, Clone)]
 pub struct Shot {
-    /// Which of the camera's images it is.
+    /// The number of the image among the images of its camera.
     pub number: u64,
-    /// When it was taken, in seconds since the run began.
+    /// The time at which the image was taken, in seconds since the run began.
     pub time: f64,
-    /// What there was to see.
+    /// The state of the world when the image was taken.
     pub moment: Moment,
-    /// What the driver had answered last when the image was there.
+    /// The driver's last control when the image arrived, which is `latency` seconds after the image was taken.
     pub control: Control,
 }
 
-/// What the cameras of a test have taken.
+/// The exposures of all cameras in a test, with the world that they show.
 #[derive(Debug, Clone)]
 pub struct Film {
-    /// The roads.
+    /// The roads and the scenery.
     pub stage: Arc<Stage>,
-    /// Which bodies are shown as models of a user's own.
+    /// The bodies that are drawn as models from a user's own files.
     pub cast: Cast,
     /// The shots of each camera, in the order of the cameras' names.
     pub shots: Vec<Vec<Shot>>,
-    /// Where the noise of its images comes from: the cameras' seed and the values of the test.
+    /// The seed of the noise of the images, made from the cameras' seed and the values of the test.
     pub seed: u64,
-    /// What each body is called.
+    /// The name of each body.
     pub names: Arc<[String]>,
 }
 
 /// The greatest number of images that a film's colours are taken from.
 const SAMPLES: usize = 12;
 
-/// What is noted of a run while it is filmed.
+/// The notes of a run while it is filmed.
 #[derive(Default)]
 struct Notes {
     stage: Option<Arc<Stage>>,
-    /// Unless a model cannot be had.
+    /// The models of the bodies; an error if a model cannot be loaded.
     cast: Option<Result<Cast, ModelFlaw>>,
     names: Arc<[String]>,
     seed: u64,
-    /// What each camera has taken.
+    /// The exposures of each camera.
     taken: Vec<Vec<Sample<Moment>>>,
-    /// What the driver answered, each with the time at which it was asked.
+    /// The driver's answers, each with the time at which the driver was asked.
     answers: Vec<(f64, Control)>,
-    /// When it was asked last.
+    /// The time at which the driver was asked last.
     asked: Option<f64>,
 }
 
-/// A whisker of time in seconds, because times are sums of ticks.
+/// The tolerance for times in seconds, because times are sums of ticks.
 const WHISKER: f64 = 1e-9;
 
 impl Notes {
-    /// Takes notes whenever the driver is asked, and at the end.
+    /// Takes notes each time the driver is asked, and at the end of the run.
     fn take(&mut self, run: &Run, stages: &Stages, appearances: &Appearances) {
         if self.stage.is_none() {
             self.stage = Some(stages.of(run.network()));
@@ -77,43 +77,43 @@ impl Notes {
         }
     }
 
-    /// The last answer at a time.
+    /// Returns the driver's last answer at a time.
     fn answer_at(&self, time: f64) -> Control {
         let before = self.answers.partition_point(|(asked, _)| *asked <= time + WHISKER);
         before.checked_sub(1).map_or(Control::default(), |last| self.answers[last].1)
     }
 }
 
-/// Why a test cannot be filmed.
+/// The reason why a test cannot be filmed.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum FilmFlaw {
-    /// It broke, or its world cannot be.
+    /// The test ended with an error, or its world cannot be built.
     #[error("test {index} ended as {verdict}, so that there is nothing to see")]
     Nothing {
-        /// Its index.
+        /// The index of the test.
         index: usize,
-        /// How it ended.
+        /// The verdict of the test.
         verdict: Verdict,
     },
-    /// It does not end as it did.
+    /// The run differs from the run that was logged.
     #[error("test {index} is not the one that was logged: its trace has another hash")]
     Another {
-        /// Its index.
+        /// The index of the test.
         index: usize,
     },
-    /// A camera cannot be.
+    /// A camera has settings that are not possible.
     #[error("camera {0}")]
     Camera(SensorError),
-    /// A camera takes images faster than the world goes on.
+    /// A camera takes more images a second than the world has ticks.
     #[error("camera `{camera}`: `rate` is {rate} Hz, expected at most {} Hz: a tick of `{scenario}` takes {dt} s", 1.0 / dt)]
     Rate {
-        /// The camera.
+        /// The name of the camera.
         camera: String,
-        /// Its images a second.
+        /// The number of images a second.
         rate: f64,
-        /// The scenario.
+        /// The name of the scenario.
         scenario: String,
-        /// Its tick in seconds.
+        /// The duration of a tick of the scenario, in seconds.
         dt: f64,
     },
 }
@@ -121,10 +121,11 @@ pub enum FilmFlaw {
 impl Reason for FilmFlaw {}
 
 impl Film {
-    /// Runs a test of a worker's study again and films it with these cameras, beside those that its driver may have.
+    /// Runs a test of a worker's study again and films it with these cameras, in addition to the cameras of the driver.
     ///
     /// # Errors
-    /// The study is of no scenario, the test ended as invalid or in an error, or the run is not the one that was logged.
+    /// Returns an error if the study has no scenario, the test ended as invalid or in an error, or the run differs from
+    /// the run that was logged.
     pub fn of(worker: &mut Worker, trial: &Trial, cameras: &Cameras, stages: &Stages) -> Result<Self, Error> {
         check_rates(worker.study(), cameras)?;
         if !trial.covers() {
@@ -151,7 +152,7 @@ impl Film {
         Ok(Self { stage, cast, shots: shots.collect(), seed: notes.seed, names: notes.names.clone() })
     }
 
-    /// The same with only a few shots of each camera, from the first to the last.
+    /// Returns the same film with only a few shots of each camera, spread evenly from the first to the last.
     pub(super) fn sample(&self) -> Self {
         let sample = |shots: &Vec<Shot>| {
             let last = shots.len().saturating_sub(1);
@@ -162,8 +163,8 @@ impl Film {
         Self { shots: self.shots.iter().map(sample).collect(), ..self.clone() }
     }
 
-    /// Paints all that has an owner, but for the car under test, in colours drawn from this seed for this test: what should
-    /// not matter to whoever drives.
+    /// Paints all cars, trucks, bicycles and pedestrians except the car under test in random colours. The colours
+    /// follow from the seed and the test. They should not matter to a driver.
     pub fn repaint(&mut self, seed: u64, trial: usize) {
         let painted = |class| matches!(class, Class::Car | Class::Truck | Class::Bicycle | Class::Pedestrian);
         for shot in self.shots.iter_mut().flatten() {
@@ -177,10 +178,10 @@ impl Film {
     }
 }
 
-/// Checks that none of these cameras takes images faster than a study's scenario goes on.
+/// Checks that no camera takes more images a second than the study's scenario has ticks.
 ///
 /// # Errors
-/// One does; the study is of no scenario.
+/// Returns an error if a camera is too fast, or if the study has no scenario.
 pub fn check_rates(study: &Study, cameras: &Cameras) -> Result<(), Error> {
     let simulation = study.subject().scenario()?;
     let dt = simulation.dt();

@@ -1,24 +1,24 @@
-//! Images as PNG files.
+//! Writes images as PNG files.
 
 use paracosm_campaign::{Error, Failure};
 use png::{BitDepth, ColorType};
 use std::path::Path;
 
-/// Metres times this are the numbers of a depth image, as KITTI has them.
+/// The steps per metre in a depth image, as in the KITTI format.
 pub(super) const DEPTH_STEPS: f32 = 256.0;
 
-/// How the pixels of an image are written.
+/// The pixels of an image, in the form in which they are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pixels<'a> {
-    /// Red, green and blue.
+    /// Red, green and blue of each pixel.
     Colours(&'a [u8]),
-    /// A number up to 255.
+    /// A number of up to 255 for each pixel.
     Bytes(&'a [u8]),
-    /// A number up to 65,535.
+    /// A number of up to 65,535 for each pixel.
     Words(&'a [u16]),
 }
 
-/// The contents of a PNG file of so many pixels across and down.
+/// Returns the contents of a PNG file with the given width and height in pixels.
 pub(super) fn png(pixels: Pixels<'_>, [width, height]: [u32; 2]) -> Result<Vec<u8>, png::EncodingError> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, width, height);
@@ -35,7 +35,8 @@ pub(super) fn png(pixels: Pixels<'_>, [width, height]: [u32; 2]) -> Result<Vec<u
     Ok(file)
 }
 
-/// Depths in metres as KITTI writes them: 256 times as much, and 0 for what is too far or nothing at all.
+/// Converts depths in metres to the KITTI format: 256 steps per metre, and 0 if the point is too far away or there is
+/// none.
 pub(super) fn depth_words(depth: &[f32]) -> Vec<u16> {
     let word = |metres: &f32| {
         let steps = (metres * DEPTH_STEPS).round();
@@ -44,7 +45,8 @@ pub(super) fn depth_words(depth: &[f32]) -> Vec<u16> {
     depth.iter().map(word).collect()
 }
 
-/// Writes a PNG file. It is not kept from a power cut: what holds it gets its name when it is whole.
+/// Writes a PNG file. The file is not safe against a power cut; instead, the folder around it gets its name only when
+/// it is complete.
 pub(super) fn write(path: &Path, pixels: Pixels<'_>, size: [u32; 2]) -> Result<(), Error> {
     let failed = |error: png::EncodingError| Failure::Drawing { path: path.to_owned(), source: error.into() };
     let contents = png(pixels, size).map_err(failed)?;

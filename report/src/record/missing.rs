@@ -1,24 +1,26 @@
-//! Says which images of a camera there are not, and why.
+//! Notes which images of a camera are missing, and why.
 
 use super::{Inside, Rendering, Shot};
 use paracosm_engine::sensor::CameraSpec;
+use paracosm_space::plural;
 
-/// What came of the shots of one camera in a test.
+/// The notes on the shots of one camera in a test.
 #[derive(Debug)]
 pub(super) struct Missing<'a> {
     camera: (&'a str, &'a CameraSpec),
     shots: usize,
-    /// What it was inside, since when, and for how many images.
+    /// The things that the camera was inside, each with its name, the time of the first such image, and the number of
+    /// images.
     inside: Vec<(String, f64, usize)>,
 }
 
 impl<'a> Missing<'a> {
-    /// Nothing yet of a camera of this name.
+    /// Makes empty notes for the camera of this name.
     pub fn of(name: &'a str, camera: &'a CameraSpec) -> Self {
         Self { camera: (name, camera), shots: 0, inside: Vec::new() }
     }
 
-    /// Takes note of a shot.
+    /// Notes the result of a shot.
     pub fn see(&mut self, shot: &Shot, seen: &Result<Rendering, Inside>) {
         self.shots += 1;
         if let Err(Inside(thing)) = seen {
@@ -29,7 +31,7 @@ impl<'a> Missing<'a> {
         }
     }
 
-    /// What there is to say, a sentence each.
+    /// Returns the notes, a sentence each.
     pub fn notes(&self) -> Vec<String> {
         let (name, CameraSpec { dropped, latency, .. }) = self.camera;
         if self.shots == 0 {
@@ -39,8 +41,8 @@ impl<'a> Missing<'a> {
             return vec![format!("camera `{name}` has no image: {why}")];
         }
         let note = |(thing, from, images): &(String, f64, usize)| {
-            let images = if *images == 1 { "1 image".to_owned() } else { format!("{images} images") };
-            format!("{images} of camera `{name}` inside `{thing}`, from {from:.3} s, with nothing to see")
+            let images = plural(*images, "image");
+            format!("camera `{name}` was inside `{thing}` from {from:.3} s on: {images} show nothing")
         };
         self.inside.iter().map(note).collect()
     }

@@ -1,9 +1,10 @@
-//! Camera recordings: what cameras on the car under test see of a test, as films and as labelled data sets.
+//! Camera recordings: what the cameras on the car under test see in a test, as films and as labelled data sets.
 //!
-//! A test is run, and a [`Film`] keeps the moments at which its cameras open their shutters; a [`Projector`] draws them
-//! afterwards, many at once. The driver sees nothing of the pictures, so that nothing is lost by drawing them later, and a
-//! batch is as large with one test as with many. Everything, the noise of sensors too, depends on the test alone: on its
-//! values and the cameras' seed, so that every test has noise of its own and loses images of its own.
+//! A test is run, and a [`Film`] keeps the state of the world at each exposure of its cameras; a [`Projector`] draws
+//! these moments afterwards, many at once. The driver does not see these images, so nothing is lost by drawing them
+//! later, and a batch can be as large with one test as with many. Everything, including the noise of the sensors,
+//! depends only on the values of the test and on the cameras' seed. So every test has its own noise and loses its own
+//! images.
 
 mod camera_file;
 mod cameras;

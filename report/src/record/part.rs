@@ -1,11 +1,12 @@
-//! A file or a folder that gets its name when it is whole, and leaves nothing behind where it does not become so.
+//! Writes a file or a folder that gets its name only when it is complete. If it is never completed, nothing is left
+//! behind.
 
 use paracosm_campaign::Error;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-/// What is being written, under a name that nobody else has.
+/// A file or folder that is being written, under a temporary name that nobody else uses.
 #[derive(Debug)]
 pub(super) struct Part {
     path: PathBuf,
@@ -13,18 +14,18 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// A new file, which is to become this one.
+    /// Creates a temporary file that is to become the file `to`.
     ///
     /// # Errors
-    /// Nothing can be written there.
+    /// Returns an error if nothing can be written there.
     pub fn file(to: &Path) -> Result<(Self, File), Error> {
         Self::new(to, |path| File::create_new(path))
     }
 
-    /// A new folder, which is to become this one.
+    /// Creates a temporary folder that is to become the folder `to`.
     ///
     /// # Errors
-    /// Nothing can be written there.
+    /// Returns an error if nothing can be written there.
     pub fn folder(to: &Path) -> Result<Self, Error> {
         if let Some(parent) = to.parent() {
             fs::create_dir_all(parent).map_err(Error::io("create", parent))?;
@@ -32,7 +33,7 @@ impl Part {
         Self::new(to, |path| fs::create_dir(path)).map(|(part, ())| part)
     }
 
-    /// Tries one name after the other until there is nothing of that name yet.
+    /// Tries one temporary name after the other until a name is free.
     fn new<T>(to: &Path, make: impl Fn(&Path) -> io::Result<T>) -> Result<(Self, T), Error> {
         let name = to.file_name().unwrap_or_default().to_string_lossy();
         let mut number = 0_u64;
@@ -46,15 +47,16 @@ impl Part {
         }
     }
 
-    /// Where it is until it is whole.
+    /// Returns the temporary path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Gives it its name.
+    /// Gives the file or the folder its final name.
     ///
     /// # Errors
-    /// It cannot have it: somebody else has made a folder of that name meanwhile, say.
+    /// Returns an error if the name cannot be given, for example because somebody else has made a folder of this name
+    /// meanwhile.
     pub fn finish(self) -> Result<(), Error> {
         fs::rename(&self.path, &self.to).map_err(Error::io("write", &self.to))
     }
@@ -62,7 +64,7 @@ impl Part {
 
 impl Drop for Part {
     fn drop(&mut self) {
-        // There is nothing of this name any more where it has become whole; that it cannot be removed changes nothing.
+        // After `finish` nothing of the temporary name is left. A failure to remove it does no harm.
         let _ = if self.path.is_dir() { fs::remove_dir_all(&self.path) } else { fs::remove_file(&self.path) };
     }
 }

@@ -1,4 +1,4 @@
-//! Draws the shots of films.
+//! Draws the shots of films, many at once.
 
 use super::{Film, Shot};
 use paracosm_campaign::{Error, Reason};
@@ -8,42 +8,42 @@ use paracosm_render::{
 };
 use thiserror::Error;
 
-/// The camera was within a thing of this name, which the car ran into, and there was nothing to see.
+/// The camera was inside the thing of this name, which the car ran into, so that there was nothing to see.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Inside(pub String);
 
-/// A shot and what there was to see.
+/// A shot with its image, or with the thing that the camera was inside.
 pub type Developed<'f> = (&'f Shot, Result<Rendering, Inside>);
 
-/// Why cameras cannot be drawn for.
+/// The reason why images cannot be drawn.
 #[derive(Debug, Clone, Error)]
 pub enum DrawingFlaw {
-    /// There is nothing to draw with.
+    /// There is no graphics adapter.
     #[error(transparent)]
     Nothing(RenderError),
     /// The images of a camera are too large for the adapter.
     #[error("camera `{camera}`: {source}")]
     TooLarge {
-        /// The camera.
+        /// The name of the camera.
         camera: String,
-        /// What is too large.
+        /// The limit that the images exceed.
         source: ViewError,
     },
     /// An image cannot be drawn.
     #[error("camera `{camera}`, image {number}: {why}")]
     Undrawn {
-        /// The camera.
+        /// The name of the camera.
         camera: String,
-        /// Which of its images.
+        /// The number of the image among the images of the camera.
         number: u64,
-        /// Why.
+        /// The reason.
         why: Undrawn,
     },
 }
 
 impl Reason for DrawingFlaw {}
 
-/// Draws the films of one set of cameras.
+/// A renderer for the films of one set of cameras.
 #[derive(Debug)]
 pub struct Projector {
     developer: Developer,
@@ -52,22 +52,24 @@ pub struct Projector {
 }
 
 impl Projector {
-    /// A projector of these cameras' films on the best adapter of this machine. Colours come with shadows.
+    /// Makes a projector for the films of these cameras, on the best adapter of this machine. Colour images have
+    /// shadows.
     ///
     /// # Errors
-    /// There is no adapter, no such camera, or its images are too large for the adapter.
+    /// Returns an error if there is no adapter, if a camera is not possible, or if its images are too large for the
+    /// adapter.
     pub fn new(cameras: &Cameras, wanted: WantedImages) -> Result<Self, Error> {
-        // That there is no such camera is said even where there is no adapter.
+        // An error in a camera is reported even if there is no adapter.
         let optics = Optics::of(cameras)?;
         let developer = Developer::new().map_err(|source| Error::unavailable(DrawingFlaw::Nothing(source)))?;
         let mut projector = Self { developer, cameras: Vec::new(), wanted };
         projector.take(optics).map(|()| projector)
     }
 
-    /// Draws the films of other cameras from now on.
+    /// Changes to other cameras, whose films are drawn from now on.
     ///
     /// # Errors
-    /// There is no such camera, or its images are too large for the adapter.
+    /// Returns an error if a camera is not possible, or if its images are too large for the adapter.
     pub fn fit(&mut self, cameras: &Cameras) -> Result<(), Error> {
         self.take(Optics::of(cameras)?)
     }
@@ -81,15 +83,16 @@ impl Projector {
         Ok(())
     }
 
-    /// What it draws with.
+    /// Returns the adapter that draws the images.
     pub fn adapter(&self) -> &Adapter {
         self.developer.adapter()
     }
 
-    /// Draws all shots of a camera, which is given by its place among the names, and shows them in order, a few at a time.
+    /// Draws all shots of a camera and passes them to `show` in order, a few at a time. `camera` is the place of the
+    /// camera among the sorted names.
     ///
     /// # Errors
-    /// A view cannot be drawn, the adapter is lost, or `show` fails.
+    /// Returns an error if a view cannot be drawn, the adapter is lost, or `show` fails.
     pub fn show(
         &mut self,
         film: &Film,
@@ -124,7 +127,7 @@ impl Projector {
 }
 
 impl Film {
-    /// That a camera was within the thing of this id: those of bodies begin with 1.
+    /// Returns the thing of this id, which a camera was inside; the ids of bodies begin with 1.
     fn inside(&self, id: u16) -> Inside {
         let body = usize::from(id).checked_sub(1).and_then(|body| self.names.get(body));
         Inside(body.map_or("the scenery", String::as_str).to_owned())

@@ -1,4 +1,5 @@
-//! Cameras some of whose settings vary from test to test: what should not matter to a driver that learns from recordings.
+//! Cameras with settings that vary from test to test, so that a driver that learns from recordings does not depend on
+//! them.
 
 use paracosm_campaign::StudyBuilder;
 use paracosm_campaign::study::setting_name;
@@ -6,7 +7,7 @@ use paracosm_engine::sensor::{CameraSetting, CameraSpec, Cameras};
 use paracosm_space::{Domain, Parameter, Value, Values};
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Cameras, and which of their settings the tests vary.
+/// Cameras, and the settings of the cameras that the tests vary.
 #[derive(Debug, Clone)]
 pub struct VariedCameras {
     cameras: Cameras,
@@ -22,24 +23,24 @@ struct Varied {
 }
 
 impl From<Cameras> for VariedCameras {
-    /// Cameras that are the same in all tests.
+    /// Makes cameras that are the same in all tests.
     fn from(cameras: Cameras) -> Self {
         Self { cameras, varied: Vec::new() }
     }
 }
 
 impl VariedCameras {
-    /// The cameras with the settings in the middle of what the tests vary.
+    /// Returns the cameras with each varied setting at the middle of its range, or at its first value.
     pub fn nominal(&self) -> &Cameras {
         &self.cameras
     }
 
-    /// Whether the tests vary something.
+    /// Returns `true` if the tests vary a setting.
     pub fn vary(&self) -> bool {
         !self.varied.is_empty()
     }
 
-    /// Takes all noise from this seed.
+    /// Sets the seed of all noise.
     pub(super) fn seed(&mut self, seed: u64) {
         self.cameras.seed = seed;
     }
@@ -49,7 +50,7 @@ impl VariedCameras {
         self.cameras.all.insert(name.to_owned(), camera);
     }
 
-    /// Adds a setting of a camera to what the tests vary.
+    /// Adds a setting of a camera to the settings that the tests vary.
     pub(super) fn add(&mut self, camera: &str, setting: &CameraSetting, domain: Domain) {
         let parameter = Parameter {
             unit: Some(setting.unit.to_owned()).filter(|unit| !unit.is_empty()),
@@ -59,8 +60,8 @@ impl VariedCameras {
         self.varied.push(Varied { camera: camera.to_owned(), setting: *setting, parameter });
     }
 
-    /// A camera with its varied settings at the ends of their ranges, and at each of their values: where all these are
-    /// cameras, so are all that tests make.
+    /// Returns a camera with its varied settings at the ends of their ranges, or at each of their values. If all these
+    /// cameras are possible, so are the cameras of all tests.
     pub(super) fn extremes(&self, camera: &str) -> Vec<CameraSpec> {
         let mine = self.varied.iter().filter(|varied| varied.camera == camera);
         let ends = mine.map(|Varied { setting, parameter, .. }| match &parameter.domain {
@@ -79,12 +80,13 @@ impl VariedCameras {
         (0..most).filter_map(at).collect()
     }
 
-    /// A study whose tests vary the settings, too.
+    /// Returns a study whose tests vary these settings as well.
     pub fn open(&self, study: StudyBuilder) -> StudyBuilder {
         study.open_cameras(self.varied.iter().map(|varied| varied.parameter.clone()))
     }
 
-    /// The cameras of a test, with noise of its own; what it says nothing of is as in [`nominal`](Self::nominal).
+    /// Returns the cameras of a test, with a noise seed of their own. A setting that the test does not contain is as in
+    /// [`nominal`](Self::nominal).
     pub fn of_test(&self, test: &Values) -> Cameras {
         let mut cameras = self.cameras.clone();
         for Varied { camera, setting, parameter } in &self.varied {
@@ -97,7 +99,7 @@ impl VariedCameras {
         cameras
     }
 
-    /// What a test says of a camera: the names of varied settings, with their values.
+    /// Returns the varied settings of a camera in a test: their names, with their values.
     pub(super) fn settings_of<'a>(
         &'a self,
         camera: &'a str,
@@ -108,7 +110,7 @@ impl VariedCameras {
     }
 }
 
-/// The middle of an interval, or the first of several values.
+/// Returns the middle of an interval, or the first of several values.
 pub(super) fn middle(domain: &Domain) -> f64 {
     match domain {
         Domain::Interval { lo, hi } => 0.5 * (lo + hi),

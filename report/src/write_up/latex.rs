@@ -1,27 +1,28 @@
-//! Words and numbers in LaTeX.
+//! Formats text and numbers for LaTeX.
 
 use paracosm_analysis::statistics::Versus;
 
-/// Up to which corrected p-value a difference is marked.
+/// The greatest corrected p-value at which a difference is marked as significant.
 pub const LEVEL: f64 = 0.05;
 
-/// A ratio with its interval, how often it is better, and the corrected p-value: three columns.
+/// Returns three columns of a table, namely a ratio with its interval, the probability of being better, and the
+/// corrected p-value.
 pub fn ratio(versus: &Versus) -> String {
     let [low, high] = versus.interval;
     format!("${:.2}$ $[{low:.2}, {high:.2}]$ & ${:.2}$ & {}", versus.ratio, versus.better, p_value(versus.p_holm))
 }
 
-/// A p-value.
+/// Formats a p-value.
 pub fn p_value(p: f64) -> String {
     if p < 1e-4 { "$<10^{-4}$".into() } else { format!("${p:.4}$") }
 }
 
-/// A number in a formula: `1.23e-5` with its power of ten.
+/// Formats a number for a formula, so that `1.23e-5` becomes `1.23 \cdot 10^{-5}`.
 pub fn in_math(number: &str) -> String {
     number.split_once('e').map_or_else(|| number.to_owned(), |(m, e)| format!("{m} \\cdot 10^{{{e}}}"))
 }
 
-/// Text in which nothing means anything to LaTeX.
+/// Escapes all characters of a text that have a meaning in LaTeX.
 pub fn escaped(text: &str) -> String {
     let escape = |c: char| match c {
         '&' | '%' | '$' | '#' | '_' | '{' | '}' => format!("\\{c}"),

@@ -1,4 +1,4 @@
-//! What studies of strategies have in common when they are written up: numbers, tables, pictures, and the folder they go to.
+//! Shared parts of the write-ups of benches and comparisons: numbers, tables, pictures, and their folder.
 
 pub mod latex;
 
@@ -7,7 +7,7 @@ use paracosm_campaign::Error;
 use paracosm_campaign::files::write_whole;
 use std::path::Path;
 
-/// A number with three significant digits.
+/// Formats a number with three significant digits.
 pub fn three_digits(number: f64) -> String {
     let scientific = format!("{number:.2e}");
     let exponent: i32 = scientific.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
@@ -17,24 +17,24 @@ pub fn three_digits(number: f64) -> String {
     format!("{number:.*}", (2 - exponent).max(0) as usize)
 }
 
-/// A p-value in a table.
+/// Formats a p-value for a table.
 pub fn p_value(p: f64) -> String {
     if p < 0.001 { format!("{p:.1e}") } else { format!("{p:.3}") }
 }
 
-/// Writes rows, the first of which is the header.
+/// Writes rows as a CSV file; the first row is the header.
 pub fn write_csv(path: &Path, rows: &[Vec<String>]) -> Result<(), Error> {
     let mut csv = csv::Writer::from_writer(Vec::new());
     rows.iter().for_each(|row| csv.write_record(row).expect("rows of one length fit into memory"));
     write_whole(path, &csv.into_inner().expect("memory does not fail to flush"))
 }
 
-/// A value, or an empty field.
+/// Formats a value; without a value, the result is an empty field.
 pub fn maybe(value: Option<impl ToString>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
-/// Writes pictures, each as `NAME.svg` and `NAME.png`.
+/// Writes each picture as `NAME.svg` and `NAME.png`.
 pub fn write_pictures(folder: &Path, pictures: &[(String, Picture)]) -> Result<(), Error> {
     for (name, picture) in pictures {
         let (svg, png) = (folder.join(format!("{name}.svg")), folder.join(format!("{name}.png")));

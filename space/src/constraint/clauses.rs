@@ -1,31 +1,31 @@
-//! From a condition to clauses.
+//! Converts a condition into clauses.
 //!
-//! Conjunctions are distributed over disjunctions, which is short for most of what people write. Where it is not, as
-//! for a list of the allowed combinations, the clauses are the paths of a decision tree that end where the condition
-//! fails: a parameter after the other is given its level, and levels that leave the same condition behind share a
-//! branch (Shannon's expansion). No auxiliary parameters are introduced, so that some conditions have no clauses of
-//! a size that fits; they are refused.
+//! Disjunctions are distributed over conjunctions, which gives few clauses for most constraints that people write. For
+//! others, such as a list of the allowed combinations, this gives too many clauses. Then the clauses are the paths of
+//! a decision tree that end where the condition fails: one parameter after the other gets its level, and levels that
+//! leave the same condition share a branch (Shannon's expansion). No auxiliary parameters are introduced. So some
+//! conditions would need too many clauses; they are refused.
 
 use super::ConstraintFlaw;
 use super::condition::Condition;
 use crate::rules::{Clause, Literal};
 
-/// How many clauses distribution may reach before the decision tree takes over.
+/// The greatest number of clauses from distribution. With more, the decision tree is used.
 const MOST_DISTRIBUTED: usize = 64;
 
-/// How many clauses are compared with each other: the square of it is time.
+/// The greatest number of clauses that are compared with each other. The time grows as the square of this number.
 const MOST_COMPARED: usize = 256;
 
-/// How many clauses a constraint may have.
+/// The greatest number of clauses of a constraint.
 const MOST_CLAUSES: usize = 1 << 14;
 
-/// How many levels its literals may name, all together.
+/// The greatest number of levels in all literals of a constraint together.
 const MOST_LEVELS: usize = 1 << 22;
 
-/// How many branches a decision tree may have.
+/// The greatest number of branches of a decision tree.
 const MOST_BRANCHES: usize = 1 << 17;
 
-/// The clauses of a condition over parameters with so many levels.
+/// Returns the clauses of a condition over parameters with these numbers of levels.
 pub(super) fn clauses(condition: &Condition, sizes: &[usize]) -> Result<Vec<Clause>, ConstraintFlaw> {
     let parts = match condition {
         Condition::Many { all: true, parts } => parts.as_slice(),
@@ -45,18 +45,18 @@ fn levels(clauses: &[Clause]) -> usize {
     clauses.iter().flat_map(|clause| &clause.literals).map(|literal| literal.levels.len()).sum()
 }
 
-/// The literal that holds at the marked levels.
+/// Makes the literal that holds at the marked levels.
 fn literal(parameter: usize, marked: impl Iterator<Item = bool>) -> Literal {
     Literal { parameter, levels: marked.enumerate().filter_map(|(level, marked)| marked.then_some(level)).collect() }
 }
 
-/// The clauses by distribution, unless there are too many.
+/// Returns the clauses of a condition by distribution, or `None` if there are too many.
 fn distribute(condition: &Condition, sizes: &[usize]) -> Option<Vec<Clause>> {
     match condition {
         Condition::Among { parameter, levels } => {
             Some(vec![Clause { literals: vec![literal(*parameter, levels.iter().copied())] }])
         }
-        // The tree of a relation has two floors, and one branch for each set of partners.
+        // The tree of a relation has two layers, and one branch for each set of partners.
         Condition::Pair { .. } => tree(condition, sizes).filter(|clauses| clauses.len() <= MOST_DISTRIBUTED),
         Condition::Many { all: true, parts } => {
             let mut clauses = Vec::new();
@@ -84,7 +84,7 @@ fn within(clauses: Vec<Clause>) -> Option<Vec<Clause>> {
     (clauses.len() <= MOST_DISTRIBUTED).then_some(clauses)
 }
 
-/// The clause that holds where one of two does, unless it always holds.
+/// Returns the clause that holds if `a` or `b` holds, or `None` if this clause always holds.
 fn either(a: &Clause, b: &Clause, sizes: &[usize]) -> Option<Clause> {
     let mut literals = a.literals.clone();
     for literal in &b.literals {
@@ -104,7 +104,7 @@ fn either(a: &Clause, b: &Clause, sizes: &[usize]) -> Option<Clause> {
     Some(Clause { literals })
 }
 
-/// The same clauses without those that others imply, and with those joined that differ in one literal only.
+/// Removes clauses that other clauses imply, and joins clauses that differ in only one literal.
 fn irredundant(clauses: Vec<Clause>) -> Vec<Clause> {
     let mut kept: Vec<Clause> = Vec::new();
     let mut queue = clauses;
@@ -131,7 +131,7 @@ fn irredundant(clauses: Vec<Clause>) -> Vec<Clause> {
     kept
 }
 
-/// Whether `b` holds wherever `a` does, as each of its literals shows.
+/// Returns `true` if `a` implies `b`: every literal of `a` is contained in the literal of `b` for the same parameter.
 fn implies(a: &Clause, b: &Clause) -> bool {
     a.literals.iter().all(|literal| {
         let there = b.literals.binary_search_by_key(&literal.parameter, |other| other.parameter);
@@ -139,7 +139,8 @@ fn implies(a: &Clause, b: &Clause) -> bool {
     })
 }
 
-/// The one literal in which two clauses over the same parameters differ.
+/// Returns the index of the only literal in which two clauses over the same parameters differ, if there is exactly
+/// one.
 fn differing(a: &Clause, b: &Clause) -> Option<usize> {
     let same_parameters = a.literals.len() == b.literals.len()
         && a.literals.iter().zip(&b.literals).all(|(a, b)| a.parameter == b.parameter);
@@ -148,7 +149,7 @@ fn differing(a: &Clause, b: &Clause) -> Option<usize> {
     literal.filter(|_| differ.next().is_none())
 }
 
-/// The clauses as paths of a decision tree, unless there are too many.
+/// Returns the clauses of a condition as the paths of a decision tree, or `None` if there are too many.
 fn tree(condition: &Condition, sizes: &[usize]) -> Option<Vec<Clause>> {
     let mut tree = Tree { sizes, path: Vec::new(), clauses: Vec::new(), levels: 0, branches: 0 };
     tree.grow(condition)?;
@@ -157,7 +158,7 @@ fn tree(condition: &Condition, sizes: &[usize]) -> Option<Vec<Clause>> {
 
 struct Tree<'a> {
     sizes: &'a [usize],
-    /// What has to hold for a row to leave the path that led here.
+    /// The literals of the path to this node. One of them holds if a row does not follow the path.
     path: Vec<Literal>,
     clauses: Vec<Clause>,
     levels: usize,
@@ -187,7 +188,7 @@ impl Tree<'_> {
         }
         for (left, elsewhere) in branches {
             let literal = literal(parameter, elsewhere.into_iter());
-            // A path that every level takes asks for nothing.
+            // A literal is not necessary if every level takes this path.
             let asks = !literal.levels.is_empty();
             self.path.extend(asks.then_some(literal));
             self.grow(&left)?;
@@ -201,7 +202,7 @@ impl Tree<'_> {
     }
 }
 
-/// The first parameter that the condition names.
+/// Returns the first parameter that the condition names.
 fn first(condition: &Condition) -> Option<usize> {
     match condition {
         Condition::Among { parameter, .. } => Some(*parameter),

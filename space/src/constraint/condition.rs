@@ -1,4 +1,4 @@
-//! What a constraint means in a space: sets of levels and relations between levels, joined without negations.
+//! The meaning of a constraint in a space: sets of levels and relations between levels, joined without negations.
 
 use super::expression::{Expression, Operand, Relation};
 use super::parse::Places;
@@ -11,11 +11,11 @@ use std::sync::Arc;
 /// A statement about the levels of a row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Condition {
-    /// The level of a parameter is one of those marked.
+    /// The level of a parameter is one of the marked levels.
     Among { parameter: usize, levels: Arc<[bool]> },
-    /// The levels of two parameters are related as their ranks are.
+    /// The relation holds between the ranks of the levels of two parameters.
     Pair { left: usize, right: usize, ranks: [Arc<[usize]>; 2], relation: Relation },
-    /// All or any of the parts hold.
+    /// All parts hold (`all`), or at least one part holds.
     Many { all: bool, parts: Vec<Condition> },
 }
 
@@ -23,7 +23,7 @@ impl Condition {
     pub(super) const ALWAYS: Self = Condition::Many { all: true, parts: Vec::new() };
     pub(super) const NEVER: Self = Condition::Many { all: false, parts: Vec::new() };
 
-    /// The level of the parameter is one of those marked.
+    /// Makes the condition that the level of the parameter is one of the marked levels.
     pub(super) fn among(parameter: usize, levels: impl IntoIterator<Item = bool>) -> Self {
         let levels: Arc<[bool]> = levels.into_iter().collect();
         if levels.iter().all(|marked| *marked) {
@@ -35,7 +35,8 @@ impl Condition {
         }
     }
 
-    /// All or any of the parts, simplified: flat, each parameter with one set of levels, no part twice.
+    /// Joins the parts by "and" (`all`) or by "or", and simplifies the result: it is flat, each parameter has one set
+    /// of levels, and no part occurs twice.
     pub(super) fn many(all: bool, parts: impl IntoIterator<Item = Condition>) -> Self {
         let mut kept: Vec<Condition> = Vec::new();
         let mut queue: Vec<Condition> = parts.into_iter().collect();
@@ -43,7 +44,7 @@ impl Condition {
         while let Some(part) = queue.pop() {
             match part {
                 Condition::Many { all: inner, parts } if inner == all => queue.extend(parts.into_iter().rev()),
-                // What always holds decides a disjunction, what never holds a conjunction.
+                // A part that always holds decides a disjunction; a part that never holds decides a conjunction.
                 Condition::Many { parts, .. } if parts.is_empty() => return Condition::Many { all: !all, parts },
                 Condition::Among { parameter, levels } => {
                     let same = kept
@@ -59,7 +60,7 @@ impl Condition {
                     let joint = known.iter().zip(levels.iter()).map(|(a, b)| if all { *a && *b } else { *a || *b });
                     match Condition::among(parameter, joint) {
                         joint @ Condition::Among { .. } => *other = joint,
-                        // All levels of a disjunction, or none of a conjunction.
+                        // The joint set has all levels in a disjunction, or no level in a conjunction.
                         decided => return decided,
                     }
                 }
@@ -78,7 +79,7 @@ impl Condition {
         }
     }
 
-    /// What is left to hold where the parameter is at this level.
+    /// Returns the condition that remains if the parameter has this level.
     pub(super) fn at(&self, parameter: usize, level: usize) -> Self {
         match self {
             Condition::Among { parameter: p, levels } if *p == parameter => {
@@ -100,10 +101,10 @@ impl Condition {
     }
 }
 
-/// Turns expressions into conditions, and finds what in them means nothing.
+/// Turns expressions into conditions, and finds names and values that do not fit the parameters.
 pub(super) struct Resolver<'a> {
     parameters: &'a [Parameter],
-    /// Where the comparisons stand that are still to come.
+    /// The places of the comparisons that are not resolved yet.
     places: std::slice::Iter<'a, Places>,
 }
 
@@ -124,7 +125,7 @@ impl<'a> Resolver<'a> {
         self.condition(expression, true)
     }
 
-    /// Where the expression holds, or where it does not.
+    /// Returns the condition that the expression holds, or that it does not hold, as `holds` says.
     fn condition(&mut self, expression: &Expression, holds: bool) -> Result<Condition, ConstraintError> {
         match expression {
             Expression::Compare { parameter, relation, with } => self.comparison(parameter, *relation, with, holds),
@@ -197,7 +198,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The discrete parameter of that name.
+    /// Finds the discrete parameter of this name.
     fn side(&self, name: &str) -> Result<Side<'a>, ConstraintFlaw> {
         let owned = || name.to_owned();
         let Some(parameter) = self.parameters.iter().find(|parameter| parameter.name == name) else {
@@ -216,18 +217,18 @@ impl<'a> Resolver<'a> {
     }
 }
 
-/// Puts a flaw to its place.
+/// Adds the place to a flaw.
 fn at(offset: usize) -> impl Fn(ConstraintFlaw) -> ConstraintError {
     move |flaw| ConstraintError::at(offset, flaw)
 }
 
 impl Side<'_> {
-    /// Checks that the parameter takes this value at times.
+    /// Checks that the value is one of the parameter's levels.
     fn level(&self, value: &Value) -> Result<(), ConstraintFlaw> {
         if self.levels.iter().any(|level| level.means(value)) {
             return Ok(());
         }
-        // A number in quotes, or a word that is nearly one.
+        // The value may be a number in quotes, or a word that is nearly a level.
         let found = value.to_string();
         let word = nearest(&found, self.levels.iter().filter_map(Value::word));
         let same = self.levels.iter().find(|level| level.to_string() == found);
@@ -240,14 +241,14 @@ impl Side<'_> {
         })
     }
 
-    /// Checks that the parameter takes numbers only.
+    /// Checks that all levels of the parameter are numbers.
     fn numbers(&self, relation: Relation) -> Result<(), ConstraintFlaw> {
         let parameter = || self.name.to_owned();
         let word = self.levels.iter().find(|level| level.number().is_none()).cloned();
         word.map_or(Ok(()), |word| Err(ConstraintFlaw::SizeOfWord { relation, parameter: parameter(), word }))
     }
 
-    /// The relation to another parameter, or what holds where it does not.
+    /// Returns the condition that two parameters have this relation, or its opposite if `holds` is false.
     fn pair(self, relation: Relation, other: Side, holds: bool) -> Result<Condition, ConstraintFlaw> {
         if relation.orders() {
             self.numbers(relation)?;
@@ -270,10 +271,10 @@ impl Side<'_> {
     }
 }
 
-/// Numbers by size before words by their letters.
+/// Orders numbers by size, words by their letters, and numbers before words.
 fn order(a: &Value, b: &Value) -> Ordering {
     match (a.number(), b.number()) {
-        // The two zeros are one value.
+        // 0 and -0 are the same value.
         (Some(a), Some(b)) => (a + 0.0).total_cmp(&(b + 0.0)),
         (Some(_), None) => Ordering::Less,
         (None, Some(_)) => Ordering::Greater,

@@ -1,11 +1,11 @@
-//! What a constraint says, as data: comparisons of parameters, joined by `not`, `and`, `or` and `implies`.
+//! Constraints as data: comparisons of parameters, joined by `not`, `and`, `or` and `implies`.
 
 use crate::Value;
 use std::fmt;
 
 /// A statement about the discrete parameters of a test.
 ///
-/// What [`Display`](fmt::Display) writes, [`FromStr`](std::str::FromStr) reads back as the same expression.
+/// [`FromStr`](std::str::FromStr) reads the same expression from the text that [`Display`](fmt::Display) writes.
 ///
 /// ```
 /// use paracosm_space::constraint::Expression;
@@ -15,29 +15,29 @@ use std::fmt;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expression {
-    /// `lanes == 2`, `weather != 'fog'`, `front < rear`.
+    /// A comparison, such as `lanes == 2`, `weather != 'fog'` or `front < rear`.
     Compare {
-        /// The parameter on the left.
+        /// The name of the parameter on the left side.
         parameter: String,
-        /// How the two sides are related.
+        /// The relation between the two sides.
         relation: Relation,
-        /// What stands on the right.
+        /// The right side of the comparison.
         with: Operand,
     },
-    /// `weather in ['rain', 'fog']`; nothing is in the empty list.
+    /// A test for a list of values, such as `weather in ['rain', 'fog']`. It never holds if the list is empty.
     In {
-        /// The parameter.
+        /// The name of the parameter.
         parameter: String,
-        /// The values listed.
+        /// The values in the list.
         values: Vec<Value>,
     },
-    /// `not a`.
+    /// The negation `not a`.
     Not(Box<Expression>),
-    /// `a and b and c`: two parts or more.
+    /// The conjunction `a and b and c`, with two parts or more.
     And(Vec<Expression>),
-    /// `a or b or c`: two parts or more.
+    /// The disjunction `a or b or c`, with two parts or more.
     Or(Vec<Expression>),
-    /// `a implies b`: `b` holds wherever `a` does.
+    /// The implication `a implies b`. If `a` holds, `b` has to hold.
     Implies(Box<Expression>, Box<Expression>),
 }
 
@@ -50,25 +50,25 @@ pub enum Operand {
     Parameter(String),
 }
 
-/// How the two sides of a comparison are related. The last four compare numbers only.
+/// The relation between the two sides of a comparison. The last four relations compare numbers only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Relation {
-    /// `==`
+    /// The relation `==`.
     Equal,
-    /// `!=`
+    /// The relation `!=`.
     NotEqual,
-    /// `<`
+    /// The relation `<`.
     Less,
-    /// `<=`
+    /// The relation `<=`.
     LessOrEqual,
-    /// `>`
+    /// The relation `>`.
     Greater,
-    /// `>=`
+    /// The relation `>=`.
     GreaterOrEqual,
 }
 
 impl Relation {
-    /// Whether it holds between two things of an ordered kind.
+    /// Returns `true` if the relation holds between `left` and `right`.
     pub fn holds<T: PartialOrd>(self, left: &T, right: &T) -> bool {
         match self {
             Relation::Equal => left == right,
@@ -80,12 +80,12 @@ impl Relation {
         }
     }
 
-    /// Whether it asks which side is more.
+    /// Returns `true` if the relation compares sizes, as `<`, `<=`, `>` and `>=` do.
     pub fn orders(self) -> bool {
         !matches!(self, Relation::Equal | Relation::NotEqual)
     }
 
-    /// The relation that holds exactly where this one does not.
+    /// Returns the opposite relation. It holds exactly if this relation does not hold.
     pub fn negated(self) -> Self {
         match self {
             Relation::Equal => Relation::NotEqual,
@@ -97,7 +97,7 @@ impl Relation {
         }
     }
 
-    /// The relation of the right side to the left one.
+    /// Returns the relation with both sides exchanged, such as `>` for `<`.
     pub fn mirrored(self) -> Self {
         match self {
             Relation::Less => Relation::Greater,
@@ -122,10 +122,10 @@ impl fmt::Display for Relation {
     }
 }
 
-/// The words of the language, which are no names unless written in brackets.
+/// The words of the language. A parameter with such a name has to be written in brackets.
 pub(super) const KEYWORDS: [&str; 5] = ["in", "not", "and", "or", "implies"];
 
-/// Whether a name may be written without brackets.
+/// Returns `true` if a name may be written without brackets.
 pub(super) fn is_plain(name: &str) -> bool {
     let mut signs = name.chars();
     signs.next().is_some_and(begins_name) && signs.all(continues_name) && !KEYWORDS.contains(&name)
@@ -139,7 +139,7 @@ pub(super) fn continues_name(sign: char) -> bool {
     sign.is_alphanumeric() || sign == '_' || sign == '.'
 }
 
-/// A name as the language writes it: in brackets, unless it is plain.
+/// Writes a name as the language does: in brackets if they are necessary.
 pub(super) struct Name<'a>(pub &'a str);
 
 impl fmt::Display for Name<'_> {
@@ -148,14 +148,14 @@ impl fmt::Display for Name<'_> {
     }
 }
 
-/// A value as the language writes it: words in quotes.
+/// Writes a value as the language does: words in quotes.
 pub(super) struct Written<'a>(pub &'a Value);
 
 impl fmt::Display for Written<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.0.word(), self.0.number()) {
             (Some(word), _) => enclosed(f, '\'', word, '\''),
-            // Constraints are about numbers, however levels are written.
+            // Constraints compare numbers, however the levels are written.
             (None, Some(number)) => write!(f, "{number}"),
             (None, None) => write!(f, "{}", self.0),
         }
@@ -174,7 +174,7 @@ fn enclosed(f: &mut fmt::Formatter<'_>, open: char, text: &str, close: char) -> 
 }
 
 impl Expression {
-    /// How tightly it holds together: where less than its place asks for, it needs parentheses.
+    /// Returns how tightly the expression binds its parts. It needs parentheses if its place requires a higher number.
     fn tightness(&self) -> u8 {
         match self {
             Expression::Implies(..) => 0,

@@ -1,4 +1,4 @@
-//! What can be wrong with a constraint, and the words for it.
+//! Errors in constraints, and their messages.
 
 use super::expression::{Name, Relation, Written};
 use crate::Value;
@@ -6,16 +6,16 @@ use crate::names::did_you_mean;
 use std::fmt;
 use thiserror::Error;
 
-/// How many levels a message lists.
+/// The number of levels that a message lists at most.
 const LISTED: usize = 8;
 
-/// Why a text is no constraint.
+/// An error in a constraint: its place and its kind.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[error("{flaw}")]
 pub struct ConstraintError {
-    /// Where in the text, in bytes.
+    /// The place of the error in the text, as an offset in bytes.
     pub offset: usize,
-    /// What is wrong there.
+    /// The kind of error.
     pub flaw: Box<ConstraintFlaw>,
 }
 
@@ -25,143 +25,143 @@ impl ConstraintError {
     }
 }
 
-/// What is wrong at a place of a constraint.
+/// The kinds of errors in a constraint.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ConstraintFlaw {
-    /// A number that is none.
+    /// Text that begins like a number is not a finite number.
     #[error("found `{written}`, expected a number; a name like it stands in brackets")]
     NoNumber {
-        /// The number as it is written.
+        /// The text as it is written.
         written: String,
     },
-    /// A word without an end.
+    /// A quoted word has no closing quote.
     #[error("the word that begins here has no closing {quote}")]
     OpenWord {
-        /// The quote that it begins with.
+        /// The quote that opens the word.
         quote: char,
     },
-    /// A name without an end.
+    /// A name in brackets has no closing bracket.
     #[error("the name that begins here has no closing `]`")]
     OpenName,
-    /// A sign of another language.
+    /// The constraint uses a sign of another language.
     #[error("found `{sign}`, expected {meant}")]
     Foreign {
-        /// The sign.
+        /// The foreign sign.
         sign: &'static str,
-        /// The signs of this language for it.
+        /// The signs of this language with the same meaning.
         meant: &'static str,
     },
-    /// No sign of any language that is known here.
+    /// A character belongs neither to this language nor to another known language.
     #[error(
         "found `{sign}`, which is no sign of the language; names with other signs than letters, digits, `_` and `.` \
          stand in brackets: [road surface]"
     )]
     UnknownSign {
-        /// The sign.
+        /// The unknown character.
         sign: char,
     },
-    /// A sign in the place of another one.
+    /// Another token was expected at this place.
     #[error("found {found}, expected {expected}{}", did_you_mean(.meant))]
     Unexpected {
-        /// The sign that is there, or the end of the constraint.
+        /// The token at this place, or the end of the constraint.
         found: String,
-        /// What may stand there.
+        /// The tokens that may stand at this place.
         expected: Expected,
-        /// The word of the language that was perhaps meant.
+        /// The word of the language that the author probably meant.
         meant: Option<&'static str>,
     },
-    /// A comparison of a comparison.
+    /// Comparisons are chained, as in `a < b < c`.
     #[error("comparisons do not chain: join two of them with `and`")]
     Chained,
-    /// A parenthesis too many.
+    /// A closing parenthesis has no opening parenthesis.
     #[error("found `)`, which closes nothing")]
     ClosesNothing,
-    /// A parenthesis too few.
+    /// An opening parenthesis has no closing parenthesis.
     #[error("the `(` here is never closed")]
     NeverClosed,
-    /// Parentheses, `not` and `implies` in each other.
+    /// Parentheses, `not` and `implies` are nested too deeply.
     #[error("the constraint is nested more than {most} deep")]
     TooDeep {
-        /// How deep they may be.
+        /// The greatest depth of nesting.
         most: usize,
     },
-    /// A value before `in`.
+    /// A value stands in front of `in`, where a parameter has to stand.
     #[error("found {found}, expected the name of a parameter before `in`")]
     ValueBeforeIn {
-        /// The value.
+        /// The value, as a token.
         found: String,
     },
-    /// A comparison of two values.
+    /// Both sides of a comparison are values.
     #[error("found values on both sides, expected a parameter on one of them")]
     OnlyValues,
-    /// A parameter that is not there.
+    /// No parameter has the given name.
     #[error("no parameter is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
-        /// Its name.
+        /// The unknown name.
         name: String,
-        /// A name that was perhaps meant.
+        /// The most similar name of a parameter, if a name is similar enough.
         nearest: Option<String>,
     },
-    /// A parameter without levels.
+    /// The parameter is continuous, so it has no levels.
     #[error("`{name}` is continuous, expected a discrete parameter")]
     Continuous {
-        /// Its name.
+        /// The name of the parameter.
         name: String,
     },
-    /// A signal.
+    /// The parameter is a signal, so it has several values in a test.
     #[error("`{name}` varies over time, expected a parameter with one value")]
     Varies {
-        /// Its name.
+        /// The name of the parameter.
         name: String,
     },
-    /// A name that can be no parameter, but is a level of the parameter on the other side.
+    /// A name cannot be a parameter, but it is a level of the parameter on the other side.
     #[error("{flaw}; the level of `{}` is written {}", Name(.parameter), Written(.level))]
     Level {
-        /// Why it can be no parameter.
+        /// The reason why the name cannot be a parameter.
         flaw: Box<ConstraintFlaw>,
         /// The parameter on the other side.
         parameter: String,
-        /// Its level.
+        /// The level with this name.
         level: Value,
     },
-    /// A value that a parameter never takes.
+    /// The parameter never takes this value.
     #[error("`{}` is never {}, expected one of {}{}", Name(.parameter), Written(.value), listed(.levels), hint(.meant))]
     Never {
-        /// The parameter.
+        /// The name of the parameter.
         parameter: String,
         /// The value.
         value: Value,
         /// All levels of the parameter.
         levels: Vec<Value>,
-        /// The level that was perhaps meant.
+        /// The level that the author probably meant.
         meant: Option<Value>,
     },
-    /// A word that is compared by size.
+    /// A parameter is compared with a word by size.
     #[error("`{relation}` compares numbers, found {}", Written(.value))]
     Size {
-        /// The comparison.
+        /// The relation, such as `<`.
         relation: Relation,
-        /// The word.
+        /// The word on the right side.
         value: Value,
     },
-    /// A parameter with words that is compared by size.
+    /// A parameter with words among its levels is compared by size.
     #[error("`{relation}` compares numbers, but `{}` takes the word {}", Name(.parameter), Written(.word))]
     SizeOfWord {
-        /// The comparison.
+        /// The relation, such as `<`.
         relation: Relation,
-        /// The parameter.
+        /// The name of the parameter.
         parameter: String,
-        /// One of its words.
+        /// A word among the levels of the parameter.
         word: Value,
     },
-    /// Parameters that are never equal.
+    /// Two parameters are compared for equality, but have no value in common.
     #[error("`{}` and `{}` have no value in common, so they are never equal", Name(&.parameters[0]), Name(&.parameters[1]))]
     NothingInCommon {
-        /// Both of them.
+        /// The names of both parameters.
         parameters: [String; 2],
     },
-    /// A constraint that has no clauses of a size that fits.
+    /// The constraint needs too many clauses, or clauses that are too large.
     #[error(
         "the constraint takes too many clauses, for it chooses between too many combinations; write its parts that are \
          joined by `and` as constraints of their own, or add a parameter that says which of its alternatives holds"
@@ -169,31 +169,31 @@ pub enum ConstraintFlaw {
     TooManyClauses,
 }
 
-/// What may stand at a place of a constraint.
+/// The tokens that may stand at a place of a constraint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Expected {
-    /// After a condition.
+    /// The tokens after a condition: `and`, `or`, `implies` or the end.
     Junction,
-    /// After a condition in parentheses.
+    /// The tokens after a condition in parentheses: `and`, `or`, `implies` or `)`.
     JunctionOrClose,
-    /// The beginning of a condition.
+    /// The beginning of a condition: a parameter, `not` or `(`.
     Condition,
-    /// Between the sides of a comparison.
+    /// The token between the sides of a comparison.
     Comparison,
-    /// After a `not` between the sides of a comparison.
+    /// The token `in` after a `not` between the sides of a comparison.
     In,
-    /// The right side of a comparison.
+    /// The right side of a comparison: a number, a quoted word or a parameter.
     Operand,
-    /// After `in`.
+    /// The list after `in`.
     List,
-    /// A value of a list.
+    /// A value in a list: a number or a quoted word.
     Value,
-    /// After a value of a list.
+    /// The token after a value in a list: `,` or `]`.
     CommaOrClose,
 }
 
 impl Expected {
-    /// The words of the language that may stand there.
+    /// Returns the words of the language that may stand at the place.
     pub(super) fn keywords(self) -> &'static [&'static str] {
         match self {
             Self::Junction | Self::JunctionOrClose => &["and", "or", "implies"],
@@ -220,7 +220,7 @@ impl fmt::Display for Expected {
     }
 }
 
-/// The first levels, and how many there are if these are not all.
+/// Lists the first levels, and adds the number of all levels if some are left out.
 fn listed(levels: &[Value]) -> String {
     let written: Vec<_> = levels.iter().take(LISTED).map(|level| Written(level).to_string()).collect();
     let more = if levels.len() > LISTED { format!(", .. ({} in all)", levels.len()) } else { String::new() };

@@ -1,8 +1,8 @@
 //! Constraints: statements about the discrete parameters that every test has to keep.
 //!
-//! The language compares parameters with `== != < <= > >=` and `in [..]`, and joins comparisons with `not`, `and`,
-//! `or`, `implies` and parentheses; `not` binds most tightly and `implies` least, `a implies b implies c` is
-//! `a implies (b implies c)`, and `a not in [..]` is `not a in [..]`:
+//! The language compares parameters with `== != < <= > >=` and `in [..]`. It joins comparisons with `not`, `and`,
+//! `or`, `implies` and parentheses. `not` binds most tightly and `implies` least. `a implies b implies c` means `a
+//! implies (b implies c)`, and `a not in [..]` means `not a in [..]`:
 //!
 //! ```
 //! # for text in [
@@ -13,16 +13,15 @@
 //! # Ok::<(), paracosm_space::constraint::ConstraintError>(())
 //! ```
 //!
-//! Numbers stand as they are, words in quotes, single or double. The name of a parameter stands as it is where it
-//! consists of letters, digits, `_` and `.`, does not begin with a digit and is no word of the language; any name may
-//! stand in brackets: `[road surface] == 'wet'`. In quotes and brackets a backslash takes the next sign as it is.
-//! Words are compared as they are written. The order of `<` and its kin is that of numbers, between a parameter of
-//! numbers and a number or another such parameter. A value that a parameter never takes is an error where it is asked
-//! to be equal, for nobody means that.
+//! A number is written as it is, a word in single or double quotes. The name of a parameter needs no brackets if it
+//! consists of letters, digits, `_` and `.`, does not begin with a digit and is no word of the language. Any name may
+//! stand in brackets: `[road surface] == 'wet'`. In quotes and brackets, a backslash takes the next character
+//! literally. Words are compared with their case. `<`, `<=`, `>` and `>=` compare numbers only: a parameter whose
+//! levels are all numbers is compared with a number or with another such parameter. `==`, `!=` and `in` refuse a value
+//! that the parameter never takes, since such a comparison is a mistake.
 //!
-//! A constraint is kept in three forms: the [`Expression`] says what was written, a tree of sets of levels without
-//! negations is what rows are checked against, and [`Clause`]s are what the engine of [`rules`](crate::rules) reasons
-//! about.
+//! A constraint is kept in three forms. The [`Expression`] is the constraint as it was written. A tree of sets of
+//! levels without negations checks tests. The [`Clause`]s are the form that [`rules`](crate::rules) works with.
 
 mod clauses;
 mod condition;
@@ -52,8 +51,8 @@ impl Constraint {
     /// Reads a constraint on tests of these parameters.
     ///
     /// # Errors
-    /// The text is no constraint, names a parameter that is not there or is continuous, compares what cannot be
-    /// compared, or cannot be written as clauses of a size that fits.
+    /// The text is not a constraint, names a parameter that does not exist or is continuous or varies over time,
+    /// compares values that cannot be compared, or needs too many clauses.
     pub(crate) fn new(text: &str, parameters: &[Parameter]) -> Result<Self, ConstraintError> {
         let (expression, places) = parse::parse(text)?;
         let condition = Resolver::new(parameters, &places).resolve(&expression)?;
@@ -69,25 +68,27 @@ impl Constraint {
         Ok(Self { text: text.to_owned(), expression, condition, clauses })
     }
 
-    /// The constraint as it was written.
+    /// Returns the text of the constraint as it was written.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// What it says.
+    /// Returns the constraint as an expression.
     pub fn expression(&self) -> &Expression {
         &self.expression
     }
 
-    /// Whether a test with these levels, one for each discrete parameter, keeps it.
+    /// Returns `true` if a test with these levels keeps the constraint. `row` has a level for each discrete
+    /// coordinate.
     ///
     /// # Panics
-    /// A parameter that the constraint names has no level in the row, or one beyond its last.
+    /// The row lacks a level for a parameter that the constraint names, or the level does not exist.
     pub fn holds(&self, row: &[usize]) -> bool {
         self.condition.holds(row)
     }
 
-    /// The clauses that a row keeps, all of them, exactly where the constraint [holds](Constraint::holds).
+    /// Returns the clauses of the constraint. A test keeps all of them exactly if the constraint
+    /// [holds](Constraint::holds).
     pub fn clauses(&self) -> &[Clause] {
         &self.clauses
     }

@@ -1,4 +1,4 @@
-//! From a text to an expression, by recursive descent.
+//! Parses a text into an expression, by recursive descent.
 
 use super::expression::{Expression, KEYWORDS, Operand};
 use super::token::{Token, tokens};
@@ -7,10 +7,10 @@ use crate::Value;
 use crate::names::nearest;
 use std::str::FromStr;
 
-/// How deep parentheses, `not` and `implies` may be nested.
+/// The greatest depth to which parentheses, `not` and `implies` may be nested.
 const DEEPEST: usize = 128;
 
-/// Where the parts of a comparison stand, as offsets in bytes.
+/// The places of the parts of a comparison, as offsets in bytes.
 pub(super) struct Places {
     pub left: usize,
     pub relation: usize,
@@ -20,13 +20,13 @@ pub(super) struct Places {
 impl FromStr for Expression {
     type Err = ConstraintError;
 
-    /// Reads an expression. Whether its names mean anything is for a space to say.
+    /// Reads an expression. The names are not checked: only a space knows its parameters.
     fn from_str(text: &str) -> Result<Self, ConstraintError> {
         parse(text).map(|(expression, _)| expression)
     }
 }
 
-/// The expression, and where each of its comparisons stands, in the order in which they stand there.
+/// Returns the expression, and the places of its comparisons in the order of the text.
 pub(super) fn parse(text: &str) -> Result<(Expression, Vec<Places>), ConstraintError> {
     let mut parser = Parser { tokens: tokens(text)?, next: 0, depth: 0, places: Vec::new() };
     let expression = parser.implication()?;
@@ -54,7 +54,7 @@ impl Parser {
         self.tokens[self.next].1
     }
 
-    /// The next token, which is passed over; the end stays where it is.
+    /// Returns the next token and moves on. The parser never moves behind [`Token::End`].
     fn take(&mut self) -> Token {
         let token = self.peek().clone();
         self.next = (self.next + 1).min(self.tokens.len() - 1);
@@ -96,7 +96,7 @@ impl Parser {
         Ok(expression)
     }
 
-    /// Alternatives, or the parts of one of them.
+    /// Parses parts joined by `word`: `or` joins conjunctions, and `and` joins negations.
     fn joined(&mut self, word: &'static str) -> Result<Expression, ConstraintError> {
         let part = |parser: &mut Self| if word == "or" { parser.joined("and") } else { parser.negation() };
         let mut parts = vec![part(self)?];
@@ -183,7 +183,7 @@ impl Parser {
         Ok(Expression::Compare { parameter, relation: sign, with })
     }
 
-    /// The values of a list, with their offsets.
+    /// Parses a list, and returns its values with their offsets.
     fn list(&mut self) -> Result<(Vec<Value>, Vec<usize>), ConstraintError> {
         let (mut values, mut places) = (Vec::new(), Vec::new());
         if !self.takes(&Token::ListOpen) {

@@ -1,17 +1,17 @@
-//! The signs of which a constraint is made, each with the place where it stands.
+//! Divides the text of a constraint into tokens, each with its place.
 
 use super::expression::{KEYWORDS, Name, Relation, Written, begins_name, continues_name};
 use super::{ConstraintError, ConstraintFlaw};
 use crate::Value;
 use std::fmt;
 
-/// A sign of the language.
+/// A token of the language.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Token {
     Name(String),
     Value(Value),
     Relation(Relation),
-    /// One of [`KEYWORDS`].
+    /// A word of [`KEYWORDS`].
     Keyword(&'static str),
     Open,
     Close,
@@ -38,7 +38,7 @@ impl fmt::Display for Token {
     }
 }
 
-/// What other languages write, and what this one writes for it; the longer ones first.
+/// Signs of other languages, with the signs of this language for them. Longer signs come first.
 const FOREIGN: [(&str, &str); 14] = [
     ("<=>", "`==` or `implies`"),
     ("&&", "`and`"),
@@ -56,7 +56,7 @@ const FOREIGN: [(&str, &str); 14] = [
     ("}", "`)`, or `]` after a list"),
 ];
 
-/// What this language writes; the longer ones first.
+/// The signs of this language. Longer signs come first.
 const SIGNS: [(&str, Token); 11] = [
     ("==", Token::Relation(Relation::Equal)),
     ("!=", Token::Relation(Relation::NotEqual)),
@@ -71,7 +71,7 @@ const SIGNS: [(&str, Token); 11] = [
     (",", Token::Comma),
 ];
 
-/// The tokens of the text with their offsets in bytes; the last one is [`Token::End`].
+/// Returns the tokens of the text with their offsets in bytes. The last token is [`Token::End`].
 pub(super) fn tokens(text: &str) -> Result<Vec<(Token, usize)>, ConstraintError> {
     let mut found: Vec<(Token, usize)> = Vec::new();
     let mut offset = 0;
@@ -89,8 +89,8 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, usize)>, ConstraintError>
     }
 }
 
-/// The token at the start of the text, which is not empty, and its length. Where a list may begin a bracket begins one,
-/// elsewhere it begins a name.
+/// Returns the token at the start of the text and its length. The text is not empty. A bracket begins a list if a list
+/// may stand at this place (`listed`), and otherwise a name.
 fn token(rest: &str, listed: bool) -> Result<(Token, usize), ConstraintFlaw> {
     if rest.starts_with(begins_name) {
         let name = run(rest, continues_name);
@@ -121,19 +121,19 @@ fn token(rest: &str, listed: bool) -> Result<(Token, usize), ConstraintFlaw> {
     }
 }
 
-/// The signs at the start of the text that belong.
+/// Returns the characters at the start of the text that belong.
 fn run(text: &str, belongs: impl Fn(char) -> bool) -> &str {
     &text[..text.find(|sign| !belongs(sign)).unwrap_or(text.len())]
 }
 
-/// Whether a number stands here, perhaps a wrong one.
+/// Returns `true` if the text begins like a number, even if the number is not valid.
 fn begins_number(text: &str) -> bool {
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     let digits = unsigned.strip_prefix('.').unwrap_or(unsigned);
     digits.starts_with(|sign: char| sign.is_ascii_digit())
 }
 
-/// The number at the start of the text, as it is written and, if it is one, finite, as a number.
+/// Returns the text of the number at the start, and its value if it is a finite number.
 fn number(text: &str) -> (&str, Option<f64>) {
     let signed = usize::from(text.starts_with(['-', '+']));
     let mut length = signed + run(&text[signed..], continues_name).len();
@@ -144,8 +144,8 @@ fn number(text: &str) -> (&str, Option<f64>) {
     (written, written.parse().ok().filter(|number: &f64| number.is_finite()))
 }
 
-/// What stands between the first sign and the next `close`, in which a backslash takes the next sign as it is; with
-/// the length of it all.
+/// Returns the text between the first character and the next `close`, and the length including both. A backslash takes
+/// the next character literally.
 pub(crate) fn enclosed(text: &str, close: char) -> Option<(String, usize)> {
     let mut inside = String::new();
     let mut signs = text.char_indices().skip(1);

@@ -1,16 +1,17 @@
 //! The beta distribution: the regularised incomplete beta function and its inverse.
 //!
-//! Beside being a distribution that people name, it is what exact intervals of proportions and the quantiles of Student's
-//! t are computed from.
+//! Users can choose this distribution. Exact confidence intervals of proportions and the quantiles of Student's t
+//! distribution are also computed from it.
 
-/// More terms of the continued fraction are needed nowhere: their number grows as the root of the larger shape.
+/// The greatest number of terms of the continued fraction. More are never needed: their number grows as the square
+/// root of the larger shape.
 const MOST_TERMS: usize = 1_000_000;
 
-/// The regularised incomplete beta function I_x(a, b): how likely a beta-distributed number is at most `x`, for shapes
-/// `a` and `b` above 0.
+/// Returns the regularised incomplete beta function I_x(a, b): the probability that a beta-distributed number is at
+/// most `x`. The shapes `a` and `b` are above 0.
 ///
-/// By the continued fraction of DLMF 8.17.22, evaluated as Lentz (Applied Optics 15, 1976) does, and the symmetry
-/// I_x(a, b) = 1 - I_(1-x)(b, a).
+/// It is computed by the continued fraction of DLMF 8.17.22, evaluated as by Lentz (Applied Optics 15, 1976), and by
+/// the symmetry I_x(a, b) = 1 - I_(1-x)(b, a).
 pub fn beta_cdf(a: f64, b: f64, x: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
@@ -25,8 +26,8 @@ pub fn beta_cdf(a: f64, b: f64, x: f64) -> f64 {
     }
 }
 
-/// The number below which a share `p` of the beta distribution of the shapes `a` and `b` lies: the inverse of
-/// [`beta_cdf`].
+/// Returns the number below which a share `p` of the beta distribution with the shapes `a` and `b` lies. This is the
+/// inverse of [`beta_cdf`].
 pub fn beta_quantile(a: f64, b: f64, p: f64) -> f64 {
     if p <= 0.0 {
         0.0
@@ -39,8 +40,9 @@ pub fn beta_quantile(a: f64, b: f64, p: f64) -> f64 {
     }
 }
 
-/// A quantile of at most a half, which has all its digits: Newton's method for ln I as a function of ln x, which is nearly straight
-/// in the lower tail, within a bracket that bisection closes where Newton's method does not.
+/// Returns a quantile of at most one half, with all its digits. Newton's method is applied to ln I as a function of ln
+/// x, which is nearly straight in the lower tail. A bracket keeps the result; bisection narrows it if Newton's method
+/// does not.
 fn small_quantile(a: f64, b: f64, p: f64) -> f64 {
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     let mut x = a / (a + b);
@@ -51,7 +53,7 @@ fn small_quantile(a: f64, b: f64, p: f64) -> f64 {
         } else {
             high = x;
         }
-        // Numbers from 0 to 1 are ordered as their bits are.
+        // The bit patterns of floats from 0 to 1 have the same order as the numbers.
         let (below, above) = (low.to_bits(), high.to_bits());
         if above - below <= 1 {
             break;
@@ -67,8 +69,8 @@ fn small_quantile(a: f64, b: f64, p: f64) -> f64 {
     x
 }
 
-/// x^a (1-x)^b / B(a, b), by the saddle-point expansion of Loader (Fast and accurate computation of binomial
-/// probabilities, 2000), which does not cancel where the shapes are large.
+/// Returns x^a (1-x)^b / B(a, b). The saddle-point expansion of Loader (Fast and accurate computation of binomial
+/// probabilities, 2000) avoids cancellation for large shapes.
 fn power(a: f64, b: f64, x: f64) -> f64 {
     let n = a + b;
     let exponent =
@@ -76,7 +78,7 @@ fn power(a: f64, b: f64, x: f64) -> f64 {
     libm::exp(exponent) * (a * b / (std::f64::consts::TAU * n)).sqrt()
 }
 
-/// ln Γ(n + 1) less Stirling's approximation of it.
+/// Returns the error of Stirling's approximation of ln Γ(n + 1): the exact value less the approximation.
 fn stirling_error(n: f64) -> f64 {
     if n <= 15.0 {
         let half_log_tau = 0.5 * libm::log(std::f64::consts::TAU);
@@ -87,13 +89,13 @@ fn stirling_error(n: f64) -> f64 {
     (1.0 / 12.0 - square * (1.0 / 360.0 - square * (1.0 / 1260.0 - square * inner))) / n
 }
 
-/// x ln(x / mean) + mean - x, without cancellation where they are near each other.
+/// Returns x ln(x / mean) + mean - x, without cancellation if both numbers are close to each other.
 fn deviance(x: f64, mean: f64) -> f64 {
     let ratio = (x - mean) / (x + mean);
     if ratio.abs() >= 0.1 {
         return x * libm::log(x / mean) + mean - x;
     }
-    // x ln(x / mean) is 2 x artanh(ratio), a series of odd powers.
+    // x ln(x / mean) is 2 x artanh(ratio), which is a series of odd powers.
     let mut sum = (x - mean) * ratio;
     let mut power = 2.0 * x * ratio;
     for odd in (3..).step_by(2) {
@@ -107,7 +109,7 @@ fn deviance(x: f64, mean: f64) -> f64 {
     sum
 }
 
-/// The continued fraction.
+/// Evaluates the continued fraction of [`beta_cdf`].
 fn fraction(a: f64, b: f64, x: f64) -> f64 {
     const TINY: f64 = 1e-300;
     let apart_from_0 = |value: f64| if value.abs() < TINY { TINY } else { value };

@@ -1,8 +1,8 @@
-//! How a parameter is distributed: what failure probabilities are taken under.
+//! Distributions of parameters. Probabilities of failure refer to them.
 //!
-//! Coverage and generators know nothing of it: to them every part of a domain is worth a look. Where a probability is
-//! asked for, a uniform number becomes a value by the inverse of the distribution function, so that one source of
-//! uniform numbers, random or quasi-random, serves all distributions.
+//! Coverage and strategies ignore the distributions, since every part of a domain is worth testing. If a probability
+//! is asked for, the inverse of the distribution function turns a uniform number into a value. One source of uniform
+//! numbers, random or quasi-random, therefore serves all distributions.
 
 mod beta;
 mod normal;
@@ -11,13 +11,14 @@ pub use beta::{beta_cdf, beta_quantile};
 pub use normal::{normal_cdf, normal_quantile};
 
 use crate::names::{did_you_mean, nearest};
+use crate::plural;
 use crate::{Domain, Record, Value};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 use thiserror::Error;
 
-/// The names of all distributions, with what they take.
+/// The names of all distributions, with the numbers that they take, in words.
 const NAMES: [(&str, &str); 5] = [
     ("uniform", "no numbers"),
     ("beta", "two numbers above 0, its shape"),
@@ -26,87 +27,89 @@ const NAMES: [(&str, &str); 5] = [
     ("weights", "a number for each value of a choice"),
 ];
 
-/// Shapes of a beta distribution outside this range are a mistake.
+/// The range of the shapes of a beta distribution. Shapes outside this range are a mistake.
 const SHAPES: std::ops::RangeInclusive<f64> = 1e-3..=1e6;
 
-/// A normal distribution with less of it in the interval says nothing of what is there.
+/// The least share of a normal distribution that has to lie in the interval. With less, the distribution says nothing
+/// about the interval.
 const LEAST_MASS: f64 = 1e-9;
 
-/// A normal distribution that is so many times wider than the interval is uniform, as far as rounding lets one see.
+/// The greatest standard deviation of a normal distribution, in widths of the interval. A wider distribution is
+/// uniform up to rounding.
 const WIDEST: f64 = 100.0;
 
-/// Why a text is no distribution, or why values of a domain cannot be distributed so.
+/// The reason why a text is not a distribution, or why a distribution does not fit a domain.
 #[derive(Debug, Clone, Error, PartialEq)]
 pub enum DistributionError {
-    /// No distribution has that name.
+    /// No distribution has this name.
     #[error("no distribution is called `{name}`{}; there are {}", did_you_mean(.nearest), NAMES.map(|(name, _)| name).join(", "))]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// A name that was perhaps meant.
+        /// The most similar name of a distribution, if a name is similar enough.
         nearest: Option<&'static str>,
     },
-    /// A distribution with too many or too few numbers.
+    /// A distribution has too many or too few numbers.
     #[error("the distribution {name} takes {takes}, found {found} of them")]
     Numbers {
-        /// The distribution.
+        /// The name of the distribution.
         name: &'static str,
         /// The numbers that it takes, in words.
         takes: &'static str,
-        /// How many were found.
+        /// The count of the numbers that were found.
         found: usize,
     },
-    /// A word where a number belongs.
+    /// A word stands in the place of a number.
     #[error("found `{found}` in {within}, expected a number")]
     NoNumber {
-        /// The word.
+        /// The word that was found.
         found: String,
-        /// The text or the entry that it stands in.
+        /// The text or the entry that contains the word.
         within: String,
     },
-    /// An entry of a file that names no distribution, or several.
+    /// An entry of a file names no distribution, or several distributions.
     #[error("expected one distribution, such as {{ beta = [2.0, 5.0] }}")]
     NotOne,
-    /// A number that is not finite.
+    /// A distribution has a number that is not finite.
     #[error("distribution {distribution}: found {number}, expected finite numbers")]
     Infinite {
         /// The distribution.
         distribution: Distribution,
-        /// The number.
+        /// The number that is not finite.
         number: f64,
     },
-    /// Weights that are not one for each value.
-    #[error("found {found} weights, expected one for each of the {expected} values")]
+    /// The number of weights differs from the number of values.
+    #[error("found {}, expected {expected}: a weight for each value", plural(*found, "weight"))]
     WeightCount {
-        /// How many weights there are.
+        /// The number of weights.
         found: usize,
-        /// How many values there are.
+        /// The number of values.
         expected: usize,
     },
-    /// Weights below 0, or no weight above 0.
+    /// A weight is below 0, or no weight is above 0, or the sum of the weights is not finite.
     #[error("distribution {0}: expected weights of at least 0, not all of them 0")]
     Weights(Distribution),
-    /// A distribution of numbers for the values of a choice.
+    /// A choice has a distribution that is only for intervals.
     #[error("found the distribution {0}, expected uniform or weights for the values of a choice")]
     ForInterval(Distribution),
-    /// Weights for the numbers of an interval.
+    /// An interval has weights, which are only for choices.
     #[error("found weights, which are for a choice, expected uniform, beta, normal or triangular")]
     ForChoice,
-    /// Shapes of a beta distribution that are out of range.
+    /// A shape of a beta distribution is out of range.
     #[error("distribution {distribution}: expected shapes from {} to {}", SHAPES.start(), SHAPES.end())]
     Shapes {
         /// The distribution.
         distribution: Distribution,
     },
-    /// A standard deviation that is out of range.
+    /// The standard deviation of a normal distribution is out of range.
     #[error("distribution {distribution}: expected a deviation above 0 and at most {most}")]
     Deviation {
         /// The distribution.
         distribution: Distribution,
-        /// The largest standard deviation for the interval.
+        /// The greatest standard deviation that the interval allows.
         most: f64,
     },
-    /// A normal distribution that lies elsewhere.
+    /// Nearly all of a normal distribution lies outside of the interval.
     #[error("distribution {distribution}: next to nothing of it lies in [{lo}, {hi}]")]
     Outside {
         /// The distribution.
@@ -116,7 +119,7 @@ pub enum DistributionError {
         /// The upper end of the interval.
         hi: f64,
     },
-    /// A mode outside of the interval.
+    /// The mode of a triangular distribution lies outside of the interval.
     #[error("distribution {distribution}: expected a mode in [{lo}, {hi}]")]
     Mode {
         /// The distribution.
@@ -128,30 +131,32 @@ pub enum DistributionError {
     },
 }
 
-/// How the values of a parameter are distributed over its domain; of a signal each coordinate by itself.
+/// The distribution of a parameter's values over its domain. Each coordinate of a signal has this distribution on its
+/// own.
 ///
-/// As text, `uniform`, `beta:2,5`, `normal:1.4,0.3`, `triangular:1.4` or `weights:0.7,0.2,0.1`; in files
-/// `{ beta = [2.0, 5.0] }` and likewise.
+/// As a text, a distribution is written `uniform`, `beta:2,5`, `normal:1.4,0.3`, `triangular:1.4` or
+/// `weights:0.7,0.2,0.1`. In files it is written like `{ beta = [2.0, 5.0] }`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(try_from = "Entry", into = "Entry")]
 pub enum Distribution {
-    /// Every part of an interval by its length, every value of a choice as often as another.
+    /// The uniform distribution. In an interval the probability is proportional to the length; in a choice all values
+    /// are equally probable.
     #[default]
     Uniform,
-    /// The beta distribution of these shapes, stretched from `[0,1]` to the interval.
+    /// The beta distribution of these two shapes, stretched from `[0,1]` to the interval.
     Beta(f64, f64),
-    /// The normal distribution of this mean and standard deviation, in the parameter's unit, given that it lies in the
-    /// interval.
+    /// The normal distribution with this mean and this standard deviation, in the parameter's unit, under the
+    /// condition that the value lies in the interval.
     Normal(f64, f64),
-    /// A density that rises from the lower end of the interval to this mode, in the parameter's unit, and falls to the
-    /// upper end.
+    /// The triangular distribution with this mode, in the parameter's unit. The density rises from the lower end of
+    /// the interval to the mode and falls to the upper end.
     Triangular(f64),
-    /// How likely each value of a choice is, in proportion.
+    /// The weights of the values of a choice. The probability of a value is proportional to its weight.
     Weights(Vec<f64>),
 }
 
 impl Distribution {
-    /// Checks that values of this domain can be distributed so.
+    /// Checks that the distribution fits this domain.
     pub(crate) fn check(&self, domain: &Domain) -> Result<(), DistributionError> {
         let numbers = self.numbers();
         let distribution = || self.clone();
@@ -198,12 +203,13 @@ impl Distribution {
         Err(wrong)
     }
 
-    /// The coordinate in `[0,1]` of the interval below which a share `u` of the distribution lies.
+    /// Returns the quantile of the distribution as a coordinate in `[0,1]` of the interval: a share `u` of the
+    /// distribution lies below it.
     ///
     /// # Panics
-    /// Values of an interval cannot be distributed so.
+    /// The distribution is only for choices.
     pub(crate) fn quantile(&self, lo: f64, hi: f64, u: f64) -> f64 {
-        // Rounding must not keep a test off the ends.
+        // Rounding must not keep tests away from the ends of the interval.
         if u <= 0.0 || u >= 1.0 {
             return u.clamp(0.0, 1.0);
         }
@@ -219,10 +225,11 @@ impl Distribution {
         }
     }
 
-    /// The level of a choice among `levels` up to which a share `u` of the distribution lies; never one of weight 0.
+    /// Returns the level of a choice with `levels` values up to which a share `u` of the distribution lies. The level
+    /// never has the weight 0.
     ///
     /// # Panics
-    /// Values of a choice cannot be distributed so.
+    /// The distribution is only for intervals.
     pub(crate) fn level(&self, levels: usize, u: f64) -> usize {
         match self {
             Self::Uniform => ((u * levels as f64) as usize).min(levels - 1),
@@ -261,7 +268,7 @@ impl Distribution {
         }
     }
 
-    /// The distribution of that name, with the numbers that it takes.
+    /// Returns the distribution of this name with these numbers.
     fn named(name: &str, numbers: &[f64]) -> Result<Self, DistributionError> {
         match (name, numbers) {
             ("uniform", []) => Ok(Self::Uniform),
@@ -301,7 +308,7 @@ impl FromStr for Distribution {
     }
 }
 
-/// A distribution as files write it: its name, or its name with what it takes.
+/// A distribution as it is written in files: a name, or a name with the numbers that the distribution takes.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged, expecting = "a distribution such as \"uniform\" or { beta = [2.0, 5.0] }")]
 enum Entry {

@@ -1,17 +1,18 @@
-//! The normal distribution, whole and cut to an interval.
+//! The normal distribution, and the normal distribution restricted to an interval.
 
 #![expect(clippy::excessive_precision, reason = "coefficients stand as they were published")]
 
 use std::f64::consts::SQRT_2;
 
-/// How likely a standard normal number is at most `z`.
+/// Returns the probability that a standard normal number is at most `z`.
 pub fn normal_cdf(z: f64) -> f64 {
     0.5 * libm::erfc(-z / SQRT_2)
 }
 
-/// The standard normal number below which a share `p` lies, with a relative error of about 1e-16: the algorithm PPND16
-/// of Wichura (Algorithm AS 241: The percentage points of the normal distribution, Applied Statistics 37, 1988).
-/// Infinite for 0 and 1.
+/// Returns the standard normal number below which a share `p` of the distribution lies. It is infinite for 0 and 1.
+///
+/// The relative error is about 1e-16. The algorithm is PPND16 of Wichura (Algorithm AS 241: The percentage points of
+/// the normal distribution, Applied Statistics 37, 1988).
 pub fn normal_quantile(p: f64) -> f64 {
     if p <= 0.0 {
         return f64::NEG_INFINITY;
@@ -29,7 +30,7 @@ pub fn normal_quantile(p: f64) -> f64 {
     if q < 0.0 { -z } else { z }
 }
 
-/// Coefficients of a numerator and a denominator, from the constant on.
+/// The coefficients of a numerator and a denominator, beginning with the constant term.
 type Ratio = [[f64; 8]; 2];
 
 const CENTRE: Ratio = [
@@ -106,11 +107,11 @@ fn ratio([numerator, denominator]: &Ratio, r: f64) -> f64 {
     horner(numerator) / horner(denominator)
 }
 
-/// A normal distribution, given that it lies in an interval.
+/// A normal distribution under the condition that the number lies in an interval.
 pub(super) struct Truncated {
     /// The ends of the interval, in standard deviations from the mean.
     ends: [f64; 2],
-    /// Whether the interval is mirrored at the mean, so that no more of it lies above than below.
+    /// `true` if the interval is mirrored at the mean, so that at most half of it lies above the mean.
     mirrored: bool,
 }
 
@@ -121,17 +122,17 @@ impl Truncated {
         Self { ends: if mirrored { [-to, -from] } else { [from, to] }, mirrored }
     }
 
-    /// How much of the whole distribution lies in the interval.
+    /// Returns the share of the whole distribution that lies in the interval.
     pub fn mass(&self) -> f64 {
         normal_cdf(self.ends[1]) - normal_cdf(self.ends[0])
     }
 
-    /// The coordinate in `[0,1]` of the interval below which a share `u` of what lies in it lies.
+    /// Returns the quantile as a coordinate in `[0,1]` of the interval: a share `u` of the distribution lies below it.
     pub fn quantile(&self, u: f64) -> f64 {
         let [from, to] = self.ends;
         let (u, rest) = if self.mirrored { (1.0 - u, u) } else { (u, 1.0 - u) };
         let (below, above) = (normal_cdf(from) + u * self.mass(), normal_cdf(-to) + rest * self.mass());
-        // From the side on which less lies, where a share is small and has all its digits.
+        // Start from the side with the smaller share: a small share has all its digits.
         let z = if below < above { normal_quantile(below) } else { -normal_quantile(above) };
         let coordinate = ((z - from) / (to - from)).clamp(0.0, 1.0);
         if self.mirrored { 1.0 - coordinate } else { coordinate }

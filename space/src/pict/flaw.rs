@@ -1,30 +1,30 @@
-//! The errors of model files.
+//! Errors in model files of PICT, and their messages.
 
 use crate::SpaceError;
 use crate::constraint::ConstraintError;
 use crate::names::did_you_mean;
 use thiserror::Error;
 
-/// Where a text stops being a model, and why.
+/// An error in a model file: its place and its kind.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[error("line {line}, column {column}: {flaw}")]
 pub struct PictError {
-    /// The line, from 1.
+    /// The line of the error, counted from 1.
     pub line: usize,
-    /// The column, from 1.
+    /// The column of the error, counted in characters from 1.
     pub column: usize,
-    /// The flaw at this place.
+    /// The kind of error.
     pub flaw: Box<PictFlaw>,
 }
 
-/// A kind of line of a model file. The kinds stand in this order.
+/// A kind of line of a model file. In a file, the kinds stand in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Section {
-    /// The values of a parameter.
+    /// A line with a parameter and its values.
     Parameter,
-    /// A group of parameters.
+    /// A line with a group of parameters, which PICT calls a sub-model.
     SubModel,
-    /// A constraint.
+    /// A line with a constraint.
     Constraint,
 }
 
@@ -38,210 +38,210 @@ impl Section {
     }
 }
 
-/// What is wrong at a place of a model file.
+/// The kinds of errors in a model file.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[non_exhaustive]
 pub enum PictFlaw {
-    /// A line that belongs further up.
+    /// A line stands behind a line of a later section.
     #[error(
         "found {} after {}; parameters come first, then sub-models, then constraints", .found.name(), .after.name()
     )]
     Misplaced {
-        /// The kind of the line.
+        /// The kind of the misplaced line.
         found: Section,
-        /// The kind of a line above it.
+        /// The kind of the line above it that has to come later.
         after: Section,
     },
-    /// A file without parameters.
+    /// The file has no parameters.
     #[error("found no parameters, expected a line like `Weather: clear, rain, fog`")]
     NoParameters,
-    /// A line of a parameter without a colon.
+    /// The line of a parameter has no colon.
     #[error(
         "found no `:`, expected one between the name of a parameter and its values{}",
         if *.bracket { ", or a constraint that begins with IF, NOT, [ or (" } else { "" }
     )]
     NoColon {
-        /// Whether the line has a bracket, as a constraint has.
+        /// `true` if the line has a bracket, as constraints have.
         bracket: bool,
     },
-    /// A parameter without a name.
+    /// A parameter has no name.
     #[error("found no name before `:`")]
     Nameless,
-    /// A parameter for the expected result.
+    /// A parameter describes the expected result, which is not supported.
     #[error("`{name}` is a result parameter, which is not supported")]
     ResultParameter {
-        /// The name, with its `$`.
+        /// The name of the parameter, with its `$`.
         name: String,
     },
-    /// An order behind the name of a parameter.
+    /// An order follows the name of a parameter, which is not supported.
     #[error("an order of a parameter is not supported; give the order of a sub-model: `{{A, B}} @ 3`")]
     OrderOfParameter,
-    /// A second parameter of the same name.
+    /// Two parameters have the same name.
     #[error("parameter `{name}` is declared twice; case makes no difference")]
     Twice {
-        /// The name, as the first declaration writes it.
+        /// The name, as the first parameter is written.
         name: String,
     },
-    /// A parameter without values.
+    /// A parameter has no values.
     #[error("found no values, expected those of `{name}`, with commas between them")]
     NoValues {
-        /// The parameter.
+        /// The name of the parameter.
         name: String,
     },
-    /// A parameter with negative values only.
+    /// All values of a parameter are negative.
     #[error("every value of `{name}` is negative (`~`), expected one that is not")]
     OnlyNegative {
-        /// The parameter.
+        /// The name of the parameter.
         name: String,
     },
-    /// A value that is negative and is not.
+    /// A parameter lists a value both as negative and as not negative.
     #[error("`{value}` is listed with and without `~`")]
     BothSigns {
         /// The value.
         value: String,
     },
-    /// A name that no parameter has.
+    /// No parameter has the given name.
     #[error("no parameter is called `{name}`{}", did_you_mean(.nearest))]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// The nearest name of a parameter.
+        /// The most similar name of a parameter, if a name is similar enough.
         nearest: Option<String>,
     },
-    /// A reference to a parameter that is declared below it.
+    /// A parameter refers to the values of a parameter that is declared below.
     #[error("`<{name}>` stands before parameter `{name}`, expected it below")]
     BeforeItsParameter {
-        /// The parameter.
+        /// The name of the parameter that is declared below.
         name: String,
     },
-    /// A sub-model without an end.
+    /// A sub-model has no closing brace.
     #[error("found no `}}`, expected one after the names of a sub-model")]
     OpenSubModel,
-    /// A comma of a sub-model without a name.
+    /// A sub-model has a comma without a name.
     #[error("found no name, expected a parameter of the sub-model")]
     NamelessInSubModel,
-    /// A sub-model that names a parameter twice.
+    /// A sub-model names a parameter twice.
     #[error("the sub-model names `{name}` twice")]
     TwiceInSubModel {
         /// The name, as it is written the second time.
         name: String,
     },
-    /// Text behind a sub-model.
+    /// Text other than an order follows a sub-model.
     #[error("found `{found}`, expected `@` and the order of the sub-model")]
     AfterSubModel {
-        /// The text.
+        /// The text behind the sub-model.
         found: String,
     },
-    /// An order that the sub-model cannot have.
+    /// The order of a sub-model is not a number from 1 to the number of its parameters.
     #[error(
         "found {}, expected an order from 1 to {most}, the number of parameters",
         if .found.is_empty() { "nothing".to_owned() } else { format!("`{found}`") }
     )]
     Order {
-        /// The order as it is written, perhaps empty.
+        /// The order as it is written. It may be empty.
         found: String,
         /// The number of parameters of the sub-model.
         most: usize,
     },
-    /// A name or a word without an end.
+    /// A name in brackets or a word in quotes is not closed.
     #[error("the {} that begins here has no closing `{close}`", if *.close == ']' { "name" } else { "word" })]
     Open {
-        /// The sign that would end it.
+        /// The sign that would close the name or the word.
         close: char,
     },
-    /// A number that is none.
+    /// Text that begins like a number is not a finite number.
     #[error("found `{written}`, expected a number")]
     NoNumber {
-        /// The number as it is written.
+        /// The text as it is written.
         written: String,
     },
-    /// A comment behind something else.
+    /// A comment does not begin at the start of a line.
     #[error("found `#`, which begins a comment only at the start of a line")]
     LateComment,
-    /// A sign of another language.
+    /// A constraint uses a sign of another language.
     #[error("found `{sign}`, expected {meant}")]
     Foreign {
-        /// The sign.
+        /// The foreign sign.
         sign: &'static str,
-        /// The sign of this language for it.
+        /// The sign of this language with the same meaning.
         meant: &'static str,
     },
-    /// No sign of any language that is known here.
+    /// A character belongs neither to this language nor to another known language.
     #[error("found `{sign}`, which is no sign of a constraint")]
     UnknownSign {
-        /// The sign.
+        /// The unknown character.
         sign: char,
     },
-    /// A token in the place of another one.
+    /// Another token was expected at this place.
     #[error("found {found}, expected {}{}", either(.expected), did_you_mean(.meant))]
     Unexpected {
-        /// The token that is there, or the end of the model, in words.
+        /// The token at this place, or the end of the model, in words.
         found: String,
-        /// What may stand there, in words.
+        /// The tokens that may stand at this place, in words.
         expected: Vec<String>,
-        /// The word of the language that was perhaps meant.
+        /// The word of the language that the author probably meant.
         meant: Option<&'static str>,
     },
-    /// Parentheses and `NOT` in each other.
+    /// Parentheses and `NOT` are nested too deeply.
     #[error("the constraint is nested more than {most} deep")]
     TooDeep {
-        /// How deep they may be.
+        /// The greatest depth of nesting.
         most: usize,
     },
-    /// A parenthesis too few.
+    /// An opening parenthesis has no closing parenthesis.
     #[error("the `(` here is never closed")]
     NeverClosed,
-    /// A word in the place of a parameter.
+    /// A word stands where a parameter in brackets has to stand.
     #[error("found `{word}`, expected a parameter in brackets, as [{word}]")]
     NoBrackets {
         /// The word.
         word: String,
     },
-    /// A pattern for numbers.
+    /// A parameter whose values are numbers is compared with a pattern.
     #[error("`LIKE` compares words, but `{name}` takes numbers only")]
     PatternOfNumbers {
-        /// The parameter.
+        /// The name of the parameter.
         name: String,
     },
-    /// A parameter of numbers compared with one of words.
+    /// A parameter with numbers is compared with a parameter with words.
     #[error("`{numbers}` takes numbers and `{words}` words, which are not compared")]
     NotCompared {
-        /// The parameter of numbers.
+        /// The name of the parameter whose values are numbers.
         numbers: String,
-        /// The parameter of words.
+        /// The name of the parameter whose values are words.
         words: String,
     },
-    /// A number for a parameter of words.
+    /// A parameter with words is compared with a number.
     #[error("`{name}` takes words, which stand in quotes: found `{number}`")]
     NumberForWords {
-        /// The parameter.
+        /// The name of the parameter.
         name: String,
         /// The number.
         number: f64,
     },
-    /// A word for a parameter of numbers.
+    /// A parameter with numbers is compared with a word.
     #[error("`{name}` takes numbers only, which stand without quotes: found `\"{word}\"`")]
     WordForNumbers {
-        /// The parameter.
+        /// The name of the parameter.
         name: String,
         /// The word.
         word: String,
     },
-    /// A word without quotes.
+    /// A word in a comparison has no quotes.
     #[error("found `{word}`, expected a value; words stand in quotes: \"{word}\"")]
     NoQuotes {
         /// The word.
         word: String,
     },
-    /// A constraint that means nothing for these parameters.
+    /// A constraint does not fit the parameters.
     #[error(transparent)]
     Constraint(ConstraintError),
-    /// Parameters that make no space.
+    /// The parameters and constraints do not make a valid space.
     #[error(transparent)]
     Space(SpaceError),
 }
 
-/// Joins alternatives: `a, b or c`.
+/// Joins alternatives in words: `a, b or c`.
 fn either(alternatives: &[String]) -> String {
     match alternatives {
         [] => String::new(),

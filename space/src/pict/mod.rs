@@ -1,4 +1,4 @@
-//! Model files of PICT, the pairwise testing tool, read as spaces.
+//! Reads model files of PICT, the pairwise testing tool, as spaces.
 //!
 //! A model has parameters, then sub-models, then constraints:
 //!
@@ -24,27 +24,29 @@
 //! # Ok::<(), paracosm_space::pict::PictError>(())
 //! ```
 //!
-//! What is read, and as what:
+//! PARACOSM reads the parts of a model as follows:
 //!
-//! - A value that is written as a number becomes a number, any other one a word. A parameter of numbers only is compared
-//!   with numbers, any other one with quoted words, as PICT has it. Levels are told apart by their texts: `1.1` and `1.10`
-//!   are two levels, and keep their texts; as numbers they are equal to constraints.
-//! - Names of parameters, words of the language and words in constraints are compared without regard to case; words keep
-//!   the case in which they are declared. `<` and its kin order words by their lower-case letters.
+//! - A value that is written as a number becomes a number, any other value becomes a word. A parameter whose values
+//!   are all numbers is compared with numbers, any other parameter with quoted words, as in PICT. Levels differ if
+//!   their texts differ: `1.1` and `1.10` are two levels and keep their texts. To constraints they are the same
+//!   number.
+//! - Constraints ignore the case of parameter names, words of the language and values. A word keeps the case in which
+//!   it is declared. `<`, `<=`, `>` and `>=` order words by their lower-case letters.
 //! - `IF .. THEN .. ELSE`, `AND`, `OR`, `NOT`, `IN {..}`, `LIKE` with `*` and `?`, `IsNegative(P)` and `IsPositive(P)`
-//!   (without a name: some parameter, and all of them) become constraints of the space in the language of
-//!   [`constraint`](crate::constraint), where words that differ in case are listed one by one.
-//! - Negative values (`~`) lose their sign. Constraints see to it that no test has two of them, and which they are is part
-//!   of the [`demand`](crate::demand): combinations of other values count only in tests that have none.
-//! - `{A, B, C} @ 3` asks for all combinations of three of these parameters beside what is asked of all. PICT also
-//!   keeps the number of different rows of a sub-model small; this is not done.
-//! - `<P>` stands for the values of a parameter above. Where no parameter is called so or nearly so, it is a value, and a
-//!   note says so. Where a line has no colon, the name ends at the first comma, as in old models.
+//!   become constraints in the language of [`constraint`](crate::constraint). Words that differ only in case are
+//!   listed one by one. Without a name, `IsNegative()` means some parameter and `IsPositive()` means all parameters.
+//! - Negative values (`~`) lose their sign. Constraints ensure that no test has two negative values. The
+//!   [`demand`](crate::demand) lists the negative values: combinations of other values count only in tests without
+//!   negative values.
+//! - `{A, B, C} @ 3` asks for all combinations of any three of these parameters, beside the demand on all parameters.
+//!   PICT also keeps the number of different rows of a sub-model small; PARACOSM does not.
+//! - `<P>` stands for the values of a parameter above. If no parameter has this name or a similar one, `<P>` is a
+//!   value, and a note says so. If a line has no colon, the name ends at the first comma, as in old models.
 //!
-//! Aliases other than the first and weights, which say nothing of what has to be covered, are passed over; a note says
-//! so. Refused are result parameters (`$`), a parameter's own order (`P @ 2: ..`), a
-//! parameter of negative values only, and what is unknown. The separators of values and of aliases and the negative sign are those that PICT
-//! takes unless told otherwise.
+//! Weights, and aliases other than the first, do not change which combinations have to be covered. They are ignored,
+//! and a note says so. These parts are refused: result parameters (`$`), a parameter's own order (`P @ 2: ..`), a
+//! parameter with negative values only, and everything unknown. The separators of values and of aliases and the
+//! negative sign are those that PICT uses by default.
 
 mod flaw;
 mod parameters;
@@ -61,21 +63,21 @@ use std::ops::Range;
 
 pub use flaw::{PictError, PictFlaw, Section};
 
-/// What a model file holds.
+/// The content of a model file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
-    /// The parameters, all of them discrete, and the constraints.
+    /// The space of the parameters, which are all discrete, with the constraints.
     pub space: Space,
-    /// The sub-models, as groups, and the negative values.
+    /// The demand on the tests. It has the sub-models as groups, and the negative values.
     pub demand: Demand,
-    /// The line, from 1, at which a statement of the file begins, and the statement in one line: one for each of the
-    /// space's constraints but the last ones, which are about negative values.
+    /// The statements of the file, each as the line, from 1, at which it begins and its text in one line. The first
+    /// constraints of the space belong to these statements, in order. The other constraints are about negative values.
     pub statements: Vec<(usize, String)>,
-    /// What was read otherwise than its author may expect, for people.
+    /// Notes for people about parts of the file that are read differently from what the author may expect.
     pub notes: Vec<String>,
 }
 
-/// A flaw, and the byte of the text where it stands.
+/// A flaw, and its place in the text as an offset in bytes.
 struct Fault {
     offset: usize,
     flaw: PictFlaw,
@@ -101,7 +103,7 @@ impl Model {
     /// ```
     ///
     /// # Errors
-    /// The text is no model, or one that holds what is refused: the error says where.
+    /// The text is not a model, or has a part that is refused. The error says where.
     pub fn from_pict(text: &str) -> Result<Self, PictError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         read(text).map_err(|Fault { offset, flaw }| {
@@ -111,7 +113,7 @@ impl Model {
     }
 }
 
-/// What a line of a model is.
+/// The kinds of lines of a model.
 #[derive(PartialEq)]
 enum Line {
     Nothing,
@@ -175,7 +177,8 @@ fn read(text: &str) -> Result<Model, Fault> {
     Ok(Model { space, statements: statements.collect(), demand, notes })
 }
 
-/// What a line is, by how it begins. A colon before the first bracket makes it a parameter, whatever it begins with.
+/// Finds the kind of a line by its beginning. A colon before the first bracket makes the line a parameter, unless the
+/// line begins with `#`, `{` or `[`.
 fn kind(line: &str) -> Line {
     let line = line.trim();
     let begins = |word: &str| {
@@ -202,7 +205,7 @@ fn parameter(declared: &Declared) -> Parameter {
     Parameter::new(declared.name.clone(), Domain::Choice(levels))
 }
 
-/// The negative values, as positions of parameters and levels.
+/// Returns the negative values as positions of parameters and levels.
 fn negatives(declared: &[Declared]) -> Vec<(usize, usize)> {
     let of = |(position, parameter): (usize, &Declared)| {
         let levels = parameter.values.iter().enumerate().filter(|(_, listed)| listed.negative);
@@ -211,7 +214,7 @@ fn negatives(declared: &[Declared]) -> Vec<(usize, usize)> {
     declared.iter().enumerate().flat_map(of).collect()
 }
 
-/// That no test has two negative values, said of each parameter and those after it.
+/// Says that no test has two negative values: one expression for each parameter and the parameters after it.
 fn one_negative(declared: &[Declared]) -> Vec<Expression> {
     let negatives: Vec<&Declared> = declared.iter().filter(|parameter| parameter.has_negatives()).collect();
     let others = |i: usize| {

@@ -1,4 +1,4 @@
-//! The lines that declare parameters, and those that group them.
+//! Reads the lines that declare parameters, and the lines that group parameters.
 
 use super::{Fault, PictFlaw, fail, indent};
 use crate::constraint::Relation;
@@ -14,19 +14,19 @@ pub(super) struct Declared {
 /// A value of a parameter.
 #[derive(Clone)]
 pub(super) struct Listed {
-    /// As it is written, without sign, aliases and weight.
+    /// The text of the value, without sign, aliases and weight.
     pub text: String,
     pub value: Value,
     pub negative: bool,
 }
 
 impl Listed {
-    /// Whether a constraint means it by this value: words are compared without regard to case.
+    /// Returns `true` if a constraint means this value by `value`. The case of words is ignored.
     pub fn is(&self, value: &Value) -> bool {
         self.related(Relation::Equal, value)
     }
 
-    /// Whether it is so related to a value in a constraint, a word to a word as it is written in lower case.
+    /// Returns `true` if this value has the relation to a value of a constraint. Words are compared in lower case.
     pub fn related(&self, relation: Relation, value: &Value) -> bool {
         match value.word() {
             Some(word) => relation.holds(&self.text.to_lowercase(), &word.to_lowercase()),
@@ -36,14 +36,14 @@ impl Listed {
 }
 
 impl Declared {
-    /// Whether it takes numbers only, and is compared with numbers.
+    /// Returns `true` if all values are numbers, so that constraints compare the parameter with numbers.
     pub fn numeric(&self) -> bool {
         self.values.iter().all(|listed| listed.value.number().is_some())
     }
 
-    /// What the texts mean, now that all are known: of a parameter of numbers only each is a number as it is written, so
-    /// that constraints see numbers; elsewhere constraints see texts, and what is written otherwise than the number is a
-    /// word.
+    /// Turns the texts into values, after all texts are known. If all of them are numbers, each value is a number that
+    /// keeps its text, so that constraints see numbers. Otherwise constraints see texts, and a number that is written
+    /// in an unusual way becomes a word.
     fn settle(&mut self) {
         let numeric = self.numeric();
         for listed in &mut self.values {
@@ -59,10 +59,10 @@ impl Declared {
     }
 }
 
-/// The parameter of that name, whatever its case.
+/// Finds the parameter of this name, ignoring case.
 ///
 /// # Errors
-/// There is none: [`PictFlaw::Unknown`] has the nearest one.
+/// No parameter has the name: [`PictFlaw::Unknown`] suggests the nearest name.
 pub(super) fn find(declared: &[Declared], name: &str) -> Result<usize, PictFlaw> {
     let lower = name.to_lowercase();
     declared.iter().position(|parameter| parameter.name.to_lowercase() == lower).ok_or_else(|| {
@@ -79,12 +79,12 @@ pub(super) struct Parameters {
     without_colon: Vec<String>,
     weighted: Vec<String>,
     aliased: Vec<String>,
-    /// Names in `<` and `>` that no parameter above has, and where they stand.
+    /// Names in `<` and `>` that no parameter above has, with their places.
     unknown: Vec<(String, usize)>,
 }
 
 impl Parameters {
-    /// Reads the line of a parameter that begins at this offset, without its end.
+    /// Reads the line of a parameter, which begins at this offset. `line` has no line end.
     pub fn read(&mut self, line: &str, offset: usize) -> Result<(), Fault> {
         let comma = line.split_once(',').filter(|(name, _)| !name.contains(['[', '{']));
         let Some((head, list)) = line.split_once(':').or(comma) else {
@@ -129,7 +129,7 @@ impl Parameters {
         Ok(())
     }
 
-    /// The value between two commas, or the values of the parameter to which it refers.
+    /// Returns the value between two commas, or the values of the parameter that it refers to.
     fn piece(&mut self, piece: &str, at: usize) -> Vec<Listed> {
         let mut text = piece.trim();
         if let Some(other) = text.strip_prefix('<').and_then(|text| text.strip_suffix('>')) {
@@ -170,15 +170,15 @@ impl Parameters {
         Ok(())
     }
 
-    /// The parameters, and what is to be said of them all.
+    /// Returns the parameters and all notes.
     ///
     /// # Errors
-    /// What refers to a parameter stands before it, or names it nearly.
+    /// A reference stands above the parameter that it names, or its name is similar to the name of a parameter.
     pub fn finish(mut self, text: &str) -> Result<(Vec<Declared>, Vec<String>), Fault> {
         for (name, at) in std::mem::take(&mut self.unknown) {
             match find(&self.declared, &name) {
                 Ok(_) => return fail(at, PictFlaw::BeforeItsParameter { name }),
-                // PICT reads it so, and `<none>` may well be a value.
+                // PICT reads the text as a value, too. `<none>` may well be one.
                 Err(unknown @ PictFlaw::Unknown { nearest: None, .. }) => {
                     let Position { line, column } = Position::of(text, at);
                     let note = format!("line {line}, column {column}: {unknown}, so `<{name}>` is read as a value");
@@ -200,14 +200,16 @@ impl Parameters {
     }
 }
 
-/// The value before a weight, a positive number in parentheses at the end; `None` where there is no weight.
+/// Returns the value before a weight, which is a number of at least 1 in parentheses at the end. `None` if there is no
+/// weight.
 fn without_weight(text: &str) -> Option<&str> {
     let (value, weight) = text.strip_suffix(')')?.rsplit_once('(')?;
     let weight: f64 = weight.trim().parse().ok()?;
     (weight >= 1.0).then_some(value.trim_end())
 }
 
-/// Reads a line like `{A, B, C} @ 3`: positions of parameters in ascending order, and the order where there is one.
+/// Reads a line like `{A, B, C} @ 3`. Returns the positions of the parameters in ascending order, and the order if
+/// there is one.
 pub(super) fn sub_model(
     line: &str,
     offset: usize,

@@ -1,4 +1,4 @@
-//! The constraints of a model: `IF .. THEN .. ELSE ..;` and what holds without a condition.
+//! Reads the constraints of a model: `IF .. THEN .. ELSE ..;` and statements without a condition.
 
 use super::parameters::{Declared, find};
 use super::terms;
@@ -10,10 +10,10 @@ use crate::{Position, Value};
 use std::fmt;
 use std::ops::Range;
 
-/// How deep parentheses and `NOT` may be nested.
+/// The greatest depth to which parentheses and `NOT` may be nested.
 const DEEPEST: usize = 48;
 
-/// The words with which a constraint begins.
+/// The words that begin a constraint.
 pub(super) const OPENING: [&str; 4] = ["IF", "NOT", "IsNegative", "IsPositive"];
 
 const RELATIONS: [(&str, Relation); 6] = [
@@ -25,13 +25,13 @@ const RELATIONS: [(&str, Relation); 6] = [
     (">=", Relation::GreaterOrEqual),
 ];
 
-/// A constraint and where it stands in the file.
+/// A constraint, and its place in the file.
 pub(super) struct Statement {
     pub(super) span: Range<usize>,
     pub(super) expression: Expression,
 }
 
-/// What may stand at a place: a word or a sign of the language, or something else.
+/// A token that may stand at a place: a certain word or sign of the language, or another token in words.
 enum Wanted {
     Exactly(&'static str),
     A(&'static str),
@@ -47,7 +47,7 @@ impl fmt::Display for Wanted {
     }
 }
 
-/// Reads the constraints that stand from `start` on.
+/// Reads the constraints of the text from `start` on.
 pub(super) fn read(
     text: &str,
     start: usize,
@@ -83,7 +83,7 @@ impl<'a> Reader<'a> {
         self.tokens[self.next].1
     }
 
-    /// The next token and its offset; the end stays where it is.
+    /// Returns the next token with its offset and moves on. The reader never moves behind [`Token::End`].
     fn take(&mut self) -> (Token, usize) {
         let taken = self.tokens[self.next].clone();
         self.next = (self.next + 1).min(self.tokens.len() - 1);
@@ -106,7 +106,7 @@ impl<'a> Reader<'a> {
         there
     }
 
-    /// The error that something else was expected.
+    /// Returns the error that another token was expected.
     fn expected<T>(&self, wanted: &[Wanted]) -> Result<T, Fault> {
         let words = wanted.iter().filter_map(|wanted| match wanted {
             Exactly(word) => Some(*word),
@@ -145,7 +145,7 @@ impl<'a> Reader<'a> {
         if self.takes_sign(";") { Ok(statement) } else { self.expected(&[Exactly("AND"), Exactly("OR"), Exactly(";")]) }
     }
 
-    /// Sees to it that no parameter and no sub-model stands where a constraint should begin.
+    /// Checks that no parameter and no sub-model stands where a constraint should begin.
     fn check_section(&self) -> Result<(), Fault> {
         let line = self.text[self.offset()..].lines().next().unwrap_or_default();
         let found = match self.peek() {
@@ -229,13 +229,13 @@ impl<'a> Reader<'a> {
         Ok(if denied { Expression::Not(Box::new(term)) } else { term })
     }
 
-    /// The parameter of that name, which stands at the next token.
+    /// Finds the parameter of this name. The name is the next token.
     fn parameter(&self, name: &str) -> Result<&'a Declared, Fault> {
         let declared = self.declared;
         find(declared, name).map(|i| &declared[i]).or_else(|flaw| fail(self.offset(), flaw))
     }
 
-    /// What follows `IsNegative` or `IsPositive`.
+    /// Reads the arguments of `IsNegative` or `IsPositive`.
     fn sign(&mut self, negative: bool) -> Result<Expression, Fault> {
         if !self.takes_sign("(") {
             return self.expected(&[Exactly("(")]);
@@ -249,7 +249,7 @@ impl<'a> Reader<'a> {
         }
         let (from, to) = (self.tokens[start].1, self.offset());
         self.take();
-        // The name stands there with or without brackets.
+        // The name may stand in brackets.
         let name = self.text[from..to].trim();
         let name = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')).unwrap_or(name);
         if !name.is_empty() {
@@ -259,7 +259,7 @@ impl<'a> Reader<'a> {
         let with_negatives = self.declared.iter().filter(|parameter| parameter.has_negatives());
         let mut each: Vec<_> = with_negatives.map(|parameter| terms::of_sign(parameter, negative)).collect();
         Ok(match each.len() {
-            // All tests are positive, which any parameter tells.
+            // No parameter has negative values. All tests are positive, so any parameter gives the right expression.
             0 => terms::of_sign(&self.declared[0], negative),
             1 => each.remove(0),
             _ if negative => Expression::Or(each),
@@ -292,7 +292,7 @@ impl<'a> Reader<'a> {
         Ok(terms::with_value(parameter, relation, value))
     }
 
-    /// A number or a word, whichever the parameter takes, and its offset.
+    /// Reads a number or a word, as the parameter's values require, and returns its offset too.
     fn value(&mut self, parameter: &Declared) -> Result<(Value, usize), Fault> {
         let (name, at) = (parameter.name.clone(), self.offset());
         let flaw = match self.peek().clone() {
@@ -332,7 +332,7 @@ impl<'a> Reader<'a> {
         Ok(terms::among(parameter, &listed))
     }
 
-    /// Notes a value that the parameter never takes.
+    /// Adds a note if the parameter never takes the value.
     fn note_unknown(&mut self, parameter: &Declared, value: &Value, at: usize) {
         if parameter.values.iter().any(|listed| listed.is(value)) {
             return;

@@ -1,26 +1,26 @@
-//! The comparisons of a model as expressions of the constraint language.
+//! Converts the comparisons of a model into expressions of the constraint language.
 //!
-//! PICT compares words without regard to case and orders them, the constraint language does neither. A comparison with
-//! a value therefore says which levels it holds at; one between parameters says so level by level, where the constraint
-//! language would see it otherwise.
+//! PICT ignores the case of words and orders them; the constraint language does neither. So a comparison with a value
+//! becomes the list of the levels at which it holds. A comparison between two parameters is written level by level if
+//! the constraint language would give it another meaning.
 
 use super::parameters::Declared;
 use crate::Value;
 use crate::constraint::{Expression, Operand, Relation};
 
-/// That the parameter takes a negative value, or one that is not.
+/// Says that the parameter takes a negative value, or that it takes a value that is not negative.
 pub(super) fn of_sign(parameter: &Declared, negative: bool) -> Expression {
     membership(parameter, parameter.values.iter().map(|listed| listed.negative == negative).collect())
 }
 
-/// That the word of the parameter is like the pattern, in which `*` stands for any signs and `?` for one.
+/// Says that the word of the parameter matches the pattern. `*` stands for any characters and `?` for one character.
 pub(super) fn like(parameter: &Declared, pattern: &str) -> Expression {
     let pattern = lower(pattern);
     let matching = parameter.values.iter().map(|listed| matches(&pattern, &lower(&listed.text)));
     membership(parameter, matching.collect())
 }
 
-/// That the parameter is so related to a value of its kind.
+/// Says that the parameter has this relation to a value. Both are numbers or both are words.
 pub(super) fn with_value(parameter: &Declared, relation: Relation, value: Value) -> Expression {
     if relation.orders() && value.number().is_some() {
         return Expression::Compare { parameter: parameter.name.clone(), relation, with: Operand::Value(value) };
@@ -28,13 +28,13 @@ pub(super) fn with_value(parameter: &Declared, relation: Relation, value: Value)
     membership(parameter, parameter.values.iter().map(|listed| listed.related(relation, &value)).collect())
 }
 
-/// That the parameter takes one of the values.
+/// Says that the parameter takes one of the values.
 pub(super) fn among(parameter: &Declared, values: &[Value]) -> Expression {
     let listed = parameter.values.iter().map(|listed| values.iter().any(|value| listed.is(value)));
     membership(parameter, listed.collect())
 }
 
-/// That two parameters of the same kind, numbers or words, are so related.
+/// Says that two parameters have this relation. Both have numbers or both have words.
 pub(super) fn with_parameter(left: &Declared, relation: Relation, right: &Declared) -> Expression {
     let as_written =
         || Expression::Compare { parameter: left.name.clone(), relation, with: Operand::Parameter(right.name.clone()) };
@@ -51,7 +51,7 @@ pub(super) fn with_parameter(left: &Declared, relation: Relation, right: &Declar
     if common && !relation.orders() && pairs().all(|(i, j)| related(i, j) == literal(i, j)) {
         return as_written();
     }
-    // Levels of the left parameter that go with the same levels of the right one.
+    // Group the levels of the left parameter that go with the same levels of the right parameter.
     let mut groups: Vec<(Vec<bool>, Vec<bool>)> = Vec::new();
     for i in 0..keys.len() {
         let partners: Vec<bool> = (0..partners.len()).map(|j| related(i, j)).collect();
@@ -72,13 +72,13 @@ pub(super) fn with_parameter(left: &Declared, relation: Relation, right: &Declar
     }
 }
 
-/// That the parameter is at one of the marked levels, in as few words as that takes.
+/// Says that the parameter has one of the marked levels, as shortly as possible.
 fn membership(parameter: &Declared, marked: Vec<bool>) -> Expression {
     let those = |mark: bool| {
         let levels = parameter.values.iter().zip(&marked).filter(|(_, marked)| **marked == mark);
         let mut values: Vec<Value> = Vec::new();
         for (listed, _) in levels {
-            // Constraints see what is the same number as one value.
+            // Constraints treat equal numbers as one value.
             if !values.iter().any(|value| value.means(&listed.value)) {
                 values.push(listed.value.clone());
             }
@@ -104,8 +104,8 @@ fn lower(text: &str) -> Vec<char> {
     text.to_lowercase().chars().collect()
 }
 
-/// Whether all of the text matches the pattern. A star takes as little as it can; where the rest fails, the last one
-/// takes one sign more.
+/// Returns `true` if the whole text matches the pattern. A star takes as few characters as possible. If the rest does
+/// not match, the last star takes one character more.
 fn matches(pattern: &[char], text: &[char]) -> bool {
     let (mut p, mut t) = (0, 0);
     let mut star = None;

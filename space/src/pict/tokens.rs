@@ -1,4 +1,4 @@
-//! The signs of which the constraints of a model are made.
+//! Divides the constraints of a model into tokens.
 
 use super::PictFlaw;
 use crate::constraint::enclosed;
@@ -6,7 +6,7 @@ use std::fmt;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Token {
-    /// Letters, as of `IF`.
+    /// A word of letters, such as `IF`.
     Word(String),
     /// A name in brackets.
     Name(String),
@@ -14,13 +14,14 @@ pub(super) enum Token {
     Text(String),
     Number(f64),
     Sign(&'static str),
-    /// What is no sign of the language, and why: found where the reader gets there, after what is wrong before it.
+    /// A text that is not a token, and the reason. The reader reports it only when it gets there, after errors before
+    /// it.
     Broken(PictFlaw),
     End,
 }
 
 impl Token {
-    /// Whether it is this word of the language, in whatever case.
+    /// Returns `true` if the token is this word of the language, in any case.
     pub fn is(&self, word: &str) -> bool {
         matches!(self, Token::Word(found) if found.eq_ignore_ascii_case(word))
     }
@@ -40,15 +41,15 @@ impl fmt::Display for Token {
     }
 }
 
-/// The longer ones first.
+/// The signs of the language. Longer signs come first.
 const SIGNS: [&str; 12] = ["<>", "<=", ">=", "=", "<", ">", "(", ")", "{", "}", ",", ";"];
 
-/// What other languages write, and what this one writes for it.
+/// Signs of other languages, with the signs of this language for them.
 const FOREIGN: [(&str, &str); 6] =
     [("==", "`=`"), ("!=", "`<>`"), ("&&", "`AND`"), ("||", "`OR`"), ("'", "`\"`"), ("!", "`NOT`")];
 
-/// The tokens of the text from `start` on with their offsets, up to the first that is broken; the last one is
-/// [`Token::End`]. Lines that begin with `#` are passed over.
+/// Returns the tokens of the text from `start` on with their offsets, up to the first that is broken. The last token
+/// is [`Token::End`]. Lines that begin with `#` are ignored.
 pub(super) fn tokens(text: &str, start: usize) -> Vec<(Token, usize)> {
     let mut found = Vec::new();
     let mut offset = start;
@@ -72,7 +73,7 @@ pub(super) fn tokens(text: &str, start: usize) -> Vec<(Token, usize)> {
     }
 }
 
-/// The token at the start of the text, and its length.
+/// Returns the token at the start of the text, and its length.
 fn token(rest: &str) -> (Token, usize) {
     let Some(sign) = rest.chars().next() else { return (Token::End, 0) };
     let broken = |flaw: PictFlaw| (Token::Broken(flaw), 0);
@@ -106,7 +107,7 @@ fn token(rest: &str) -> (Token, usize) {
     }
 }
 
-/// The number at the start of the text, as it is written and, if it is one, finite, as a number.
+/// Returns the text of the number at the start, and its value if it is a finite number.
 fn number(text: &str) -> (&str, Option<f64>) {
     let mut last = ' ';
     let ends = |sign: char| {

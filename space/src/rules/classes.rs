@@ -1,30 +1,30 @@
-//! Classes of levels, and clauses over classes.
+//! Classes of levels, and clauses over classes. They keep diagrams and searches small.
 //!
-//! Levels that no literal tells apart are taken together as a *class*: a parameter of a thousand levels of which a
-//! constraint singles out one is, to the constraints, a parameter of two.
+//! A *class* is a set of levels that no literal tells apart. If a parameter has a thousand levels and a constraint
+//! names one of them, the parameter has only two classes.
 
 use super::clause::Clause;
 
-/// A literal over classes.
+/// A literal over classes instead of levels.
 #[derive(Debug, Clone)]
 pub(super) struct ClassLiteral {
     pub(super) parameter: usize,
-    /// Whether it holds, for each class.
+    /// For each class, `true` if the literal holds.
     pub(super) holds: Vec<bool>,
 }
 
-/// A clause over classes.
+/// A clause over classes instead of levels.
 #[derive(Debug, Clone)]
 pub(super) struct ClassClause {
     pub(super) literals: Vec<ClassLiteral>,
 }
 
-/// Parameters with their classes of levels, and clauses that can be violated.
+/// Parameters with their classes of levels, and the clauses that can be violated.
 #[derive(Debug)]
 pub(super) struct Classes {
     /// The class of each level of each parameter.
     pub(super) class_of: Vec<Vec<usize>>,
-    /// How many levels are in each class of each parameter.
+    /// The number of levels in each class of each parameter.
     pub(super) sizes: Vec<Vec<usize>>,
     pub(super) clauses: Vec<ClassClause>,
 }
@@ -35,7 +35,8 @@ impl Classes {
         let mut sizes: Vec<Vec<usize>> = levels.iter().map(|&levels| vec![levels]).collect();
         for literal in clauses.clone().flat_map(|clause| &clause.literals) {
             let (classes, sizes) = (&mut class_of[literal.parameter], &mut sizes[literal.parameter]);
-            // Every class is split into what the literal has of it and the rest, unless one of both is empty.
+            // Split every class into the levels with the literal and the other levels, unless one of the parts is
+            // empty.
             let mut inside = vec![0; sizes.len()];
             for &level in &literal.levels {
                 inside[classes[level]] += 1;
@@ -60,7 +61,7 @@ impl Classes {
         model
     }
 
-    /// Those of the clauses that can be violated, over classes.
+    /// Returns the clauses that can be violated, over classes.
     pub(super) fn over_classes<'a>(&self, clauses: impl IntoIterator<Item = &'a Clause>) -> Vec<ClassClause> {
         let over_classes = |clause: &Clause| {
             let literals = clause.literals.iter().map(|literal| {
@@ -77,14 +78,15 @@ impl Classes {
         clauses.into_iter().filter_map(over_classes).collect()
     }
 
-    /// The sizes of the classes of parameters that clauses join, and these clauses.
+    /// Returns the sizes of the members' classes, and the clauses that join the members.
     pub(super) fn of(&self, members: &[usize]) -> (Vec<Vec<usize>>, Vec<ClassClause>) {
         let inside = |literal: &ClassLiteral| members.binary_search(&literal.parameter).is_ok();
         let clauses = self.clauses.iter().filter(|clause| clause.literals.first().is_some_and(inside));
         (members.iter().map(|&member| self.sizes[member].clone()).collect(), clauses.cloned().collect())
     }
 
-    /// The sets of parameters that clauses join, each in ascending order, by their first parameters.
+    /// Returns the sets of parameters that clauses join. Each set is in ascending order, and the sets are ordered by
+    /// their first parameters.
     pub(super) fn groups(&self) -> Vec<Vec<usize>> {
         let parameters = self.class_of.len();
         let mut label: Vec<Option<usize>> = vec![None; parameters];
@@ -112,7 +114,7 @@ impl Classes {
     }
 }
 
-/// Numbers classes in the order of their first levels, so that what is near by level is near by class.
+/// Numbers classes in the order of their first levels, so that neighbouring levels have neighbouring classes.
 fn number_by_first_levels(class_of: &mut [usize], sizes: &mut [usize]) {
     let mut number = vec![None; sizes.len()];
     let mut numbered = Vec::with_capacity(sizes.len());

@@ -1,17 +1,17 @@
-//! The form in which constraints are reasoned about: conjunctions of clauses over levels.
+//! Clauses: the form of constraints that the rules work with. A constraint is a conjunction of clauses over levels.
 
-/// A parameter being at one of some levels.
+/// The statement that a parameter has one of some levels.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Literal {
-    /// The position of the parameter among the discrete ones.
+    /// The position of the parameter among the discrete coordinates of the space.
     pub parameter: usize,
     /// The levels at which the literal holds, in ascending order, each once.
     pub levels: Vec<usize>,
 }
 
-/// A disjunction: a test keeps the clause if some of its literals hold. The empty clause is never kept.
+/// A disjunction of literals. A test keeps the clause if at least one literal holds. No test keeps the empty clause.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Clause {
-    /// At most one literal for each parameter.
+    /// The literals of the clause, at most one for each parameter.
     pub literals: Vec<Literal>,
 }

@@ -1,21 +1,21 @@
-//! All levels that go with some fixed ones, as bits.
+//! Finds all levels that are valid together with fixed levels, as sets of bits.
 //!
-//! The levels of all parameters stand side by side, a bit each. Fixing a level excludes only bits of the
-//! parameters in its own group; what a group's fixed levels leave of the group is remembered, since combinations
-//! of k levels share most of what they fix.
+//! Each level of each parameter has a bit. A fixed level excludes only bits of parameters in its own group. The bits
+//! that remain of a group are stored for each set of fixed levels, since combinations of k levels have most of their
+//! levels in common.
 
 use super::Rules;
 use std::collections::HashMap;
 
-/// The bits that the levels fixed in a group leave of it; none if they exclude each other.
+/// The bits of a group that remain with some fixed levels, or `None` if the fixed levels exclude each other.
 type Left = Option<Box<[u64]>>;
 
-/// Finds the levels that are valid together with fixed ones.
+/// A search for the levels that are valid together with fixed levels. It stores its results.
 #[derive(Debug)]
 pub struct Companions<'r> {
     rules: &'r Rules,
     first: Vec<usize>,
-    /// The bits of levels that are valid on their own.
+    /// The bits of the levels that are valid on their own.
     alone: Vec<u64>,
     /// The bits of each group.
     groups: Vec<Vec<u64>>,
@@ -24,10 +24,11 @@ pub struct Companions<'r> {
 }
 
 impl<'r> Companions<'r> {
-    /// With the levels of the parameters in the given order, the first parameter's in the lowest bits.
+    /// Prepares the search. The bits follow the parameters in the given order: the first parameter has the lowest
+    /// bits.
     ///
     /// # Panics
-    /// `order` is no permutation of the parameters.
+    /// `order` is not a permutation of the parameters.
     pub fn new(rules: &'r Rules, order: &[usize]) -> Self {
         let levels = rules.levels();
         let mut first = vec![usize::MAX; levels.len()];
@@ -56,12 +57,12 @@ impl<'r> Companions<'r> {
         companions
     }
 
-    /// The bit of a parameter's first level.
+    /// Returns the bit of a parameter's first level.
     pub fn first(&self, parameter: usize) -> usize {
         self.first[parameter]
     }
 
-    /// The number of words that hold a bit for every level.
+    /// Returns the number of 64-bit words that hold a bit for every level.
     pub fn words(&self) -> usize {
         self.alone.len()
     }
@@ -77,11 +78,11 @@ impl<'r> Companions<'r> {
         supported[0].contains(&true).then(|| bits.into())
     }
 
-    /// The bits of the levels that are valid together with the (parameter, level) pairs; none if these are not
-    /// valid themselves. The bits of fixed parameters mean nothing.
+    /// Returns the bits of the levels that are valid together with the (parameter, level) pairs, or `None` if the
+    /// pairs are not valid themselves. The bits of fixed parameters have no meaning.
     ///
     /// # Panics
-    /// There is no such parameter or level, or a parameter is fixed twice.
+    /// A parameter or a level does not exist, or a parameter is fixed twice.
     pub fn with(&mut self, fixed: &[(usize, usize)]) -> Option<&[u64]> {
         if fixed.iter().all(|&(parameter, _)| self.rules.group_of(parameter).is_none()) {
             return Some(&self.alone);

@@ -1,10 +1,10 @@
-//! Which constraints cannot hold together.
+//! Finds a smallest set of constraints that no test keeps together.
 //!
-//! A conflict of the smallest size meets every set of constraints whose removal ends all conflicts. So the
-//! smallest set that meets those known so far is taken; either it is a conflict, then no conflict is smaller, or
-//! it can be kept, and what remains after adding all constraints that can be kept with it is one more set to
-//! meet (Ignatiev, Previti, Liffiton, Marques-Silva, *Smallest MUS extraction with minimal hitting set
-//! dualization*, CP 2015).
+//! A correction set is a set of constraints whose removal ends all conflicts. Every conflict has a member of every
+//! correction set. So the search takes a smallest set with a member of each correction set that it knows. If no test
+//! keeps this set, it is a smallest conflict. Otherwise all constraints that can be kept with it are added to the set.
+//! The remaining constraints are one more correction set (Ignatiev, Previti, Liffiton, Marques-Silva, *Smallest MUS
+//! extraction with minimal hitting set dualization*, CP 2015).
 
 use super::classes::{ClassClause, Classes};
 use super::clause::Clause;
@@ -12,36 +12,37 @@ use super::diagram::Diagram;
 use super::encoding::{Encoding, PATIENCE, Undecided};
 use thiserror::Error;
 
-/// How many rounds and how many steps of choosing are taken for the smallest conflict.
+/// The greatest numbers of rounds, and of steps of choosing sets, in the search for the smallest conflict.
 const ROUNDS: usize = 200;
 const STEPS: usize = 100_000;
 
-/// How many steps the solver takes before diagrams have a try, and for how many of its steps these count.
+/// The number of steps that the solver takes before a diagram is tried, and the number of steps that a diagram counts
+/// as.
 const BRIEF: u64 = 1 << 14;
 const DIAGRAM: u64 = 1 << 16;
 
-/// Constraints that no test keeps together.
+/// A set of constraints that no test keeps together.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("no test keeps the constraints {constraints:?} together{}", if *.smallest { "" } else { Self::CAVEAT })]
 pub struct Conflict {
-    /// The constraints' positions, in ascending order.
+    /// The positions of the constraints, in ascending order.
     pub constraints: Vec<usize>,
-    /// Whether no conflict has fewer constraints. Where finding that out takes too long there may be one, even
-    /// among these.
+    /// `true` if no conflict has fewer constraints. If proving this takes too long, it is `false`. Then a smaller
+    /// conflict may exist, even within this one.
     pub smallest: bool,
 }
 
-/// Constraints and what is known of which can be kept together.
+/// Constraints, and a search for tests that keep some of them.
 struct Subsets<'a> {
     levels: &'a [usize],
     constraints: &'a [Vec<Clause>],
     encoding: Encoding,
-    /// The steps that the solver may still take.
+    /// The number of steps that the solver may still take.
     steps: u64,
 }
 
 impl Subsets<'_> {
-    /// Classes with which these constraints are kept, if there are any and the solver found them.
+    /// Returns classes with which these constraints are kept, or `None` if they cannot be kept together.
     fn solution(&mut self, set: &[usize]) -> Result<Option<Vec<usize>>, Undecided> {
         if set.len() == self.constraints.len() {
             return Ok(None);
@@ -56,7 +57,7 @@ impl Subsets<'_> {
         }
     }
 
-    /// Whether the diagram of a group of parameters shows that these constraints cannot be kept.
+    /// Returns `true` if the diagram of a group of parameters shows that no test keeps these constraints.
     fn diagrams_exclude(&mut self, set: &[usize]) -> bool {
         if self.steps < DIAGRAM {
             return false;
@@ -71,10 +72,11 @@ impl Subsets<'_> {
 }
 
 impl Conflict {
-    /// What is said of a conflict that is perhaps not the smallest.
+    /// The part of a message that says that a conflict is perhaps not the smallest.
     pub(crate) const CAVEAT: &str = " (a conflicting set, perhaps not the smallest)";
 
-    /// A smallest conflict among constraints that have one, or one that is as small as could be found.
+    /// Returns a smallest conflict among constraints that are in conflict, or the smallest that the search found in
+    /// time.
     pub(super) fn smallest(levels: &[usize], constraints: &[Vec<Clause>]) -> Self {
         let whole = Classes::new(levels, constraints.iter().flatten());
         let mut encoding = Encoding::new(whole.sizes.iter().map(Vec::len), constraints.len());
@@ -106,7 +108,7 @@ impl Conflict {
                 }
                 set.push(constraint);
                 if !keeps(&solved) {
-                    // A conflict meets the rest of any set that can be kept, if not all was found that can.
+                    // Every conflict has a member of the rest, even if the set lacks constraints that could be kept.
                     match subsets.solution(&set) {
                         Ok(Some(other)) => solved = other,
                         Ok(None) | Err(Undecided) => rest.extend(set.pop()),
@@ -127,9 +129,9 @@ impl Conflict {
     }
 }
 
-/// A smallest set that has a member of each of the given sets; none if that takes too long.
+/// Returns a smallest set that has a member of each of the given sets, or `None` if that takes too long.
 fn smallest_meeting(sets: &[Vec<usize>], steps: &mut usize) -> Option<Vec<usize>> {
-    /// Whether `chosen` can be completed with at most `more` members; none after too many steps.
+    /// Returns `true` if `chosen` can be completed with at most `more` members, or `None` after too many steps.
     fn complete(sets: &[Vec<usize>], chosen: &mut Vec<usize>, more: usize, steps: &mut usize) -> Option<bool> {
         *steps = steps.checked_sub(1)?;
         let unmet = sets.iter().filter(|set| !set.iter().any(|member| chosen.contains(member)));

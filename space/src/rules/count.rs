@@ -1,30 +1,30 @@
-//! How many combinations of levels are valid, without listing them.
+//! Counts the valid combinations of levels without listing them.
 //!
 //! Groups do not restrict each other. So the numbers of valid combinations are the coefficients of a product of
-//! polynomials, one for each group and free parameter; and where the sum is replaced by the maximum the same
-//! product finds the parameters with the most valid combinations.
+//! polynomials, one for each group and each free parameter. If the sum is replaced by the maximum, the same product
+//! gives the largest number of valid combinations of any k parameters.
 
 use super::Rules;
 use super::group::Group;
 
-/// How many valid combinations of levels of k parameters there are; what exceeds `u128` saturates.
+/// The number of valid combinations of levels of k parameters. Numbers beyond `u128` become `u128::MAX`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TupleCount {
-    /// Over all choices of k parameters together.
+    /// The number of combinations of all choices of k parameters together.
     pub valid: u128,
-    /// Over that choice of k parameters that has the most. No test has two of them: so many tests are needed to
-    /// cover all.
+    /// The number of combinations of the k parameters that have the most. A test has only one of these combinations,
+    /// so at least this many tests are needed to cover all.
     pub largest: u128,
 }
 
-/// Counts by the number of parameters, from none.
+/// Counts for each number of parameters, from 0.
 type Counts = Vec<TupleCount>;
 
 impl Rules {
-    /// How many valid combinations of levels `k` of these parameters have.
+    /// Counts the valid combinations of levels of any `k` of these parameters.
     ///
     /// # Panics
-    /// There is no such parameter.
+    /// A parameter does not exist.
     pub fn count(&self, parameters: &[usize], k: usize) -> TupleCount {
         let nothing = TupleCount { valid: 0, largest: 0 };
         let mut counts: Counts = vec![nothing; k + 1];
@@ -42,7 +42,7 @@ impl Rules {
         counts[k]
     }
 
-    /// How many tests keep all constraints; none where a group of parameters is too entangled to be counted.
+    /// Counts the tests that keep all constraints. `None` if a group of parameters is too entangled to be counted.
     pub fn tests(&self) -> Option<f64> {
         let free = (0..self.levels.len()).filter(|&parameter| self.group_of(parameter).is_none());
         let free: f64 = free.map(|parameter| self.levels[parameter] as f64).product();
@@ -66,7 +66,7 @@ fn multiply(counts: &mut Counts, factor: &[TupleCount]) {
     }
 }
 
-/// The counts of up to `k` of some members of a group.
+/// Counts the valid combinations of up to `k` of these members of a group.
 fn group_counts(group: &Group, places: &[usize], k: usize) -> Counts {
     let mut places = places.to_vec();
     places.sort_unstable();
@@ -78,7 +78,7 @@ fn group_counts(group: &Group, places: &[usize], k: usize) -> Counts {
     counts
 }
 
-/// Goes through the sets of fewer than `k` places; each one's combinations say how many there are with one more.
+/// Visits the sets of fewer than `k` places. For each set, counts the valid combinations with one more place.
 fn count_heads(
     group: &Group,
     places: &[usize],

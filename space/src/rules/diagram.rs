@@ -1,9 +1,10 @@
-//! Decision diagrams of groups of parameters: every path from the root is a way to keep the clauses.
+//! Decision diagrams of groups of parameters. Every path from the root to the end is a way to keep the clauses.
 //!
-//! A node halves a segment of a member's classes, so that classes with the same child share a branch and so do
-//! nodes that differ in few classes: a comparison of two members of n classes has some n log n nodes, where a
-//! table has n squared entries. Nodes with the same children are one, and what does not matter is not asked
-//! (Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE Transactions on Computers 35, 1986).
+//! A node divides a segment of a member's classes into two halves. So classes with the same child share a branch, and
+//! nodes that differ in few classes share most of their children: a comparison of two members with n classes has about
+//! n log n nodes, while a table has n squared entries. Nodes with the same children are merged, and choices without
+//! influence are left out (Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE Transactions on
+//! Computers 35, 1986).
 
 mod chain;
 mod compile;
@@ -14,13 +15,13 @@ use super::classes::ClassClause;
 use compile::Node;
 use std::ops::Range;
 
-/// No child.
+/// The mark of a missing child: nothing in this half keeps the clauses.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Consecutive classes of a member; a node decides in which half the class is.
+/// A range of classes of a member. A node decides in which half of the range the class is.
 #[derive(Debug)]
 pub(super) struct Segment {
-    /// Where the member stands in the order of the diagram.
+    /// The position of the member in the order of the diagram.
     pub(super) turn: usize,
     pub(super) begin: usize,
     pub(super) middle: usize,
@@ -30,18 +31,17 @@ pub(super) struct Segment {
 /// A reduced decision diagram.
 #[derive(Debug)]
 pub(super) struct Diagram {
-    /// The members in the order in which they are decided, and how many classes each has.
+    /// The members in the order in which they are decided, and the number of classes of each.
     order: Vec<usize>,
     classes: Vec<usize>,
-    /// The segments in the order in which they are decided, and one after the last member.
+    /// The segments in the order in which they are decided, and a last segment behind the last member.
     segments: Vec<Segment>,
-    /// The nodes in the order of their segments: the root is the first, the end the last. None
-    /// where nothing keeps the clauses.
+    /// The nodes in the order of their segments, from the root to the end. Empty if nothing keeps the clauses.
     nodes: Vec<Node>,
 }
 
 impl Diagram {
-    /// Compiles the clauses among members with so many classes; none if the diagram is too large.
+    /// Compiles the clauses among members with these classes, or returns `None` if the diagram is too large.
     pub(super) fn new(members: &[usize], sizes: &[Vec<usize>], clauses: &[ClassClause]) -> Option<Self> {
         let place = |parameter: usize| members.binary_search(&parameter).expect("clauses are among the members");
         let places: Vec<Vec<usize>> =
@@ -61,7 +61,7 @@ impl Diagram {
         Some(Self { order, classes, segments, nodes })
     }
 
-    /// Whether there is no path at all.
+    /// Returns `true` if there is no path.
     pub(super) fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
@@ -70,7 +70,8 @@ impl Diagram {
         &self.segments[self.nodes[node].segment as usize]
     }
 
-    /// Calls with the children of a node and the classes that lead there, of those halves that have the fixed class.
+    /// Calls `call` with each child of a node and the classes that lead to the child. Skips a half without the fixed
+    /// class.
     #[inline(always)]
     fn each_branch(&self, node: usize, fixed: &[Option<usize>], mut call: impl FnMut(usize, Range<usize>)) {
         let (Node { low, high, .. }, segment) = (self.nodes[node], self.segment(node));
@@ -83,7 +84,7 @@ impl Diagram {
         }
     }
 
-    /// Whether a path has these classes, one for each member.
+    /// Returns `true` if a path has these classes, one for each member.
     pub(super) fn has(&self, class: impl Fn(usize) -> usize) -> bool {
         let mut node = 0;
         while node + 1 < self.nodes.len() {
@@ -98,7 +99,7 @@ impl Diagram {
         true
     }
 
-    /// Whether a path has the fixed classes.
+    /// Returns `true` if a path has the fixed classes.
     pub(super) fn holds(&self, fixed: &[Option<usize>]) -> bool {
         let end = self.nodes.len() - 1;
         let mut seen = Bits::new(self.nodes.len());
@@ -116,10 +117,10 @@ impl Diagram {
         false
     }
 
-    /// For each member and class, whether a path has it with the fixed ones.
+    /// Returns, for each member and class, `true` if a path has this class and the fixed classes.
     pub(super) fn supported(&self, fixed: &[Option<usize>]) -> Vec<Vec<bool>> {
         let end = self.nodes.len() - 1;
-        // The nodes that paths reach; then, from the end up, those of them that lead to the end.
+        // First the nodes that paths reach; then, from the end upwards, only the nodes that lead to the end.
         let mut leads = Bits::new(self.nodes.len());
         leads.insert(0);
         let mut reached = Vec::new();
@@ -133,7 +134,7 @@ impl Diagram {
         for (&place, &classes) in self.order.iter().zip(&self.classes) {
             supported[place] = vec![false; classes];
         }
-        // Where the runs of members begin and end that some path does not ask.
+        // A path may skip members. The changes in the number of paths that skip a member, from each turn to the next.
         let mut unasked = vec![0isize; self.order.len() + 1];
         let mut skip = |turns: Range<usize>| {
             unasked[turns.start] += 1;
@@ -164,7 +165,7 @@ impl Diagram {
             depth += change;
             match fixed[place] {
                 Some(class) => {
-                    // Every half that some path took has the class.
+                    // Every half that a path took has the fixed class.
                     let some = depth > 0 || supported[place][class];
                     supported[place].fill(false);
                     supported[place][class] = some;
@@ -176,7 +177,7 @@ impl Diagram {
         supported
     }
 
-    /// The number of paths, each as many times as its classes have levels.
+    /// Counts the tests: each path counts as often as its classes have levels.
     pub(super) fn tests(&self, sizes: &[Vec<usize>]) -> f64 {
         let levels = |turn: usize, classes: Range<usize>| sizes[self.order[turn]][classes].iter().sum::<usize>() as f64;
         let all = |turns: Range<usize>| turns.map(|turn| levels(turn, 0..self.classes[turn])).product::<f64>();
@@ -197,8 +198,8 @@ impl Diagram {
     }
 }
 
-/// Appends the segments of a member's classes, each before its halves: the lower half comes next, the upper half
-/// after so many as the lower one has classes.
+/// Appends the segments of a member's classes. Each segment comes before its halves: the lower half comes next. The
+/// upper half comes as many places behind the segment as the lower half has classes.
 fn divide(turn: usize, classes: Range<usize>, segments: &mut Vec<Segment>) {
     if classes.len() > 1 {
         let middle = classes.start + classes.len() / 2;
@@ -208,8 +209,8 @@ fn divide(turn: usize, classes: Range<usize>, segments: &mut Vec<Segment>) {
     }
 }
 
-/// An order of the members in which few clauses have members on both sides: next comes always the member that
-/// leaves the fewest clauses open.
+/// Orders the members so that few clauses have members on both sides of a place. The next member is always the one
+/// that leaves the fewest clauses open.
 fn order(members: usize, clauses: &[Vec<usize>]) -> Vec<usize> {
     let mut placed = vec![false; members];
     let mut order = Vec::with_capacity(members);
@@ -229,7 +230,7 @@ fn order(members: usize, clauses: &[Vec<usize>]) -> Vec<usize> {
     order
 }
 
-/// A set of numbers, a bit each.
+/// A set of numbers, with a bit for each number.
 struct Bits(Vec<u64>);
 
 impl Bits {
@@ -241,7 +242,7 @@ impl Bits {
         self.0[number / 64] >> (number % 64) & 1 == 1
     }
 
-    /// Whether the number is new.
+    /// Adds a number, and returns `true` if it is new.
     fn insert(&mut self, number: usize) -> bool {
         let new = !self.contains(number);
         self.0[number / 64] |= 1 << (number % 64);
@@ -252,7 +253,7 @@ impl Bits {
         self.0[number / 64] &= !(1 << (number % 64));
     }
 
-    /// The first number from this one on.
+    /// Returns the first number of the set that is at least `from`.
     fn next(&self, from: usize) -> Option<usize> {
         let first = self.0.get(from / 64)? & u64::MAX << (from % 64);
         if first != 0 {

@@ -1,23 +1,24 @@
-//! Clauses over classes as clauses over truth values, for the satisfiability solver.
+//! Translates clauses over classes into clauses over truth values, for the satisfiability solver.
 //!
-//! The class of a parameter is written in the regular encoding (Ansótegui, Manyà, *Mapping problems with
-//! finite-domain variables into problems with Boolean variables*, SAT 2004): a truth value for "the class is at
-//! least j", and one for each class between the ends. A parameter of two classes is a single truth value, and
-//! the size grows linearly where pairwise exclusion grows quadratically. A literal that holds at the lowest or the
-//! highest classes takes one truth value for all of them.
+//! The class of a parameter has the regular encoding (Ansótegui, Manyà, *Mapping problems with finite-domain variables
+//! into problems with Boolean variables*, SAT 2004): a truth value for "the class is at least j", and one for each
+//! class except the first and the last. A parameter with two classes needs only one truth value. The size grows
+//! linearly, while pairwise exclusion grows quadratically. A literal that holds at the lowest or the highest classes
+//! needs only one truth value for all of them.
 
 use super::classes::ClassClause;
 use batsat::{Callbacks, Lit, Solver, SolverInterface, lbool};
 use std::cell::Cell;
 
-/// How many steps a search may take whose answer can be done without: some seconds.
+/// The greatest number of steps of a search that may end without an answer. It takes some seconds.
 pub(super) const PATIENCE: u64 = 1 << 19;
 
-/// A search was given up.
+/// The error that a search was given up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Undecided;
 
-/// How many steps the solver has left; it asks after each decision. The same steps are taken on every machine.
+/// The number of steps that the solver has left. The solver asks after each decision. It takes the same steps on every
+/// machine.
 #[derive(Default)]
 struct Steps(Cell<u64>);
 
@@ -29,19 +30,19 @@ impl Callbacks for Steps {
     }
 }
 
-/// A solver and what its truth values mean. This is the one module that names the solver.
+/// The solver, and the meaning of its truth values. Only this module names the solver.
 pub(super) struct Encoding {
     solver: Solver<Steps>,
-    /// For each parameter and class but the first, that the class is at least that.
+    /// For each parameter and each class but the first, the truth value of "the class is at least this class".
     at_least: Vec<Vec<Lit>>,
-    /// The truth value of each class of each parameter.
+    /// For each parameter and each class, the truth value of "the class is this class".
     is: Vec<Vec<Lit>>,
-    /// Truth values that switch clauses on.
+    /// The truth values that switch clauses on.
     switches: Vec<Lit>,
 }
 
 impl Encoding {
-    /// Parameters with so many classes, and so many switches.
+    /// Makes the encoding of parameters with these numbers of classes, with this number of switches.
     pub(super) fn new(classes: impl Iterator<Item = usize>, switches: usize) -> Self {
         let mut solver = Solver::<Steps>::default();
         let fresh = |solver: &mut Solver<Steps>| Lit::new(solver.new_var_default(), true);
@@ -74,7 +75,7 @@ impl Encoding {
         Self { solver, at_least: bounds, is, switches }
     }
 
-    /// Demands a clause, always or while a switch is on; `place` says where a parameter stands.
+    /// Adds a clause, for always or for the time that a switch is on. `place` gives the position of a parameter.
     pub(super) fn demand(&mut self, clause: &ClassClause, switch: Option<usize>, place: impl Fn(usize) -> usize) {
         let mut truths: Vec<Lit> = switch.map(|switch| !self.switches[switch]).into_iter().collect();
         for literal in &clause.literals {
@@ -89,8 +90,8 @@ impl Encoding {
         self.solver.add_clause_reuse(&mut truths);
     }
 
-    /// The classes of a solution with the fixed classes and these switches on, if there is one. Each step of the
-    /// search is taken from `steps`; it is given up when none are left.
+    /// Returns the classes of a solution that has the fixed classes and keeps the clauses of these switches, if one
+    /// exists. Each step of the search reduces `steps`. The search is given up when no steps are left.
     pub(super) fn solve(
         &mut self,
         fixed: &[Option<usize>],

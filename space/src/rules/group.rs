@@ -1,5 +1,5 @@
-//! A group of parameters that constraints join: questions go to a decision diagram or, where that is too large, to a
-//! satisfiability solver.
+//! A group of parameters that constraints join. A decision diagram answers questions about the group or, if the
+//! diagram would be too large, a satisfiability solver.
 
 use super::classes::{ClassClause, Classes};
 use super::diagram::{Chain, Diagram};
@@ -7,7 +7,7 @@ use super::encoding::Undecided;
 use super::satisfiability::Satisfiability;
 use std::sync::Arc;
 
-/// How questions about a group are answered.
+/// The method that answers questions about a group.
 #[derive(Debug)]
 enum Engine {
     Diagram(Arc<Diagram>),
@@ -18,20 +18,20 @@ enum Engine {
 #[derive(Debug)]
 pub(super) struct Group {
     members: Vec<usize>,
-    /// The class of each level, and the number of levels in each class, of each member.
+    /// The class of each level, and the number of levels in each class, for each member.
     class_of: Vec<Vec<usize>>,
     pub(super) sizes: Vec<Vec<usize>>,
     clauses: Vec<ClassClause>,
-    /// The clauses with each member.
+    /// The clauses that name each member.
     clauses_of: Vec<Vec<usize>>,
     engine: Engine,
 }
 
 impl Group {
-    /// The group of these parameters; none if its clauses cannot be kept together.
+    /// Makes the group of these parameters, or returns `None` if its clauses cannot be kept together.
     ///
     /// # Errors
-    /// Whether they can takes too long to find out.
+    /// It takes too long to find out whether the clauses can be kept together, or which classes the members can have.
     pub(super) fn new(classes: &Classes, members: Vec<usize>) -> Result<Option<Self>, Undecided> {
         let place = |parameter: usize| members.binary_search(&parameter).ok();
         let (sizes, clauses) = classes.of(&members);
@@ -57,7 +57,7 @@ impl Group {
         &self.members
     }
 
-    /// Where a parameter stands among the members.
+    /// Returns the position of a parameter among the members, if it is a member.
     pub(super) fn place(&self, parameter: usize) -> Option<usize> {
         self.members.binary_search(&parameter).ok()
     }
@@ -76,7 +76,7 @@ impl Group {
         }
     }
 
-    /// Whether a test keeps the clauses with a member.
+    /// Returns `true` if a test keeps the clauses that name a member.
     pub(super) fn allows_at(&self, parameter: usize, test: &[usize]) -> bool {
         let place = self.place(parameter).expect("the parameter is a member");
         self.clauses_of[place].iter().all(|&clause| self.keeps(clause, test))
@@ -98,7 +98,7 @@ impl Group {
         }
     }
 
-    /// Which classes of each member go with the fixed ones.
+    /// Returns, for each member and each of its classes, `true` if the class is valid together with the fixed classes.
     pub(super) fn supported_classes(&self, fixed: &[Option<usize>]) -> Vec<Vec<bool>> {
         match &self.engine {
             Engine::Diagram(diagram) => diagram.supported(fixed),
@@ -118,7 +118,8 @@ impl Group {
             .collect()
     }
 
-    /// Which levels of one member go with the fixed ones; no more is searched for than that.
+    /// Returns, for each level of one member, `true` if the level is valid together with the fixed levels. Nothing
+    /// else is searched for.
     pub(super) fn supported_at(&self, parameter: usize, fixed: impl Fn(usize) -> Option<usize>) -> Vec<bool> {
         let place = self.place(parameter).expect("the parameter is a member");
         let (classes, level) = (self.classes(&fixed), fixed(parameter));
@@ -130,7 +131,7 @@ impl Group {
         levels.map(|(other, &class)| supported[class] && level.is_none_or(|level| level == other)).collect()
     }
 
-    /// How many ways there are to choose the members; none where that cannot be counted.
+    /// Returns the number of ways to choose the members, or `None` if the engine cannot count them.
     pub(super) fn tests(&self) -> Option<f64> {
         match &self.engine {
             Engine::Diagram(diagram) => Some(diagram.tests(&self.sizes)),
@@ -138,7 +139,8 @@ impl Group {
         }
     }
 
-    /// Random ways to choose the members, all equally probable; none where they cannot be counted.
+    /// Returns a chain that draws all ways to choose the members with the same probability, or `None` if the engine
+    /// cannot count them.
     pub(super) fn chain(&self) -> Option<Chain> {
         match &self.engine {
             Engine::Diagram(diagram) => Some(Chain::new(diagram.clone(), &self.sizes)),
@@ -146,7 +148,7 @@ impl Group {
         }
     }
 
-    /// The levels of each member in the order of their classes.
+    /// Returns the levels of each member in the order of their classes.
     pub(super) fn levels_by_class(&self) -> Vec<Vec<usize>> {
         let by_class = |class_of: &Vec<usize>| {
             let mut levels: Vec<usize> = (0..class_of.len()).collect();

@@ -1,11 +1,12 @@
-//! Which tests of a discrete space make sense: what constraints allow.
+//! Rules: which combinations of levels the constraints of a discrete space allow.
 //!
-//! A combination of levels is *valid* when some complete test that keeps every constraint contains it. Deriving
-//! all combinations that the constraints exclude together, as resolution does, explodes; so nothing is derived
-//! up front. The parameters fall apart into groups that no constraint joins, and each group is compiled into a
-//! decision diagram on which every question takes one pass. Where a diagram would grow beyond bounds,
-//! a satisfiability solver answers instead; it is slower, and as exact. Whether there is a test at all, and which
-//! levels tests have, it has to find out within bounds too, or there are no rules.
+//! A combination of levels is *valid* if a complete test contains it and keeps every constraint. Deriving all
+//! combinations that the constraints exclude together, as resolution does, takes exponential effort, so nothing is
+//! derived in advance. The parameters fall apart into groups, so that no constraint joins parameters of two groups.
+//! Each group is compiled into a decision diagram, which answers every question in one pass. If a diagram would be too
+//! large, a satisfiability solver answers instead; it is slower, but also exact. The solver must first find out,
+//! within a bounded number of steps, whether there is a test and which levels tests have. If it cannot, there are no
+//! rules.
 
 mod classes;
 mod clause;
@@ -30,18 +31,18 @@ use group::Group;
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Why there are no rules.
+/// The reason why constraints have no rules.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RulesError {
     /// No test keeps all constraints.
     #[error(transparent)]
     Conflict(#[from] Conflict),
-    /// Which levels some parameters can have was not found out within bounds.
+    /// The search for the levels that these parameters can have exceeded its bounds.
     #[error("what the constraints allow of the parameters {0:?} was not found out within the bounds of the search")]
     Undecided(Vec<usize>),
 }
 
-/// The discrete parameters of a space, and the constraints on them.
+/// The combinations of levels that the constraints of a space allow.
 #[derive(Debug, Clone)]
 pub struct Rules {
     levels: Vec<usize>,
@@ -50,11 +51,12 @@ pub struct Rules {
 }
 
 impl Rules {
-    /// Parameters with so many levels each, and constraints; a constraint is the conjunction of its clauses.
+    /// Derives the rules for parameters with these numbers of levels. Each constraint is the conjunction of its
+    /// clauses.
     ///
     /// # Errors
-    /// No test keeps all constraints, or whether any does, and at which levels, takes too long to find out. How
-    /// long is counted in steps: the same constraints have the same outcome on every machine.
+    /// No test keeps all constraints, or the search for a test, or for the levels that tests can have, takes too long.
+    /// Time is counted in steps: the same constraints have the same result on every machine.
     ///
     /// # Panics
     /// A literal names a parameter or a level that does not exist.
@@ -84,48 +86,48 @@ impl Rules {
         Ok(Self { levels: levels.to_vec(), groups: groups.into(), group_of })
     }
 
-    /// Parameters with so many levels each that go together in any way.
+    /// Makes the rules of parameters with these numbers of levels that have no constraints.
     pub fn free(levels: &[usize]) -> Self {
         Self { levels: levels.to_vec(), groups: Arc::new([]), group_of: vec![None; levels.len()] }
     }
 
-    /// The number of levels of each parameter.
+    /// Returns the number of levels of each parameter.
     pub fn levels(&self) -> &[usize] {
         &self.levels
     }
 
-    /// How many groups of parameters the constraints join.
+    /// Returns the number of groups of parameters that the constraints join.
     pub fn groups(&self) -> usize {
         self.groups.len()
     }
 
-    /// The parameters of a group, in ascending order.
+    /// Returns the parameters of a group, in ascending order.
     ///
     /// # Panics
-    /// There are not as many groups.
+    /// The group does not exist.
     pub fn members(&self, group: usize) -> &[usize] {
         self.groups[group].members()
     }
 
-    /// The group a parameter belongs to; none where no constraint speaks of it.
+    /// Returns the group of a parameter, or `None` if no constraint restricts the parameter.
     ///
     /// # Panics
-    /// There are not as many parameters.
+    /// The parameter does not exist.
     pub fn group_of(&self, parameter: usize) -> Option<usize> {
         self.group_of[parameter]
     }
 
-    /// Whether a complete test, a level for each parameter, keeps all constraints.
+    /// Returns `true` if a complete test keeps all constraints. `test` has a level for each parameter.
     pub fn allows(&self, test: &[usize]) -> bool {
         self.groups.iter().all(|group| group.allows(test))
     }
 
-    /// Whether a complete test keeps the constraints that join a parameter with others.
+    /// Returns `true` if a complete test keeps all clauses that name `parameter`.
     pub fn allows_at(&self, parameter: usize, test: &[usize]) -> bool {
         self.group_of[parameter].is_none_or(|group| self.groups[group].allows_at(parameter, test))
     }
 
-    /// Whether some test that keeps all constraints has these (parameter, level) pairs.
+    /// Returns `true` if a test has all these (parameter, level) pairs and keeps all constraints.
     pub fn is_valid(&self, tuple: &[(usize, usize)]) -> bool {
         let fixed = |parameter: usize| tuple.iter().find(|pair| pair.0 == parameter).map(|pair| pair.1);
         let agrees = |&(parameter, level): &(usize, usize)| fixed(parameter) == Some(level);
@@ -135,28 +137,29 @@ impl Rules {
                 .all(|group| self.holds(group, fixed))
     }
 
-    /// Whether the parameters of a group that are not `fixed` can be chosen so that its constraints are kept.
+    /// Returns `true` if the other parameters of a group can be chosen so that the levels that are `fixed` keep its
+    /// constraints.
     ///
     /// # Panics
-    /// There are not as many groups, or a level does not exist.
+    /// The group or a level does not exist.
     pub fn holds(&self, group: usize, fixed: impl Fn(usize) -> Option<usize>) -> bool {
         self.groups[group].holds(fixed)
     }
 
-    /// For each member of a group and each of its levels, whether a test that keeps the constraints has it
-    /// together with what is `fixed`.
+    /// Returns, for each member of a group and each of its levels, `true` if a test has this level and the levels that
+    /// are `fixed` and keeps the constraints.
     ///
     /// # Panics
-    /// There are not as many groups, or a level does not exist.
+    /// The group or a level does not exist.
     pub fn supported(&self, group: usize, fixed: impl Fn(usize) -> Option<usize>) -> Vec<Vec<bool>> {
         self.groups[group].supported(fixed)
     }
 
-    /// For each level of a parameter, whether a test that keeps the constraints has it together with what is
-    /// `fixed`.
+    /// Returns, for each level of a parameter, `true` if a test has this level and the levels that are `fixed` and
+    /// keeps the constraints.
     ///
     /// # Panics
-    /// There is no such parameter, or a level does not exist.
+    /// The parameter or a level does not exist.
     pub fn supported_at(&self, parameter: usize, fixed: impl Fn(usize) -> Option<usize>) -> Vec<bool> {
         match self.group_of[parameter] {
             Some(group) => self.groups[group].supported_at(parameter, fixed),
@@ -167,8 +170,8 @@ impl Rules {
         }
     }
 
-    /// The first test in lexicographic order that keeps all constraints and has what is fixed; none if there is
-    /// no such test. The order is the parameters' within each group.
+    /// Returns the first test in lexicographic order that has the fixed levels and keeps all constraints, or `None` if
+    /// there is no such test. In each group the order is that of the parameters.
     pub fn completes(&self, partial: &[Option<usize>]) -> Option<Vec<usize>> {
         let mut test: Vec<usize> = partial.iter().map(|level| level.unwrap_or(0)).collect();
         for group in self.groups.iter() {

@@ -1,7 +1,8 @@
-//! Answers for groups whose diagram would be too large: by conflict-driven search.
+//! Answers questions about groups with too large diagrams, by conflict-driven search.
 //!
-//! A solution answers many questions at once: those that were found are kept, each shows what can be changed in it,
-//! and the solver is asked only what none of them shows. The answers do not depend on which solutions those are.
+//! One solution answers many questions, so the solutions found are kept. Each solution also shows the single changes
+//! that keep it a solution. The solver searches only if no known solution gives the answer. The answers do not depend
+//! on the solutions that were found.
 
 use super::classes::ClassClause;
 use super::encoding::{Encoding, PATIENCE, Undecided};
@@ -9,17 +10,17 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Mutex;
 
-/// How many solutions are kept.
+/// The number of solutions that are kept.
 const POOL: usize = 1 << 10;
 
-/// Why questions are answered however many steps they take.
+/// The reason why a search with `u64::MAX` steps always ends with an answer.
 const ENOUGH: &str = "nobody takes 2^64 steps";
 
 struct State {
     encoding: Encoding,
-    /// Solutions as classes of the members.
+    /// The solutions, as classes of the members.
     pool: Vec<Vec<usize>>,
-    /// How many solutions were found.
+    /// The number of solutions found so far.
     found: usize,
 }
 
@@ -38,10 +39,10 @@ impl State {
     }
 }
 
-/// A group as a satisfiability problem.
+/// A group of parameters as a satisfiability problem.
 pub(super) struct Satisfiability {
     sizes: Vec<usize>,
-    /// The clauses as places of members and the classes at which they are kept.
+    /// The clauses, each as positions of members with the classes at which the clause is kept.
     clauses: Vec<Vec<(usize, Vec<bool>)>>,
     state: Mutex<State>,
 }
@@ -57,10 +58,11 @@ fn agrees(solution: &[usize], fixed: &[Option<usize>]) -> bool {
 }
 
 impl Satisfiability {
-    /// The clauses among members with so many classes; none if they cannot be kept.
+    /// Makes the problem of these clauses among members with these classes, or returns `None` if they cannot be kept
+    /// together.
     ///
     /// # Errors
-    /// Which classes the members can have takes too long to find out.
+    /// It takes too long to find out which classes the members can have.
     pub(super) fn new(
         members: &[usize],
         sizes: &[Vec<usize>],
@@ -82,7 +84,7 @@ impl Satisfiability {
         Ok(supported[0].contains(&true).then_some(solver))
     }
 
-    /// Whether a solution has the fixed classes.
+    /// Returns `true` if a solution has the fixed classes.
     pub(super) fn holds(&self, fixed: &[Option<usize>]) -> bool {
         let mut state = self.state.lock().expect("no question panics");
         let mut steps = u64::MAX;
@@ -90,17 +92,18 @@ impl Satisfiability {
             || state.solve(fixed, &mut steps).expect(ENOUGH).is_some()
     }
 
-    /// For each member and class, whether a solution has it with the fixed ones.
+    /// Returns, for each member and class, `true` if a solution has this class and the fixed classes.
     pub(super) fn supported(&self, fixed: &[Option<usize>]) -> Vec<Vec<bool>> {
         self.supported_within(0..fixed.len(), fixed, u64::MAX).expect(ENOUGH)
     }
 
-    /// For each class of one member, whether a solution has it with the fixed ones.
+    /// Returns, for each class of one member, `true` if a solution has this class and the fixed classes.
     pub(super) fn supported_at(&self, place: usize, fixed: &[Option<usize>]) -> Vec<bool> {
         self.supported_within(place..place + 1, fixed, u64::MAX).expect(ENOUGH).swap_remove(place)
     }
 
-    /// The classes of these members for certain; of others perhaps not all.
+    /// Returns, for each member and class, `true` if a solution has this class and the fixed classes. The answer is
+    /// complete only for the members at `places`; for other members, solutions may be missing.
     fn supported_within(
         &self,
         places: Range<usize>,
@@ -131,7 +134,7 @@ impl Satisfiability {
         Ok(supported)
     }
 
-    /// Marks the classes of a solution, and those of the solutions that differ from it in one member.
+    /// Marks the classes of a solution, and the classes of the solutions that differ from it in one member.
     fn show(&self, solution: &[usize], fixed: &[Option<usize>], supported: &mut [Vec<bool>]) {
         let mut free: Vec<Vec<bool>> = self.sizes.iter().map(|&classes| vec![true; classes]).collect();
         for clause in &self.clauses {

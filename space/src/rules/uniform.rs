@@ -1,41 +1,41 @@
-//! Random tests that keep all constraints, every one as probable as any other.
+//! Random tests that keep all constraints, all of them equally probable.
 //!
-//! Groups do not restrict each other, so each is drawn on its own, by the shares of its diagram; no test is drawn
-//! in vain. How probable a combination of levels is follows from the same shares.
+//! Groups do not restrict each other. So each group is drawn on its own, with the probabilities of its diagram, and no
+//! test is drawn in vain. The same probabilities give the probability of a combination of levels.
 
 use super::Rules;
 use super::diagram::Chain;
 
-/// Uniformly random tests among those that keep all constraints.
+/// A source of random tests. All tests that keep all constraints are equally probable.
 #[derive(Debug)]
 pub struct UniformTests {
     levels: Vec<usize>,
     groups: Vec<RandomGroup>,
 }
 
-/// The parameters that constraints join.
+/// A group of parameters that constraints join.
 #[derive(Debug)]
 struct RandomGroup {
     members: Vec<usize>,
-    /// The levels of each member in the order of their classes, and how many there are in each class.
+    /// The levels of each member in the order of their classes, and the number of levels in each class.
     levels: Vec<Vec<usize>>,
     sizes: Vec<Vec<usize>>,
     chain: Chain,
 }
 
-/// Combinations of levels of as many parameters that are equally probable.
+/// Combinations of levels of the same parameters that are equally probable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alike {
-    /// How many parameters they combine.
+    /// The number of parameters that each combination has.
     pub parameters: usize,
-    /// How many combinations there are.
+    /// The number of combinations.
     pub combinations: f64,
-    /// The probability that a random test has one of them, the same for each.
+    /// The probability that a random test has a certain one of the combinations.
     pub probability: f64,
 }
 
 impl Rules {
-    /// Random tests that keep all constraints; none where a group of parameters is too entangled to be counted.
+    /// Makes a source of random tests, or returns `None` if a group of parameters is too entangled to be counted.
     pub fn uniform(&self) -> Option<UniformTests> {
         let group = |group: &super::group::Group| {
             let (members, sizes) = (group.members().to_vec(), group.sizes.clone());
@@ -47,11 +47,11 @@ impl Rules {
 }
 
 impl UniformTests {
-    /// A random test, a level for each parameter. `below(n)` gives one of the numbers below n, each as probable.
+    /// Draws a random test: a level for each parameter. `below(n)` has to give a uniformly random number below n.
     pub fn draw(&self, mut below: impl FnMut(usize) -> usize) -> Vec<usize> {
         let mut test: Vec<Option<usize>> = vec![None; self.levels.len()];
         for group in &self.groups {
-            // All 53 binary digits of a float.
+            // Use all 53 binary digits of a float.
             let mut share = || (below(1 << 26) as f64 + below(1 << 27) as f64 / (1 << 27) as f64) / (1 << 26) as f64;
             let open = group.chain.draw(&mut share);
             for ((&member, levels), open) in group.members.iter().zip(&group.levels).zip(open) {
@@ -62,8 +62,8 @@ impl UniformTests {
         free.map(|(level, &levels)| level.unwrap_or_else(|| below(levels))).collect()
     }
 
-    /// Shows `visit` the valid combinations of 1 to `k` parameters of each group that constraints join, one group
-    /// after the other: the group's number with combinations that are alike.
+    /// Calls `visit` with the valid combinations of 1 to `k` parameters of each group that constraints join, one group
+    /// after the other. `visit` gets the number of the group and combinations that are equally probable.
     pub fn combinations(&self, k: usize, visit: &mut impl FnMut(usize, Alike)) {
         for (number, group) in self.groups.iter().enumerate() {
             let mut fixed = vec![None; group.members.len()];
@@ -74,7 +74,7 @@ impl UniformTests {
 }
 
 impl RandomGroup {
-    /// The combinations of the fixed classes with members from `next` on.
+    /// Visits the combinations of the fixed classes with members from `next` on.
     fn combinations(
         &self,
         next: usize,
@@ -91,7 +91,7 @@ impl RandomGroup {
             let classes = joint[place].iter().enumerate().filter(|(_, probability)| **probability > 0.0);
             for (class, probability) in classes {
                 let combinations = of.combinations * self.sizes[place][class] as f64;
-                // The levels of a class share its probability.
+                // The levels of a class share the probability of the class.
                 let with = Alike {
                     parameters: of.parameters + 1,
                     combinations,

@@ -1,13 +1,13 @@
-//! Tests as chance has them: what a point of the unit cube is under the distributions of the parameters.
+//! Random tests: converts uniform numbers into tests that follow the distributions of the parameters.
 
 use super::{Point, Space};
 use crate::{Distribution, Domain, Parameter, SpaceError};
 
 impl Space {
-    /// The same space with this parameter distributed so.
+    /// Returns the same space with another distribution for a parameter.
     ///
     /// # Errors
-    /// There is no such parameter, or its values cannot be distributed so.
+    /// The parameter does not exist, or the distribution does not fit its domain.
     pub fn with_distribution(mut self, name: &str, distribution: Distribution) -> Result<Self, SpaceError> {
         self.parameter(name)?;
         let named = self.parameters.iter_mut().filter(|parameter| parameter.name == name);
@@ -18,10 +18,10 @@ impl Space {
         Ok(self)
     }
 
-    /// The test at these quantiles: a number in `[0,1]` for each of [`Space::coordinates`], in their order.
+    /// Returns the test at these quantiles: a number in `[0,1]` for each of [`Space::coordinates`], in their order.
     ///
-    /// Where the quantiles are uniform and independent, the test is distributed as the parameters say. Constraints are
-    /// not looked at.
+    /// If the quantiles are uniform and independent, the test follows the distributions of the parameters. Constraints
+    /// are not checked.
     ///
     /// ```
     /// use paracosm_space::{Distribution, Space};
@@ -33,7 +33,7 @@ impl Space {
     /// ```
     ///
     /// # Panics
-    /// There is another number of quantiles than of coordinates.
+    /// The number of quantiles differs from the number of coordinates.
     pub fn at_quantiles(&self, quantiles: &[f64]) -> Point {
         assert_eq!(quantiles.len(), self.coordinates().count(), "a quantile for every coordinate");
         let mut point = Point::default();

@@ -1,4 +1,4 @@
-//! A space as text: the SPACE.toml that people write and scripts pass around.
+//! Spaces as text: reads and writes SPACE.toml, the file that people write and programs exchange.
 
 use super::{Declaration, Space};
 use crate::constraint::Constraint;
@@ -10,7 +10,7 @@ use std::ops::Range;
 use toml::Spanned;
 
 impl Space {
-    /// Reads a SPACE.toml. A table `[odd]`, which says what of an operational design domain is tested, is passed over.
+    /// Reads a SPACE.toml. A table `[odd]`, which describes the tested operational design domain, is ignored.
     ///
     /// ```
     /// let space = paracosm_space::Space::from_toml(r#"
@@ -41,8 +41,8 @@ impl Space {
     /// ```
     ///
     /// # Errors
-    /// The text is no TOML, no space, or a space that cannot be: [`SpaceError`] says where and why. The place of what
-    /// is wrong within a constraint is given in the lines of the file.
+    /// The text is not TOML, or does not describe a valid space. [`SpaceError`] says where and why. The position of an
+    /// error in a constraint refers to the lines of the file.
     pub fn from_toml(text: &str) -> Result<Self, SpaceError> {
         let declaration: Declaration = toml::from_str(text).map_err(|error| {
             let at = error.span().map(|span| Position::of(text, span.start));
@@ -58,12 +58,13 @@ impl Space {
         })
     }
 
-    /// The line, from 1, at which each constraint of a SPACE.toml begins; none at all where the text is no TOML.
+    /// Returns the line, from 1, at which each constraint of a SPACE.toml begins. If the text is not TOML, the list is
+    /// empty.
     pub fn constraint_lines(text: &str) -> Vec<usize> {
         constraint_spans(text).into_iter().map(|span| Position::of(text, span.start).line).collect()
     }
 
-    /// Writes a SPACE.toml that [`Space::from_toml`] reads back as the same space.
+    /// Writes the space as a SPACE.toml. [`Space::from_toml`] reads the same space from it.
     pub fn to_toml(&self) -> String {
         #[derive(Serialize)]
         struct SpelledOut<'a> {
@@ -76,15 +77,15 @@ impl Space {
         toml::to_string(&SpelledOut { constraints, parameter }).expect("names, numbers and words are always TOML")
     }
 
-    /// The same space, its levels that are numbers written as they stand in the text that it was read from.
+    /// Returns the same space, with the levels that are numbers written as in the text that the space was read from.
     fn written_as_in(mut self, text: &str) -> Self {
         for (parameter, spans) in self.parameters.iter_mut().zip(choice_spans(text)) {
             let Domain::Choice(levels) = &mut parameter.domain else { continue };
             let taken: Vec<String> = levels.iter().filter_map(Value::word).map(str::to_owned).collect();
             for (level, span) in levels.iter_mut().zip(spans) {
                 let written = Value::written(&text[span.clone()]);
-                // What TOML writes as no other program would, `1_000` or `0x10`, is written as the number, and so is what
-                // could not be told from a word.
+                // Only TOML writes numbers like `1_000` and `0x10`, so such a level stays a number. A level that could
+                // not be told apart from a word stays a number, too.
                 let is_level = matches!(level, Value::Number(_)) && written.means(level);
                 if is_level && !taken.iter().any(|word| word == &text[span.clone()]) {
                     *level = written;
@@ -95,7 +96,8 @@ impl Space {
     }
 }
 
-/// Where the values of each parameter's choice stand in the file; nowhere, where `written` says how they are written.
+/// Finds the places of the values of each parameter's choice in the file. If a parameter has the key `written`, its
+/// list is empty, since that key gives the texts.
 fn choice_spans(text: &str) -> Vec<Vec<Range<usize>>> {
     #[derive(Deserialize)]
     struct Choices {
@@ -115,7 +117,7 @@ fn choice_spans(text: &str) -> Vec<Vec<Range<usize>>> {
     found.into_iter().map(spans).collect()
 }
 
-/// Where the constraints stand in the file, with their quotes.
+/// Finds the places of the constraints in the file, including their quotes.
 fn constraint_spans(text: &str) -> Vec<Range<usize>> {
     #[derive(Deserialize)]
     struct Constraints {
@@ -126,8 +128,8 @@ fn constraint_spans(text: &str) -> Vec<Range<usize>> {
     found.iter().map(Spanned::span).collect()
 }
 
-/// The offset in the file of the byte that is at `offset` in the string that spans there; the start of the string where
-/// lines that are continued or trimmed make it hard to say.
+/// Returns the offset in the file of the byte at `offset` in the string at `span`. If the string has several lines,
+/// returns its start, since continued and trimmed lines make the exact place hard to find.
 fn within(text: &str, span: Range<usize>, offset: usize) -> usize {
     let quoted = &text[span.clone()];
     if quoted.contains('\n') {

@@ -1,8 +1,8 @@
-//! The covering array behind generated tests, with what one wants to know of it: how large it is, and how small one can
-//! be at all.
+//! The covering array behind generated tests, with its size and the least size that any covering array can have.
 
 use super::{strength, time_limit};
 use crate::cli::interrupt::Interruptible;
+use crate::cli::output::plural;
 use crate::cli::{Verbosity, complain};
 use crate::coverage::Deadline;
 use crate::generators::covering::{CoveringArray, CoveringRequest, covering_array, optimise};
@@ -17,7 +17,7 @@ use paracosm_campaign::{Error, PartialRow};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// The options that a covering array is made by.
+/// The options for making a covering array.
 pub(super) struct ArrayOptions {
     pub k: Option<usize>,
     pub seed: Option<u64>,
@@ -62,12 +62,8 @@ impl ArrayOptions {
         }
         let CoveringArray { rows, kept, invalid, lower_bound } = array;
         if !invalid.is_empty() {
-            let of = if invalid.len() == 1 {
-                "row violates a constraint and does"
-            } else {
-                "rows violate a constraint and do"
-            };
-            verbosity.note(format_args!("{} different existing {of} not count", invalid.len()));
+            let are = if invalid.len() == 1 { "violates a constraint and does" } else { "violate a constraint and do" };
+            verbosity.note(format_args!("{} {are} not count", plural(invalid.len(), "different existing row")));
             let mut refused: Vec<(&str, &PartialRow)> =
                 invalid.iter().map(|&index| (&places[index][..], &existing[index])).collect();
             // As they stand in the file: `line 9` comes before `line 10`.
@@ -90,7 +86,8 @@ impl ArrayOptions {
             false => format!("at least {lower_bound} are needed: proved"),
         };
         let groups = strength::beside(k, &demand.groups, space);
-        verbosity.note(format_args!("a {k}-wise covering array{groups} of {} rows{kept}; {bound}", rows.len()));
+        verbosity
+            .note(format_args!("a {k}-wise covering array{groups} of {}{kept}; {bound}", plural(rows.len(), "row")));
         let has_negative =
             |row: &&Vec<usize>| demand.negatives.iter().any(|&(parameter, level)| row[parameter] == level);
         let negative = rows.iter().filter(has_negative).count();
@@ -139,19 +136,22 @@ fn smaller(request: &CoveringRequest, array: CoveringArray, limit: Duration, ver
     let (rows, bound) = (array.rows.len(), array.lower_bound);
     let search = Interruptible::new(Deadline::after(limit));
     let seconds = limit.as_secs_f64();
-    verbosity.note(format_args!("{rows} rows so far; {seconds} s for fewer, of which Ctrl-C keeps the best so far"));
-    let bar = spinner(format!("{rows} rows"), verbosity);
-    let watch = |rows: usize| bar.set_message(format!("{rows} rows, at least {bound} are needed"));
+    verbosity.note(format_args!(
+        "{} so far; searching {seconds} s for a smaller array, Ctrl-C keeps the smallest so far",
+        plural(rows, "row")
+    ));
+    let bar = spinner(plural(rows, "row"), verbosity);
+    let watch = |rows: usize| bar.set_message(format!("{}, at least {bound} needed", plural(rows, "row")));
     let array = optimise(request, array, search.deadline, &watch);
     bar.finish_and_clear();
     if search.end() {
-        // What is printed is complete, but with more time it may have been smaller: that has to be known.
+        // The printed array is complete, but more time may have made it smaller: the user has to know.
         complain(&"interrupted: this is the smallest array so far");
     }
     array
 }
 
-/// What shows that something is being done, with the time it has taken.
+/// Makes a spinner with the time so far.
 fn spinner(message: String, verbosity: Verbosity) -> ProgressBar {
     let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
     bar.enable_steady_tick(Duration::from_millis(100));

@@ -1,7 +1,7 @@
 //! The option `--certificate` of `paracosm-cover estimate`.
 
 use crate::cli::Verbosity;
-use crate::cli::output::digits;
+use crate::cli::output::{digits, plural};
 use paracosm_analysis::certificate::certify;
 use paracosm_analysis::{Coverage, Watch};
 use paracosm_campaign::{Error, TestSet};
@@ -9,7 +9,7 @@ use paracosm_coverage::Measure;
 use std::path::Path;
 use std::time::Duration;
 
-/// Measures tests and writes a certificate; says what it proves, and where that is less than what was measured.
+/// Measures tests and writes a certificate. Notes say what the certificate proves, and where this is less than the measured value.
 pub(super) fn write(
     file: &Path,
     tests: &TestSet,
@@ -25,11 +25,12 @@ pub(super) fn write(
         let k = claim.k.map_or(String::new(), |k| format!(", k = {k}"));
         let pivots: usize = claim.proofs.iter().map(|proof| proof.pivots.len()).sum();
         verbosity.note(format_args!(
-            "{}: {}{k} at most {} ({} projections, {pivots} boxes)",
+            "{}: {}{k} at most {} ({}, {})",
             file.display(),
             claim.measure,
             digits(claim.upper),
-            claim.proofs.len(),
+            plural(claim.proofs.len(), "projection"),
+            if pivots == 1 { "1 box".to_owned() } else { format!("{pivots} boxes") },
         ));
         if let Some(note) = &claim.note {
             verbosity.note(format_args!("warning: {}: {note}", claim.measure));

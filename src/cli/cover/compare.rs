@@ -1,4 +1,4 @@
-//! `paracosm-cover compare`: the study of strategies, with everything that watches it.
+//! `paracosm-cover compare`: compares strategies by their point sets, and shows the progress.
 
 use super::{open_loop, time_limit};
 use crate::cli::output::{Format, json};
@@ -37,29 +37,27 @@ pub(super) struct Options {
     /// The numbers of points
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "50,100,500")]
     budgets: Vec<usize>,
-    /// How many seeds each strategy is given
+    /// How many seeds each strategy runs with
     #[arg(long, value_name = "N", default_value_t = 30)]
     seeds: usize,
     /// The first seed; the others follow it
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// What to measure, of dispersion, star, extreme, fill, l2_star, centered, wraparound, mixture, k-wise-dispersion
-    /// [default: all but fill, extreme only of small sets]
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help = measures_of_points())]
     measures: Vec<Measure>,
-    /// How many coordinates at a time the k-wise dispersion looks at
+    /// How many coordinates k-wise dispersion combines
     #[arg(long, value_name = "K", default_value_t = 2)]
     k: usize,
-    /// The strategy that the others are held against [default: halton if it is compared, else the first]
+    /// The strategy that the others are compared with [default: halton if it is among them, else the first]
     #[arg(long, value_name = "S")]
     baseline: Option<String>,
-    /// Time that one measure of one set may take; what does not finish comes back as a bracket
+    /// Time for one measure of one set; a measure that does not finish gives a bracket
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
     /// How many sets are measured at a time; results do not depend on it [default: one per core]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Where to write: a folder that is empty or not there
+    /// The folder to write to, empty or new
     #[arg(long, value_name = "DIR", default_value = "paracosm-compare")]
     out: PathBuf,
     /// How to print the summary [default: table on a terminal, json elsewhere]
@@ -114,4 +112,11 @@ impl Options {
             ..defaults
         })
     }
+}
+
+/// The help of `--measures`.
+fn measures_of_points() -> String {
+    let is_for_points = |measure: &Measure| measure.is_of_points() || *measure == Measure::K_WISE_DISPERSION;
+    let names: Vec<&str> = Measure::all().filter(is_for_points).map(Measure::name).collect();
+    format!("The measures, some of {} [default: all but fill; extreme only for small sets]", names.join(", "))
 }

@@ -1,8 +1,8 @@
-//! `paracosm-cover estimate`: how well tests cover their space.
+//! `paracosm-cover estimate`: measures how well tests cover their space.
 
 use super::{certificate, open_loop, strength, time_limit};
 use crate::cli::draw::is_ours_to_write;
-use crate::cli::output::{Format, Table, json, short_bracket};
+use crate::cli::output::{Format, Table, json, plural, short_bracket};
 use crate::cli::usage;
 use crate::cli::{Failure, Verbosity, print};
 use crate::coverage::Bracket;
@@ -19,7 +19,7 @@ use std::time::Duration;
 const EXAMPLES: &str = "\
 Examples:
   paracosm-cover estimate                            the campaign in paracosm-out/
-  paracosm-cover estimate points.csv                 columns in [0,1], one row a test
+  paracosm-cover estimate points.csv                 columns in [0,1], a row for each test
   paracosm-cover estimate tests.csv --space SPACE.toml --k 2
   paracosm-cover estimate tests.csv --space SPACE.toml --strength lanes,weather,surface=3
   paracosm-cover estimate --strategy halton --dims 3 --budget 500
@@ -27,34 +27,31 @@ Examples:
 
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
-/// What `estimate` takes.
+/// The options of `estimate`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Options {
     /// A CSV of tests, or the folder of a campaign [default: paracosm-out]
     #[arg(value_name = "TESTS.csv|DIR", conflicts_with = "strategy")]
     tests: Option<PathBuf>,
-    /// The space of the tests in a CSV; without it its columns are in [0,1]
+    /// The space of the tests in a CSV; without a space the columns are in [0,1]
     #[arg(long, value_name = "SPACE.toml|MODEL.pict", conflicts_with = "strategy")]
     space: Option<PathBuf>,
-    /// How many parameters are looked at together; where fewer are discrete, k-wise looks at all of these [default: 2]
+    /// How many parameters are combined; if fewer are discrete, k-wise combines all discrete parameters [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
-    /// A group of discrete parameters of which K are looked at together, beside k of all
+    /// A group of discrete parameters whose combinations of K are counted, too
     #[arg(long, value_name = "NAME,NAME,..=K")]
     strength: Vec<String>,
-    /// What to measure, of dispersion, star, extreme, fill, l2_star, centered, wraparound, mixture, k-wise,
-    /// k-wise-dispersion [default: all]. k-wise also says for which epsilon the tests are (k, epsilon)-covering: the
-    /// `k_epsilon` of JSON
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', help = measures_of_tests())]
     measures: Vec<Measure>,
-    /// Time that the measuring may take, all together; what does not finish comes back as a bracket
+    /// Time for all measures together; a measure that does not finish gives a bracket
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// Write a certificate of dispersion and k-wise dispersion, witnesses and proofs as JSON, to this file
+    /// Write a certificate of dispersion and k-wise dispersion to this file: witnesses and proofs as JSON
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
-    /// Measure a point set of this strategy instead of tests in a file, in the same time limit
+    /// Measure a point set of this strategy instead of tests in a file
     #[arg(long, value_name = "S", requires_all = ["dims", "budget"])]
     strategy: Option<String>,
     /// The number of dimensions of the strategy's point set
@@ -69,7 +66,7 @@ pub(super) struct Options {
     /// The index of the first point of the strategy's sequence [default: 1 for halton, 0 for the others]
     #[arg(long, value_name = "N", requires = "strategy")]
     skip: Option<u64>,
-    /// How to print it [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
@@ -85,7 +82,7 @@ impl Options {
         let asked = |measure: &Measure| self.measures.is_empty() || self.measures.contains(measure);
         let measures: Vec<Measure> = Measure::all().filter(asked).collect();
         if !self.strength.is_empty() && !measures.contains(&Measure::K_WISE) {
-            let message = "--strength is about the measure k-wise, which is not among --measures";
+            let message = "--strength belongs to the measure k-wise, which is not among --measures";
             return Err(usage(message.into()).into());
         }
         tests.demand.groups.extend(strength::groups(&self.strength, &tests.space)?);
@@ -94,7 +91,7 @@ impl Options {
         }
         if verbosity.verbose {
             let names: Vec<&str> = measures.iter().map(|measure| measure.name()).collect();
-            verbosity.note(format_args!("measuring {} of {} tests", names.join(", "), tests.points.len()));
+            verbosity.note(format_args!("measuring {} of {}", names.join(", "), plural(tests.points.len(), "test")));
         }
         let bar = spinner(verbosity);
         let mut watch = |measure: Measure, closing: Option<Bracket>| {
@@ -113,7 +110,7 @@ impl Options {
             Format::Table => {
                 let mut table = Table::default();
                 let names: Vec<&str> = tests.space.parameters().iter().map(|p: &Parameter| p.name.as_str()).collect();
-                table.heading(&format!("{source}: {} tests over {}", coverage.tests, names.join(", ")));
+                table.heading(&format!("{source}: {} over {}", plural(coverage.tests, "test"), names.join(", ")));
                 table.coverage(&coverage);
                 table.finish()
             }
@@ -140,10 +137,20 @@ impl Options {
     }
 }
 
-/// Something that moves while the measures are at work.
+/// Makes a spinner that moves while measures are computed.
 fn spinner(verbosity: Verbosity) -> ProgressBar {
     let bar = if verbosity.quiet { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
     let style = ProgressStyle::with_template("{spinner} {elapsed}  {msg}").expect("the template is one");
     bar.enable_steady_tick(Duration::from_millis(100));
     bar.with_style(style)
+}
+
+/// The help of `--measures`.
+fn measures_of_tests() -> String {
+    let names: Vec<&str> = Measure::all().map(Measure::name).collect();
+    format!(
+        "The measures, some of {} [default: all]. With k-wise the result also says for which epsilon the tests are \
+         (k, epsilon)-covering: `k_epsilon` in JSON",
+        names.join(", ")
+    )
 }

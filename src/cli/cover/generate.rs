@@ -1,9 +1,10 @@
-//! `paracosm-cover generate`: tests by a strategy, as CSV.
+//! `paracosm-cover generate`: makes tests by a strategy, as CSV.
 
 use super::array::ArrayOptions;
 use super::reached::Reached;
 use super::{open_loop, strength, time_limit};
 use crate::cli::interrupt::Interruptible;
+use crate::cli::output::plural;
 use crate::cli::sampling::Sampling;
 use crate::cli::usage;
 use crate::cli::{Failure, Verbosity, complain};
@@ -25,13 +26,13 @@ Examples:
   paracosm-cover generate --space SPACE.toml --budget 500 > tests.csv
   paracosm-cover generate --space SPACE.toml --extend tests.csv --budget 20      the 20 tests to add
   paracosm-cover generate --space MODEL.pict --k 3 --strength Type,Size,Format=4 --optimise 10
-  paracosm-cover generate --space SPACE.toml --k 2 --epsilon 0.1                 as many tests as that takes
+  paracosm-cover generate --space SPACE.toml --k 2 --epsilon 0.1                 as many tests as needed
   paracosm-cover generate --dims 20 --strategy greedy --measure k-wise-dispersion --k 2 --budget 200";
 
-/// Of how many tests are written between two looks at the progress bar.
+/// How many tests are written between two updates of the progress bar.
 const BATCH: usize = 64;
 
-/// What `generate` takes.
+/// The options of `generate`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true).multiple(true))]
 pub(super) struct Options {
@@ -44,21 +45,21 @@ pub(super) struct Options {
     /// How tests are chosen; `paracosm-fuzz list` shows all strategies [default: halton; greedy with --extend]
     #[arg(long, value_name = "S")]
     strategy: Option<String>,
-    /// How many tests to make [default: 500; all rows where no parameter is continuous]
+    /// How many tests to make [default: 500; all rows if no parameter is continuous]
     #[arg(long, value_name = "N")]
     budget: Option<usize>,
     #[command(flatten)]
     sampling: Sampling,
-    /// A group of discrete parameters of which K are covered together, more than of all
+    /// A group of discrete parameters whose combinations of K are covered, too; K is more than --k
     #[arg(long, value_name = "NAME,NAME,..=K")]
     strength: Vec<String>,
-    /// Time to make the covering array smaller
+    /// Time for making the covering array smaller
     #[arg(long, value_name = "SECONDS")]
     optimise: Option<f64>,
-    /// Time that --epsilon may take from the first test on; the tests of that time are printed [default: 60]
+    /// Time for --epsilon, from the first test on; tests made within this time are printed [default: 60]
     #[arg(long, value_name = "SECONDS", requires = "epsilon")]
     time_limit: Option<f64>,
-    /// Tests that are there already; those printed are the ones to add. Without a space its columns are in [0,1]
+    /// Existing tests; only the tests to add are printed. Without a space the columns are in [0,1]
     #[arg(long, value_name = "TESTS.csv", group = "of")]
     extend: Option<PathBuf>,
 }
@@ -111,20 +112,20 @@ impl Options {
         let uses_array =
             request.discrete == DiscreteFamily::Ipog && !space.levels().is_empty() && strategy.has_rows(&request);
         let options = ArrayOptions { k: self.sampling.k, seed: self.sampling.seed, optimise: self.optimise };
-        // What is wrong with the rest is said before an array is made, which may take long.
+        // Errors of the rest are reported before an array is made, which may take long.
         let any_row = [vec![0; space.levels().len()]];
         strategy.build(&Request { rows: Some(&any_row), ..request }).map_err(Error::from)?;
         let rows = match uses_array {
             true => Some(options.rows(&space, &demand, existing_rows, verbosity)?),
             false if !self.strength.is_empty() || self.optimise.is_some() => {
-                let message = "--strength and --optimise are about the rows of a covering array, and there are none";
+                let message = "--strength and --optimise change the rows of a covering array, and these tests have no covering array";
                 return Err(usage(message.into()).into());
             }
             false => None,
         };
         let is_random = matches!(request.discrete, DiscreteFamily::Random { .. });
         if is_random && !space.levels().is_empty() && demand != Demand::default() {
-            let message = "random rows promise nothing of sub-models and negative values (`~`); use ipog";
+            let message = "random rows guarantee nothing for sub-models and negative values (`~`); use --discrete ipog";
             return Err(usage(message.into()).into());
         }
         let most = match self.budget {
@@ -135,13 +136,14 @@ impl Options {
         let search = self.sampling.epsilon.map(|_| Interruptible::new(Deadline::after(limit)));
         if let Some(epsilon) = self.sampling.epsilon {
             let seconds = limit.as_secs_f64();
-            verbosity
-                .note(format_args!("{seconds} s at most to reach epsilon {epsilon}; Ctrl-C prints the tests so far"));
+            verbosity.note(format_args!(
+                "searching for epsilon {epsilon}, at most {seconds} s; Ctrl-C prints the tests so far"
+            ));
         }
         let deadline = search.as_ref().map_or(Deadline::never(), |search| search.deadline);
         let request = Request { rows: rows.as_deref(), deadline, ..request };
         let generator = strategy.build(&request).map_err(Error::from)?;
-        // How many rows of an array a budget covers is for a note even where nobody asks.
+        // A note says how many rows of the array the budget covers, even if nobody asked.
         let has_rows = !space.levels().is_empty() && strategy.has_rows(&request);
         let is_noted = has_rows && (self.budget.is_some() || space.dims() > 0) && most <= MOST_UNASKED;
         let mut points = existing.clone();
@@ -154,7 +156,7 @@ impl Options {
         let interrupted = search.is_some_and(Interruptible::end);
         let after = self.extend.as_ref().map(|path| format!(" after the {} in {}", existing.len(), path.display()));
         let by = if space.dims() == 0 { String::new() } else { format!(" by {strategy}") };
-        verbosity.note(format_args!("{written} tests{by}{}", after.unwrap_or_default()));
+        verbosity.note(format_args!("{}{by}{}", plural(written, "test"), after.unwrap_or_default()));
         let measuring = match self.sampling.epsilon {
             Some(_) => REPORT_LIMIT,
             None if is_noted => UNASKED_LIMIT,
@@ -162,7 +164,7 @@ impl Options {
         };
         let tests = TestSet { k: self.sampling.k, demand, ..TestSet::new(space.clone(), points) };
         let reached = Reached::of(tests, existing.len(), measuring);
-        // Whether the time was enough is for the tests to say: the limit may have come just after the last of them.
+        // The tests decide if the time was enough: the limit may have passed just after the last test.
         let end = if interrupted { "an interrupt" } else { &format!("the time limit of {} s", limit.as_secs_f64()) };
         let missed = self.sampling.epsilon.filter(|_| cut_short).and_then(|epsilon| reached.missed(epsilon, end));
         let promise = Promise::of(strategy, &request, if missed.is_some() { written } else { most } as u64)?;
@@ -175,7 +177,7 @@ impl Options {
             verbosity.note(note);
         }
         if let Some(missed) = missed {
-            // The set is not what was asked for: that has to be known.
+            // The set does not reach epsilon: the user has to know.
             complain(&missed);
         }
         if self.sampling.epsilon.is_some() || (is_noted && space.dims() > 0) {
@@ -185,7 +187,7 @@ impl Options {
     }
 
     fn request<'a>(&self, space: &'a Space, strategy: Strategy, existing: &'a [Point]) -> Result<Request<'a>, Error> {
-        // As many as it takes, where epsilon says when it is enough.
+        // Epsilon decides how many tests are enough.
         let budget = if self.sampling.epsilon.is_some() { usize::MAX } else { DEFAULT_BUDGET };
         let mut request = Request {
             seed: self.sampling.seed,
@@ -203,17 +205,17 @@ impl Options {
 
 const DEFAULT_BUDGET: usize = 500;
 
-/// How long tests are looked for that reach epsilon.
+/// How many seconds the search for epsilon may take.
 const TIME_LIMIT: f64 = 60.0;
 
-/// The time that the measuring after `--epsilon` may take, and where nobody asked for it.
+/// The time for measuring after `--epsilon`, and the time for measuring without `--epsilon`.
 const REPORT_LIMIT: Duration = Duration::from_secs(10);
 const UNASKED_LIMIT: Duration = Duration::from_secs(2);
 
-/// More tests than this are not kept to be measured where nobody asked for it.
+/// The most tests that are kept and measured without `--epsilon`.
 const MOST_UNASKED: usize = 100_000;
 
-/// Writes at most that many tests as they are made.
+/// Writes at most `most` tests, each as soon as it is made.
 fn write(
     mut generator: Box<dyn Generator>,
     space: &Space,
@@ -246,7 +248,7 @@ fn write(
     Ok(written)
 }
 
-/// What the system said, so that a closed pipe is known as one.
+/// Returns the error of the operating system, so that a closed pipe is recognised.
 fn plain(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,

@@ -1,4 +1,4 @@
-//! The program `paracosm-cover`: how well tests cover a space, and tests that cover it well.
+//! The program `paracosm-cover`: measures how well tests cover a space, and makes tests that cover a space well.
 
 mod array;
 mod certificate;
@@ -28,7 +28,7 @@ Examples:
 
 Dispersion is the largest volume of an axis-parallel box that no test has entered, as a share of the space.";
 
-/// Says how well a set of tests covers its space, and makes sets that cover it well.
+/// Measures how well a set of tests covers its space, and makes sets that cover a space well.
 #[derive(Debug, Parser)]
 #[command(name = "paracosm-cover", version, after_help = EXAMPLES)]
 pub(super) struct Command {
@@ -38,11 +38,11 @@ pub(super) struct Command {
     verbosity: Verbosity,
 }
 
-/// The open-loop strategy of that name: the others go by how tests went, and here none is run.
+/// Returns the open-loop strategy of this name. Adaptive strategies need outcomes, and this program runs no tests.
 fn open_loop(name: &str) -> Result<Strategy, Error> {
     match name.parse::<Strategy>()? {
         strategy if strategy.is_adaptive() => {
-            let message = "goes by how tests went, and here none is run; it is a strategy for `paracosm-fuzz run`";
+            let message = "is adaptive: it needs the outcomes of tests, and paracosm-cover runs none; use it with `paracosm-fuzz run`";
             Err(usage(format!("`{strategy}` {message}")))
         }
         strategy => Ok(strategy),
@@ -57,7 +57,7 @@ enum Verb {
     Generate(generate::Options),
     /// Compare strategies over dimensions, budgets and seeds
     Compare(compare::Options),
-    /// Say how many tests each guarantee asks for
+    /// Show how many tests each guarantee needs
     Plan(plan::Options),
 }
 
@@ -72,8 +72,8 @@ impl Command {
     }
 }
 
-/// A number of seconds as an option gives it.
+/// Reads the number of seconds of an option.
 fn time_limit(option: &str, seconds: f64) -> Result<Duration, Error> {
     Duration::try_from_secs_f64(seconds)
-        .map_err(|_| usage(format!("{option} {seconds}: expected a number of seconds from 0 on")))
+        .map_err(|_| usage(format!("{option} {seconds}: expected a number of seconds, 0 or more")))
 }

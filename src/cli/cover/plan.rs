@@ -1,4 +1,4 @@
-//! `paracosm-cover plan`: how many tests each guarantee asks for.
+//! `paracosm-cover plan`: shows how many tests each guarantee needs.
 
 use super::{strength, time_limit};
 use crate::cli::output::{Format, Table, json};
@@ -15,10 +15,10 @@ Examples:
   paracosm-cover plan --space SPACE.toml --k 2 --epsilon 0.1 --delta 0.05
   paracosm-cover plan --dims 5 --epsilon 0.1
 
-A set is (k, epsilon)-covering if any k discrete parameters show all their combinations, and for each of its rows the
-continuous points leave no empty box of volume above epsilon.";
+A set is (k, epsilon)-covering if it contains all combinations of the values of any k discrete parameters, and if for each
+of these rows the continuous points leave no empty box of volume above epsilon.";
 
-/// What `plan` takes.
+/// The options of `plan`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, group = ArgGroup::new("of").required(true))]
 pub(super) struct Options {
@@ -28,22 +28,22 @@ pub(super) struct Options {
     /// The unit cube of that many dimensions
     #[arg(long, value_name = "D", group = "of")]
     dims: Option<usize>,
-    /// How many parameters are covered together; where fewer are discrete, all combinations of these [default: 2]
+    /// How many parameters are covered together; if fewer are discrete, all their combinations [default: 2]
     #[arg(long, value_name = "K")]
     k: Option<usize>,
-    /// A group of discrete parameters of which K are covered together, more than of all
+    /// A group of discrete parameters whose combinations of K are covered, too; K is more than --k
     #[arg(long, value_name = "NAME,NAME,..=K")]
     strength: Vec<String>,
     /// The largest volume of a box without a test, as a share of the continuous parameters' space
     #[arg(long, value_name = "E", default_value_t = 0.1)]
     epsilon: f64,
-    /// The probability with which a random set may fail
+    /// The probability that a random set may miss the guarantee
     #[arg(long, value_name = "D", default_value_t = 0.05)]
     delta: f64,
-    /// Time that making a covering array and the measuring may take, all together
+    /// Time for making and measuring a covering array, together
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
-    /// How to print it [default: table on a terminal, json elsewhere]
+    /// How to print the result [default: table on a terminal, json elsewhere]
     #[arg(long)]
     format: Option<Format>,
 }
@@ -65,7 +65,7 @@ impl Options {
             verbosity.note(note);
         }
         if space.dims() > 3 {
-            verbosity.note("above three dimensions the a-priori bounds are useless: rely on what was measured");
+            verbosity.note("above three dimensions the a-priori bounds are useless: rely on the measured numbers");
         }
         print(&match Format::or_fitting(self.format) {
             Format::Json => json(&plan),
@@ -90,7 +90,7 @@ fn table(plan: &Plan, groups: &str, dims: usize) -> String {
         needs(&mut table, points);
     }
     if let Some(tests) = tests {
-        table.heading("tests that do both, every row with points of its own");
+        table.heading("tests that do both: every row has its own points");
         needs(&mut table, tests);
     }
     table.finish()
@@ -106,7 +106,7 @@ fn needs(table: &mut Table, needs: &[Need]) {
         };
         let guarantee = match (over, guarantee) {
             (Some(_), Guarantee::Measured) => "measured until the time limit",
-            (Some(_), _) => "not made, for it takes too long",
+            (Some(_), _) => "not made: it takes too long",
             (None, _) => guarantee.words(),
         };
         table.line(&format!("{of:<width$}  {tests:>20}  {guarantee}"));

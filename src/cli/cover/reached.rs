@@ -1,8 +1,8 @@
-//! What generated tests are good for, in notes: what random rows promise, how far a budget came through the rows of a
-//! covering array, and the (k, epsilon) that was reached. All but the promise is measured.
+//! Notes on generated tests: the guarantee of random rows, the part of a covering array that the budget covers, and
+//! the (k, epsilon) that was reached. Everything but the guarantee is measured.
 
 use super::array::combinations;
-use crate::cli::output::{bracket, digits};
+use crate::cli::output::{bracket, digits, plural};
 use crate::coverage::kwise::KwiseError;
 use crate::coverage::kwise_dispersion::row_dispersion;
 use crate::coverage::{Bracket, Deadline};
@@ -37,14 +37,15 @@ impl Reached {
         let measured = match self.discrete(Some(promise.k)) {
             Ok(found) => found.map(|found| format!("{} of {} covered", found.covered, found.valid)),
             Err(error) => match error.reason() {
-                Some(KwiseError::TooMany { .. }) => Some(format!("not, for {error}")),
+                Some(KwiseError::TooMany { .. }) => Some(format!("nothing: {error}")),
                 _ => return Err(error),
             },
         };
         let (drawn, different) = (promise.rows, rows.len());
         let measured = measured.expect("there are discrete parameters");
         Ok(format!(
-            "{drawn} random rows, {different} of them different; guaranteed: {}; measured: {measured}",
+            "{}, {different} of them different; guaranteed: {}; measured: {measured}",
+            plural(drawn as usize, "random row"),
             promise.words()
         ))
     }
@@ -65,7 +66,7 @@ impl Reached {
 
     /// The (k, epsilon) of the tests.
     pub fn words(&self) -> Result<String, Error> {
-        let Some(rows) = self.epsilon else { return Ok("nothing continuous to measure".to_owned()) };
+        let Some(rows) = self.epsilon else { return Ok("no continuous parameter to measure".to_owned()) };
         let epsilon = if rows.is_exact() { digits(rows.upper) } else { format!("at most {}", digits(rows.upper)) };
         if self.tests.space.levels().is_empty() {
             return Ok(format!("dispersion {epsilon}: measured"));
@@ -75,7 +76,7 @@ impl Reached {
                 format!("({}, {epsilon})-covering: measured", discrete.k)
             }
             Some(discrete) => {
-                format!("not {}-wise complete; over the rows there are, dispersion {epsilon}", discrete.k)
+                format!("not {}-wise complete; the dispersion over the covered rows is {epsilon}", discrete.k)
             }
             None => format!("dispersion {epsilon} over the rows: measured"),
         })
@@ -85,8 +86,10 @@ impl Reached {
     pub fn missed(&self, epsilon: f64, end: &str) -> Option<String> {
         let rows = self.epsilon.filter(|rows| rows.upper > epsilon)?;
         Some(match rows.lower > epsilon {
-            true => format!("{end} came before epsilon {epsilon}"),
-            false => format!("{end} came, and whether epsilon {epsilon} is reached is not known: {}", bracket(&rows)),
+            true => format!("{end} ended the search before epsilon {epsilon} was reached"),
+            false => {
+                format!("{end} ended the search; whether epsilon {epsilon} is reached is unknown: {}", bracket(&rows))
+            }
         })
     }
 

@@ -1,13 +1,14 @@
-//! The option `--strength`: groups of discrete parameters of which more than k are covered together.
+//! The option `--strength`: groups of discrete parameters that are covered with a strength of more than k.
 
+use crate::cli::output::plural;
 use crate::cli::usage;
 use crate::space::Space;
 use paracosm_campaign::Error;
 
-/// A group, as positions among the discrete parameters, and how many of them are covered together.
+/// A group, as positions among the discrete parameters, and its strength.
 pub(super) type Group = (Vec<usize>, usize);
 
-/// The groups that the option names, NAME,NAME,..=K each.
+/// Reads the groups of the option, each NAME,NAME,..=K.
 pub(super) fn groups(texts: &[String], space: &Space) -> Result<Vec<Group>, Error> {
     texts.iter().map(|text| group(text, space)).collect()
 }
@@ -30,12 +31,15 @@ fn group(text: &str, space: &Space) -> Result<Group, Error> {
         return Err(wrong(format!("parameter `{}` is named twice", discrete[twice[0]])));
     }
     if k == 0 || k > members.len() {
-        return Err(wrong(format!("found {k}, expected 1 to {}, the number of its parameters", members.len())));
+        return Err(wrong(format!(
+            "found {k}, expected 1 to {}, the number of parameters in the group",
+            members.len()
+        )));
     }
     Ok((members, k))
 }
 
-/// The groups that add something to all combinations of `k`, in words and parentheses; nothing where there are none.
+/// Names the groups with a strength of more than `k`, in words and parentheses; empty if there are none.
 pub(super) fn beside(k: usize, groups: &[Group], space: &Space) -> String {
     let higher = groups.iter().filter(|(_, strength)| *strength > k);
     let words: Vec<String> =
@@ -43,15 +47,18 @@ pub(super) fn beside(k: usize, groups: &[Group], space: &Space) -> String {
     if words.is_empty() { String::new() } else { format!(" ({})", words.join("; ")) }
 }
 
-/// What is to be said where `k` is more than there are discrete parameters, beside which there are continuous ones.
+/// Returns a note if `k` is more than the number of discrete parameters and the space also has continuous parameters.
 pub(super) fn capped(k: Option<usize>, space: &Space) -> Option<String> {
     let (discrete, dims) = (space.levels().len(), space.dims());
     let k = k.filter(|k| dims > 0 && (1..*k).contains(&discrete) && *k <= discrete + dims)?;
-    let (parameters, them) = if discrete == 1 { ("parameter is", "it") } else { ("parameters are", "them") };
-    Some(format!("k is {k}, but only {discrete} {parameters} discrete: for {them} k is {discrete}"))
+    let are = if discrete == 1 { "is" } else { "are" };
+    Some(format!(
+        "k is {k}, but only {} {are} discrete: k is {discrete} for discrete parameters",
+        plural(discrete, "parameter")
+    ))
 }
 
-/// What is to be said of groups that add nothing, one note for each.
+/// Returns a note for each group that adds nothing.
 pub(super) fn pointless<'a>(k: usize, groups: &'a [Group], space: &'a Space) -> impl Iterator<Item = String> + 'a {
     let lower = groups.iter().filter(move |(_, strength)| *strength <= k);
     lower.map(move |(members, strength)| {

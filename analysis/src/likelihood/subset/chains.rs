@@ -1,4 +1,4 @@
-//! Populations of tests at a level, and the chains by which they grow.
+//! Defines populations of tests at a level, and the chains that make them grow.
 
 use crate::likelihood::monte_carlo::BATCH;
 use crate::likelihood::{Runs, Tally, is_failure};
@@ -6,18 +6,18 @@ use crate::statistics::random::SplitMix64;
 use paracosm_campaign::Error;
 use paracosm_space::distribution::normal_cdf;
 
-/// A test: independent standard normal coordinates, and its robustness.
+/// A test: independent standard normal coordinates and a robustness.
 #[derive(Clone)]
 pub(super) struct Member {
     place: Vec<f64>,
     pub robustness: f64,
 }
 
-/// Tests that were judged.
+/// A set of judged tests.
 pub(super) struct Population(pub Vec<Member>);
 
 impl Population {
-    /// The judged ones of so many independent tests, and how all of them went.
+    /// Runs this number of independent tests. Returns the judged tests, and the counts of all tests.
     pub fn independent(
         size: usize,
         dims: usize,
@@ -43,7 +43,7 @@ impl Population {
         self.0.len()
     }
 
-    /// Those at a level.
+    /// Returns the tests that reach a level.
     pub fn below(self, threshold: f64) -> Vec<Member> {
         self.0.into_iter().filter(|member| reaches(member.robustness, threshold)).collect()
     }
@@ -53,7 +53,7 @@ impl Population {
     }
 }
 
-/// Whether a test is at a level: zeros have signs here, as they decide.
+/// Checks whether a test reaches a level. The sign of a zero matters here, because it decides the verdict.
 pub(super) fn reaches(robustness: f64, threshold: f64) -> bool {
     robustness.total_cmp(&threshold).is_le()
 }
@@ -63,12 +63,13 @@ fn judge(places: &[Vec<f64>], runs: &mut Runs) -> Result<Vec<Option<f64>>, Error
     runs.run(&points)
 }
 
-/// A population of `size` tests at a level: the seeds, and from each of them a chain that stays at the level.
+/// Makes a population of `size` tests at a level: the seeds, and for each of them a chain that stays at the level.
 ///
 /// A chain steps by conditional sampling (Papaioannou, Betz, Zwirglmaier and Straub, MCMC algorithms for subset
-/// simulation, Probabilistic Engineering Mechanics 41, 2015): the mean of a place and a new normal one, weighted so that
-/// it is normal again, is taken if it is at the level. All chains take a step together; `step` is told which share of
-/// them the last one moved, nothing before the first, and says how far the next one goes.
+/// simulation, Probabilistic Engineering Mechanics 41, 2015). The proposed place is the sum of the current place and
+/// a new normal one, weighted so that it is normal again; the chain moves there if the proposed test is at the level.
+/// All chains take a step together. `step` receives the share of the chains that moved in the last step (`None`
+/// before the first step), and returns the size of the next step.
 pub(super) fn grow(
     seeds: Vec<Member>,
     size: usize,
@@ -81,7 +82,7 @@ pub(super) fn grow(
     let mut members = heads.clone();
     let mut moved = None;
     while members.len() < size {
-        // Chains differ in length by one at most; which are longer is up to chance.
+        // The lengths of chains differ by one at most. The longer chains are chosen at random.
         heads.truncate(size - members.len());
         let far = step(moved);
         let keep = (1.0 - far * far).sqrt();

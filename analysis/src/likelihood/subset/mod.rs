@@ -1,13 +1,14 @@
-//! Subset simulation (Au and Beck, Estimation of small failure probabilities in high dimensions by subset simulation,
-//! Probabilistic Engineering Mechanics 16, 2001), which is adaptive multilevel splitting (Cérou and Guyader, Stochastic
-//! Analysis and Applications 25, 2007): a rare failure is reached over levels of robustness, each of which a tenth of the
-//! tests of the one before it falls below.
+//! Implements subset simulation (Au and Beck, Estimation of small failure probabilities in high dimensions by subset
+//! simulation, Probabilistic Engineering Mechanics 16, 2001), a form of adaptive multilevel splitting (Cérou and
+//! Guyader, Stochastic Analysis and Applications 25, 2007). It reaches a rare failure through levels of robustness: a
+//! tenth of the tests of each level falls below the next level.
 //!
-//! A run that chooses its levels by the tests that it then counts is a little off, and its own tests depend on each
-//! other, so that formulas for its spread say too little. Therefore a pilot chooses the levels and the steps of the
-//! chains once, and independent repetitions with these only count; the interval is that of their mean. Each
-//! repetition is nearly log-normally distributed, and unbiased but for terms of the order of one over its tests.
-//! What all repetitions miss alike, such as failures in a place to which no level leads, no interval shows.
+//! A run that chooses its levels by the same tests that it counts is slightly biased. Its tests also depend on each
+//! other, so that formulas for its spread give too small a value. Therefore a pilot chooses the levels and the steps
+//! of the chains once, and independent repetitions with these levels and steps only count. The interval is that of
+//! the mean of the repetitions. Each repetition is nearly log-normally distributed, and unbiased except for terms of
+//! the order of one over its number of tests. The interval does not show what all repetitions miss, such as failures
+//! in a place to which no level leads.
 
 mod chains;
 mod pilot;
@@ -19,20 +20,20 @@ use chains::{Population, grow};
 use paracosm_campaign::Error;
 use pilot::Pilot;
 
-/// The share of tests that reaches the next level: 0.1 is what Au and Beck recommend.
+/// The share of tests that reaches the next level. Au and Beck recommend 0.1.
 const SHARE: f64 = 0.1;
 
-/// How many independent repetitions there are.
+/// The number of independent repetitions.
 const REPLICATES: usize = 10;
 
-/// With less a repetition has too few tests at a level to go on from.
+/// The least budget: with less, a repetition has too few tests at a level to continue from.
 pub(super) const LEAST_BUDGET: usize = 2000;
 
-/// A level of robustness on the way down.
+/// A level of robustness on the way to a failure.
 struct Level {
     /// The robustness that tests of this level do not exceed.
     threshold: f64,
-    /// How far the chains step at this level, from 0 to 1.
+    /// The size of the steps of the chains at this level, from 0 to 1.
     step: f64,
 }
 
@@ -41,7 +42,7 @@ pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Res
     let Pilot { levels, lost } = Pilot::run(question.budget, dims, runs, &mut random)?;
     let mut notes: Vec<String> = lost.into_iter().collect();
     let left = question.budget.saturating_sub(runs.evaluations);
-    // No level asks for more than its size, so that the budget is kept.
+    // No level runs more tests than `size`, so that the budget is kept.
     let size = (left / (REPLICATES * (levels.len() + 1))).max(1);
     let mut first = Tally::default();
     let mut estimates = Vec::with_capacity(REPLICATES);
@@ -60,7 +61,8 @@ pub(super) fn estimate(question: &Question, dims: usize, runs: &mut Runs) -> Res
     Ok(Tail { probability, interval: [lower, upper], source, notes })
 }
 
-/// One estimate of the probability of a failure; the independent tests with which it begins are added to `first`.
+/// Returns one estimate of the probability of a failure. The independent tests with which it begins are added to
+/// `first`.
 fn repetition(
     levels: &[Level],
     size: usize,
@@ -84,7 +86,7 @@ fn repetition(
     Ok(probability * population.failures() as f64 / population.len().max(1) as f64)
 }
 
-/// The interval of the mean of independent repetitions.
+/// Returns the interval of the mean of independent repetitions.
 fn interval(estimates: &[f64], first: Tally, confidence: f64, notes: &mut Vec<String>) -> [f64; 2] {
     let blind = estimates.iter().filter(|estimate| **estimate == 0.0).count();
     if blind == 0 {
@@ -93,15 +95,15 @@ fn interval(estimates: &[f64], first: Tally, confidence: f64, notes: &mut Vec<St
     notes.push(format!(
         "{blind} of {REPLICATES} repetitions found no failure, so that the interval is wide: take a larger budget"
     ));
-    // So few failures that no distribution can be read off them. By Markov's inequality a mean that is seldom so many
-    // times too large bounds the truth from below, and from above the independent tests do.
+    // With so few failures no distribution can be assumed. By Markov's inequality, a mean is rarely 1/`tail` times
+    // too large, which gives a lower bound. The independent tests give an upper bound.
     let tail = (1.0 - confidence) / 2.0;
     let mean = estimates.iter().sum::<f64>() / estimates.len() as f64;
     let [_, upper] = mean_interval(estimates, confidence);
     [tail * mean, upper.max(first.interval(confidence)[1])]
 }
 
-/// The interval where some tests could not be judged: how many tests these are is known from the independent ones.
+/// Widens the interval if some tests could not be judged. The independent tests show how many tests these are.
 fn widened(lower: f64, upper: f64, first: Tally, question: &Question) -> (f64, f64) {
     let [_, unjudged] = clopper_pearson(first.unjudged, first.tests, question.confidence);
     (lower * (1.0 - unjudged), upper + unjudged)

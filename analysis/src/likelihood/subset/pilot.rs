@@ -1,4 +1,4 @@
-//! The pilot: chooses levels and steps, and counts nothing.
+//! Runs the pilot of a subset simulation, which chooses levels and steps and does not count.
 
 use super::chains::{Population, grow, reaches};
 use super::{Level, SHARE};
@@ -6,23 +6,24 @@ use crate::likelihood::Runs;
 use crate::statistics::random::SplitMix64;
 use paracosm_campaign::Error;
 
-/// Of how many parts of the budget each level of the pilot gets one: a pilot of all levels takes less than a third.
+/// The number of parts of the budget, of which each level of the pilot gets one: a pilot with all levels takes less
+/// than a third of the budget.
 const PART: usize = 60;
 
-/// Failures that more levels are needed for have a probability below 1e-20.
+/// The greatest number of levels: failures that need more levels have a probability below 1e-20.
 const MOST_LEVELS: usize = 20;
 
-/// The share of steps that is to be taken (Papaioannou et al. 2015).
+/// The share of steps that the chains should accept (Papaioannou et al. 2015).
 const ACCEPTED: f64 = 0.44;
 
-/// Steps beyond these ends help in no case: at 1 a place is forgotten.
+/// The least and the greatest step. Other steps never help: a step of 1 forgets the current place.
 const STEPS: [f64; 2] = [0.01, 1.0];
 
-/// What the pilot found.
+/// The result of the pilot.
 pub(super) struct Pilot {
-    /// The levels before the failure; none where failures are common, or the way to them was lost.
+    /// The levels before the failure; empty if failures are common or the pilot found no way to them.
     pub levels: Vec<Level>,
-    /// Why no way was found.
+    /// The reason why the pilot found no way to a failure, if it did not.
     pub lost: Option<String>,
 }
 
@@ -59,13 +60,13 @@ impl Pilot {
     }
 }
 
-/// Where a population goes on.
+/// The way in which a population continues.
 enum Next {
-    /// Enough of it failed.
+    /// Enough tests failed.
     Failure,
-    /// At this robustness.
+    /// The next level is at this robustness.
     Level(f64),
-    /// Nowhere: too many are at this robustness, and none below it.
+    /// There is no next level: too many tests have this robustness, and no test is below it.
     Stuck(f64),
 }
 
@@ -80,7 +81,7 @@ fn next_threshold(population: &Population) -> Next {
     let threshold = sorted[wanted - 1];
     let below = sorted.partition_point(|robustness| robustness.total_cmp(&threshold).is_lt());
     let at = sorted.iter().filter(|robustness| reaches(**robustness, threshold)).count();
-    // A plateau of equal values is no level; what lies below it may be one.
+    // A plateau of equal values cannot be a level, but the value below it can.
     match below {
         _ if 2 * at <= sorted.len() => Next::Level(threshold),
         0 => Next::Stuck(threshold),

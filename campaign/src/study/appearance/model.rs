@@ -1,4 +1,4 @@
-//! Reads the models, when they are needed.
+//! Reads the models of users when they are needed.
 
 use super::{Appearance, Appearances, first_of};
 use crate::Reason;
@@ -9,25 +9,25 @@ use paracosm_render::{Cast, Mesh, Model, Semantic};
 use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 
-/// A model that has been read, or has not been needed yet.
+/// A model that has been read, or that was not needed so far.
 pub(super) type Loaded = OnceLock<Arc<Model>>;
 
-/// What keeps a file from being a model.
+/// The reason why a file cannot be used as a model.
 #[derive(Debug, Error)]
 pub enum ModelFlaw {
-    /// It cannot be read or used.
+    /// The file cannot be read, or is not a usable model.
     #[error(transparent)]
     Gltf(#[from] GltfError),
-    /// It is another one than it was.
+    /// The model has changed since the campaign was run.
     #[error(
         "the model {file} has the hash {found}, expected {expected}: it is not the one that the campaign was run with"
     )]
     Changed {
         /// The file.
         file: String,
-        /// Its hash.
+        /// The hash of the model now.
         found: String,
-        /// The hash that it had.
+        /// The hash of the model when the campaign was run.
         expected: String,
     },
 }
@@ -35,10 +35,10 @@ pub enum ModelFlaw {
 impl Reason for ModelFlaw {}
 
 impl Appearances {
-    /// Which bodies of a run are shown as models.
+    /// Returns the bodies of a run that are shown as models.
     ///
     /// # Errors
-    /// A file cannot be read any more, or is another than when the study was made.
+    /// A file can no longer be read, or has changed since the study was made.
     pub fn cast(&self, run: &Run) -> Result<Cast, ModelFlaw> {
         let mut cast = Cast::new();
         if self.is_empty() {
@@ -55,7 +55,7 @@ impl Appearances {
 }
 
 impl Appearance {
-    /// The model of a file, which stands for something of this class.
+    /// Reads the model in a file, for an actor of this class.
     pub fn read(file: &str, class: Class) -> Result<Self, ModelFlaw> {
         let (hash, model) = load(file, class)?;
         Ok(Self { file: file.to_owned(), hash, loaded: OnceLock::from(model) })
@@ -91,7 +91,7 @@ fn semantic(class: Class) -> Semantic {
     }
 }
 
-/// That of all that is drawn of a mesh, wherever it was read from.
+/// Returns the hash of everything in a mesh that is drawn, whatever file it was read from.
 fn hash(mesh: &Mesh) -> String {
     let mut bytes = Vec::new();
     for vertex in mesh.vertices() {

@@ -1,4 +1,4 @@
-//! The numbers in a model's buffers. Nothing that a file says of where they are is taken for granted.
+//! Reads the numbers in a model's buffers. Every offset and length that a file states is checked.
 
 use super::{GltfError, GltfFlaw};
 use gltf::accessor::{DataType, Dimensions};
@@ -27,7 +27,7 @@ impl Bytes {
         Ok(Self(document.buffers().map(&mut read).collect::<Result<_, _>>()?))
     }
 
-    /// The bytes of every element of an accessor, `size` each.
+    /// Returns the bytes of every element of an accessor, `size` bytes each.
     fn elements(&self, accessor: &Accessor<'_>, size: usize) -> Result<Vec<&[u8]>, GltfFlaw> {
         let index = accessor.index();
         let view = match (accessor.view(), accessor.sparse()) {
@@ -41,7 +41,7 @@ impl Bytes {
             let from = view.stride().unwrap_or(size).max(size).checked_mul(i)?.checked_add(accessor.offset())?;
             bytes?.get(from..from.checked_add(size)?)
         };
-        // No more than there can be, whatever the file says.
+        // The file may state any count; the bytes must suffice for it.
         let count = accessor.count();
         if count > 0 && element(count - 1).is_none() {
             return Err(GltfFlaw::TooFewBytes { accessor: index, elements: count });
@@ -50,7 +50,7 @@ impl Bytes {
     }
 }
 
-/// Vectors of floating-point numbers.
+/// Returns vectors of floating-point numbers.
 pub(super) fn floats<const N: usize>(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<[f32; N]>, GltfFlaw> {
     if accessor.data_type() != DataType::F32 || accessor.dimensions().multiplicity() != N {
         let (found, shape) = (accessor.data_type(), accessor.dimensions());
@@ -61,7 +61,7 @@ pub(super) fn floats<const N: usize>(accessor: &Accessor<'_>, bytes: &Bytes) -> 
     Ok(elements.into_iter().map(|element| std::array::from_fn(|i| number(element, i))).collect())
 }
 
-/// Indices of corners.
+/// Returns indices of corners.
 pub(super) fn indices(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<u32>, GltfFlaw> {
     let size = accessor.data_type().size();
     let whole = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
@@ -72,7 +72,7 @@ pub(super) fn indices(accessor: &Accessor<'_>, bytes: &Bytes) -> Result<Vec<u32>
     Ok(bytes.elements(accessor, size)?.into_iter().map(number).collect())
 }
 
-/// The bytes of a text in base64 (RFC 4648), padded or not.
+/// Returns the bytes of a text in base64 (RFC 4648), with or without padding.
 fn base64(text: &str) -> Option<Vec<u8>> {
     let digit = |letter: u8| match letter {
         b'A'..=b'Z' => Some(letter - b'A'),
@@ -90,7 +90,7 @@ fn base64(text: &str) -> Option<Vec<u8>> {
     Some(digits.chunks(4).flat_map(group).collect())
 }
 
-/// A file name without its escapes: `%20` is a space.
+/// Returns a file name without its escapes: `%20` is a space.
 fn unescaped(uri: &str) -> String {
     let bytes = uri.as_bytes();
     let (mut out, mut at) = (Vec::new(), 0);

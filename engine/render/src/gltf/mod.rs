@@ -1,11 +1,13 @@
-//! Models that users bring along: glTF 2.0, as text or binary.
+//! Reads models of users: glTF 2.0, as text or binary.
 //!
-//! A file becomes one mesh. Read are the triangles of all nodes of its scene, with their normals and texture coordinates, and of
-//! the materials their base colours. Textures, animations, skins and morph targets are not.
+//! A file becomes one mesh. The reader takes the triangles of all nodes of the file's scene, with their normals and
+//! texture coordinates, and the base colours of the materials. It ignores textures, animations, skins and morph
+//! targets.
 //!
-//! What a material is to light says its name, for glTF has no words for it: one that has `paint` in it gets the colour
-//! of the body, one with `glass` in it, or that lets light through, is glass, one that shines is a lamp, red or white
-//! by its colour. All others are dull, of their own colour.
+//! The name of a material says how the surface reacts to light, because glTF has no property for it. A material whose
+//! name contains `paint` gets the colour of the body. A material whose name contains `glass`, or that lets light
+//! through, is glass. A material that shines is a lamp, red or white by its colour. All other materials are dull and
+//! have their own colour.
 
 mod bytes;
 
@@ -18,128 +20,128 @@ use nalgebra::{Matrix4, Point3, Vector3};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// How deep nodes may lie within nodes: a file that is not sound may have them in circles.
+/// The greatest depth of nodes within nodes; in a faulty file they may form circles.
 const DEPTH: usize = 64;
 
-/// Why a model cannot be used.
+/// The reason why a model cannot be used.
 #[derive(Debug, Error)]
 pub enum GltfError {
     /// A file cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
     Read {
-        /// The model, or a file that it names.
+        /// The model, or a file that the model names.
         path: PathBuf,
-        /// Why.
+        /// The reason why the file cannot be read.
         source: std::io::Error,
     },
-    /// It is no glTF, or has something in it that is not supported.
+    /// The file is not glTF, or contains something that is not supported.
     #[error("`{}` is no model that can be used: {problem}", path.display())]
     Format {
-        /// The model.
+        /// The file of the model.
         path: PathBuf,
-        /// What was found and what was expected.
+        /// The flaw of the file: what was found and what was expected.
         problem: GltfFlaw,
     },
 }
 
-/// What keeps a file from being a model.
+/// The flaw of a file that should be a model.
 #[derive(Debug, Error)]
 pub enum GltfFlaw {
-    /// A binary file whose header says that it is shorter than its header.
+    /// The header of a binary file states a length that is shorter than the header.
     #[error("its header says that it has {bytes} bytes, expected at least 20")]
     Header {
-        /// The length that it says.
+        /// The length that the header states.
         bytes: u32,
     },
-    /// It is no glTF.
+    /// The file is not glTF.
     #[error(transparent)]
     NoGltf(#[from] gltf::Error),
-    /// It names an accessor that it does not have.
+    /// The file names an accessor that it does not have.
     #[error("it names its accessor {accessor}, but it has {count}")]
     NoAccessor {
-        /// The accessor.
+        /// The index of the accessor.
         accessor: usize,
-        /// How many it has.
+        /// The number of accessors in the file.
         count: usize,
     },
-    /// It names a binary part that it does not have.
+    /// The file names a binary part that it does not have.
     #[error("it names a binary part that it does not have")]
     NoBinary,
     /// A buffer is not written in base64.
     #[error("a buffer in it is not written in base64")]
     NoBase64,
-    /// An accessor of a kind that is not supported.
+    /// An accessor is of a kind that is not supported.
     #[error("its accessor {accessor} is sparse or has no buffer view")]
     NoView {
-        /// The accessor.
+        /// The index of the accessor.
         accessor: usize,
     },
-    /// An accessor with more elements than bytes for them.
+    /// An accessor has more elements than there are bytes for.
     #[error("its accessor {accessor} has {elements} elements, which is more than there are bytes for")]
     TooFewBytes {
-        /// The accessor.
+        /// The index of the accessor.
         accessor: usize,
-        /// The number of its elements.
+        /// The number of elements of the accessor.
         elements: usize,
     },
-    /// An accessor of other vectors than are needed.
+    /// An accessor has vectors of another type than is needed.
     #[error("its accessor {accessor} has {shape:?} of {found:?}, expected {expected} numbers of F32 each")]
     NoFloats {
-        /// The accessor.
+        /// The index of the accessor.
         accessor: usize,
-        /// The shape of its elements.
+        /// The shape of the accessor's elements.
         shape: Dimensions,
-        /// The type of its numbers.
+        /// The type of the accessor's numbers.
         found: DataType,
-        /// How many numbers an element should have.
+        /// The number of numbers that an element should have.
         expected: usize,
     },
-    /// An accessor of corners that are no whole numbers.
+    /// An accessor of indices has numbers that are not unsigned integers.
     #[error("its accessor {accessor} has indices of {found:?}, expected U8, U16 or U32")]
     NoIndices {
-        /// The accessor.
+        /// The index of the accessor.
         accessor: usize,
-        /// The type of its numbers.
+        /// The type of the accessor's numbers.
         found: DataType,
     },
-    /// Nodes within nodes without end, or nearly so.
+    /// Nodes lie within nodes without end, or too deep.
     #[error("its nodes lie more than {DEPTH} deep within each other")]
     TooDeep,
-    /// A part that is not made of triangles.
+    /// A part of the model is not made of triangles.
     #[error("it is drawn of {found:?}, expected Triangles")]
     NoTriangleList {
-        /// What it is made of.
+        /// The kind of primitive that the part is made of.
         found: Mode,
     },
-    /// A part without positions.
+    /// A part of the model has no positions.
     #[error("a part of it has no positions")]
     NoPositions,
-    /// A part whose corners do not fit each other.
+    /// The corners of a part do not match its normals, texture coordinates or indices.
     #[error("a part of it with {corners} corners says something of others, or has no whole triangles")]
     Corners {
-        /// The number of its corners.
+        /// The number of corners of the part.
         corners: usize,
     },
-    /// A position that is not finite.
+    /// A position is not finite.
     #[error("a position in it is no number")]
     NoPlace,
-    /// It has nothing to draw.
+    /// The file has nothing to draw.
     #[error("it has no triangles")]
     NoTriangles,
 }
 
-/// The corners and triangles that have been found.
+/// The corners and triangles that were found so far.
 #[derive(Default)]
 struct Found {
     vertices: Vec<Vertex>,
     indices: Vec<u32>,
 }
 
-/// The mesh of a model, all of which is of one class. glTF has y up and z ahead: the mesh has z up and x ahead, and its
-/// lengths as they are in the file. [`Stage::model`](crate::Stage::model) stretches it to a body.
+/// Reads the mesh of a model, all of which gets one class. glTF has y up and z ahead; the mesh has z up and x ahead.
+/// Lengths stay as they are in the file: [`Stage::model`](crate::Stage::model) stretches the mesh to a body.
 ///
 /// # Errors
-/// A file cannot be read, is no glTF 2.0, has no triangles, or needs an extension.
+/// A file cannot be read, is not glTF 2.0, has no triangles, or needs an extension.
 pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfError> {
     let path = path.as_ref();
     let file = std::fs::read(path).map_err(|source| GltfError::Read { path: path.to_owned(), source })?;
@@ -161,9 +163,9 @@ pub fn load(path: impl AsRef<Path>, semantic: Semantic) -> Result<Mesh, GltfErro
     Ok(Mesh::new(found.vertices, found.indices))
 }
 
-/// A document that says nothing of what it does not have, and the binary part of its file.
+/// Returns the checked document, and the binary part of the file.
 fn parse(file: &[u8]) -> Result<(Document, Option<Vec<u8>>), GltfFlaw> {
-    // The reader takes for granted that a binary file says that it is longer than its header,
+    // The parser takes for granted that the length in a binary file's header covers the header,
     if let Some(header) = file.strip_prefix(b"glTF") {
         let length =
             header.get(4..8).map_or(0, |bytes| bytes.iter().rev().fold(0, |all, byte| all << 8 | u32::from(*byte)));
@@ -172,7 +174,7 @@ fn parse(file: &[u8]) -> Result<(Document, Option<Vec<u8>>), GltfFlaw> {
         }
     }
     let Gltf { document, blob } = Gltf::from_slice_without_validation(file)?;
-    // and the validation that there are the accessors that are named.
+    // and its validation takes for granted that all named accessors exist.
     let json = document.into_json();
     let count = json.accessors.len();
     let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
@@ -183,7 +185,7 @@ fn parse(file: &[u8]) -> Result<(Document, Option<Vec<u8>>), GltfFlaw> {
     Ok((document, blob))
 }
 
-/// From glTF's axes (y up, z ahead, x to the left) to ours (z up, x ahead, y to the left).
+/// Returns the transformation from glTF's axes (y up, z ahead, x to the left) to ours (z up, x ahead, y to the left).
 fn upright() -> Matrix4<f32> {
     #[rustfmt::skip]
     let axes = Matrix4::new(
@@ -274,7 +276,7 @@ impl Found {
     }
 }
 
-/// What a material is to light, and its colour.
+/// Returns how a material reacts to light, and its colour.
 fn look(material: &Material<'_>) -> (SurfaceKind, [f32; 3]) {
     let [red, green, blue, _] = material.pbr_metallic_roughness().base_color_factor();
     let base = [red, green, blue];

@@ -1,4 +1,4 @@
-//! Blur: a lens makes a Gaussian of a point.
+//! Blur: the lens turns a point into a Gaussian.
 
 use super::{FARTHEST, Kernel, LensEffect};
 use paracosm_engine::sensor::CameraSetting;

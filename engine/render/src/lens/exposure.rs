@@ -1,6 +1,6 @@
 //! Vignetting and exposure: the share of the light that each pixel gets.
 //!
-//! They are one effect, because a pixel's light is multiplied by both at once, and rounded once.
+//! The two are one effect, because a pixel's light is multiplied by both shares at once, and rounded once.
 
 use super::{LensEffect, Light};
 use nalgebra::Point2;

@@ -1,17 +1,17 @@
-//! What a point of light becomes: a few weights around it.
+//! Kernels: the weights by which a lens spreads a point of light over the pixels around it.
 
-/// How a point is spread: pixels to the right and down of it, with the shares of its light that they get.
+/// A kernel: pixels to the right of a point and down from it, with their shares of the point's light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kernel {
     shares: Vec<(i32, i32, f32)>,
 }
 
-/// How many places along a pixel are looked at to find how much of it is covered.
+/// The number of places along a pixel at which its coverage is sampled.
 const PLACES: i32 = 16;
 
 impl Kernel {
-    /// A Gaussian with this standard deviation in pixels, cut off at four of them: one kernel along the rows and one along
-    /// the columns, which are to be applied after each other.
+    /// Makes a Gaussian with this standard deviation in pixels, cut off at four standard deviations: one kernel along
+    /// the rows and one along the columns. Apply them one after the other.
     pub fn gaussian(deviation: f64) -> [Self; 2] {
         let reach = libm::ceil(4.0 * deviation) as i32;
         let weight = |at: i32| libm::exp(-0.5 * f64::from(at * at) / (deviation * deviation));
@@ -19,7 +19,7 @@ impl Kernel {
         [along(|at| (at, 0)), along(|at| (0, at))]
     }
 
-    /// A disc with this radius in pixels, evenly bright.
+    /// Makes an evenly bright disc with this radius in pixels.
     pub fn disc(radius: f64) -> Self {
         let reach = libm::ceil(radius + 0.5) as i32;
         let places = || (0..PLACES).map(|place| (f64::from(place) + 0.5) / f64::from(PLACES) - 0.5);
@@ -33,14 +33,14 @@ impl Kernel {
         let all = (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| (x, y)));
         let weights: Vec<_> = all.map(|(x, y)| ((x, y), covered(x, y))).filter(|(_, weight)| *weight > 0.0).collect();
         if weights.is_empty() {
-            // It is smaller than what is looked at: a point remains a point.
+            // The disc is smaller than the distance between samples: a point remains a point.
             return Self::normalised([((0, 0), 1.0)]);
         }
         Self::normalised(weights)
     }
 
-    /// A line of this length in pixels, evenly bright, its middle on the point; it runs along an angle in radians
-    /// counter-clockwise from the right.
+    /// Makes an evenly bright line of this length in pixels, whose middle is on the point. The line runs along an angle
+    /// in radians, counter-clockwise from the right.
     pub fn line(length: f64, angle: f64) -> Self {
         let (sin, cos) = libm::sincos(angle);
         let steps = (f64::from(PLACES) * libm::ceil(length)).max(1.0) as i32;
@@ -49,7 +49,7 @@ impl Kernel {
             let at = length * ((f64::from(step) + 0.5) / f64::from(steps) - 0.5);
             let (x, y) = (at * cos, -at * sin);
             let (left, above) = (libm::floor(x), libm::floor(y));
-            // Each place gives its light to the four pixels around it, by how near they are.
+            // Each place gives its light to the four pixels around it, by their distance.
             for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
                 let near = |far: f64, side: i32| if side == 1 { far } else { 1.0 - far };
                 *weights.entry((left as i32 + dx, above as i32 + dy)).or_default() +=
@@ -65,19 +65,20 @@ impl Kernel {
         Self { shares: weights.into_iter().map(|((x, y), weight)| (x, y, (weight / sum) as f32)).collect() }
     }
 
-    /// The pixels to the right and down of a point, and the share of its light that each gets; they sum to 1.
+    /// Returns the pixels to the right of a point and down from it, with their shares of the point's light; the shares
+    /// sum to 1.
     pub fn shares(&self) -> &[(i32, i32, f32)] {
         &self.shares
     }
 
-    /// An image of so many pixels across, red, green and blue of each, with every point spread so. What is beyond the
-    /// edge is as bright as the edge.
+    /// Spreads every point of an image, which has `width` pixels across and red, green and blue of each pixel. Pixels
+    /// beyond the edge are as bright as the edge.
     pub fn apply(&self, image: &[f32], width: usize) -> Vec<f32> {
         let height = image.len() / 3 / width;
         let mut spread = vec![0.0; image.len()];
         for (row, line) in spread.chunks_exact_mut(3 * width).enumerate() {
             for (dx, dy, share) in &self.shares {
-                // A point that gives to the right is what a pixel sees to its left.
+                // If a point gives light to the right, a pixel receives light from its left.
                 let from = (row as i32 - dy).clamp(0, height as i32 - 1) as usize;
                 let source = &image[3 * width * from..][..3 * width];
                 for (column, pixel) in line.chunks_exact_mut(3).enumerate() {

@@ -1,10 +1,12 @@
-//! The effects of a lens and a sensor on light: from the linear light of a [`Frame`] to the image that a camera gives.
+//! Models the effects of a lens and a sensor on light: turns the linear light of a [`Frame`] into the image that a
+//! camera gives.
 //!
-//! Rain falls into the light first. Then it passes the [`EFFECTS`] in their order. At last it is cut off where the sensor is
-//! full, and written in sRGB. All is computed on the processor, so that an image is the same whatever it was drawn beside.
+//! Rain falls into the light first. Then the light passes the [`EFFECTS`] in their order. At last it is cut off where
+//! the sensor is full, and is written in sRGB. Everything is computed on the processor, so that an image does not
+//! depend on the images that are drawn with it.
 //!
-//! An effect is a file of this folder and a line of [`EFFECTS`]. Its settings are then part of
-//! [`camera_settings`](crate::camera_settings), and with it of files, checks, variation from test to test and messages.
+//! To add an effect, add a file to this folder and a line to [`EFFECTS`]. The effect's settings are then part of
+//! [`camera_settings`](crate::camera_settings), and so of files, checks, variation from test to test and messages.
 
 mod blur;
 mod defocus;
@@ -24,30 +26,30 @@ use paracosm_engine::sensor::{CameraSetting, CameraSpec, Chance};
 pub const EFFECTS: &[&LensEffect] =
     &[&motion::EFFECT, &defocus::EFFECT, &blur::EFFECT, &exposure::EFFECT, &noise::EFFECT];
 
-/// Kernels reach no further than this, in pixels.
+/// The greatest reach of a kernel, in pixels.
 const FARTHEST: f64 = 64.0;
 
-/// Something that a lens or a sensor does to light.
+/// An effect of a lens or a sensor on light.
 #[derive(Debug)]
 pub struct LensEffect {
-    /// Its name; its noise is drawn under this name.
+    /// The name of the effect, under which its noise is drawn.
     pub name: &'static str,
-    /// What it does to light, in a few words.
+    /// The description of the effect, in a few words.
     pub about: &'static str,
-    /// Its settings.
+    /// The settings of the effect.
     pub settings: &'static [CameraSetting],
-    /// Whether it leaves light as it is, with these values of its settings, in their order.
+    /// Returns `true` if these values of the settings, in their order, leave the light unchanged.
     pub is_idle: fn(&[f64]) -> bool,
-    /// Changes the light of an image. All its noise comes from the chance, which is its own in every image.
+    /// Changes the light of an image. All noise comes from the [`Chance`], which differs from image to image.
     pub apply: fn(&[f64], &mut Light<'_>, &mut Chance),
 }
 
 /// The light of an image on its way through a lens.
 #[derive(Debug)]
 pub struct Light<'a> {
-    /// Linear red, green and blue of each pixel, row by row; 1 is a white surface in full sun.
+    /// The linear red, green and blue of each pixel, row by row; 1 is a white surface in full sun.
     pub values: Vec<f32>,
-    /// The camera.
+    /// The camera that the light falls into.
     pub camera: &'a Camera,
 }
 
@@ -58,19 +60,20 @@ impl Light<'_> {
     }
 }
 
-/// A lens with its sensor: the effects that it has, with the values of their settings. By default it has none.
+/// A lens with its sensor: a list of effects with the values of their settings. The default has no effects.
 #[derive(Debug, Clone, Default)]
 pub struct Lens {
     effects: Vec<(&'static LensEffect, Vec<f64>)>,
 }
 
 impl Lens {
-    /// The lens of a camera, whose settings are in their ranges; see [`CameraSettings::check`](crate::CameraSettings::check).
+    /// Makes the lens of a camera whose settings are in their ranges; see
+    /// [`CameraSettings::check`](crate::CameraSettings::check).
     pub fn of(camera: &CameraSpec) -> Self {
         Self::with(EFFECTS, camera)
     }
 
-    /// A lens of these effects instead of [`EFFECTS`].
+    /// Makes a lens with these effects instead of [`EFFECTS`].
     pub fn with(effects: &[&'static LensEffect], camera: &CameraSpec) -> Self {
         let values = |effect: &&'static LensEffect| {
             let values: Vec<_> = effect.settings.iter().map(|setting| setting.value(camera)).collect();
@@ -80,13 +83,13 @@ impl Lens {
         Self { effects: effects.collect() }
     }
 
-    /// Whether light goes through as it is.
+    /// Returns `true` if the lens leaves all light unchanged.
     pub fn is_plain(&self) -> bool {
         self.effects.is_empty()
     }
 
-    /// The image in sRGB, 8 bits a colour, that a camera with this lens gives of a frame; `None` where the frame has no
-    /// linear light. `chance` gives each effect, by its name, the noise of this image.
+    /// Returns the image that a camera with this lens gives of a frame, in sRGB with 8 bits a colour; `None` if the
+    /// frame has no linear light. `chance` returns the source of noise in this image for the name of an effect.
     pub fn develop(&self, frame: &Frame, chance: impl Fn(&str) -> Chance) -> Option<Vec<u8>> {
         let mut light = Light { values: frame.linear.clone()?, camera: &frame.camera };
         for (effect, values) in &self.effects {
@@ -96,7 +99,7 @@ impl Lens {
     }
 }
 
-/// A linear value, cut to 0 to 1, in sRGB (IEC 61966-2-1).
+/// Converts a linear value, cut off to 0 to 1, to sRGB (IEC 61966-2-1).
 fn srgb(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055 };

@@ -1,7 +1,7 @@
 //! Noise: a sensor counts electrons, and reads them out.
 //!
-//! A pixel of `n` electrons has a variance of `n` from counting (a Poisson distribution, taken for a normal one) and one of
-//! `read_noise` squared from reading.
+//! A pixel of `n` electrons has a variance of `n` from counting (a Poisson distribution, approximated by a normal one)
+//! and a variance of `read_noise` squared from reading.
 
 use super::LensEffect;
 use paracosm_engine::sensor::{CameraSetting, Chance};

@@ -1,51 +1,53 @@
-//! Streaks of rain: drops that fall before the camera while it exposes.
+//! Streaks of rain: drops that fall in front of the camera while it exposes an image.
 //!
-//! A drop gathers light from nearly all around, so that it is about as bright as the air, and a pixel is so much like the drop
-//! as it is covered by it of the exposure (Garg and Nayar, Vision and Rain, IJCV 2007). What is farther away than a few metres
-//! is too faint to be told apart: it is the veil that [`sensor::Air`](paracosm_engine::sensor::Air) makes of rain.
+//! A drop gathers light from nearly all around, so that it is about as bright as the air. A pixel takes the colour of a
+//! drop in proportion to the share of the exposure for which the drop covers it (Garg and Nayar, Vision and Rain, IJCV
+//! 2007). Drops farther away than a few metres are too faint to be told apart;
+//! [`sensor::Air`](paracosm_engine::sensor::Air) models them as a veil.
 
 use crate::{Atmosphere, Camera, Frame};
 use nalgebra::{Isometry3, Point2, Point3, Vector3};
 use paracosm_engine::sensor::Chance;
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// How near and how far the drops are that are seen, in metres along the camera's axis.
+/// The range of the drops that are visible, in metres along the camera's axis.
 const NEAR: f64 = 0.3;
 const FAR: f64 = 2.5;
-/// The smallest diameter that is seen, in mm.
+/// The smallest diameter that is visible, in mm.
 const SMALLEST: f64 = 1.0;
-/// How long an image is exposed, in seconds.
+/// The time for which an image is exposed, in seconds.
 const EXPOSURE: f64 = 0.004;
 
-/// Rain before a camera.
+/// The rain in front of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rain {
-    /// How much falls, in mm/h.
+    /// The rate of rainfall, in mm/h.
     rate: f64,
-    /// Up, and how the camera moves, in m/s: both in its own coordinates.
+    /// The upward direction, and the velocity of the camera in m/s, both in the camera's coordinates.
     up: Vector3<f64>,
     velocity: Vector3<f64>,
-    /// What a drop looks like, in linear light.
+    /// The colour of a drop, in linear light.
     light: [f32; 3],
 }
 
-/// A drop while it is exposed.
+/// A drop as it moves during the exposure.
 #[derive(Debug, Clone, Copy)]
 struct Streak {
     from: Point2<f64>,
     to: Point2<f64>,
-    /// Its diameter in pixels.
+    /// The diameter of the drop in pixels.
     diameter: f64,
 }
 
 impl Rain {
-    /// Rain of so many mm/h in this air, before a camera that is here in the world and moves so there, in m/s.
+    /// Makes the rain at `rate` mm/h in this air, for a camera with this pose in the world and this velocity in m/s.
     pub fn new(rate: f64, air: &Atmosphere, camera: &Isometry3<f64>, velocity: &Vector3<f64>) -> Self {
         let turned = |direction: &Vector3<f64>| camera.rotation.inverse() * direction;
         Self { rate, up: turned(&Vector3::z()), velocity: turned(velocity), light: air.colour() }
     }
 
-    /// Lets it rain into the linear light of a frame, if it has that. All drops are drawn from `chance`.
+    /// Adds the streaks of rain to the linear light of a frame, if the frame has linear light. All drops are drawn from
+    /// `chance`.
     pub fn fall(&self, frame: &mut Frame, chance: &mut Chance) {
         let camera = &frame.camera;
         let Some(light) = frame.linear.as_mut().filter(|_| self.rate > 0.0) else { return };
@@ -58,8 +60,8 @@ impl Rain {
         }
     }
 
-    /// The drops before the camera. Of diameters `D` in mm there are 8000 exp(-4.1 rate^-0.21 D) in a cubic metre and a
-    /// millimetre (Marshall and Palmer 1948).
+    /// Draws the drops in front of the camera. A cubic metre has 8000 exp(-4.1 rate^-0.21 D) drops per millimetre of
+    /// diameter `D` in mm (Marshall and Palmer 1948).
     fn streaks(&self, camera: &Camera, chance: &mut Chance) -> Vec<Streak> {
         let fewer = 4.1 * libm::pow(self.rate, -0.21);
         let dense = 8000.0 / fewer * libm::exp(-fewer * SMALLEST);
@@ -81,18 +83,19 @@ impl Rain {
     }
 }
 
-/// How fast a drop of this diameter in mm falls, in m/s (Atlas, Srivastava and Sekhon 1973).
+/// Returns the speed at which a drop of this diameter in mm falls, in m/s (Atlas, Srivastava and Sekhon 1973).
 fn falling(diameter: f64) -> f64 {
     9.65 - 10.3 * libm::exp(-0.6 * diameter)
 }
 
 impl Streak {
-    /// Says which pixels it covers, by their index, and for which share of the exposure. It is drawn a pixel wide at least,
-    /// and so much fainter where it is thinner.
+    /// Calls `covered` with the index of each pixel that the drop covers, and with the share of the exposure. The drop
+    /// is drawn at least a pixel wide; a thinner drop is fainter in proportion.
     fn cover(&self, camera: &Camera, mut covered: impl FnMut(usize, f32)) {
         let along = self.to - self.from;
         let radius = self.diameter.max(1.0) / 2.0;
-        // A line with round ends; fading over a pixel adds to the ends as much as it takes from them and a twelfth.
+        // A line with round ends. Fading over a pixel adds to the ends as much as it takes from them, and a twelfth
+        // more.
         let drawn = 2.0 * radius * along.norm() + PI * (radius * radius + 1.0 / 12.0);
         let share = FRAC_PI_4 * self.diameter * self.diameter / drawn;
         let reach = radius + 0.5;

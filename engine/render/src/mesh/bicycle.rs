@@ -1,13 +1,13 @@
-//! A bicycle, with its rider or without.
+//! A bicycle, with or without its rider.
 
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::colours::{BLACK, HAIR, RUBBER, SKIN, STEEL, TROUSERS};
 use super::{Mesh, Semantic, SurfaceKind};
 
-/// Length, width and height as it is modelled, in metres: those of [`Body::bicycle`](paracosm_engine::object::Body::bicycle).
+/// Length, width and height of the model in metres: those of [`Body::bicycle`](paracosm_engine::object::Body::bicycle).
 pub(crate) const SIZE: [f32; 3] = [1.8, 0.6, 1.75];
 
-/// The same of [`Body::parked_bicycle`](paracosm_engine::object::Body::parked_bicycle).
+/// The size of a parked bicycle: that of [`Body::parked_bicycle`](paracosm_engine::object::Body::parked_bicycle).
 pub(crate) const PARKED: [f32; 3] = [1.8, 0.6, 1.05];
 
 const WHEEL: f32 = 0.34;
@@ -35,7 +35,7 @@ fn frame(clay: &mut Clay) {
     for centre in [FRONT, REAR] {
         let centre = Point::from(centre);
         clay.tyre(centre, [WHEEL - 0.045, WHEEL], 0.045, 12, matter(SurfaceKind::Plain, RUBBER));
-        // Two crossed spokes say that it is a wheel, as well as thirty would.
+        // Two crossed spokes are enough to show that it is a wheel.
         for spoke in [at(0.3, 0.0, 0.0), at(0.0, 0.0, 0.3)] {
             clay.tube([centre - spoke, centre + spoke], [0.006; 2], 4, steel);
         }

@@ -4,22 +4,22 @@ use super::clay::{Clay, Matter, Point, at, patch, ring};
 use super::colours::{BLACK, GLASS, LAMP, RED, RUBBER, STEEL, WHITE};
 use super::{Mesh, Semantic, SurfaceKind};
 
-/// Length, width and height of the car as it is modelled, in metres: those of [`Body::car`](paracosm_engine::object::Body::car).
+/// Length, width and height of the model in metres: those of [`Body::car`](paracosm_engine::object::Body::car).
 pub(crate) const SIZE: [f32; 3] = [4.5, 1.8, 1.45];
 
-/// Where the axles are, along x.
+/// The positions of the axles along x.
 const AXLES: [f32; 2] = [-1.36, 1.40];
 const WHEEL: f32 = 0.32;
-/// What the wheels are cut out of the sides: metres ahead of the axle, and how high it is there.
+/// The cutouts of the sides for the wheels: metres ahead of the axle, and the height of the cutout there.
 const ARCH: [(f32, f32); 7] =
     [(-0.40, 0.20), (-0.37, 0.45), (-0.21, 0.64), (0.0, 0.70), (0.21, 0.64), (0.37, 0.45), (0.40, 0.20)];
 
-/// The body across, at one place along it.
+/// A cross-section of the body at one place along it.
 struct Station {
     x: f32,
-    /// Half of its width.
+    /// Half of the width of the body.
     half: f32,
-    /// Where its side begins, where its shoulder is, and where its middle is, above the ground.
+    /// The heights of the lower edge, the shoulder and the middle above the ground.
     low: f32,
     shoulder: f32,
     top: f32,
@@ -63,7 +63,7 @@ fn stations() -> Vec<Station> {
     stations
 }
 
-/// Half of the body across, from its lower edge to its middle.
+/// Returns half of a cross-section, from its lower edge to its middle.
 fn section(station: &Station) -> [Point; 4] {
     let Station { x, half, low, shoulder, top } = *station;
     let waist = (shoulder - 0.14).max(low + 0.02);

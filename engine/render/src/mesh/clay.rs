@@ -1,6 +1,6 @@
-//! What shapes are modelled in: triangles out of a few primitives, with normals and texture coordinates at the end.
+//! Models shapes: triangles out of a few primitives; normals and texture coordinates are computed at the end.
 //!
-//! Everything is flat until [`Clay::mesh`] rounds off whatever bends less than [`CREASE`]: so a tube of ten sides
+//! Everything is flat until [`Clay::mesh`] smooths the edges that bend by less than [`CREASE`]: a tube of ten sides
 //! looks round, and a box keeps its edges. Texture coordinates are metres along the two axes that a facet faces least.
 
 use super::{Mesh, SurfaceKind, Vertex};
@@ -9,16 +9,16 @@ use nalgebra::{Matrix3, Vector3};
 use std::collections::HashMap;
 use std::f32::consts::{FRAC_PI_2, TAU};
 
-/// The cosine of the angle between two facets, 46 degrees, from which on there is an edge between them.
+/// The cosine of the angle (46 degrees) between two facets from which on there is an edge between them.
 const CREASE: f32 = 0.695;
 
 /// A point of a shape, in metres.
 pub(crate) type Point = Vector3<f32>;
 
-/// What a facet is made of.
+/// The material of a facet.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Matter {
-    /// Linear light.
+    /// The colour in linear light.
     pub colour: [f32; 3],
     pub surface: SurfaceKind,
     pub semantic: Semantic,
@@ -29,13 +29,13 @@ impl Matter {
         Self { colour, surface, semantic }
     }
 
-    /// A surface that has its colour from the instance.
+    /// Makes a surface that gets its colour from the instance.
     pub fn painted(surface: SurfaceKind, semantic: Semantic) -> Self {
         Self::new(surface, [1.0; 3], semantic)
     }
 }
 
-/// A shape in the making.
+/// A shape that is being modelled.
 #[derive(Debug, Default)]
 pub(crate) struct Clay {
     triangles: Vec<([Point; 3], Matter)>,
@@ -45,8 +45,8 @@ pub(crate) fn at(x: f32, y: f32, z: f32) -> Point {
     Point::new(x, y, z)
 }
 
-/// A regular polygon around a centre, counter-clockwise as seen from where `axis` points to. One corner lies towards z,
-/// or towards x if the axis is z.
+/// Returns a regular polygon around a centre, counter-clockwise as seen against the direction of `axis`. One corner
+/// lies towards z, or towards x if the axis is z.
 pub(crate) fn ring(centre: Point, axis: Point, radius: f32, sides: usize) -> Vec<Point> {
     let axis = axis.normalize();
     let up = if axis.z.abs() > 0.9 { Point::x() } else { Point::z() };
@@ -59,14 +59,14 @@ pub(crate) fn ring(centre: Point, axis: Point, radius: f32, sides: usize) -> Vec
     (0..sides).map(corner).collect()
 }
 
-/// A level oval with the half-axes `x` and `y`, counter-clockwise as seen from above.
+/// Returns a level oval with the half-axes `x` and `y`, counter-clockwise as seen from above.
 pub(crate) fn oval(centre: Point, x: f32, y: f32, sides: usize) -> Vec<Point> {
     let stretched = |corner: Point| at(centre.x + x * corner.x, centre.y + y * corner.y, centre.z);
     ring(Point::zeros(), Point::z(), 1.0, sides).into_iter().map(stretched).collect()
 }
 
-/// The part of a four-sided facet that shares of its sides cut out, raised by `lift` metres. Its corners are
-/// counter-clockwise; u leads from the first to the second, v from the first to the last.
+/// Returns the part of a four-sided facet between the shares `u` and `v` of its sides, raised by `lift` metres. The
+/// facet's corners are counter-clockwise; u runs from the first to the second corner, v from the first to the last.
 pub(crate) fn patch(facet: [Point; 4], u: [f32; 2], v: [f32; 2], lift: f32) -> [Point; 4] {
     let normal = (facet[2] - facet[0]).cross(&(facet[3] - facet[1])).normalize();
     let point = |u: f32, v: f32| {
@@ -77,7 +77,7 @@ pub(crate) fn patch(facet: [Point; 4], u: [f32; 2], v: [f32; 2], lift: f32) -> [
 }
 
 impl Clay {
-    /// A convex polygon, counter-clockwise as seen from outside. Corners may coincide.
+    /// Adds a convex polygon, counter-clockwise as seen from outside. Corners may coincide.
     pub fn facet(&mut self, corners: &[Point], of: Matter) {
         for i in 1..corners.len() - 1 {
             let triangle = [corners[0], corners[i], corners[i + 1]];
@@ -87,14 +87,14 @@ impl Clay {
         }
     }
 
-    /// A box along the axes.
+    /// Adds a box along the axes.
     pub fn cuboid(&mut self, min: [f32; 3], max: [f32; 3], of: Matter) {
         let level =
             |z: f32| [(min[0], min[1]), (max[0], min[1]), (max[0], max[1]), (min[0], max[1])].map(|(x, y)| at(x, y, z));
         self.loft(&[level(min[2]).to_vec(), level(max[2]).to_vec()], of);
     }
 
-    /// The solid between rings of as many points each, counter-clockwise as seen from where the next one lies.
+    /// Adds the solid between rings with the same number of points, counter-clockwise as seen from the next ring.
     pub fn loft(&mut self, rings: &[Vec<Point>], of: Matter) {
         self.hose(rings, of);
         let (first, last) = (&rings[0], &rings[rings.len() - 1]);
@@ -102,13 +102,14 @@ impl Clay {
         self.facet(last, of);
     }
 
-    /// A convex profile (metres ahead and up, counter-clockwise as seen from the right) from one y to a greater one.
+    /// Adds a prism over a convex profile (metres ahead and up, counter-clockwise as seen from the right) from one y to
+    /// a greater one.
     pub fn prism(&mut self, profile: &[[f32; 2]], across: [f32; 2], of: Matter) {
         let side = |y: f32| profile.iter().map(|[x, z]| at(*x, y, *z)).collect();
         self.loft(&[side(across[1]), side(across[0])], of);
     }
 
-    /// [`Clay::loft`] without its two ends.
+    /// Adds the same solid as [`Clay::loft`] without its two ends.
     pub fn hose(&mut self, rings: &[Vec<Point>], of: Matter) {
         for pair in rings.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
@@ -119,14 +120,14 @@ impl Clay {
         }
     }
 
-    /// A rod that may taper.
+    /// Adds a rod that may taper.
     pub fn tube(&mut self, ends: [Point; 2], radii: [f32; 2], sides: usize, of: Matter) {
         let axis = ends[1] - ends[0];
         let rings = [0, 1].map(|end| ring(ends[end], axis, radii[end], sides));
         self.loft(&rings, of);
     }
 
-    /// An ellipsoid of as many sides around as given, and half as many layers.
+    /// Adds an ellipsoid with this number of sides around, and half as many layers.
     pub fn ball(&mut self, centre: Point, radii: [f32; 3], sides: usize, of: Matter) {
         let layers = sides / 2;
         let layer = |i: usize| {
@@ -137,7 +138,7 @@ impl Clay {
         self.hose(&(0..=layers).map(layer).collect::<Vec<_>>(), of);
     }
 
-    /// A tyre around an axle along y, as an open ring.
+    /// Adds a tyre around an axle along y, as an open ring.
     pub fn tyre(&mut self, centre: Point, radii: [f32; 2], width: f32, sides: usize, of: Matter) {
         let side = |y: f32, radius: f32| ring(centre + Point::y() * y, Point::y(), radius, sides);
         let [inner, outer] = radii;
@@ -148,7 +149,7 @@ impl Clay {
         );
     }
 
-    /// What `build` makes, and the same mirrored to the other side of the plane y = 0.
+    /// Adds everything that `build` adds, and its mirror image on the other side of the plane y = 0.
     pub fn mirrored(&mut self, build: impl Fn(&mut Self)) {
         let first = self.triangles.len();
         build(self);
@@ -160,7 +161,7 @@ impl Clay {
         self.triangles.extend(mirrored);
     }
 
-    /// The shape stretched to exactly this length, width and height, in the middle over the origin.
+    /// Returns the shape, stretched to exactly this length, width and height, with its middle over the origin.
     pub fn fitted(mut self, size: [f32; 3]) -> Self {
         let corners = || self.triangles.iter().flat_map(|(corners, _)| corners);
         let min = corners().fold(Point::repeat(f32::INFINITY), |min, corner| min.inf(corner));
@@ -173,12 +174,12 @@ impl Clay {
         self
     }
 
-    /// The triangles as a mesh.
+    /// Returns the triangles as a mesh.
     pub fn mesh(self) -> Mesh {
         self.mesh_at([0.0; 2])
     }
 
-    /// The triangles as a mesh whose texture coordinates are those of a place: metres along x and y.
+    /// Returns the triangles as a mesh whose texture coordinates are those of a place: metres along x and y.
     pub fn mesh_at(self, place: [f64; 2]) -> Mesh {
         let facing: Vec<Point> = self.triangles.iter().map(|(corners, _)| area(corners)).collect();
         let mut around: HashMap<[u32; 3], Vec<usize>> = HashMap::new();
@@ -215,12 +216,12 @@ impl Clay {
     }
 }
 
-/// A vector out of a triangle, as long as twice its area.
+/// Returns a vector that points out of a triangle and is as long as twice its area.
 fn area(corners: &[Point; 3]) -> Point {
     (corners[1] - corners[0]).cross(&(corners[2] - corners[0]))
 }
 
-/// Texture coordinates in metres: those of the plane that a facet is nearest to.
+/// Returns texture coordinates in metres: those in the coordinate plane that the facet is nearest to.
 fn unwrapped(point: &Point, facing: &Point, place: [f64; 2]) -> [f32; 2] {
     let [x, y] = [f64::from(point.x) + place[0], f64::from(point.y) + place[1]].map(|metres| metres as f32);
     match facing.iamax() {
@@ -230,7 +231,7 @@ fn unwrapped(point: &Point, facing: &Point, place: [f64; 2]) -> [f32; 2] {
     }
 }
 
-/// The same for equal points, of which 0 and -0 are two.
+/// Returns the bits of a point, equal for equal points: 0 and -0 give the same bits.
 fn bits(point: &Point) -> [u32; 3] {
     let [x, y, z]: [f32; 3] = (*point).into();
     [x, y, z].map(|metres| (metres + 0.0).to_bits())

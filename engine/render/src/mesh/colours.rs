@@ -1,4 +1,4 @@
-//! The colours of what is not painted, in linear light.
+//! The colours of the surfaces that do not have the colour of the instance, in linear light.
 
 pub(super) const BLACK: [f32; 3] = [0.012, 0.012, 0.014];
 pub(super) const RUBBER: [f32; 3] = [0.018, 0.018, 0.020];

@@ -1,10 +1,10 @@
-//! What stands about: signs, lamp posts, cones, barriers, boxes.
+//! Objects beside the road: signs, lamp posts, cones, barriers, boxes.
 
 use super::clay::{Clay, Matter, Point, at, oval, ring};
 use super::colours::{BLACK, GREY, LAMP, ORANGE, RED, STEEL, WHITE};
 use super::{Mesh, Semantic, SurfaceKind};
 
-/// What a sign shows: they differ in shape.
+/// The kinds of signs, which differ in shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Plate {
     /// A red ring: a limit.
@@ -31,7 +31,8 @@ pub(crate) fn pole() -> Mesh {
     clay.mesh()
 }
 
-/// A plate around the origin that faces along x. What is neither ring nor sign on it is painted.
+/// Makes a plate around the origin that faces along x. The parts that are neither rim nor symbol have the colour of the
+/// instance.
 pub(crate) fn plate(plate: Plate) -> Mesh {
     let of = of(Semantic::TrafficSign);
     let painted = Matter::painted(SurfaceKind::Cloth, Semantic::TrafficSign);
@@ -70,16 +71,17 @@ pub(crate) fn plate(plate: Plate) -> Mesh {
     clay.mesh()
 }
 
-/// A regular polygon that stands on a side.
+/// Returns a regular polygon that stands on a side.
 fn turned(x: f32, size: f32, sides: usize) -> Vec<Point> {
     let corners = ring(at(x, 0.0, 0.0), Point::x(), size, 2 * sides);
     corners.into_iter().skip(1).step_by(2).collect()
 }
 
-/// How high a lantern is modelled, in metres: a renderer knows by its height that it lights up the street.
+/// The height at which a lantern is modelled, in metres. By this height a renderer knows that the lantern lights up the
+/// street.
 pub(crate) const LANTERN: f32 = 6.0;
 
-/// What is on top of a lamp post: an arm over the road, and the lamp.
+/// Makes the top of a lamp post: an arm over the road, and the lamp.
 pub(crate) fn lantern() -> Mesh {
     let mut clay = Clay::default();
     let (of, top) = (of(Semantic::Pole), LANTERN);

@@ -1,28 +1,28 @@
-//! Houses of some storeys, with as many windows to a side as have room.
+//! Houses of several storeys, with as many windows to a side as fit.
 
 use super::clay::{Clay, Matter, Point, at, patch};
 use super::colours::{GLASS, GREY, TILES, WHITE, WOOD};
 use super::{Mesh, Semantic, SurfaceKind};
 
-/// What a house is built to: the rest is stretched.
+/// The plan of a house. The finished mesh is stretched to the size of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Plan {
     storeys: usize,
-    /// Windows along the house and across it.
+    /// The numbers of windows along the house and across it.
     bays: [usize; 2],
 }
 
-/// Height of a storey, of a gable roof, and of the wall around a flat one.
+/// The heights of a storey, of a gable roof, and of the wall around a flat roof.
 const STOREY: f32 = 2.8;
 const ROOF: f32 = 2.2;
 const PARAPET: f32 = 0.5;
-/// Length of the wall that belongs to a window.
+/// The length of the wall that belongs to a window.
 const BAY: f32 = 2.9;
-/// The most storeys under a gable roof, and the most at all; the most windows in a row.
+/// The most storeys under a gable roof, the most storeys of any house, and the most windows in a row.
 const GABLED: usize = 3;
 const STOREYS: usize = 30;
 const BAYS: usize = 20;
-/// How far the roof stands out over the walls.
+/// The distance by which the roof extends beyond the walls.
 const EAVES: f32 = 0.2;
 
 fn matter(surface: SurfaceKind, colour: [f32; 3]) -> Matter {
@@ -34,7 +34,7 @@ fn wall() -> Matter {
 }
 
 impl Plan {
-    /// The plan that comes nearest to a length, a width and a height in metres.
+    /// Returns the plan that comes nearest to a length, a width and a height in metres.
     pub fn of([length, width, height]: [f32; 3]) -> Self {
         let count = |metres: f32, one: f32, most: usize| ((metres / one).round() as usize).clamp(1, most);
         let gabled = count(height - ROOF, STOREY, STOREYS);
@@ -46,7 +46,7 @@ impl Plan {
         self.storeys <= GABLED
     }
 
-    /// Length, width and height to which it is modelled.
+    /// Returns the length, width and height of the model.
     pub fn size(&self) -> [f32; 3] {
         let roof = if self.gabled() { ROOF } else { PARAPET };
         let [length, width] = self.bays.map(|bays| bays as f32 * BAY);
@@ -81,7 +81,7 @@ impl Plan {
         clay.fitted([length, width, height]).mesh()
     }
 
-    /// A window for every storey and bay of a wall, and a door in one of the bays.
+    /// Adds a window for every storey and bay of a wall, and a door in one of the bays.
     fn windows(&self, clay: &mut Clay, wall: [Point; 4], bays: usize, door: Option<usize>) {
         let (white, glass) = (matter(SurfaceKind::Plain, WHITE), matter(SurfaceKind::Glass, GLASS));
         for (storey, bay) in (0..self.storeys).flat_map(|storey| (0..bays).map(move |bay| (storey, bay))) {
@@ -101,7 +101,7 @@ impl Plan {
     }
 }
 
-/// The left half of a gable roof.
+/// Adds the left half of a gable roof.
 fn roof(clay: &mut Clay, x: f32, y: f32, eaves: f32, ridge: f32) {
     let slab = |x: f32| vec![at(x, y, eaves - 0.18), at(x, y, eaves), at(x, 0.0, ridge), at(x, 0.0, ridge - 0.18)];
     clay.loft(&[slab(-x), slab(x)], matter(SurfaceKind::Plain, TILES));

@@ -1,4 +1,4 @@
-//! Shapes of things: triangles with normals, texture coordinates, and what they are made of.
+//! The shapes of things: triangles with normals, texture coordinates and surface kinds.
 
 pub(crate) mod bicycle;
 pub(crate) mod car;
@@ -13,29 +13,29 @@ pub(crate) mod truck;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How a surface answers to light.
+/// The way in which a surface reacts to light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum SurfaceKind {
-    /// Its own colour, dull.
+    /// Dull, in the surface's own colour.
     Plain = 0,
-    /// The colour of the instance, glossy: a car's body.
+    /// Glossy, in the colour of the instance: the body of a car.
     Paint = 1,
-    /// The colour of the instance, dull: a jacket, a wall.
+    /// Dull, in the colour of the instance: a jacket, a wall.
     Cloth = 2,
     /// Dark and glossy.
     Glass = 3,
-    /// Its own colour, grained over the texture coordinates, which are metres.
+    /// Grained, in the surface's own colour; the grain follows the texture coordinates, which are metres.
     Asphalt = 4,
-    /// As asphalt, but coarse and uneven: grass, leaves.
+    /// Grained like asphalt, but coarse and uneven: grass, leaves.
     Grown = 5,
-    /// Shines by itself when it is dark: head lamps, street lamps.
+    /// A lamp that shines white when it is dark: a head lamp, a street lamp.
     WhiteLamp = 6,
-    /// Shines red by itself when it is dark.
+    /// A lamp that shines red when it is dark.
     RedLamp = 7,
 }
 
-/// What a thing is, with the numbers of CARLA's semantic classes since its version 0.9.14.
+/// The class of a thing, with the numbers of CARLA's semantic classes since its version 0.9.14.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 #[expect(missing_docs, reason = "the names are those of the classes")]
@@ -74,21 +74,21 @@ pub enum Semantic {
 /// A corner of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vertex {
-    /// Metres.
+    /// The position of the corner in metres.
     pub position: [f32; 3],
-    /// A unit vector out of the surface.
+    /// The normal of the surface: a unit vector that points outwards.
     pub normal: [f32; 3],
-    /// Texture coordinates; of grained surfaces in metres.
+    /// The texture coordinates; for grained surfaces in metres.
     pub uv: [f32; 2],
-    /// Red, green and blue in linear light, from 0 to 1.
+    /// The colour: red, green and blue in linear light, from 0 to 1.
     pub colour: [f32; 3],
-    /// How it answers to light.
+    /// The way in which the surface reacts to light.
     pub surface: SurfaceKind,
-    /// What it is part of.
+    /// The class of the thing that the corner is part of.
     pub semantic: Semantic,
 }
 
-/// Triangles, counter-clockwise as seen from outside.
+/// A mesh: triangles whose corners are counter-clockwise as seen from outside.
 #[derive(Debug)]
 pub struct Mesh {
     key: u64,
@@ -97,10 +97,10 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// A mesh of these corners, of which every three indices make a triangle.
+    /// Makes a mesh of these corners. Every three indices make a triangle.
     ///
     /// # Panics
-    /// An index names no corner, or they are no multiple of three.
+    /// An index names no corner, or the number of indices is not a multiple of three.
     pub fn new(vertices: Vec<Vertex>, indices: Vec<u32>) -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         assert!(indices.len().is_multiple_of(3), "three indices make a triangle");
@@ -108,17 +108,18 @@ impl Mesh {
         Self { key: NEXT.fetch_add(1, Ordering::Relaxed), vertices, indices }
     }
 
-    /// A number that no other mesh of this process has: by it a renderer knows what it has uploaded.
+    /// Returns a number that no other mesh of this process has. A renderer uses it to know which meshes it has
+    /// uploaded.
     pub fn key(&self) -> u64 {
         self.key
     }
 
-    /// The corners.
+    /// Returns the corners of the mesh.
     pub fn vertices(&self) -> &[Vertex] {
         &self.vertices
     }
 
-    /// Three indices of corners for each triangle.
+    /// Returns the indices of the corners, three for each triangle.
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }

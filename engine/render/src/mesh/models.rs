@@ -1,4 +1,4 @@
-//! The shapes that there are: made once for a process, so that whoever draws them keeps them.
+//! The built-in shapes, made once for a process, so that a renderer uploads each only once.
 
 use super::furniture::{self, Plate};
 use super::house::Plan;
@@ -7,7 +7,7 @@ use paracosm_engine::object::Colour;
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-/// The shapes that there are.
+/// The built-in shapes.
 pub(crate) struct Models {
     pub car: Arc<Mesh>,
     pub truck: Arc<Mesh>,
@@ -15,14 +15,14 @@ pub(crate) struct Models {
     pub parked_bicycle: Arc<Mesh>,
     pub adult: Arc<Mesh>,
     pub child: Arc<Mesh>,
-    /// Left, right.
+    /// The left arm, then the right arm.
     pub arms: [Arc<Mesh>; 2],
     pub thigh: Arc<Mesh>,
     pub shin: Arc<Mesh>,
     pub trunk: Arc<Mesh>,
     pub pole: Arc<Mesh>,
     pub lantern: Arc<Mesh>,
-    /// In the order of [`PLATES`].
+    /// The plates of signs, in the order of [`PLATES`].
     pub plates: [Arc<Mesh>; 4],
     pub cone: Arc<Mesh>,
     pub barrel: Arc<Mesh>,
@@ -30,17 +30,17 @@ pub(crate) struct Models {
     pub parcel: Arc<Mesh>,
     pub barrier: Arc<Mesh>,
     houses: Shelf<Plan>,
-    /// Whether it is a conifer's, and its colour.
+    /// The crowns of trees, by colour; `true` for conifers.
     crowns: Shelf<(bool, Colour)>,
 }
 
-/// What is made when it is first asked for.
+/// Shapes that are made when they are first asked for.
 type Shelf<K> = Mutex<BTreeMap<K, Arc<Mesh>>>;
 
 const PLATES: [Plate; 4] = [Plate::Limit, Plate::GiveWay, Plate::Stop, Plate::Hint];
 
 impl Models {
-    /// Those of this process.
+    /// Returns the shapes of this process.
     pub fn shared() -> &'static Self {
         static SHARED: LazyLock<Models> = LazyLock::new(Models::new);
         &SHARED
@@ -85,7 +85,7 @@ fn take<K: Ord>(shelf: &Shelf<K>, key: K, make: impl FnOnce() -> Mesh) -> Arc<Me
     shelf.entry(key).or_insert_with(|| make().into()).clone()
 }
 
-/// A colour of sRGB in linear light (IEC 61966-2-1).
+/// Converts a colour from sRGB to linear light (IEC 61966-2-1).
 pub(crate) fn linear(colour: Colour) -> [f32; 3] {
     colour.map(|level| {
         let share = f32::from(level) / 255.0;

@@ -1,22 +1,22 @@
-//! A person in parts, each with the joint that it turns about at the origin.
+//! The parts of a person. Each part turns about a joint, which lies at the origin of the part's mesh.
 
 use super::clay::{Clay, Matter, Point, at, oval};
 use super::colours::{BLACK, HAIR, SKIN, TROUSERS};
 use super::{Mesh, Semantic, SurfaceKind};
 
-/// Depth, width and height of the whole person as modelled, in metres: those of
-/// [`Body::adult`](paracosm_engine::object::Body::adult), but for the depth, which is the person's own.
+/// Depth, width and height of the whole person as modelled, in metres. Width and height are those of
+/// [`Body::adult`](paracosm_engine::object::Body::adult).
 pub(crate) const SIZE: [f32; 3] = [0.5, 0.5, 1.8];
 
-/// The hip joint: to the side, and up.
+/// The place of the hip joint: to the side, and up.
 pub(crate) const HIP: [f32; 2] = [0.095, 0.92];
-/// The shoulder joint: to the side, and up.
+/// The place of the shoulder joint: to the side, and up.
 pub(crate) const SHOULDER: [f32; 2] = [0.195, 1.44];
-/// From the hip to the knee.
+/// The length of the thigh, from the hip to the knee.
 pub(crate) const THIGH: f32 = 0.44;
-/// From the knee to the sole.
+/// The length of the shin, from the knee to the sole.
 pub(crate) const SHIN: f32 = 0.48;
-/// How far the sole reaches behind the knee and before it.
+/// The reach of the sole behind the knee and ahead of it.
 pub(crate) const SOLE: [f32; 2] = [-0.09, 0.17];
 
 fn matter(colour: [f32; 3]) -> Matter {
@@ -27,7 +27,8 @@ fn jacket() -> Matter {
     Matter::painted(SurfaceKind::Cloth, Semantic::Pedestrian)
 }
 
-/// Hips, trunk, neck and head, over the middle between the soles. The head of a child is larger for its body.
+/// Makes the hips, trunk, neck and head, above the middle between the soles. The head of a child is larger relative to
+/// its body.
 pub(crate) fn trunk(head: f32) -> Mesh {
     let mut clay = Clay::default();
     let stack = |layers: &[(f32, f32, f32)]| -> Vec<Vec<Point>> {
@@ -52,7 +53,7 @@ pub(crate) fn trunk(head: f32) -> Mesh {
     clay.mesh()
 }
 
-/// The left arm, hanging from the shoulder; the right one is its mirror image.
+/// Makes an arm that hangs from the shoulder: the left arm for `side` 1, its mirror image for -1.
 pub(crate) fn arm(side: f32) -> Mesh {
     let mut clay = Clay::default();
     let (elbow, wrist) = (at(-0.02, side * 0.01, -0.29), at(0.05, side * 0.005, -0.54));
@@ -63,14 +64,14 @@ pub(crate) fn arm(side: f32) -> Mesh {
     clay.mesh()
 }
 
-/// A leg from the hip to the knee.
+/// Makes a leg from the hip to the knee.
 pub(crate) fn thigh() -> Mesh {
     let mut clay = Clay::default();
     clay.tube([at(0.0, 0.0, -THIGH - 0.02), at(0.0, 0.0, 0.03)], [0.062, 0.09], 7, matter(TROUSERS));
     clay.mesh()
 }
 
-/// A leg from the knee to the sole.
+/// Makes a leg from the knee to the sole.
 pub(crate) fn shin() -> Mesh {
     let mut clay = Clay::default();
     clay.tube([at(-0.01, 0.0, 0.09 - SHIN), at(0.0, 0.0, 0.03)], [0.045, 0.062], 7, matter(TROUSERS));

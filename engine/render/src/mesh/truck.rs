@@ -4,7 +4,7 @@ use super::clay::{Clay, Matter, Point, at, patch, ring};
 use super::colours::{BLACK, GLASS, GREY, LAMP, RED, RUBBER, STEEL, WHITE};
 use super::{Mesh, Semantic, SurfaceKind};
 
-/// Length, width and height as it is modelled, in metres: those of [`Body::truck`](paracosm_engine::object::Body::truck).
+/// Length, width and height of the model in metres: those of [`Body::truck`](paracosm_engine::object::Body::truck).
 pub(crate) const SIZE: [f32; 3] = [10.0, 2.5, 3.5];
 
 const AXLES: [f32; 3] = [3.85, -2.5, -3.8];
@@ -49,7 +49,7 @@ fn load(clay: &mut Clay) {
 fn cab(clay: &mut Clay) {
     let profile = [[2.9, 0.62], [4.94, 0.5], [5.0, 1.0], [5.0, 1.62], [4.74, 2.72], [4.5, 2.92], [2.9, 2.92]];
     clay.prism(&profile, [-1.2, 1.2], paint());
-    // Over it, what leads the wind around the load.
+    // The wind deflector above the cab.
     clay.prism(&[[2.95, 2.9], [4.4, 2.9], [3.1, 3.4], [2.95, 3.4]], [-1.05, 1.05], paint());
     let front = |x: [f32; 2], z: [f32; 2]| {
         [at(x[0], -1.2, z[0]), at(x[0], 1.2, z[0]), at(x[1], 1.2, z[1]), at(x[1], -1.2, z[1])]

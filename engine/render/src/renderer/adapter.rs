@@ -1,43 +1,43 @@
-//! What draws: finding it, describing it, and hearing of its troubles.
+//! The graphics adapter: finds it, describes it, and records its errors.
 
 use crate::{LossReason, RenderError};
 use std::pin::pin;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 
-/// What a renderer draws with.
+/// The graphics adapter that a renderer draws with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Adapter {
-    /// Its name, for instance of the graphics card.
+    /// The name of the adapter, for instance of the graphics card.
     pub name: String,
     /// The driver and its version.
     pub driver: String,
-    /// The interface by which it is spoken to: `vulkan`, `metal` or `dx12`.
+    /// The graphics interface of the adapter: `vulkan`, `metal` or `dx12`.
     pub backend: String,
-    /// What kind of device it is: `discrete`, `integrated`, `virtual`, `software` or `other`.
+    /// The kind of device: `discrete`, `integrated`, `virtual`, `software` or `other`.
     pub kind: String,
     /// The most pixels that an image may have each way.
     pub max_image: u32,
-    /// The most images that are drawn into one array.
+    /// The most images that can be drawn into one array.
     pub max_layers: u32,
     /// The most bytes that a buffer may have.
     pub max_buffer: u64,
 }
 
-/// The first thing that went wrong on a device, and whether it is lost.
+/// The first error of a device, or its loss.
 #[derive(Debug, Default)]
 pub(super) struct Trouble(Mutex<Option<RenderError>>);
 
 impl Trouble {
     fn note(&self, error: RenderError) {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        // That the device is lost says more than what failed because of it.
+        // The loss of the device says more than the errors that follow from it.
         if first.is_none() || matches!(error, RenderError::Lost { .. }) {
             *first = Some(error);
         }
     }
 
-    /// Fails if anything went wrong. A device that is lost remains so; whatever else it was may pass.
+    /// Fails if the device had an error. The loss of a device is permanent; any other error is reported once.
     pub fn check(&self) -> Result<(), RenderError> {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         match &*first {
@@ -59,7 +59,7 @@ pub(super) struct Gpu {
 }
 
 impl Gpu {
-    /// Opens the best adapter that there is; one on the processor will do.
+    /// Opens the best adapter of this machine; an adapter on the processor will do.
     pub fn open() -> Result<Self, RenderError> {
         let adapter = best()?;
         let description = describe(&adapter);
@@ -87,11 +87,11 @@ impl Gpu {
         Ok(Self { adapter: description, limits, device, queue, trouble })
     }
 
-    /// Waits until a submission is done, and fails if anything went wrong by then.
+    /// Waits until a submission is done, and fails if the device had an error by then.
     pub fn wait(&self, submission: wgpu::PollType) -> Result<(), RenderError> {
         let waited = self.device.poll(submission);
         if waited.is_err() {
-            // A lost device first refuses to wait; that it is lost is only heard of afterwards, if at all.
+            // A lost device first refuses to wait. The loss itself is reported only afterwards, if at all.
             let _ = self.device.poll(wgpu::PollType::Poll);
         }
         self.trouble.check()?;
@@ -99,10 +99,10 @@ impl Gpu {
     }
 }
 
-/// What would draw on this machine, without opening it.
+/// Returns the adapter that would draw on this machine, without opening it.
 ///
 /// # Errors
-/// There is none.
+/// The machine has no adapter.
 pub fn adapter() -> Result<Adapter, RenderError> {
     Ok(describe(&best()?))
 }
@@ -134,7 +134,7 @@ fn describe(adapter: &wgpu::Adapter) -> Adapter {
     }
 }
 
-/// Waits for what is ready at once outside of browsers.
+/// Waits for a future that is ready at once outside of browsers.
 fn now<F: Future>(future: F) -> F::Output {
     let mut future = pin!(future);
     let mut context = Context::from_waker(Waker::noop());

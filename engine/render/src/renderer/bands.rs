@@ -1,6 +1,7 @@
 //! Cuts the masks of things alone into bands of rows, so that any number of things fits into one buffer.
 //!
-//! A view of several bands is several layers: the first has its images and the first band, the others have a band each.
+//! A view of several bands becomes several layers: the first has the view's images and the first band, and each of the
+//! others has one band.
 
 use super::deal::Layer;
 use super::prepare::Prepared;
@@ -11,10 +12,10 @@ use std::collections::BTreeMap;
 use std::iter::repeat_n;
 use std::ops::Range;
 
-/// The most bytes of masks at a time, where the adapter takes as many.
+/// The most bytes of masks at a time, if the adapter takes that many.
 pub(super) const MOST_BYTES: u64 = 128 << 20;
 
-/// The layers of a view whose masks may take so many bytes at a time.
+/// Returns the layers of a view whose masks may take `limit` bytes at a time.
 pub(super) fn layers<'a>(
     (index, camera): (usize, &'a Camera),
     prepared: Prepared,
@@ -26,7 +27,7 @@ pub(super) fn layers<'a>(
     bands.into_iter().zip(copies).map(move |(rows, prepared)| Layer { index, camera, prepared, rows })
 }
 
-/// The rows of each band.
+/// Returns the rows of each band.
 fn bands(format: Format, words: u32, limit: u64) -> Vec<Range<u32>> {
     let row = format.mask_bytes(words, 1).max(1);
     let high = u32::try_from(limit / row).unwrap_or(u32::MAX).clamp(1, format.height);
@@ -34,7 +35,7 @@ fn bands(format: Format, words: u32, limit: u64) -> Vec<Range<u32>> {
     (0..format.height).step_by(high as usize).map(band).collect()
 }
 
-/// The frame of a view of which two layers were drawn, whichever came first.
+/// Joins the frames of two layers of one view, in either order.
 pub(super) fn joined(a: Frame, b: Frame, b_has_images: bool) -> Frame {
     let (mut whole, mut part) = if b_has_images { (b, a) } else { (a, b) };
     let mut extents: BTreeMap<u16, Extent> = BTreeMap::new();

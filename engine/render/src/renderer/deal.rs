@@ -1,4 +1,4 @@
-//! Which views are drawn together.
+//! Chooses the views that are drawn together.
 
 use super::prepare::Prepared;
 use super::targets::Format;
@@ -7,41 +7,41 @@ use std::ops::Range;
 
 /// The most views in a batch.
 const MOST_LAYERS: usize = 64;
-/// The most bytes that are read back of a batch of more than one view. With as much on the adapter's side, and two
-/// batches under way, it bounds the memory that images take.
+/// The most bytes that are read back of a batch of more than one view. It bounds the memory that images take: the
+/// adapter holds as much again, and two batches are under way.
 const MOST_BYTES: u64 = 48 << 20;
 
 /// A view in a batch.
 #[derive(Debug)]
 pub(super) struct Layer<'a> {
-    /// Which of the views it is.
+    /// The index of the view.
     pub index: usize,
     pub camera: &'a Camera,
     pub prepared: Prepared,
-    /// Which rows the masks of things alone are drawn of.
+    /// The rows of which the masks of things alone are drawn.
     pub rows: Range<u32>,
 }
 
 impl Layer<'_> {
-    /// Whether it has the images of its view, and not only masks.
+    /// Returns `true` if the layer has the images of its view, and not only masks.
     pub fn has_images(&self) -> bool {
         self.rows.start == 0
     }
 
-    /// What images it has.
+    /// Returns the images that the layer has.
     fn format(&self, wanted: WantedImages) -> Format {
         let masks = WantedImages { alone: true, ..WantedImages::default() };
         let wanted = if self.has_images() { wanted } else { masks };
         Format { width: self.camera.width(), height: self.camera.height(), wanted }
     }
 
-    /// How many bytes its masks take.
+    /// Returns the number of bytes of the layer's masks.
     pub fn mask_bytes(&self, format: Format) -> u64 {
         format.mask_bytes(self.prepared.words(), self.rows.len() as u32)
     }
 }
 
-/// Views of one size that are drawn together.
+/// A hand: views of one size that are drawn together.
 #[derive(Debug)]
 pub(super) struct Hand<'a> {
     pub format: Format,
@@ -49,7 +49,7 @@ pub(super) struct Hand<'a> {
     bytes: u64,
 }
 
-/// Deals views out: to hands of one size each, and not too many to any.
+/// Deals views out to hands. Each hand has views of one size, and not too many of them.
 pub(super) fn deal(layers: Vec<Layer<'_>>, wanted: WantedImages, limit: usize) -> Vec<Hand<'_>> {
     let mut hands: Vec<Hand<'_>> = Vec::new();
     for layer in layers {

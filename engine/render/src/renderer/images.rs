@@ -4,7 +4,7 @@ use crate::WantedImages;
 
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// One of the images of a view, in the order of the outputs of the shaders.
+/// An image of a view; the variants are in the order of the outputs of the shaders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Image {
     Rgb,
@@ -27,7 +27,7 @@ impl Image {
         }
     }
 
-    /// Bytes of a pixel.
+    /// Returns the number of bytes of a pixel.
     pub fn bytes(self) -> u32 {
         match self {
             Self::Semantic => 1,
@@ -51,7 +51,7 @@ impl Image {
         }
     }
 
-    /// What a pixel is where there is nothing.
+    /// Returns the value of a pixel that sees nothing.
     pub fn nothing(self) -> wgpu::Color {
         let first = match self {
             Self::Rgb | Self::Linear | Self::Instance => 0.0,

@@ -1,14 +1,15 @@
-//! Whether a point is inside a mesh.
+//! Tests if a point is inside a mesh.
 
 use crate::Mesh;
 use nalgebra::Vector3;
 
-/// A closed mesh has a winding number of 1 around what is inside and 0 around what is not. One with holes has less, and
-/// above a single sheet, however wide, it is at most 1/2.
+/// The least winding number of a point inside. Around a closed mesh it is 1 for points inside and 0 for points outside;
+/// around a mesh with holes it is less, and above a single sheet, however wide, at most 1/2.
 const INSIDE: f64 = 0.6;
 
-/// Whether a point in the mesh's coordinates is inside: by the generalised winding number, which is the sum of the solid
-/// angles under which the triangles are seen (Jacobson et al. 2013; the angle after van Oosterom and Strackee 1983).
+/// Returns `true` if a point in the mesh's coordinates is inside, by the generalised winding number: the sum of the
+/// solid angles under which the triangles are seen (Jacobson et al. 2013; the angle after van Oosterom and Strackee
+/// 1983).
 pub(super) fn inside(mesh: &Mesh, point: &Vector3<f64>) -> bool {
     let towards = |corner: &u32| Vector3::from(mesh.vertices()[*corner as usize].position).cast::<f64>() - point;
     let half_angle = |triangle: &[u32]| {

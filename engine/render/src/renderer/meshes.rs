@@ -1,4 +1,4 @@
-//! Meshes on the adapter: uploaded once, kept for as long as anybody has them.
+//! Meshes on the adapter: uploaded once, and kept as long as anybody holds them.
 
 use super::adapter::Gpu;
 use super::raw::{RawCorner, Shape};
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::{Arc, Weak};
 
-/// Street lamps are at least so high, in metres; below are those of cars.
+/// The least height of street lamps, in metres; lower lamps are those of cars.
 const HIGH: f32 = 2.5;
 
 /// A mesh on the adapter.
@@ -16,21 +16,21 @@ const HIGH: f32 = 2.5;
 pub(super) struct GpuMesh {
     pub corners: wgpu::Buffer,
     pub indices: wgpu::Buffer,
-    /// Which of the indices are those of surfaces of each finish.
+    /// The range of indices for the surfaces of each finish.
     pub parts: [Range<u32>; 3],
     pub low: Vector3<f64>,
     pub high: Vector3<f64>,
-    /// Where it has a lamp that lights up what is below, if it has one.
+    /// The place of a lamp that lights up the ground below, if the mesh has such a lamp.
     pub lamp: Option<Point3<f64>>,
 }
 
-/// What a surface asks of the program that draws it.
+/// The demands of a surface on the program that draws it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Finish {
-    /// Neither of the others.
+    /// Neither glossy nor grained.
     Dull,
     Glossy,
-    /// Mostly the ground, which is drawn last, since most other things are before it.
+    /// Grained: mostly the ground, which is drawn last, since most other things hide parts of it.
     Grained,
 }
 
@@ -46,12 +46,12 @@ impl Finish {
     }
 }
 
-/// Why a mesh cannot be drawn.
+/// The reason why a mesh cannot be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Unfit {
-    /// A corner with a number that is not finite.
+    /// A corner has a number that is not finite.
     Corner(InstanceFlaw),
-    /// This many bytes are more than a buffer may have.
+    /// The mesh takes this many bytes, more than a buffer may have.
     TooLarge(u64),
 }
 
@@ -60,18 +60,18 @@ pub(super) enum Unfit {
 pub(super) struct Meshes(BTreeMap<u64, (Weak<Mesh>, Result<GpuMesh, Unfit>)>);
 
 impl Meshes {
-    /// Forgets those that nobody has any more, which nobody can ask for again.
+    /// Forgets the meshes that nobody holds any more, since nobody can ask for them again.
     pub fn evict(&mut self) {
         self.0.retain(|_, (mesh, _)| mesh.strong_count() > 0);
     }
 
-    /// Puts it on the adapter unless it is there.
+    /// Uploads a mesh to the adapter unless it is already there.
     pub fn upload(&mut self, gpu: &Gpu, mesh: &Arc<Mesh>) -> &Result<GpuMesh, Unfit> {
         let (_, uploaded) = self.0.entry(mesh.key()).or_insert_with(|| (Arc::downgrade(mesh), GpuMesh::new(gpu, mesh)));
         uploaded
     }
 
-    /// The one with this key.
+    /// Returns the mesh with this key.
     pub fn get(&self, key: u64) -> &GpuMesh {
         self.0[&key].1.as_ref().expect("only meshes that are fit are drawn")
     }
@@ -83,7 +83,7 @@ impl Meshes {
 }
 
 impl GpuMesh {
-    /// How many indices there are.
+    /// Returns the number of indices.
     pub fn count(&self) -> u32 {
         self.parts[2].end
     }
@@ -104,7 +104,8 @@ impl GpuMesh {
         let buffer = |contents: &[u8], usage| {
             let (size, usage) = (contents.len() as u64, usage | wgpu::BufferUsages::COPY_DST);
             let mesh = wgpu::BufferDescriptor { label: Some("mesh"), size, usage, mapped_at_creation: false };
-            // A buffer that is made with its contents panics where the device is lost; writing is refused.
+            // A buffer that is created with its contents panics if the device is lost; writing to a buffer returns an
+            // error.
             let buffer = gpu.device.create_buffer(&mesh);
             gpu.queue.write_buffer(&buffer, 0, contents);
             buffer
@@ -120,7 +121,7 @@ impl GpuMesh {
     }
 }
 
-/// The middle of the lamps high up in a mesh, if it has any.
+/// Returns the middle of the lamps high up in a mesh, if there are any.
 fn lamp_of(mesh: &Mesh) -> Option<Point3<f64>> {
     let lamps = mesh.vertices().iter().filter(|vertex| vertex.surface == SurfaceKind::WhiteLamp);
     let high: Vec<_> = lamps.filter(|vertex| vertex.position[2] > HIGH).collect();
@@ -128,9 +129,9 @@ fn lamp_of(mesh: &Mesh) -> Option<Point3<f64>> {
     (!high.is_empty()).then(|| Point3::from(sum / high.len() as f64))
 }
 
-/// Corners and triangles such that the first corner of each triangle is the first of no other: what is flat over a
-/// triangle is that corner's. Triangles are turned to begin with a corner that is still free; where there is none, one
-/// is doubled.
+/// Returns corners and triangles such that no two triangles share their first corner. Values that are constant over a
+/// triangle are stored at its first corner. Triangles are turned so that they begin with a corner that is still free;
+/// if no corner is free, one is doubled.
 fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
     let mut corners: Vec<RawCorner> = mesh.vertices().iter().map(raw).collect();
     let mut free = vec![true; corners.len()];
@@ -145,7 +146,7 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
         });
         let speaker = &mut corners[turned[0] as usize];
         let Vertex { surface, semantic, .. } = mesh.vertices()[a as usize];
-        // A triangle without an area has no pixels; it only must not be anything else.
+        // A triangle without an area has no pixels; its values only have to be finite.
         speaker.face = face(mesh, triangle).unwrap_or_default().into();
         speaker.kind = [surface as u8, semantic as u8, 0, 0];
         free[turned[0] as usize] = false;
@@ -154,7 +155,7 @@ fn spoken_for(mesh: &Mesh) -> (Vec<RawCorner>, Vec<(Finish, [u32; 3])>) {
     (corners, triangles)
 }
 
-/// The indices of triangles, those of one finish beside each other, and where they are.
+/// Returns the indices of triangles, sorted by finish, with the range of each finish.
 fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 3]) {
     let mut indices = Vec::with_capacity(3 * triangles.len());
     let parts = Finish::ALL.map(|finish| {
@@ -165,7 +166,7 @@ fn parted(triangles: &[(Finish, [u32; 3])]) -> (Vec<u32>, [Range<u32>; 3]) {
     (indices, parts)
 }
 
-/// The unit normal of a triangle, if it has an area.
+/// Returns the unit normal of a triangle, if the triangle has an area.
 fn face(mesh: &Mesh, triangle: &[u32]) -> Option<Vector3<f32>> {
     let corner = |index: usize| Vector3::from(mesh.vertices()[triangle[index] as usize].position).cast::<f64>();
     let (a, b, c) = (corner(0), corner(1), corner(2));
@@ -187,7 +188,7 @@ fn raw(vertex: &Vertex) -> RawCorner {
 }
 
 impl Shape {
-    /// The ball around the mesh, in the camera's coordinates: its middle and radius.
+    /// Returns the ball around the mesh, in the camera's coordinates: its middle and its radius.
     pub fn ball(&self, mesh: &GpuMesh) -> (Point3<f64>, f64) {
         let middle = (mesh.low + mesh.high) / 2.0;
         let radius = ((mesh.high - mesh.low) / 2.0).component_mul(&self.scale).norm();

@@ -1,7 +1,7 @@
 //! Draws views in batches and reads their images back.
 //!
-//! A batch goes to the adapter in one submission and comes back in one copy, while the next is made ready: two sets of
-//! layers take turns. Which views share a batch makes no difference to any of them.
+//! A batch goes to the adapter in one submission and comes back in one copy, while the next batch is prepared: two sets
+//! of layers take turns. The grouping of views into batches makes no difference to any image.
 
 mod adapter;
 mod bands;
@@ -29,18 +29,18 @@ use prepare::{Draw, Prepared, prepare};
 use raw::RawView;
 use targets::{Format, Targets, cleared, view_stride};
 
-/// Draws what cameras see.
+/// Draws the images of views on a graphics adapter.
 ///
-/// An image depends on its view alone: not on what it was drawn with, nor on what was drawn before. It does depend on
-/// the adapter and its driver.
+/// An image depends on its view alone, and neither on the views drawn with it nor on those drawn before. It does depend
+/// on the adapter and its driver.
 #[derive(Debug)]
 pub struct Renderer {
     gpu: Gpu,
     pipelines: Pipelines,
     meshes: Meshes,
-    /// Layers that no batch is in.
+    /// The sets of layers that no batch uses at the moment.
     idle: Vec<Targets>,
-    /// How many bytes the masks of a view take at a time.
+    /// The most bytes that the masks of a view take at a time.
     most_masks: u64,
 }
 
@@ -52,10 +52,10 @@ struct Batch<'a> {
 }
 
 impl Renderer {
-    /// A renderer on the best adapter of this machine; one on the processor will do.
+    /// Makes a renderer on the best adapter of this machine; an adapter on the processor will do.
     ///
     /// # Errors
-    /// There is no adapter, or it does not let itself be opened.
+    /// There is no adapter, or it cannot be opened.
     pub fn new() -> Result<Self, RenderError> {
         let gpu = Gpu::open()?;
         let pipelines = Pipelines::new(&gpu);
@@ -65,21 +65,21 @@ impl Renderer {
         Ok(Self { gpu, pipelines, meshes: Meshes::default(), idle: Vec::new(), most_masks })
     }
 
-    /// What it draws with.
+    /// Returns the adapter that the renderer draws with.
     pub fn adapter(&self) -> &Adapter {
         &self.gpu.adapter
     }
 
-    /// Loses its device, as when a driver gives up: for tests of those who draw with it.
+    /// Loses the device, as when a driver gives up: for tests of the code that draws with the renderer.
     #[doc(hidden)]
     pub fn lose(&self) {
         self.gpu.device.destroy();
     }
 
-    /// Draws the views; the frames are in their order. A view that cannot be drawn does not keep the others from it.
+    /// Draws the views, and returns their frames in the same order. If one view cannot be drawn, the others still are.
     ///
     /// # Errors
-    /// The device is lost or fails.
+    /// The device is lost, or it fails.
     pub fn render(
         &mut self,
         views: &[View<'_>],
@@ -112,10 +112,10 @@ impl Renderer {
         Ok(frames.into_iter().map(|frame| frame.expect("every view was drawn or refused")).collect())
     }
 
-    /// Whether images of such a camera are small enough for the adapter, whatever there is to see.
+    /// Checks that images of a camera are small enough for the adapter, whatever the scene.
     ///
     /// # Errors
-    /// They are not.
+    /// The images are too large.
     pub fn check_size(&self, camera: &Camera, wanted: WantedImages) -> Result<(), ViewError> {
         let (width, height) = (camera.width(), camera.height());
         let limits = &self.gpu.limits;
@@ -175,7 +175,7 @@ impl Renderer {
         }
         let submission = self.gpu.queue.submit([encoder.finish()]);
         for readback in [Some(&targets.readback), targets.masks.as_ref().map(|masks| &masks.readback)] {
-            // A buffer that could not be mapped says so again when it is read.
+            // If a buffer could not be mapped, reading it reports the error again.
             readback.inspect(|readback| readback.map_async(wgpu::MapMode::Read, .., |_| {}));
         }
         Batch { targets, submission, layers }
@@ -191,7 +191,7 @@ impl Renderer {
         first: u32,
     ) {
         let offset = layer * view_stride(&self.gpu) as u32;
-        // Where nothing throws a shadow, there is no map to clear, nor one to look at.
+        // If nothing throws a shadow, there is no shadow map to clear or to read.
         let wanted = WantedImages { shadows: !prepared.casters.is_empty(), ..targets.format.wanted };
         let drawing = self.pipelines.drawing(&self.gpu, wanted, prepared.weather());
         if wanted.shadows {
@@ -218,7 +218,7 @@ impl Renderer {
         }
     }
 
-    /// Draws the masks of things alone of a view, as far as they are this layer's.
+    /// Draws the masks of things alone of a view, for the rows of this layer.
     fn encode_masks(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -237,7 +237,7 @@ impl Renderer {
         }
     }
 
-    /// Draws all that is to be drawn of these meshes, or of the surfaces of one finish.
+    /// Draws the instances of these meshes: all surfaces, or only the surfaces of one finish.
     fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
@@ -258,7 +258,7 @@ impl Renderer {
         }
     }
 
-    /// Waits for a batch, and puts its frames where they belong.
+    /// Waits for a batch, and stores its frames at the indices of their views.
     fn collect(
         &mut self,
         batch: Batch<'_>,
@@ -298,19 +298,19 @@ impl Renderer {
         Ok(())
     }
 
-    /// Layers for a batch: idle ones, if there are any of its kind.
+    /// Returns layers for a batch: idle layers of the same format, if there are any.
     fn targets(&mut self, format: Format, layers: u32) -> Targets {
         let fits = |idle: &Targets| idle.format == format && idle.layers >= layers;
         if let Some(index) = self.idle.iter().position(fits) {
             return self.idle.remove(index);
         }
-        // Those of another kind, and those that have become too small, are not kept for a day that may not come.
+        // Idle layers of the same format that are too small are dropped, because they may never fit again.
         self.idle.retain(|idle| idle.format != format);
         Targets::new(&self.gpu, &self.pipelines, format, layers)
     }
 }
 
-/// How many sets of layers wait for another batch of their kind: two of each of two kinds.
+/// The most sets of layers that wait for another batch of their kind: two of each of two kinds.
 const MOST_IDLE: usize = 4;
 
 fn format(camera: &Camera, wanted: WantedImages) -> Format {

@@ -11,13 +11,13 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 use wgpu::{BindingType, CompareFunction, ShaderStages};
 
-/// Programs, and what is bound to them.
+/// The programs, and the resources that are bound to them.
 #[derive(Debug)]
 pub(super) struct Pipelines {
     modules: Modules,
     pub views: wgpu::BindGroupLayout,
     pub masks: wgpu::BindGroupLayout,
-    /// The sun's view of the scene, as the surfaces read it and as it is drawn.
+    /// The shadow map: the sun's view of the scene, in the form that surfaces read and in the form that is drawn.
     pub sun: wgpu::BindGroup,
     pub sun_depth: wgpu::TextureView,
     shaded: wgpu::PipelineLayout,
@@ -26,12 +26,12 @@ pub(super) struct Pipelines {
     drawing: BTreeMap<(WantedImages, Weather), Drawing>,
 }
 
-/// The programs that draw what is asked for.
+/// The programs that draw a set of images.
 #[derive(Debug, Clone)]
 pub(super) struct Drawing {
-    /// In the order of [`Finish::ALL`].
+    /// The programs for surfaces, in the order of [`Finish::ALL`].
     pub surfaces: [wgpu::RenderPipeline; 3],
-    /// Where light is asked for.
+    /// The program for the sky, if light is asked for.
     pub sky: Option<wgpu::RenderPipeline>,
 }
 
@@ -75,9 +75,9 @@ impl Pipelines {
         Self { modules, views, masks, sun, sun_depth, shaded, shadow, alone, drawing: BTreeMap::new() }
     }
 
-    /// The programs for these images in this weather.
+    /// Returns the programs for these images in this weather.
     pub fn drawing(&mut self, gpu: &Gpu, wanted: WantedImages, weather: Weather) -> Drawing {
-        // Where there is no light, weather makes no difference.
+        // Without light, the weather makes no difference.
         let weather = if wanted.light() { weather } else { Weather::default() };
         let Self { modules, shaded, drawing, .. } = self;
         drawing.entry((wanted, weather)).or_insert_with(|| Drawing::new(gpu, modules, shaded, wanted, weather)).clone()
@@ -102,11 +102,11 @@ impl Drawing {
                 ("GLOSSY", finish == Some(Finish::Glossy)),
                 ("GRAINED", finish == Some(Finish::Grained)),
             ];
-            // The sky asks for one of them only, and may not be told of the others.
+            // The sky's program declares only one of the constants, and refuses others.
             let constants = choices.map(|(name, chosen)| (name, f64::from(chosen)));
             let constants = if sky { &constants[3..4] } else { &constants };
             let module = if sky { &modules.sky } else { &modules.surface };
-            // The sky is light and nothing else.
+            // The sky has light, and no other image.
             let writes = |image: Image| {
                 if sky && !image.is_light() { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL }
             };
@@ -142,7 +142,7 @@ impl Drawing {
     }
 }
 
-/// Depth is reversed: what is nearer is greater, and 0 is infinitely far.
+/// Returns a depth state in which depth is reversed: nearer is greater, and 0 is infinitely far.
 fn depth(write: bool, compare: CompareFunction) -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format: DEPTH_FORMAT,
@@ -154,7 +154,7 @@ fn depth(write: bool, compare: CompareFunction) -> wgpu::DepthStencilState {
 }
 
 fn depth_only(gpu: &Gpu, module: &wgpu::ShaderModule, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
-    // Without it, surfaces at a slant to the sun shade themselves in stripes.
+    // Without a bias, surfaces at a slant to the sun shade themselves in stripes.
     let bias = wgpu::DepthBiasState { constant: 2, slope_scale: 2.0, clamp: 0.0 };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("shadow"),

@@ -1,4 +1,4 @@
-//! From a view to what the adapter is told of it: whether it can be drawn, what of it is in sight, and where that is.
+//! Prepares a view for the adapter: checks that it can be drawn, finds the things in sight, and computes their places.
 
 use super::adapter::Gpu;
 use super::inside::inside;
@@ -11,27 +11,27 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-/// A view, ready to be drawn.
+/// A view that is ready to be drawn.
 #[derive(Debug, Clone)]
 pub(super) struct Prepared {
     pub raw: RawView,
-    /// Of what is in sight and of what throws shadows.
+    /// The instances that are in sight, and those that throw shadows.
     pub instances: Vec<RawInstance>,
     pub draws: Vec<Draw>,
     pub casters: Vec<Draw>,
-    /// Which bits things have in the masks of things alone; empty if those are not wanted.
+    /// The bit of each thing in the masks of things alone; empty if those masks are not wanted.
     pub bits: BTreeMap<u16, u32>,
 }
 
-/// What there is besides daylight.
+/// The conditions besides daylight.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Weather {
-    /// Lamps that shine.
+    /// True if lamps shine.
     pub lamps: bool,
     pub fog: bool,
 }
 
-/// One mesh, drawn for some of the instances of its view.
+/// A mesh that is drawn for some of the instances of its view.
 #[derive(Debug, Clone)]
 pub(super) struct Draw {
     pub mesh: u64,
@@ -39,12 +39,12 @@ pub(super) struct Draw {
 }
 
 impl Prepared {
-    /// What of the weather its programs have to know.
+    /// Returns the weather as far as the programs depend on it.
     pub fn weather(&self) -> Weather {
         Weather { lamps: self.raw.sun[3] > 0.0, fog: self.raw.up[3] > 0.0 }
     }
 
-    /// How many words each pixel has in the masks of things alone.
+    /// Returns the number of words of each pixel in the masks of things alone.
     pub fn words(&self) -> u32 {
         (self.bits.len() as u32).div_ceil(32)
     }
@@ -59,7 +59,7 @@ struct Placed<'a> {
     radius: f64,
 }
 
-/// Gets a view ready.
+/// Prepares a view.
 pub(super) fn prepare(
     gpu: &Gpu,
     meshes: &mut Meshes,
@@ -83,7 +83,7 @@ pub(super) fn prepare(
         let (middle, radius) = shape.ball(mesh);
         placed.push(Placed { instance, mesh, shape, middle, radius });
     }
-    // What is near hides what is far, which then need not be coloured.
+    // Near things hide far things, whose hidden pixels then need no colour.
     placed.sort_by(|a, b| a.middle.coords.norm_squared().total_cmp(&b.middle.coords.norm_squared()));
 
     let sun = to_sun(&view.scene.air);
@@ -110,7 +110,7 @@ pub(super) fn prepare(
 }
 
 impl Prepared {
-    /// Adds these instances, those of one mesh beside each other.
+    /// Adds these instances, sorted by mesh.
     fn add<'a>(&mut self, placed: impl Iterator<Item = &'a Placed<'a>>) -> Vec<Draw> {
         let mut groups: Vec<(u64, Vec<&Placed<'_>>)> = Vec::new();
         let mut group_of = BTreeMap::new();
@@ -134,14 +134,14 @@ impl Prepared {
     }
 }
 
-/// Whether it can throw a shadow: the ground cannot.
+/// Returns `true` if the thing can throw a shadow: the ground cannot.
 fn is_solid(placed: &Placed<'_>) -> bool {
     (placed.mesh.high.z - placed.mesh.low.z) * placed.shape.scale.z > 0.05
 }
 
 fn shape(instance: &Instance, to_eye: &Isometry3<f64>) -> Shape {
     let pose: Isometry3<f64> = instance.pose.cast();
-    // What has length 1 in 32 bits has not quite in 64.
+    // A rotation of length 1 in 32 bits does not have exactly length 1 in 64 bits.
     let turn = UnitQuaternion::new_normalize(pose.rotation.into_inner());
     let pose = Isometry3::from_parts(pose.translation, turn);
     Shape { to_camera: to_eye * pose, scale: Vector3::from(instance.scale).cast() }
@@ -190,9 +190,9 @@ fn check_outside(index: usize, instance: &Instance, mesh: &GpuMesh, shape: &Shap
     Ok(())
 }
 
-/// What a camera sees, as the planes that bound it.
+/// The region that a camera sees, given by the planes that bound it.
 struct Frustum {
-    /// Unit vectors into it; the planes go through the pinhole.
+    /// The normals of the planes: unit vectors that point into the region; the planes go through the pinhole.
     sides: [Vector3<f64>; 4],
 }
 
@@ -209,10 +209,11 @@ impl Frustum {
     }
 }
 
-/// Brightness of a street lamp and of a pair of head lamps: what a surface gets, times square metres.
+/// The brightness of a street lamp and of a pair of head lamps: the light that a surface receives, times square metres.
 const STREET_LAMP: f32 = 14.0;
 const HEAD_LAMPS: f32 = 90.0;
-/// Farther from the middle of what is seen, street lamps are not computed, in metres.
+/// The greatest distance of a street lamp from a point 15 m ahead of the camera, in metres; farther lamps are not
+/// computed.
 const LAMP_REACH: f64 = 60.0;
 
 fn raw_view(
@@ -247,7 +248,7 @@ fn raw_view(
     }
 }
 
-/// The street lamps that matter most, before the camera.
+/// Returns the most important street lamps, in the camera's coordinates.
 fn street_lamps(placed: &[Placed<'_>], bright: f32) -> [[f32; 4]; 8] {
     let mut lamps = [[0.0; 4]; 8];
     if bright == 0.0 {

@@ -1,10 +1,10 @@
-//! What is written to the adapter, byte for byte as the shaders read it.
+//! The data that is written to the adapter, byte for byte as the shaders read it.
 
 use bytemuck::{Pod, Zeroable};
 use nalgebra::{Isometry3, Matrix3, Vector3};
 use wgpu::{VertexAttribute, VertexBufferLayout, VertexStepMode, vertex_attr_array};
 
-/// `View` in view.wgsl.
+/// The data of a view: `View` in view.wgsl.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, Pod, Zeroable)]
 pub(super) struct RawView {
@@ -24,17 +24,17 @@ pub(super) struct RawView {
     pub counts: [u32; 4],
 }
 
-/// A corner of a mesh.
+/// A corner of a mesh, as the shaders read it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(super) struct RawCorner {
     pub position: [f32; 3],
-    /// The normal of the triangle that this corner speaks for.
+    /// The normal of the triangle whose first corner this is.
     pub face: [f32; 3],
     pub normal: [i16; 4],
     pub uv: [f32; 2],
     pub colour: [u16; 4],
-    /// Surface, class, and two bytes of nothing.
+    /// The surface kind, the class, and two unused bytes.
     pub kind: [u8; 4],
 }
 
@@ -50,28 +50,28 @@ impl RawCorner {
     };
 }
 
-/// Where an instance's mesh is before a camera.
+/// The place of an instance's mesh relative to a camera.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shape {
-    /// From the mesh's coordinates, scaled, to the camera's.
+    /// The transformation from the scaled mesh's coordinates to the camera's.
     pub to_camera: Isometry3<f64>,
-    /// How much larger than the mesh it is.
+    /// The factors by which the instance is larger than the mesh.
     pub scale: Vector3<f64>,
 }
 
 impl Shape {
-    /// The linear part of what takes the mesh to the camera.
+    /// Returns the linear part of the transformation from the mesh to the camera.
     pub fn turn(&self) -> Matrix3<f64> {
         self.to_camera.rotation.to_rotation_matrix() * Matrix3::from_diagonal(&self.scale)
     }
 
-    /// The pinhole in the mesh's coordinates.
+    /// Returns the pinhole in the mesh's coordinates.
     pub fn eye(&self) -> Vector3<f64> {
         self.to_camera.inverse().translation.vector.component_div(&self.scale)
     }
 }
 
-/// An instance before a camera.
+/// An instance in front of a camera, as the shaders read it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub(super) struct RawInstance {
@@ -79,7 +79,7 @@ pub(super) struct RawInstance {
     eye: [f32; 3],
     unscale: [f32; 3],
     paint: [f32; 3],
-    /// The id, and in the upper half which bit it has in the masks of things alone.
+    /// The id, and in the upper half the instance's bit in the masks of things alone.
     id: u32,
 }
 
@@ -108,7 +108,7 @@ impl RawInstance {
     }
 }
 
-/// The rows of a rigid motion followed by a linear map.
+/// Returns the rows of a rigid motion followed by a linear map and a shift.
 pub(super) fn rows(linear: &Matrix3<f64>, motion: &Isometry3<f64>, shift: &Vector3<f64>) -> [[f32; 4]; 3] {
     let turn = linear * motion.rotation.to_rotation_matrix();
     let moved = linear * motion.translation.vector + shift;
@@ -117,7 +117,7 @@ pub(super) fn rows(linear: &Matrix3<f64>, motion: &Isometry3<f64>, shift: &Vecto
     })
 }
 
-/// Three numbers and a fourth.
+/// Joins three numbers and a fourth.
 pub(super) fn four(three: impl Into<[f32; 3]>, fourth: f32) -> [f32; 4] {
     let [x, y, z] = three.into();
     [x, y, z, fourth]

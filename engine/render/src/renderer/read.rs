@@ -1,4 +1,4 @@
-//! From the bytes of a batch to its frames.
+//! Reads the frames of a batch from its bytes.
 
 use super::images::Image;
 use super::targets::Format;
@@ -6,7 +6,8 @@ use crate::frame::Extent;
 use crate::{Camera, Frame};
 use std::collections::BTreeMap;
 
-/// The frames of a batch whose images were copied to these bytes, image by image and of each the layers of these cameras.
+/// Returns the frames of a batch. The bytes hold the images one after the other, and of each image the layers of these
+/// cameras.
 pub(super) fn frames(format: Format, bytes: &[u8], cameras: &[&Camera]) -> Vec<Frame> {
     let mut begin = 0;
     let mut images = Vec::new();
@@ -57,7 +58,7 @@ fn fill<'a>(frame: &mut Frame, image: Image, rows: impl Iterator<Item = &'a [u8]
     }
 }
 
-/// The pixels of rows, of N bytes each.
+/// Collects the pixels of rows, of N bytes each.
 fn gathered<'a, T, const N: usize>(
     rows: impl Iterator<Item = &'a [u8]>,
     pixels: usize,
@@ -68,7 +69,7 @@ fn gathered<'a, T, const N: usize>(
     all
 }
 
-/// Which pixels each thing would have if it were alone, from the masks of a view from this row on.
+/// Returns the pixels that each thing would have if it were alone, from the masks of a view from row `top` on.
 pub(super) fn alone(format: Format, top: u32, masks: &[u8], bits: &BTreeMap<u16, u32>) -> Vec<Extent> {
     let ids: Vec<u16> = bits.keys().copied().collect();
     let words = ids.len().div_ceil(32);

@@ -1,26 +1,27 @@
-//! Where the shadow map lies: a square before the camera, across the sun's rays.
+//! The place of the shadow map: a square in front of the camera, perpendicular to the sun's rays.
 
 use super::raw::rows;
 use crate::Atmosphere;
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Vector3};
 
-/// Texels of the map each way.
+/// The number of texels of the map each way.
 pub(super) const TEXELS: u32 = 1024;
-/// Half of what the map covers each way, in metres.
+/// Half of the side that the map covers, in metres.
 const REACH: f64 = 36.0;
-/// How far ahead of the camera its middle is, in metres.
+/// The distance from the camera to the middle of the map, in metres.
 const AHEAD: f64 = 30.0;
-/// How far towards the sun things are that still throw shadows into it, and how far away from it, in metres.
+/// The greatest distance, towards the sun and away from it, at which things throw shadows into the map, in metres.
 const DEEP: f64 = 150.0;
 
-/// A shadow map of one view.
+/// The shadow map of one view.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ShadowMap {
-    /// From the camera's coordinates to light's: x and y across its rays, z towards the sun; the middle is the origin.
+    /// The transformation from the camera's coordinates to the light's: x and y across the rays, z towards the sun; the
+    /// middle is the origin.
     to_light: Isometry3<f64>,
 }
 
-/// The direction to the sun, in the world.
+/// Returns the direction to the sun, in the world.
 pub(super) fn to_sun(air: &Atmosphere) -> Vector3<f64> {
     let (sin_up, cos_up) = libm::sincos(f64::from(air.sun_elevation));
     let (sin_around, cos_around) = libm::sincos(f64::from(air.sun_azimuth));
@@ -28,7 +29,7 @@ pub(super) fn to_sun(air: &Atmosphere) -> Vector3<f64> {
 }
 
 impl ShadowMap {
-    /// The map for a camera here, under this sun.
+    /// Makes the map for a camera with this pose, under this sun.
     pub fn new(camera: &Isometry3<f64>, sun: &Vector3<f64>) -> Self {
         let ahead = camera * Vector3::x();
         let level = Vector3::new(ahead.x, ahead.y, 0.0).try_normalize(1e-9).unwrap_or_default();
@@ -41,13 +42,14 @@ impl ShadowMap {
         Self { to_light: to_light * camera }
     }
 
-    /// The rows of what takes a point before the camera to the map: from 0 to 1 across and down, and from 0 to 1 in depth.
+    /// Returns the rows of the transformation from a point in front of the camera to the map: 0 to 1 across and down, 0
+    /// to 1 in depth.
     pub fn rows(&self) -> [[f32; 4]; 3] {
         let linear = Matrix3::from_diagonal(&Vector3::new(0.5 / REACH, -0.5 / REACH, -0.5 / DEEP));
         rows(&linear, &self.to_light, &Vector3::repeat(0.5))
     }
 
-    /// Whether something within this ball can throw a shadow into the map.
+    /// Returns `true` if something within this ball can throw a shadow into the map.
     pub fn catches(&self, middle: &Point3<f64>, radius: f64) -> bool {
         let middle = self.to_light * middle;
         middle.x.abs() < REACH + radius && middle.y.abs() < REACH + radius && middle.z.abs() < DEEP + radius

@@ -1,7 +1,7 @@
-//! Where a batch is drawn, and from where it is read back.
+//! The textures that a batch is drawn into, and the buffers from which it is read back.
 //!
-//! Every view has a layer of its own. Side by side on one sheet they would take fewer passes, but an offset of the
-//! viewport changes in the last bit where edges fall, and an image is to be the same with whatever it is drawn.
+//! Every view has a layer of its own. Side by side on one sheet, views would take fewer passes, but an offset of the
+//! viewport changes the edges in the last bit, and an image must not depend on the views that are drawn with it.
 
 use super::adapter::Gpu;
 use super::pipelines::Pipelines;
@@ -10,7 +10,7 @@ use crate::WantedImages;
 
 use super::images::{DEPTH_FORMAT, Image};
 
-/// What images a batch has, and of which size.
+/// The images that a batch has, and their size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Format {
     pub width: u32,
@@ -23,23 +23,23 @@ impl Format {
         Image::ALL.into_iter().filter(move |image| image.is_wanted(self.wanted))
     }
 
-    /// Bytes of a row of an image where it is read back.
+    /// Returns the number of bytes of a row of an image in the buffer that is read back.
     pub fn pitch(self, image: Image) -> u64 {
         let align = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
         (u64::from(self.width) * u64::from(image.bytes())).next_multiple_of(u64::from(align))
     }
 
-    /// Bytes of an image where it is read back.
+    /// Returns the number of bytes of an image in the buffer that is read back.
     pub fn stride(self, image: Image) -> u64 {
         self.pitch(image) * u64::from(self.height)
     }
 
-    /// Bytes of all images of a view where they are read back.
+    /// Returns the number of bytes of all images of a view in the buffer that is read back.
     pub fn bytes(self) -> u64 {
         self.images().map(|image| self.stride(image)).sum()
     }
 
-    /// Bytes of so many rows of the masks of things alone of a view that has so many words for each pixel.
+    /// Returns the number of bytes of `rows` rows of the masks of things alone, with `words` words for each pixel.
     pub fn mask_bytes(self, words: u32, rows: u32) -> u64 {
         u64::from(self.width) * u64::from(rows) * u64::from(words) * 4
     }
@@ -49,18 +49,18 @@ impl Format {
     }
 }
 
-/// The layers that a batch is drawn into, and the buffers that go with them.
+/// The layers that a batch is drawn into, and their buffers.
 #[derive(Debug)]
 pub(super) struct Targets {
     pub format: Format,
-    /// How many views it has room for.
+    /// The number of views that fit.
     pub layers: u32,
     textures: Vec<(Image, wgpu::Texture, Vec<wgpu::TextureView>)>,
     depth: wgpu::TextureView,
-    /// Of the views.
+    /// The uniforms of each view.
     pub uniforms: wgpu::Buffer,
     pub view_group: wgpu::BindGroup,
-    /// Of all views.
+    /// The instances of all views.
     pub instances: wgpu::Buffer,
     pub readback: wgpu::Buffer,
     pub masks: Option<Masks>,
@@ -74,7 +74,7 @@ pub(super) struct Masks {
     pub readback: wgpu::Buffer,
 }
 
-/// The uniforms of one view begin so far after those of the view before.
+/// Returns the distance from the uniforms of one view to those of the next, in bytes.
 pub(super) fn view_stride(gpu: &Gpu) -> u64 {
     (size_of::<RawView>() as u64).next_multiple_of(u64::from(gpu.limits.min_uniform_buffer_offset_alignment))
 }
@@ -95,7 +95,7 @@ impl Targets {
             let views = (0..layers).map(view).collect();
             (image, texture, views)
         };
-        // One is enough: views are drawn one after the other, and each begins anew.
+        // One depth texture is enough: views are drawn one after the other, and each clears it first.
         let depth = texture_of_depth(gpu, format);
         let uniforms = buffer(gpu, view_stride(gpu) * u64::from(layers), wgpu::BufferUsages::UNIFORM);
         let view = wgpu::BufferBinding {
@@ -117,7 +117,7 @@ impl Targets {
         }
     }
 
-    /// Makes room for so many instances and words of masks.
+    /// Makes room for this many instances and words of masks.
     pub fn reserve(&mut self, gpu: &Gpu, pipelines: &Pipelines, instances: usize, words: u64) {
         if instance_bytes(instances) > self.instances.size() {
             let room = instance_bytes(instances.next_power_of_two());
@@ -131,7 +131,7 @@ impl Targets {
         }
     }
 
-    /// Begins to draw the view of a layer: on everything that is wanted, or on nothing that is kept.
+    /// Begins to draw the view of a layer: into all wanted images, or into none of them.
     pub fn begin<'a>(&self, encoder: &'a mut wgpu::CommandEncoder, layer: u32, images: bool) -> wgpu::RenderPass<'a> {
         let attachment = |image: Image| {
             let (_, _, views) = self.textures.iter().find(|(of, _, _)| *of == image)?;
@@ -153,7 +153,7 @@ impl Targets {
         })
     }
 
-    /// Copies the first so many layers to where they are read back.
+    /// Copies the first `layers` layers to the buffer from which they are read back.
     pub fn copy(&self, encoder: &mut wgpu::CommandEncoder, layers: u32) {
         let Format { width, height, .. } = self.format;
         let mut offset = 0;
@@ -171,7 +171,7 @@ impl Targets {
     }
 }
 
-/// A depth attachment that begins with one value everywhere.
+/// Returns a depth attachment that begins with one value everywhere.
 pub(super) fn cleared(
     view: &wgpu::TextureView,
     value: f32,

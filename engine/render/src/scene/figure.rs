@@ -1,7 +1,7 @@
-//! What a body looks like: the meshes that stand for it, and where they are.
+//! Turns a body into the meshes that stand for it, with their places.
 //!
-//! A mesh has the size of its kind and is stretched to that of the body. Trees and signs are wider than their outline,
-//! which is that of the trunk or the pole.
+//! A mesh has the size of its kind and is stretched to the size of the body. Trees and signs are drawn wider than their
+//! outline, because the outline is that of the trunk or the pole.
 
 mod gait;
 
@@ -14,11 +14,11 @@ use paracosm_engine::object::{Body, BodyState, Class, Outline};
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// The radius of a crown by the height of its tree: broad leaves, conifer.
+/// The radius of a crown as a share of the height of the tree: broad leaves, conifer.
 const CROWN: [f32; 2] = [0.25, 0.19];
-/// Where a crown begins, by the height of its tree: broad leaves, conifer.
+/// The height at which a crown begins, as a share of the height of the tree: broad leaves, conifer.
 const BOUGHS: [f32; 2] = [0.28, 0.10];
-/// What is taller than this is no sign but a lamp post, in metres.
+/// A sign that is taller than this is drawn as a lamp post, in metres.
 const LAMP_POST: f32 = 3.8;
 /// A bicycle lower than this has no rider, in metres.
 const RIDDEN: f32 = 1.3;
@@ -28,7 +28,7 @@ const CHILD: f32 = 1.4;
 /// A body that is being drawn.
 pub(super) struct Figure<'a> {
     pub state: &'a BodyState,
-    /// Where it stands: heading along x, the ground that it stands on at z = 0.
+    /// The place of the figure: heading along x, the ground that the body stands on at z = 0.
     pub pose: Isometry3<f32>,
     /// Length, width and height in metres.
     pub size: [f32; 3],
@@ -37,7 +37,7 @@ pub(super) struct Figure<'a> {
 }
 
 impl<'a> Figure<'a> {
-    /// The figure of a body that stands `raised` metres above the ground.
+    /// Makes the figure of a body that stands `raised` metres above the ground.
     pub fn new(state: &'a BodyState, raised: f32, id: u16) -> Self {
         let position = state.pose.position.map(|metres| metres as f32);
         let up = state.altitude as f32 + raised;
@@ -46,18 +46,18 @@ impl<'a> Figure<'a> {
         Self { state, pose, size: size(&state.body), paint: linear(state.body.colour), id }
     }
 
-    /// A mesh of this figure, `at` from its pose.
+    /// Returns a mesh of this figure, placed at `at` relative to the figure's pose.
     pub fn part(&self, mesh: &Arc<Mesh>, at: Isometry3<f32>, scale: [f32; 3]) -> Instance {
         Instance { mesh: mesh.clone(), pose: self.pose * at, scale, paint: self.paint, id: self.id }
     }
 
-    /// A mesh that was modelled in another size, stretched to that of the body.
+    /// Returns a mesh that was modelled in another size, stretched to the size of the body.
     pub fn stretched(&self, mesh: &Arc<Mesh>, modelled: [f32; 3]) -> Instance {
         let scale = [0, 1, 2].map(|axis| self.size[axis] / modelled[axis]);
         self.part(mesh, Isometry3::identity(), scale)
     }
 
-    /// All that stands for the body.
+    /// Adds all meshes that stand for the body to the scene.
     pub fn draw(&self, scene: &mut Vec<Instance>) {
         let models = Models::shared();
         match self.state.body.class {
@@ -122,8 +122,7 @@ impl<'a> Figure<'a> {
         self.stretched(mesh, [1.0; 3])
     }
 
-    /// A number that looks like chance and depends on nothing but the place: FNV-1a (Fowler, Noll, Vo) over
-    /// centimetres.
+    /// Returns a number that looks random and depends only on the place: FNV-1a (Fowler, Noll, Vo) over centimetres.
     fn chance(&self) -> u32 {
         let place = self.state.pose.position.map(|metres| (metres * 100.0).round() as i64);
         let bytes = place.iter().flat_map(|centimetres| centimetres.to_le_bytes());
@@ -133,7 +132,7 @@ impl<'a> Figure<'a> {
     }
 }
 
-/// Length, width and height of a body in metres.
+/// Returns the length, width and height of a body in metres.
 fn size(body: &Body) -> [f32; 3] {
     let half = body.outline.half_extent();
     [2.0 * half.x, 2.0 * half.y, body.height].map(|metres| metres as f32)

@@ -1,7 +1,7 @@
-//! Roads as they lie there, in chunks, and the plain around them.
+//! Builds the meshes of the roads, in chunks, and of the plain around them.
 //!
-//! A network is a list of strips ([`Strip`]): every surface has its height, and what is raised has sides. Chunks are
-//! squares, so that a renderer leaves out those that are not in view.
+//! A network is a list of strips ([`Strip`]). Every surface has its height, and raised surfaces have sides. Chunks are
+//! squares, so that a renderer can skip those that are out of view.
 
 use super::Instance;
 use crate::mesh::clay::{Clay, Matter, at};
@@ -11,21 +11,21 @@ use paracosm_engine::road::{Bounds, Curve, RoadNetwork, Strip, Surface as Paved}
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// The sides of a chunk in metres.
+/// The side of a chunk in metres.
 const CHUNK: f64 = 96.0;
-/// The longest piece of a strip in metres, and how far it may stray from an arc.
+/// The longest piece of a strip in metres, and the greatest distance between a piece and its arc.
 const PIECE: f64 = 32.0;
 const TOLERANCE: f64 = 0.02;
-/// How high sidewalks are above the road, in metres.
+/// The height of sidewalks above the road, in metres.
 pub(super) const KERB: f64 = 0.12;
-/// How far ground goes on under what lies on it, in metres.
+/// The distance by which ground continues under the things that lie on it, in metres.
 const UNDER: f64 = 0.05;
-/// How high paint is above what it is painted on: enough to be told from it a long way off.
+/// The height of paint above the surface below, in metres: enough to tell the two apart from far away.
 const PAINT: f64 = 0.006;
-/// How deep the plain lies, and how deep the sides of what is raised go.
+/// The height of the plain, and of the lower edge of the sides of raised surfaces, in metres.
 const PLAIN: f64 = -0.03;
 const SKIRT: f64 = -0.06;
-/// How far the plain goes on around the roads, in metres.
+/// The distance to which the plain continues around the roads, in metres.
 const HORIZON: f64 = 4000.0;
 
 const ASPHALT: [f32; 3] = [0.065, 0.066, 0.070];
@@ -34,7 +34,7 @@ const STONE: [f32; 3] = [0.42, 0.41, 0.38];
 const GRASS: [f32; 3] = [0.085, 0.16, 0.045];
 const LINE: [f32; 3] = [0.80, 0.80, 0.77];
 
-/// How a surface lies: its height, how much wider it is made to the right, to the left, and at its ends.
+/// The shape of a surface: its height, and by how much it is widened to the right and left and lengthened at its ends.
 struct Lie {
     matter: Matter,
     height: f64,
@@ -50,7 +50,7 @@ fn lie(surface: Paved) -> Lie {
         longer,
     };
     match surface {
-        // Under kerbs, and under the next element, so that no seam shows.
+        // Widened under the kerbs and lengthened under the next element, so that no seam shows.
         Paved::Carriageway => lie(SurfaceKind::Asphalt, ASPHALT, Semantic::Road, 0.0, [UNDER; 2], UNDER),
         Paved::Sidewalk => lie(SurfaceKind::Asphalt, FLAGSTONE, Semantic::Sidewalk, KERB, [0.0, -UNDER], 0.0),
         Paved::Island => lie(SurfaceKind::Grown, GRASS, Semantic::Terrain, KERB, [-UNDER, 0.0], 0.0),
@@ -61,7 +61,7 @@ fn lie(surface: Paved) -> Lie {
     }
 }
 
-/// The road network and the plain around it.
+/// Returns the meshes of the road network and of the plain around it.
 pub(super) fn ground(network: &RoadNetwork) -> Vec<Instance> {
     let mut chunks: BTreeMap<[i64; 2], Clay> = BTreeMap::new();
     for strip in network.strips().iter().flat_map(Strip::solid_parts) {
@@ -78,7 +78,7 @@ fn origin(chunk: [i64; 2]) -> Vector2<f64> {
     Vector2::from(chunk.map(|index| index as f64 * CHUNK))
 }
 
-/// The distances along a curve at which a strip on it is cut into flat pieces.
+/// Returns the distances along a curve at which a strip on the curve is cut into flat pieces.
 pub(super) fn cuts(curve: &Curve, right: f64, left: f64) -> Vec<f64> {
     let widest = [right, left].map(|offset| (1.0 - curve.curvature() * offset).abs()).into_iter().fold(0.0, f64::max);
     let (angle, radius) = (curve.length() * curve.curvature().abs(), widest / curve.curvature().abs());
@@ -127,7 +127,7 @@ fn lay(strip: &Strip, chunks: &mut BTreeMap<[i64; 2], Clay>) {
     }
 }
 
-/// Grass as far as one sees.
+/// Returns the plain: grass as far as one can see.
 fn plain(bounds: &Bounds) -> Instance {
     let middle = (0.5 * (bounds.min + bounds.max)).map(f64::round);
     let half = (0.5 * (bounds.max - bounds.min)).map(|metres| (metres + HORIZON) as f32);

@@ -1,16 +1,16 @@
-//! How high the ground is: people step up to a sidewalk.
+//! Computes the height of the ground, so that people step up to a sidewalk.
 
 use super::ground::{KERB, cuts};
 use nalgebra::Vector2;
 use paracosm_engine::road::{RoadNetwork, Strip, Surface};
 use std::collections::BTreeMap;
 
-/// The sides of a cell in metres.
+/// The side of a cell in metres.
 const CELL: f64 = 16.0;
-/// Metres from the edge of a sidewalk within which a person steps up.
+/// The distance from the edge of a sidewalk over which a person steps up, in metres.
 const STEP: f64 = 0.3;
 
-/// The sidewalks of a network, by where they are.
+/// The sidewalks of a network, sorted by the cells of a grid that they lie in.
 #[derive(Debug)]
 pub(super) struct Pavement {
     strips: Vec<Strip>,
@@ -43,7 +43,7 @@ impl Pavement {
         Self { strips, cells }
     }
 
-    /// How high the ground is at a point, in metres: rising from the edges of a sidewalk to its top.
+    /// Returns the height of the ground at a point, in metres: it rises from the edges of a sidewalk to its top.
     pub fn height(&self, point: Vector2<f64>) -> f64 {
         let here = self.cells.get(&cell(point)).into_iter().flatten();
         let inside = here.map(|index| inside(&self.strips[*index], point)).fold(0.0, f64::max);
@@ -52,10 +52,10 @@ impl Pavement {
     }
 }
 
-/// How many metres within a strip a point lies from its sides; not positive outside.
+/// Returns the distance in metres from a point within a strip to the nearest side; not positive outside the strip.
 fn inside(strip: &Strip, point: Vector2<f64>) -> f64 {
     let near = strip.curve.at(strip.curve.nearest(point)).to_local(point);
-    // Beyond its ends the nearest point is not beside it.
+    // Beyond an end of the curve, the nearest point on the curve does not lie beside `point`.
     let beside = near.x.abs() < 1e-6 * (1.0 + near.y.abs());
     if beside { (near.y - strip.right).min(strip.left - near.y) } else { 0.0 }
 }

@@ -1,4 +1,4 @@
-//! What makes a scene of a run: the ground, which is built once for a network, and the figures of the bodies on it.
+//! Makes a scene of a run: the ground, which is built once for a network, and the figures of the bodies on it.
 
 use super::figure::Figure;
 use super::ground::ground;
@@ -12,7 +12,7 @@ use paracosm_engine::road::RoadNetwork;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// A road network as it is seen, ready for all that happens on it: built once, for every moment of every run.
+/// A road network in the form in which it is drawn, built once for every moment of every run on it.
 ///
 /// ```
 /// use paracosm_engine::road::CrossIntersection;
@@ -30,42 +30,43 @@ pub struct Stage {
     models: BTreeMap<Class, Model>,
 }
 
-/// A mesh of a user's own, which is stretched to the box of whatever it stands for. Its front is along x.
+/// A mesh of the user that is stretched to the box of the body that it stands for. The front of the mesh is along x.
 #[derive(Debug)]
 pub struct Model {
     mesh: Arc<Mesh>,
-    /// The middle of the bottom of its box.
+    /// The middle of the bottom of the mesh's box.
     foot: Vector3<f32>,
     size: [f32; 3],
 }
 
-/// The bodies of a run that are shown as models of a user's own, by their indices.
+/// The bodies of a run that are shown as models of the user, by their indices.
 pub type Cast = BTreeMap<usize, Arc<Model>>;
 
 impl Stage {
-    /// The stage of a network.
+    /// Makes the stage of a network.
     pub fn of(network: &RoadNetwork) -> Self {
         Self { still: ground(network), pavement: Pavement::of(network), models: BTreeMap::new() }
     }
 
-    /// Shows all bodies of a class as this mesh, stretched to their boxes. Its front is along x.
+    /// Shows all bodies of a class as this mesh, stretched to their boxes. The front of the mesh is along x.
     pub fn model(mut self, class: Class, mesh: impl Into<Arc<Mesh>>) -> Self {
         self.models.insert(class, Model::new(mesh));
         self
     }
 
-    /// A run as it stands, with all bodies that are present. The car under test has the id 1: a camera that is mounted on
-    /// it leaves that out.
+    /// Returns the scene of a run at its current tick, with all bodies that are present. The ego vehicle has the id 1,
+    /// so that a camera mounted on it can leave it out.
     pub fn scene(&self, run: &Run) -> Scene {
         self.scene_of(run.bodies().iter().enumerate(), Atmosphere::of(&run.weather()))
     }
 
-    /// These bodies, each with its index among those of the run, in this air. Those that have left the world are left out.
+    /// Returns the scene of these bodies in this air. Each body comes with its index in the run; bodies that left the
+    /// world are skipped.
     pub fn scene_of<'a>(&self, bodies: impl IntoIterator<Item = (usize, &'a BodyState)>, air: Atmosphere) -> Scene {
         self.scene_with(&Cast::new(), bodies, air)
     }
 
-    /// [`Stage::scene_of`], with some of the bodies shown as models of their own.
+    /// Returns the scene as [`Stage::scene_of`] does, with the bodies in `cast` shown as models of the user.
     pub fn scene_with<'a>(
         &self,
         cast: &Cast,
@@ -89,7 +90,7 @@ impl Stage {
 }
 
 impl Model {
-    /// The model that this mesh is.
+    /// Makes a model of a mesh.
     pub fn new(mesh: impl Into<Arc<Mesh>>) -> Self {
         let mesh = mesh.into();
         let points = || mesh.vertices().iter().map(|vertex| Vector3::from(vertex.position));
@@ -108,14 +109,14 @@ impl Model {
     }
 }
 
-/// The stages of networks, as long as the networks live.
+/// The stages of networks, kept as long as the networks live.
 #[derive(Debug, Default)]
 pub struct Stages {
     known: Mutex<Vec<(Weak<RoadNetwork>, Arc<Stage>)>>,
 }
 
 impl Stages {
-    /// The stage of a network: the same for the same network, so that tests on it share it.
+    /// Returns the stage of a network. Tests on the same network share one stage.
     pub fn of(&self, network: &Arc<RoadNetwork>) -> Arc<Stage> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|(of, _)| of.strong_count() > 0);

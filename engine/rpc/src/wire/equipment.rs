@@ -1,4 +1,4 @@
-//! What a driver measures with, as it describes it and as a run carries it.
+//! The sensors of a driver, as the driver describes them and as a run carries them.
 
 use super::{Fix, Image as WireImage, Inertia, Scan, Step, Welcome};
 use nalgebra::Vector3;
@@ -8,7 +8,7 @@ use paracosm_engine::sensor::{
     LidarSettings, Mount, Rig, Sample, Sensor, SensorError,
 };
 
-/// What a driver has said of itself.
+/// The description that a driver gives of itself in its welcome.
 pub struct Described {
     pub name: String,
     pub period: f64,
@@ -20,7 +20,7 @@ pub struct Described {
     imus: Vec<Fitting<Imu>>,
 }
 
-/// A sensor, ready to be attached, and by what it is known once it is.
+/// A sensor that is ready to be attached, and its handle once it is attached.
 struct Fitting<S> {
     name: String,
     sensor: S,
@@ -29,7 +29,7 @@ struct Fitting<S> {
 }
 
 impl Described {
-    /// What a driver says, if it can be so.
+    /// Reads the driver's welcome and checks its period and its sensors.
     pub fn new(welcome: Welcome, seed: u64) -> Result<Self, Fault> {
         let Welcome { name, period, others, .. } = welcome;
         if !(period > 0.0 && period.is_finite()) {
@@ -76,7 +76,7 @@ impl Described {
         Ok(described)
     }
 
-    /// It, made anew.
+    /// Makes the driver's equipment anew.
     pub fn equipment(&mut self) -> Equipment {
         Equipment { rig: self.rig().expect("it was made before"), cameras: self.cameras.clone() }
     }
@@ -89,7 +89,7 @@ impl Described {
         Ok(rig)
     }
 
-    /// Adds what has arrived to the next step.
+    /// Adds the images and readings that have arrived to the next step.
     pub fn write(&self, rig: &Rig, images: &[Image], step: &mut Step) {
         let names: Vec<&String> = self.cameras.all.keys().collect();
         step.images.extend(images.iter().map(|image| WireImage {
@@ -126,7 +126,7 @@ impl Described {
     }
 }
 
-/// What has arrived from sensors of one kind, each with the name of its sensor.
+/// Returns the readings that have arrived from sensors of one kind, each with the name of its sensor.
 fn arrived<'a, S: Sensor>(
     fittings: &'a [Fitting<S>],
     rig: &'a Rig,
@@ -163,7 +163,7 @@ impl From<&super::Camera> for CameraSpec {
             dropped: camera.dropped,
             ..Self::default()
         };
-        // A field that is 0 was not said.
+        // A field that is 0 was not set.
         let said = OF_LENS.iter().map(|(name, of, _)| (*name, of(camera))).filter(|(_, value)| *value != 0.0);
         said.for_each(|(name, value)| spec.lens.set(name, value));
         camera.lens.iter().for_each(|(name, value)| spec.lens.set(name, *value));
@@ -204,10 +204,11 @@ impl From<(&String, &CameraSpec)> for super::Camera {
     }
 }
 
-/// Reads a field of a message, and writes it.
+/// The name of a lens setting, the function that reads its field, and the function that gives access to write it.
 type Field = (&'static str, fn(&super::Camera) -> f64, fn(&mut super::Camera) -> &mut f64);
 
-/// The settings of lenses that have a field of their own in the protocol, from before it had a map of them.
+/// The lens settings that have their own field in the protocol. They are older than the protocol's map of lens
+/// settings.
 const OF_LENS: [Field; 8] = [
     ("motion", |camera| camera.motion, |camera| &mut camera.motion),
     ("motion_angle", |camera| camera.motion_angle_degrees, |camera| &mut camera.motion_angle_degrees),

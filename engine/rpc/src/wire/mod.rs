@@ -1,4 +1,5 @@
-//! The messages of the protocol, and what they stand for. `generated` is made of `driver.proto`; a test keeps it so.
+//! The messages of the protocol and their conversions. `generated` is made from `driver.proto`; a test checks that both
+//! agree.
 
 mod equipment;
 mod observation;
@@ -17,7 +18,7 @@ pub use read::read;
 
 use crate::{PROTOCOL, Terms};
 
-/// The words that begin a session.
+/// Returns the message that begins a session.
 pub fn hello(terms: &Terms) -> Hello {
     Hello {
         protocol: PROTOCOL,

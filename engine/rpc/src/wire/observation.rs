@@ -1,4 +1,4 @@
-//! What a driver is told and what it sees, there and back, without the loss of a bit.
+//! Converts observations and briefings to messages and back, without the loss of a bit.
 
 use super::{
     Other as WireOther, Pose as WirePose, Rectangle, Reset, Step, Vehicle as WireVehicle, Way as WireWay, other,
@@ -7,7 +7,7 @@ use paracosm_engine::object::Outline;
 use paracosm_engine::vehicle::{Drive, Vehicle};
 use paracosm_engine::{Briefing, Observation, Other, Way};
 
-/// Writes an observation to a step, the others only if they are asked for.
+/// Writes an observation to a step. The other bodies are written only if `others` is true.
 pub fn write(observation: &Observation, others: bool, step: &mut Step) {
     let Observation { time, speed, travelled, odometry, way, .. } = observation;
     (step.time, step.speed, step.travelled) = (*time, *speed, *travelled);

@@ -1,11 +1,11 @@
-//! Reads what a client observes: what a server of drivers is told.
+//! Reads the observation that a client sends to a server of drivers.
 
 use super::{Other as WireOther, Rectangle, Step, other};
 use nalgebra::Vector2;
 use paracosm_engine::object::{Class, Outline};
 use paracosm_engine::{Ahead, Observation, Other, Pose, Way};
 
-/// All classes of bodies, which are known by their names.
+/// All classes of bodies. The protocol sends their names.
 const CLASSES: [Class; 8] = [
     Class::Car,
     Class::Truck,
@@ -17,7 +17,7 @@ const CLASSES: [Class; 8] = [
     Class::Prop,
 ];
 
-/// Reads an observation from a step; what is missing there is 0.
+/// Reads an observation from a step. A field that is missing in the step is 0.
 pub fn read(step: &Step, observation: &mut Observation) {
     (observation.time, observation.speed, observation.travelled) = (step.time, step.speed, step.travelled);
     let odometry = step.odometry.unwrap_or_default();

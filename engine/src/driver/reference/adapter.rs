@@ -1,14 +1,14 @@
-//! Lets a braking model drive a whole simulated car: it fills in the [`Situation`] from the observation, brakes as hard as
-//! the most worried copy of the model asks for, and otherwise holds the car's speed.
+//! Lets a braking model drive a whole simulated car. The adapter fills in the [`Situation`] from the observation for a
+//! copy of the model per body, brakes as hard as any copy asks for, and otherwise holds the car's speed.
 //!
-//! In the kinematic world a car that has braked never takes up speed again. Here it goes on when the way is free, and until
-//! then it comes no nearer by its own doing: it takes up no more speed than that of whomever it has braked for and who is
-//! still in its way. The models themselves ask nothing of a car that is no faster than the other.
+//! In the kinematic world a car that has braked never takes up speed again. Here the car goes on when the way is free.
+//! While a body that it has braked for is in its way, the car takes up no more speed than that body has, so it does not
+//! come nearer by its own doing. The models themselves ask nothing of a car that is no faster than the other.
 //!
-//! Gaps and distances across the lane are measured [along the way](super::super::frenet). The truth is of what can be seen:
-//! another is not there before the line from the car's front to its middle has once been free of large bodies, and from then
-//! on is known, as in the kinematic world. There a cut-out uncovers what stands behind it when it has left its wandering zone,
-//! 0.375 m aside; here when it is half of its width aside, about 0.9 m.
+//! Gaps and lateral distances are measured [along the way](super::super::frenet). The driver ignores a body until the
+//! line from the car's front to the body's middle has been free of large bodies once. From then on the driver knows the
+//! body's true state, as in the kinematic world. A cut-out uncovers a standing body later than there: when it is half
+//! of its width aside, about 0.9 m, and not when it has left its wandering zone, 0.375 m aside.
 
 use super::super::cruise::Cruise;
 use super::super::frenet::Frenet;
@@ -17,16 +17,16 @@ use super::super::{Driver, Fault};
 use crate::kinematic::{BrakingModel, DT, Situation};
 use crate::observation::{Briefing, Control, Observation, Other};
 
-/// Seconds within which whoever comes over sideways counts as in the way.
+/// The seconds within which a body that comes over sideways counts as in the way.
 const COMES_OVER: f64 = 3.0;
-/// Seconds within which the car, at the speed that it is to keep, would come up with whomever it holds back for.
+/// The seconds within which the car, at the speed that it is to keep, would reach the body that it holds back for.
 const COMES_UP: f64 = 10.0;
 
-/// A braking model at the wheel.
+/// A braking model that drives a simulated car.
 #[derive(Debug)]
 pub(super) struct Reference<M> {
     fresh: M,
-    /// What it makes of each of the others.
+    /// The copy of the model for each of the other bodies.
     watched: Vec<Watched<M>>,
     cruise: Cruise,
     cruise_speed: f64,
@@ -40,14 +40,14 @@ pub(super) struct Reference<M> {
 struct Watched<M> {
     model: M,
     seen: bool,
-    /// Whether the car has braked for it, and it has been in the way ever since.
+    /// True if the car has braked for the body and the body has been in the way ever since.
     braked_for: bool,
-    /// Speed along the lane in m/s at the last question.
+    /// The body's speed along the lane in m/s at the last question.
     speed: Option<f64>,
 }
 
 impl<M: BrakingModel + 'static> Reference<M> {
-    /// The driver of a car that brakes as copies of this model ask for.
+    /// Makes a driver that brakes as copies of this model ask for.
     pub fn boxed(fresh: M) -> Box<dyn Driver> {
         Box::new(Self {
             fresh,
@@ -60,7 +60,7 @@ impl<M: BrakingModel + 'static> Reference<M> {
         })
     }
 
-    /// A body that is turned counts with the box along the lane that encloses it.
+    /// Returns the situation of the car and a body. A turned body counts as the box along the lane that encloses it.
     fn situation(&self, speed: f64, other: &Other, other_speed_before: Option<f64>) -> Situation {
         let (along, across) = (2.0 * other.half_extent().x, 2.0 * other.half_extent().y);
         let rate = |now: f64, before: Option<f64>| before.map_or(0.0, |before| (now - before) / DT);
@@ -78,16 +78,16 @@ impl<M: BrakingModel + 'static> Reference<M> {
         }
     }
 
-    /// Whether the car, if it took up its speed, would soon come up with one that is in its way or comes into it.
+    /// Returns `true` if the car, at its set speed, would soon reach a body that is in its way or comes into it.
     fn holds_back(&self, s: &Situation) -> bool {
         let in_the_way = s.is_ahead() && (s.overlaps() || s.clearance() < COMES_OVER * s.approach);
         in_the_way && s.gap < COMES_UP * (self.cruise_speed - s.other_speed)
     }
 }
 
-/// The strongest acceleration in m/s² with which the car gets no faster than the other.
+/// Returns the strongest acceleration in m/s² with which the car gets no faster than the other body.
 fn up_to_its_speed(s: &Situation) -> f64 {
-    // The missing speed in a second.
+    // The car makes up the missing speed in a second.
     (s.other_speed - s.speed).max(0.0)
 }
 

@@ -1,18 +1,18 @@
 //! The driver `cc`: the competent and careful human driver of UN Regulation No. 157, Annex 4, Appendix 3.
 //!
-//! Three stretches of time follow one another.
+//! The driver goes through three phases.
 //!
-//! 1. *Perception.* The driver notices that the other comes over once its middle is more than 0.375 m from the middle
-//!    of its own lane, which is as far as cars wander, and takes 0.4 s to evaluate the risk. There is one if the time to
-//!    collision is at most 2 s, or if the other brakes with 5 m/s² or more.
+//! 1. *Perception.* The driver notices that the other road user comes over once its middle is more than 0.375 m from
+//!    the middle of its own lane, which is as far as cars wander. The driver takes 0.4 s to evaluate the risk. There is
+//!    a risk if the time to collision is at most 2 s, or if the other brakes with 5 m/s² or more.
 //! 2. *Decision.* 0.75 s pass until the brakes act. Meanwhile the foot is off the pedal and the car loses 0.4 m/s².
 //! 3. *Reaction.* The deceleration rises by 12.65 m/s³ (in 0.6 s) to 0.774 g and stays there until the danger is over.
 //!
-//! Our reading: the other's own lane is the next one, so that it has left its wandering zone when its middle is nearer than
-//! a lane's width less 0.375 m, and comes nearer or is in the path already; both conditions of step 1 have to be there at one
-//! moment, after which the driver does not change its mind; the danger is over when the other is no longer ahead and in
-//! the way, or the gap no longer shrinks and the other does not brake. The 0.85 g of the table's row for vehicles that
-//! overlap wholly are those of an emergency brake (UN R152) and left out.
+//! Our reading: The other's own lane is the next lane. So the other has left its wandering zone if its middle is nearer
+//! than a lane's width less 0.375 m and comes nearer, or if it is in the path already. Both conditions of step 1 must
+//! hold at the same moment; after that the driver does not change its mind. The danger is over when the other is no
+//! longer ahead and in the way, or the gap no longer shrinks and the other does not brake. The 0.85 g in the table's
+//! row for vehicles that overlap wholly belong to an emergency brake (UN R152) and are left out.
 
 use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
@@ -20,26 +20,26 @@ use super::held::Held;
 use crate::kinematic::{BrakingModel, LANE_WIDTH, Situation};
 use crate::vehicle::GRAVITY;
 
-/// The human driver; lengths in metres, times in seconds, accelerations in m/s².
+/// The competent and careful human driver; lengths in metres, times in seconds, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cc {
-    /// How wide lanes are.
+    /// The width of the lanes.
     pub lane_width: f64,
-    /// How far cars wander from the middle of their lane.
+    /// The greatest distance that cars wander from the middle of their lane.
     pub wandering: f64,
-    /// How long the driver evaluates the risk.
+    /// The time that the driver takes to evaluate the risk.
     pub evaluation: f64,
-    /// Time to collision from which on there is a risk.
+    /// The time to collision at or below which there is a risk.
     pub ttc: f64,
-    /// Deceleration of the other that is a risk at any time to collision.
+    /// The other road user's deceleration that is a risk at any time to collision.
     pub leader_deceleration: f64,
-    /// From the decision to brake until the brakes act.
+    /// The time from the decision to brake until the brakes act.
     pub reaction: f64,
-    /// Deceleration meanwhile.
+    /// The car's deceleration from the decision until the brakes act.
     pub release: f64,
-    /// Deceleration at the end.
+    /// The full deceleration of the car.
     pub deceleration: f64,
-    /// How fast it is reached, m/s³.
+    /// The rate at which the deceleration rises, in m/s³.
     pub jerk: f64,
     seen: Held,
     braking: Held,

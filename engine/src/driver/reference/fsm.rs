@@ -1,23 +1,23 @@
 //! The driver `fsm`: fuzzy surrogate safety measures (Mattas et al. 2020; performance model 2 of UN R157 as amended).
 //!
-//! It looks at another that is ahead and in its path, or comes into it and would meet the car there: it comes nearer both ways,
-//! and the room beside it is used up no later than 0.1 s after the car could have passed it by,
-//! `clearance / v_lat < (gap + lengths) / (v - v_f) + 0.1`.
+//! The driver reacts to another road user that is ahead and in the car's path, or that comes into the path and would
+//! meet the car there. The second means that the gap shrinks both ways and that the room beside is used up at most
+//! 0.1 s after the car could have passed: `clearance / v_lat < (gap + lengths) / (v - v_f) + 0.1`.
 //!
-//! Two measures between 0 (safe) and 1 (unsafe) then say how near danger is, each by interpolation between a safe and an unsafe
-//! distance. With the reaction time tau, comfortable and hardest braking `c` and `b` of the car and hardest braking `f` of
-//! the other:
+//! Two measures between 0 (safe) and 1 (unsafe) then say how near danger is. Each interpolates between a safe and an
+//! unsafe distance. tau is the reaction time, `c` and `b` are the car's comfortable and hardest braking, and `f` is the
+//! other's hardest braking:
 //!
-//! - *proactive* (PFS), of the gap less `d1`: what is left if the other brakes hardest.
-//!   `safe = v tau + v²/(2 c) - v_f²/(2 f) + d1`, `unsafe = v tau + v²/(2 b) - v_f²/(2 f)`.
-//! - *critical* (CFS), of the gap: what is left if the other goes on as it does. With `a' = max(a, -c)` and
-//!   `w = v + a' tau`: `((v + w)/2 - v_f) tau + (w - v_f)²/(2 c)`, and the same with `b` for the unsafe one; if `w <= v_f`,
-//!   both are `(v - v_f)²/(2 |a'|)`.
+//! - *proactive* (PFS), from the gap less `d1`: the distance that is left if the other brakes hardest. `safe = v tau +
+//!   v²/(2 c) - v_f²/(2 f) + d1`, `unsafe = v tau + v²/(2 b) - v_f²/(2 f)`.
+//! - *critical* (CFS), from the gap: the distance that is left if the other goes on as it does. With `a' = max(a, -c)`
+//!   and `w = v + a' tau`, the safe distance is `((v + w)/2 - v_f) tau + (w - v_f)²/(2 c)`, and the unsafe distance is
+//!   the same with `b`. If `w <= v_f`, both are `(v - v_f)²/(2 |a'|)`.
 //!
-//! It brakes with `c + CFS (b - c)` where CFS > 0, else with `PFS c`, after tau and with limited jerk.
+//! The driver brakes with `c + CFS (b - c)` if CFS > 0, else with `PFS c`, after tau and with limited jerk.
 //!
-//! Our reading: tau is the time for which there has been a reason to brake without a break; after it the measures of the
-//! moment count. Nothing is asked of a car that is no faster than the other. The two margins of 2 m are the two places of `d1`.
+//! Our reading: tau is the time for which there has been a reason to brake without a break. After it the present
+//! measures count. A car no faster than the other need not brake. The two margins of 2 m are the two places of `d1`.
 
 use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
@@ -27,17 +27,17 @@ use crate::kinematic::{BrakingModel, Situation};
 /// The driver with fuzzy measures; lengths in metres, times in seconds, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fsm {
-    /// tau.
+    /// The reaction time tau.
     pub reaction: f64,
-    /// c, with which it brakes comfortably.
+    /// The comfortable deceleration c.
     pub comfortable: f64,
-    /// b, with which it brakes hardest.
+    /// The hardest deceleration b.
     pub deceleration: f64,
-    /// f, with which the other may brake.
+    /// The hardest deceleration f of the other road user.
     pub leader_deceleration: f64,
-    /// d1, what is to be left between the two when they stand.
+    /// The distance d1 that is to be left between the two when they stand.
     pub margin: f64,
-    /// How fast its deceleration changes, m/s³.
+    /// The rate at which the deceleration changes, in m/s³.
     pub jerk: f64,
     reason: Held,
     brake: f64,
@@ -54,7 +54,7 @@ const STANDARD: Fsm = Fsm {
     brake: 0.0,
 };
 
-/// Seconds by which the other may be late and still be looked at.
+/// The seconds by which the other road user may be late and still count.
 const LATE: f64 = 0.1;
 
 pub(in super::super) const DESCRIPTOR: Descriptor = Descriptor {
@@ -89,7 +89,7 @@ impl Default for Fsm {
     }
 }
 
-/// 1 up to the unsafe distance, 0 from the safe one on, and a straight line between them.
+/// Returns 1 up to the unsafe distance, 0 from the safe distance on, and a straight line between the two.
 fn unsafety(distance: f64, unsafe_below: f64, safe_from: f64) -> f64 {
     if distance <= unsafe_below {
         1.0
@@ -101,7 +101,7 @@ fn unsafety(distance: f64, unsafe_below: f64, safe_from: f64) -> f64 {
 }
 
 impl Fsm {
-    /// PFS, from 0 (safe) to 1, of a gap in metres at these speeds in m/s.
+    /// Returns the proactive measure PFS, from 0 (safe) to 1, for a gap in metres at these speeds in m/s.
     pub fn proactive(&self, gap: f64, speed: f64, other_speed: f64) -> f64 {
         let front = other_speed.max(0.0);
         let standing = speed * self.reaction - front * front / (2.0 * self.leader_deceleration);
@@ -110,7 +110,7 @@ impl Fsm {
         unsafety(gap - self.margin, unsafe_, safe)
     }
 
-    /// CFS, from 0 (safe) to 1, of a gap in metres at these speeds in m/s and this acceleration of the car in m/s².
+    /// Returns the critical measure CFS, from 0 (safe) to 1, for a gap in m, speeds in m/s and an acceleration in m/s².
     pub fn critical(&self, gap: f64, speed: f64, acceleration: f64, other_speed: f64) -> f64 {
         if speed <= other_speed {
             return 0.0;
@@ -129,14 +129,14 @@ impl Fsm {
         unsafety(gap, needed, needed)
     }
 
-    /// Whether the other is in the way or would be before the car has passed it.
+    /// Returns `true` if the other is in the way or would be there before the car has passed it.
     fn looks_at(&self, s: &Situation) -> bool {
         let passing = (s.gap + s.lengths) / s.closing();
         let meets = s.approach > 0.0 && s.clearance() / s.approach < passing + LATE;
         s.is_ahead() && s.closing() > 0.0 && (s.overlaps() || meets)
     }
 
-    /// The deceleration in m/s² that the two measures ask for.
+    /// Returns the deceleration in m/s² that the two measures ask for.
     fn wanted(&self, s: &Situation) -> f64 {
         let critical = self.critical(s.gap, s.speed, s.acceleration, s.other_speed);
         if critical > 0.0 {

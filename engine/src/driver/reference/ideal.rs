@@ -1,19 +1,19 @@
-//! The driver `ideal`: what it collides with, nobody who only brakes could have avoided.
+//! The driver `ideal`: no driver that only brakes could have avoided a collision that this driver has.
 //!
-//! In the kinematic world it knows the future: [`Ideal::best`] tries not to brake at all and then every [`Profile`] of a
-//! family, the gentlest first, and takes the first without a collision; if there is none, the one that hits slowest.
+//! In the kinematic world the driver knows the future. [`Ideal::best`] first tries not to brake and then every
+//! [`Profile`] of a family, the gentlest first. It takes the first without a collision, or else the slowest collision.
 //!
-//! Not to brake and to brake fully from the first moment on would suffice to avoid one other whose time in the car's
-//! path is a single interval. Whoever brakes at most so hard and never takes up speed is, at each moment, between where these
-//! two would be. If in that interval they keep behind the other, so does the car that brakes fully; if they have passed it, so
-//! has the car that does not brake; and to change from the one to the other within it is the collision. Braking hard is
-//! hence wrong only where the car can get through before. With several others it may have to pass one and stop for the
-//! next, for which there are profiles that begin later. The rest of the family makes no difference to what is avoided: gentle
-//! braking spares those behind, and what cannot be avoided is sometimes hit slower.
+//! Two profiles would suffice to avoid one other road user whose time in the car's path is a single interval: not to
+//! brake, and to brake fully from the first moment on. The reason: a car that brakes at most so hard and never takes up
+//! speed is always between the positions that these two give. If it keeps behind the other in that interval, so does
+//! the car that brakes fully. If it has passed the other, so has the car that does not brake. To change from behind to
+//! past within the interval is the collision. So hard braking is wrong only if the car can get through before. With
+//! several others the car may have to pass one and stop for the next; for this, some profiles begin later. The rest of
+//! the family avoids no more: gentle braking spares those behind, and makes some unavoidable collisions slower.
 //!
-//! In a simulated car it knows the truth, but not the future: at each question, without delay, it expects that the
-//! other goes on as it does, looks some seconds ahead, wants some room on all sides, or none if there is none to be had, and does
-//! what the best profile does first. What it did not foresee it may collide with.
+//! In a simulated car the driver knows the truth, but not the future. At each question, without delay, it expects that
+//! the other goes on as it does and looks some seconds ahead. It wants some room on all sides, or none if there is none
+//! to be had, and does what the best profile does first. It may collide with something that it did not foresee.
 
 use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
@@ -23,11 +23,11 @@ use crate::vehicle::GRAVITY;
 /// The driver that no other driver that only brakes outdoes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ideal {
-    /// What it can brake with, m/s²: 1 g, a road of friction 1, where nothing else is said.
+    /// The greatest deceleration in m/s², by default 1 g: a road of friction 1.
     pub deceleration: f64,
-    /// How many seconds it looks ahead where it does not know the future.
+    /// The seconds that the driver looks ahead if it does not know the future.
     pub horizon: f64,
-    /// The room in metres that it wants then on all sides.
+    /// The room in metres on all sides that the driver wants if it does not know the future.
     pub margin: f64,
 }
 
@@ -58,18 +58,18 @@ impl Default for Ideal {
     }
 }
 
-/// To brake with a constant deceleration from some moment on, whatever happens.
+/// A plan to brake with a constant deceleration from some moment on, whatever happens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Profile {
-    /// Seconds after which the brakes act.
+    /// The seconds after which the brakes act.
     pub onset: f64,
-    /// m/s².
+    /// The deceleration in m/s².
     pub deceleration: f64,
     time: f64,
 }
 
 impl Profile {
-    /// Not to brake at all.
+    /// The plan not to brake at all.
     pub const NONE: Self = Self { onset: 0.0, deceleration: 0.0, time: 0.0 };
 }
 
@@ -82,13 +82,13 @@ impl BrakingModel for Profile {
     }
 }
 
-/// Decelerations of the family, as parts of the greatest.
+/// The decelerations of the family, as shares of the greatest.
 const STRENGTHS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
-/// Onsets of the family, in seconds.
+/// The onsets of the family, in seconds.
 const ONSETS: [f64; 7] = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 
 impl Ideal {
-    /// The profiles, the gentlest first.
+    /// Returns the profiles of the family, the gentlest first.
     fn profiles(&self) -> impl Iterator<Item = Profile> {
         let braking = STRENGTHS.into_iter().flat_map(|strength| ONSETS.map(|onset| (strength, onset)));
         let deceleration = self.deceleration;
@@ -97,7 +97,7 @@ impl Ideal {
         std::iter::once(Profile::NONE).chain(braking)
     }
 
-    /// The gentlest profile without a collision, or else the one with the slowest, and what becomes of the encounter with it.
+    /// Returns the gentlest profile without a collision, or else the one with the slowest, and the encounter's result.
     pub fn best(&self, encounter: &Encounter) -> (Profile, Ended) {
         let mut best: Option<(Profile, Ended, f64)> = None;
         for profile in self.profiles() {
@@ -113,7 +113,7 @@ impl Ideal {
         (profile, ended)
     }
 
-    /// What is to be expected if the other goes on as it does, with the margin in metres as a part of it.
+    /// Returns the encounter to expect if the other, enlarged by the margin in metres on all sides, goes on as it does.
     fn expected(&self, s: &Situation, margin: f64) -> Encounter {
         let forward = s.other_speed.max(0.0);
         let other = Course {
@@ -126,7 +126,7 @@ impl Ideal {
             size: Size { length: s.lengths + 2.0 * margin, width: s.other_width + 2.0 * margin },
             visible_from: 0.0,
         };
-        // All of the length is the other's: only the sum of both counts.
+        // The other has all of the length: only the sum of both lengths counts.
         let size = Size { length: 0.0, width: s.width };
         Encounter { speed: s.speed, size, others: vec![other], duration: self.horizon }
     }

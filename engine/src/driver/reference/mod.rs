@@ -1,22 +1,22 @@
-//! Reference drivers, which are told the truth: the models by which it is judged whether a careful driver, or any driver,
-//! could have avoided what happened.
+//! Reference drivers, which are told the truth. These models show whether a careful driver, or any driver, could have
+//! avoided a failure.
 //!
 //! | driver | brakes | source |
 //! | --- | --- | --- |
 //! | [`cc`](Cc) | like a competent and careful human | UN Regulation No. 157, Annex 4, Appendix 3 |
-//! | [`rss`](Rss) | where a distance that is safe in the worst case is not kept | Shalev-Shwartz, Shammah, Shashua, "On a Formal Model of Safe and Scalable Self-driving Cars", 2017 |
-//! | [`fsm`](Fsm) | the harder, the less two fuzzy measures of safety hold | Mattas et al., "Fuzzy Surrogate Safety Metrics for real-time assessment of rear-end collision risk", Accident Analysis and Prevention 148, 2020; UN R157 as amended |
+//! | [`rss`](Rss) | if the distance is not safe in the worst case | Shalev-Shwartz, Shammah, Shashua, "On a Formal Model of Safe and Scalable Self-driving Cars", 2017 |
+//! | [`fsm`](Fsm) | the harder, the less safe two fuzzy measures say it is | Mattas et al., "Fuzzy Surrogate Safety Metrics for real-time assessment of rear-end collision risk", Accident Analysis and Prevention 148, 2020; UN R157 as amended |
 //! | [`reg157`](Reg157) | as late and as little as UN R157 lets an automated lane keeping system | UN R157, 5.2.5.2 |
 //! | [`ideal`](Ideal) | at once, and as hard as is needed | ours |
 //!
-//! All of them in one world: Mattas et al., "Driver models for the definition of safety requirements of automated vehicles
-//! in international regulations. Application to motorway driving conditions", Accident Analysis and Prevention 174, 2022.
-//! What is our reading, where a source leaves something open, is said where the model stands.
+//! One paper compares models of this kind in one world: Mattas et al., "Driver models for the definition of safety
+//! requirements of automated vehicles in international regulations. Application to motorway driving conditions",
+//! Accident Analysis and Prevention 174, 2022. If a source leaves something open, the model's page gives our reading.
 //!
-//! Each is a [`BrakingModel`](crate::kinematic::BrakingModel) of one other road user, which the kinematic world runs as it
-//! is and an adapter lets drive a whole simulated car, which has to go on again when the way is free. Both ask it ten times a
-//! second. A time that is no multiple of that
-//! step is rounded up: no driver reacts faster than its reaction time.
+//! Each model is a [`BrakingModel`](crate::kinematic::BrakingModel) of one other road user. The kinematic world runs it
+//! as it is. An adapter lets it drive a whole simulated car, which has to go on again when the way is free. Both ask it
+//! ten times a second. A time that is no multiple of that step is rounded up: no driver reacts faster than its reaction
+//! time.
 
 mod adapter;
 mod cc;
@@ -40,7 +40,7 @@ pub(super) use rss::DESCRIPTOR as RSS;
 
 use crate::kinematic::{Encounter, Ended};
 
-/// What becomes of an encounter with some driver.
+/// A function that returns an encounter's result with some driver.
 pub type Drive = fn(&Encounter) -> Ended;
 
 /// The reference drivers by name, each with its standard settings.

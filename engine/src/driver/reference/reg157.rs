@@ -1,30 +1,30 @@
-//! The driver `reg157`: what UN Regulation No. 157 (5.2.5.2) asks of an automated lane keeping system, and no more.
+//! The driver `reg157`: it does what UN Regulation No. 157 (5.2.5.2) asks of an automated lane keeping system, no more.
 //!
-//! A collision with a car that cuts in must be avoided where, as that car has come 0.3 m into the lane,
-//! `TTC_LaneIntrusion > v_rel / (2 * 6 m/s²) + 0.35 s`. A system that brakes with 6 m/s² from 0.35 s after that moment on,
-//! until it is no faster than the other, meets this exactly: in `0.35 s` it uses up `0.35 v_rel` of the gap and then
-//! `v_rel² / 12`. That system is the driver.
+//! A collision with a car that cuts in must be avoided if, when that car has come 0.3 m into the lane,
+//! `TTC_LaneIntrusion > v_rel / (2 * 6 m/s²) + 0.35 s`. A system meets this exactly if it brakes with 6 m/s² from
+//! 0.35 s after that moment on until it is no faster than the other: in `0.35 s` it uses up `0.35 v_rel` of the gap and
+//! then `v_rel² / 12`. That system is the driver.
 //!
-//! Our reading: it reacts to anybody in the lane who is slower, however far ahead, since the condition names no other
-//! reason to wait; the brakes act in full at once, since the condition leaves no time for them to build up; and it does its
-//! best also where the regulation asks nothing of it (a movement that was visible for less than 0.72 s). The intrusion is that of
-//! the other's body, which stands for its front wheel.
+//! Our reading: It reacts to every slower road user in the lane, however far ahead, since the condition names no other
+//! reason to wait. The brakes act in full at once, since the condition leaves no time for them to build up. It does its
+//! best also if the regulation asks nothing of it (a movement that was visible for less than 0.72 s). The intrusion is
+//! that of the other's body, which stands for its front wheel.
 
 use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
 use super::held::Held;
 use crate::kinematic::{BrakingModel, LANE_WIDTH, Situation};
 
-/// The least driver that the regulation allows; lengths in metres, times in seconds, accelerations in m/s².
+/// The least capable driver that the regulation allows; lengths in metres, times in seconds, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reg157 {
-    /// How wide lanes are.
+    /// The width of the lanes.
     pub lane_width: f64,
-    /// How far into the lane the other has to be.
+    /// The distance that the other must have come into the lane.
     pub intrusion: f64,
-    /// From then until the brakes act.
+    /// The time from the intrusion until the brakes act.
     pub reaction: f64,
-    /// What it brakes with.
+    /// The deceleration of the car.
     pub deceleration: f64,
     intruded: Held,
 }

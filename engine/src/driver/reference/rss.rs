@@ -1,19 +1,19 @@
 //! The driver `rss`: Responsibility-Sensitive Safety (Shalev-Shwartz, Shammah, Shashua 2017).
 //!
-//! A situation is dangerous when neither the distance along the road nor that across it is safe, even if both road users
-//! do their worst in the response time rho. Along the road, the car under test speeds up with `a` during rho and then
-//! brakes with at least `b_min`, while the other brakes with at most `b_max` at once:
+//! A situation is dangerous if neither the distance along the road nor the distance across it is safe, even if both
+//! road users do their worst in the response time rho. Along the road, the car under test speeds up with `a` during rho
+//! and then brakes with at least `b_min`, while the other brakes with at most `b_max` at once:
 //!
 //! `d = v rho + a rho² / 2 + (v + rho a)² / (2 b_min) - v_f² / (2 b_max)`, or 0 if that is negative.
 //!
-//! Across it, each moves towards the other, speeds up sideways with `a_lat` during rho and then brakes sideways with at least
-//! `b_lat`; what remains must be mu. The proper response to danger is, after rho, to brake with at least `b_min`
-//! until the distance is safe again.
+//! Across the road, each moves towards the other, speeds up sideways with `a_lat` during rho and then brakes sideways
+//! with at least `b_lat`; the remaining distance must be at least mu. The proper response to danger is, after rho, to
+//! brake with at least `b_min` until the distance is safe again.
 //!
-//! Our reading: the car under test keeps its speed during rho and answers with exactly `b_min`, at once and never sideways; it
-//! has no speed across the road; another that comes towards it counts as standing (the paper has a rule of its own for
-//! that). rho, a, mu and `b_min` are those used with UN R157's scenarios; `b_max` is taken equal to `b_min`; `a_lat` and `b_lat`,
-//! for which no value is given there, are those in wide use with RSS, 0.2 and 0.8 m/s².
+//! Our reading: The car under test keeps its speed during rho and answers with exactly `b_min`, at once and never
+//! sideways. It has no speed across the road. Another that comes towards it counts as standing (the paper has its own
+//! rule for that). rho, a, mu and `b_min` are the values used with UN R157's scenarios; `b_max` is taken equal to
+//! `b_min`. No values of `a_lat` and `b_lat` are given there; they are those in wide use with RSS, 0.2 and 0.8 m/s².
 
 use super::super::{Descriptor, Setting, setting};
 use super::adapter::Reference;
@@ -23,19 +23,19 @@ use crate::kinematic::{BrakingModel, Situation};
 /// The driver that keeps safe distances; lengths in metres, times in seconds, accelerations in m/s².
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rss {
-    /// rho, in which nobody is expected to respond.
+    /// The response time rho, in which nobody is expected to respond.
     pub response: f64,
-    /// a, with which the car under test may speed up meanwhile.
+    /// The acceleration a with which the car under test may speed up during the response time.
     pub acceleration: f64,
-    /// `b_min`, with which it brakes then.
+    /// The deceleration `b_min` with which the car brakes then.
     pub deceleration: f64,
-    /// `b_max`, with which the other may brake.
+    /// The greatest deceleration `b_max` of the other.
     pub leader_deceleration: f64,
-    /// mu, the room beside the other that must remain.
+    /// The room mu that must remain beside the other.
     pub lateral_margin: f64,
-    /// `a_lat`, with which either may speed up sideways.
+    /// The lateral acceleration `a_lat` of either during the response time.
     pub lateral_acceleration: f64,
-    /// `b_lat`, with which either stops moving sideways.
+    /// The lateral deceleration `b_lat` of either after the response time.
     pub lateral_deceleration: f64,
     danger: Held,
 }
@@ -94,9 +94,9 @@ impl Rss {
         (own - front * front / (2.0 * self.leader_deceleration)).max(0.0)
     }
 
-    /// The safe room in metres beside another that comes nearer by `approach` m/s sideways.
+    /// Returns the safe room in metres beside another that comes nearer by `approach` m/s sideways.
     pub fn lateral_distance(&self, approach: f64) -> f64 {
-        // The way towards the other from a speed towards it.
+        // The way towards the other, from a given speed towards it.
         let way = |speed: f64| {
             let fastest = speed + self.response * self.lateral_acceleration;
             let coming_to_rest = fastest * fastest.abs() / (2.0 * self.lateral_deceleration);

@@ -1,28 +1,28 @@
-//! Which lanes of an intersection are in each other's way, and where.
+//! Finds the lanes of an intersection that are in each other's way, and the places where they are.
 
 use super::LanePlan;
 use crate::road::curve::Curve;
 
-/// Two lanes are in each other's way where their middles are nearer than this share of a lane's width: two cars of
-/// 1.8 m in lanes of 3.5 m then have 0.65 m between them.
+/// The share of a lane's width below which the middles of two lanes are too close: two cars of 1.8 m in lanes of 3.5 m
+/// then have 0.65 m between them.
 const CLOSE: f64 = 0.7;
-/// Metres between the places at which a lane is looked at.
+/// The distance in metres between the places at which a lane is examined.
 const STEP: f64 = 0.25;
-/// To how many metres the ends of a conflict are found.
+/// The exactness in metres of the ends of a conflict.
 const EXACT: f64 = 1e-3;
 
-/// A conflict of a lane, as an element knows it.
+/// A conflict of a lane, in the coordinates of its element.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::road) struct ConflictPlan {
     /// The index of the other lane.
     pub with: usize,
-    /// From where to where along the lane they are too close.
+    /// The beginning and the end of the stretch of the lane that is too close to the other lane.
     pub span: (f64, f64),
     pub gives_way: bool,
 }
 
-/// Fills in the conflicts of all lanes: with those that cross them or join them. Lanes that part from one another,
-/// or follow one another, are in no conflict. `gives_way` says whether the first of two lanes does.
+/// Finds the conflicts of all lanes: lanes that cross or join. Lanes that part from one another, or follow one another,
+/// are in no conflict. `gives_way` returns `true` if its first lane gives way to its second lane.
 pub(super) fn find_conflicts(
     lanes: &mut [LanePlan],
     lane_width: f64,
@@ -47,7 +47,7 @@ pub(super) fn find_conflicts(
     }
 }
 
-/// Whether two lanes begin at the same place or one leads to the other.
+/// Returns `true` if two lanes begin at the same place or one lane leads to the other.
 fn related(lanes: &[LanePlan], a: usize, b: usize) -> bool {
     let (one, other) = (&lanes[a], &lanes[b]);
     let fork = one.from.is_some() && one.from == other.from;
@@ -55,7 +55,7 @@ fn related(lanes: &[LanePlan], a: usize, b: usize) -> bool {
     fork || parted || one.successors.contains(&b) || other.successors.contains(&a)
 }
 
-/// From where to where along a curve it is too close to another: the least stretch that holds all such places.
+/// Returns the shortest stretch of a curve that contains all places that are too close to another curve.
 fn span(curve: &Curve, other: &Curve, close: f64) -> Option<(f64, f64)> {
     let distance = |s: f64| {
         let point = curve.point(s);
@@ -66,7 +66,7 @@ fn span(curve: &Curve, other: &Curve, close: f64) -> Option<(f64, f64)> {
     let is_close = |i: &usize| distance(place(*i)) < close;
     let first = (0..=steps).find(is_close)?;
     let last = (0..=steps).rev().find(is_close)?;
-    // Between a place that is clear and one that is close lies the end.
+    // The end lies between a place that is far enough and a place that is too close.
     let end = |mut clear: f64, mut near: f64| {
         while (clear - near).abs() > EXACT {
             let middle = 0.5 * (clear + near);

@@ -1,11 +1,11 @@
-//! T- and cross-intersections: arms at right angles, every movement a line or an arc between two arms.
+//! T- and cross-intersections: arms at right angles. Every movement is a line or an arc between two arms.
 //!
-//! All lanes go straight on. Where that is possible, one turns left from the lane beside the centre line and right
-//! from the one beside the kerb; at the stem of a T, the left half of the lanes turns left and the right half right,
-//! the middle one of an odd number both ways. Every movement keeps its lane number.
+//! All lanes lead straight on if there is an opposite arm. Then the lane next to the centre line also turns left, and
+//! the lane next to the kerb turns right. At the stem of a T, the left half of the lanes turns left and the right half
+//! turns right; the middle lane of an odd number turns both ways. Every movement keeps its lane number.
 //!
-//! Who comes from the stem of a T gives way to the road that it ends at. Otherwise, who turns left gives way to those
-//! that come towards it, and everybody to those who come from the right.
+//! A car from the stem of a T gives way to the road that the stem ends at. Otherwise, a car that turns left gives way
+//! to cars that come towards it, and every car gives way to cars from the right.
 
 use super::conflicts::find_conflicts;
 use super::{LanePlan, Layout, Mouth, STOP_LINE, arm, pose};
@@ -46,7 +46,7 @@ fn gives_way(arms: &[f64], lane: &LanePlan, other: &LanePlan) -> bool {
     }
 }
 
-/// The arm that a movement from the arm with this heading leads to.
+/// Returns the arm that a movement leads to, if it starts at the arm with this heading.
 fn target(arms: &[f64], heading: f64, kind: LaneKind) -> Option<usize> {
     let turned = match kind {
         LaneKind::Straight => PI,
@@ -56,7 +56,7 @@ fn target(arms: &[f64], heading: f64, kind: LaneKind) -> Option<usize> {
     arms.iter().position(|arm| wrapped(arm - heading - turned).abs() < 0.1)
 }
 
-/// The lanes that make a movement.
+/// Returns the numbers of the lanes that make a movement.
 fn numbers(arms: &[f64], heading: f64, kind: LaneKind, n: i32) -> RangeInclusive<i32> {
     let straight = target(arms, heading, LaneKind::Straight).is_some();
     match kind {
@@ -71,7 +71,7 @@ fn numbers(arms: &[f64], heading: f64, kind: LaneKind, n: i32) -> RangeInclusive
 fn movement(heading: f64, kind: LaneKind, number: i32, corner: f64, profile: &Profile, ports: [usize; 2]) -> LanePlan {
     let reach = profile.half_width() + corner;
     let offset = profile.lane_offset(number);
-    // What comes in along an arm is on its right: where y is positive as seen from the middle.
+    // Cars come in on the right of an arm: where y is positive, seen from the middle.
     let start = arm(heading).then(&pose(reach, offset, PI));
     let turn = |radius: f64, side: f64| Curve::new(start, side / radius, FRAC_PI_2 * radius);
     let curve = match kind {
@@ -83,7 +83,7 @@ fn movement(heading: f64, kind: LaneKind, number: i32, corner: f64, profile: &Pr
     LanePlan { from, to, ..LanePlan::new(kind, number, curve) }
 }
 
-/// The ground of an arm, and the kerb from the side on which one enters to the next arm on the right.
+/// Adds the ground of an arm, and the kerb from the side of its incoming lanes to the next arm on the right.
 fn pave(arms: &[f64], heading: f64, corner: f64, profile: &Profile, layout: &mut Layout) {
     let half = profile.half_width();
     let reach = half + corner;
@@ -94,13 +94,13 @@ fn pave(arms: &[f64], heading: f64, corner: f64, profile: &Profile, layout: &mut
     let straight = target(arms, heading, LaneKind::Straight).is_some();
     if target(arms, heading, LaneKind::Right).is_some() {
         let kerb = Curve::new(edge, -1.0 / corner, FRAC_PI_2 * corner);
-        // As far as the point where the two roads' edges would meet, and a little over it.
+        // The strip reaches a little beyond the point where the edges of the two roads would meet.
         layout.strips.push(Strip::new(Surface::Carriageway, kerb, 0.0, (SQRT_2 - 1.0) * corner + 0.1));
         layout.add_kerb(kerb, profile);
     } else if straight {
         layout.add_kerb(Curve::new(edge, 0.0, 2.0 * reach), profile);
     }
-    // At a T, who comes along the through road goes first.
+    // At a T, cars on the through road go first.
     let through = straight && arms.len() == 3;
     if !through {
         let across = Curve::new(frame.then(&pose(reach - 0.5 * STOP_LINE, 0.2, FRAC_PI_2)), 0.0, half - 0.4);

@@ -1,4 +1,4 @@
-//! What an element is made of, in its own frame: the points where it can be connected, its lanes, and its strips.
+//! The layout of an element in its own frame: the points where it can be connected, its lanes, and its strips.
 
 mod conflicts;
 mod intersection;
@@ -16,16 +16,16 @@ use std::f64::consts::PI;
 pub(super) use conflicts::ConflictPlan;
 pub(super) use segment::ZEBRA;
 
-/// The most lanes of both directions together.
+/// The largest number of lanes of both directions together.
 const MOST_LANES: i32 = 16;
 /// Width of a painted line in metres.
 const LINE: f64 = 0.12;
 /// Width of a kerb in metres.
 const KERB: f64 = 0.15;
-/// Width in metres of the line at which one stops.
+/// The width in metres of the line where cars stop.
 const STOP_LINE: f64 = 0.5;
 
-/// Where an element can be connected: heading outward.
+/// A point where an element can be connected. Its heading points outward.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Port {
     pub name: &'static str,
@@ -39,15 +39,15 @@ pub(super) struct Mouth {
     pub number: i32,
 }
 
-/// A lane of an element; others are named by their indices in it.
+/// A lane of an element. It refers to other lanes by their indices in the element.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct LanePlan {
     pub kind: LaneKind,
     pub number: i32,
     pub curve: Curve,
-    /// Where it comes from, unless it begins within the element.
+    /// The port and lane number where the lane enters the element, unless it begins within the element.
     pub from: Option<Mouth>,
-    /// Where it leads to, unless it ends within the element.
+    /// The port and lane number where the lane leaves the element, unless it ends within the element.
     pub to: Option<Mouth>,
     pub successors: Vec<usize>,
     pub left: Option<usize>,
@@ -62,25 +62,25 @@ impl LanePlan {
     }
 }
 
-/// All that an element is made of.
+/// The lanes and strips of an element.
 #[derive(Debug, Default)]
 pub(super) struct Layout {
     pub lanes: Vec<LanePlan>,
     pub strips: Vec<Strip>,
 }
 
-/// An element's shape and what its roads are across.
+/// The shape of an element and the cross-section of its roads.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Plan {
     pub shape: ElementShape,
     pub profile: Profile,
 }
 
-/// What points are called, in their order.
+/// The names of points, in their order.
 pub(super) const POINTS: [&str; 8] = ["one", "two", "three", "four", "five", "six", "seven", "eight"];
 
 impl Plan {
-    /// What an element without a name is called.
+    /// Returns the name of an element without a name of its own.
     pub fn kind(&self) -> &'static str {
         match self.shape {
             ElementShape::Segment(_) => "road",
@@ -90,7 +90,7 @@ impl Plan {
         }
     }
 
-    /// What is wrong with it, if anything is.
+    /// Returns the mistake in the description, if there is one.
     pub fn problem(&self) -> Option<String> {
         let Profile { lanes, lane_width, sidewalk } = self.profile;
         if !(2..=MOST_LANES).contains(&lanes) || lanes % 2 != 0 {
@@ -110,7 +110,7 @@ impl Plan {
         }
     }
 
-    /// The headings of its arms, as seen from its middle.
+    /// Returns the headings of the arms, seen from the middle of the element.
     fn arms(&self) -> Vec<f64> {
         let quarter = 0.5 * PI;
         match &self.shape {
@@ -144,7 +144,7 @@ impl Plan {
 
 fn kerb_problem(what: &str, radius: f64, sidewalk: f64) -> Option<String> {
     let least = sidewalk.max(1.0);
-    // Written so that NaN is refused too.
+    // In this form, the condition refuses NaN as well.
     let fits = radius > least && radius <= 1000.0;
     (!fits).then(|| format!("has {what} with a radius of {radius} m, expected more than {least} m and at most 1000 m"))
 }
@@ -153,14 +153,14 @@ fn pose(x: f64, y: f64, heading: f64) -> Pose {
     Pose { position: Vector2::new(x, y), heading }
 }
 
-/// The frame of an arm: x from the middle of the element outward along it.
+/// Returns the frame of an arm: x points from the middle of the element outward along the arm.
 fn arm(heading: f64) -> Pose {
     pose(0.0, 0.0, heading)
 }
 
 impl Layout {
-    /// A kerb along this curve, with the road to its left and the sidewalk to its right. Where there is no sidewalk
-    /// there is the line at the edge.
+    /// Adds a kerb along this curve, with the road to its left and the sidewalk to its right. If there is no sidewalk,
+    /// it adds the line at the edge instead.
     fn add_kerb(&mut self, curve: Curve, profile: &Profile) {
         if profile.sidewalk > 0.0 {
             self.strips.push(Strip::new(Surface::Sidewalk, curve, -profile.sidewalk, 0.0));

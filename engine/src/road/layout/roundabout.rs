@@ -1,10 +1,10 @@
-//! Roundabouts: rings of lanes, entered and left along arcs that touch them.
+//! Roundabouts: rings of lanes. Cars enter and leave along arcs that touch the rings.
 //!
-//! Lanes are numbered as on the roads, from the inside, and keep their number: lane 1 leads to the inner ring lane and
-//! back, across the outer ones. The arcs of an entry have one centre, as far from the middle of the ring as the
-//! radius of the arc and that of its ring lane together, so that all of them touch their ring lanes at one angle.
+//! Lanes are numbered from the inside, as on roads, and keep their number: lane 1 leads to the inner ring lane and
+//! back, across the outer ones. The arcs of an entry have a common centre. Its distance from the middle of the ring is
+//! the radius of an arc plus the radius of the ring lane, so that all arcs touch their ring lanes at one angle.
 //!
-//! Who enters gives way to all others, and who leaves from an inner lane to those on the outer ones.
+//! A car that enters gives way to all others. A car that leaves from an inner lane gives way to cars on outer lanes.
 
 use super::conflicts::find_conflicts;
 use super::{KERB, LINE, LanePlan, Layout, Mouth, STOP_LINE, arm, pose};
@@ -16,23 +16,23 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::RangeInclusive;
 
 const ARMS: RangeInclusive<i32> = 3..=8;
-/// The least angle between an entry and the next exit.
+/// The smallest angle in radians between an entry and the next exit.
 const BETWEEN: f64 = 0.05;
 
-/// The headings of its arms, clockwise from the east.
+/// Returns the headings of the arms, clockwise from the east.
 pub(super) fn headings(arms: i32) -> impl Iterator<Item = f64> {
     (0..arms).map(move |arm| -TAU * f64::from(arm) / f64::from(arms))
 }
 
-/// The lengths that all else follows from.
+/// The measures from which everything else follows.
 struct Measures {
     /// The number of ring lanes.
     n: i32,
-    /// From the middle of the ring to the kerb around it.
+    /// The distance from the middle of the ring to the kerb around it.
     outer: f64,
-    /// How far out the arcs of an entry begin, and how far to its right their centre lies.
+    /// The distance from the middle at which the arcs of an entry begin, and how far to its right their centre lies.
     centre: (f64, f64),
-    /// The angle, seen from the middle, between an arm and the points where its arcs touch the ring.
+    /// The angle, seen from the middle, between an arm and the points where the arcs of the arm touch the ring.
     touch: f64,
 }
 
@@ -61,7 +61,7 @@ pub(super) fn problem(ring: &Ring, profile: &Profile) -> Option<String> {
 }
 
 impl Ring {
-    /// From its middle to its points.
+    /// Returns the distance from the middle of the roundabout to its points.
     pub(in crate::road) fn reach(&self, profile: &Profile) -> f64 {
         measures(self, profile).centre.0
     }
@@ -80,7 +80,7 @@ pub(super) fn layout(ring: &Ring, profile: &Profile) -> Layout {
     layout
 }
 
-/// The index of a lane: arm by arm clockwise, for each the lanes of four kinds, by their numbers.
+/// Returns the index of a lane. Lanes are sorted by arm (clockwise), then by kind (four kinds), then by number.
 fn index(arm: i32, kind: LaneKind, number: i32, m: &Measures) -> usize {
     let kind = match kind {
         LaneKind::Entry => 0,
@@ -94,7 +94,7 @@ fn index(arm: i32, kind: LaneKind, number: i32, m: &Measures) -> usize {
 fn lanes(ring: &Ring, profile: &Profile, m: &Measures) -> Vec<LanePlan> {
     let mut lanes = Vec::new();
     for (k, heading) in (0..).zip(headings(ring.arms)) {
-        // Traffic goes round counter-clockwise, arms are counted clockwise.
+        // Traffic goes round counter-clockwise, but arms are counted clockwise.
         let next = (k + ring.arms - 1) % ring.arms;
         let kinds = [LaneKind::Entry, LaneKind::Exit, LaneKind::RingAtArm, LaneKind::Ring];
         for kind in kinds {
@@ -119,7 +119,7 @@ fn lanes(ring: &Ring, profile: &Profile, m: &Measures) -> Vec<LanePlan> {
     lanes
 }
 
-/// Where a lane runs: an entry or exit, the ring from an exit to the entry of the same arm, or from an entry on.
+/// Returns the curve of a lane: an entry, an exit, the ring past an arm, or the ring from an entry to the next exit.
 fn curve(kind: LaneKind, heading: f64, number: i32, ring: &Ring, profile: &Profile, m: &Measures) -> Curve {
     let offset = profile.lane_offset(number);
     let radius = m.centre.1 - offset;
@@ -147,8 +147,8 @@ fn pave(ring: &Ring, profile: &Profile, m: &Measures, layout: &mut Layout) {
         let line = circle(ring.island + f64::from(number) * profile.lane_width);
         strips.push(Strip::new(Surface::LaneLine, line, -0.5 * LINE, 0.5 * LINE).dashed(1.5, 3.0));
     }
-    // The left edges of an entry's lanes and of an exit's part at the arm and end at the ring: the triangle of the
-    // middles of ring and arc and of the point where edge and kerb of the ring meet.
+    // The left edges of an entry's and an exit's lanes separate at the arm and end at the ring, as follows from a
+    // triangle: the middle of the ring, the centre of the arc, and the point where the edge meets the kerb of the ring.
     let half = profile.half_width();
     let (edge, apart) = (ring.entry + half, ring.entry + m.outer);
     let cosine = |opposite: f64, a: f64, b: f64| libm::acos((a * a + b * b - opposite * opposite) / (2.0 * a * b));

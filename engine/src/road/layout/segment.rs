@@ -1,4 +1,4 @@
-//! A straight or curved road.
+//! Straight and curved roads.
 
 use super::{LINE, LanePlan, Layout, Mouth, Port};
 use crate::geometry::Pose;
@@ -9,19 +9,19 @@ use crate::road::lane::LaneKind;
 use crate::road::strip::{Strip, Surface};
 use std::f64::consts::PI;
 
-/// How wide a zebra crossing is, in metres along the road.
+/// The width of a zebra crossing, in metres along the road.
 pub(in crate::road) const ZEBRA: f64 = 4.0;
-/// Width of its stripes and of the gaps between them, in metres.
+/// The width of a crossing's stripes and of the gaps between them, in metres.
 const STRIPE: f64 = 0.5;
-/// Metres before and after a zebra crossing without other markings.
+/// The length in metres before and after a zebra crossing that has no other markings.
 const BEFORE_ZEBRA: f64 = 1.0;
-/// Dash and gap in metres of the lines between lanes.
+/// The lengths of dash and gap in metres of the lines between lanes.
 const DASH: (f64, f64) = (3.0, 6.0);
-/// Lengths in metres that a road may have.
+/// The allowed lengths of a road, in metres.
 const LENGTHS: std::ops::RangeInclusive<f64> = 0.1..=100_000.0;
-/// The largest radius in metres: beyond it, an arc is a line.
+/// The largest radius in metres. Beyond it, an arc is practically a line.
 const LARGEST_RADIUS: f64 = 100_000.0;
-/// The largest angle that a road turns by: no road meets itself.
+/// The largest angle in radians that a road may turn by, so that no road meets itself.
 const LARGEST_ANGLE: f64 = 1.5 * PI;
 
 pub(super) fn problem(road: &Segment, profile: &Profile) -> Option<String> {
@@ -95,7 +95,7 @@ pub(super) fn layout(road: &Segment, profile: &Profile) -> Layout {
     layout
 }
 
-/// The stretches of a road that have lines between their lanes.
+/// Returns the stretches of a road that have lines between their lanes.
 fn between_zebras(road: &Segment) -> Vec<(f64, f64)> {
     let clear = 0.5 * ZEBRA + BEFORE_ZEBRA;
     let mut stretches = Vec::new();
@@ -115,7 +115,7 @@ fn paint_lines(centre: &Curve, profile: &Profile, strips: &mut Vec<Strip>) {
     if n == 1 {
         strips.push(line(Surface::CentreLine, 0.0).dashed(DASH.0, DASH.1));
     } else {
-        // Two lines, a line's width apart: nobody is to cross them.
+        // Two lines with a line's width between them: cars must not cross them.
         strips.extend([-LINE, LINE].map(|offset| line(Surface::CentreLine, offset)));
     }
     for number in 1..n {
@@ -124,7 +124,7 @@ fn paint_lines(centre: &Curve, profile: &Profile, strips: &mut Vec<Strip>) {
     }
 }
 
-/// Stripes along the road, as many as have room, with equal margins at the kerbs.
+/// Paints as many stripes along the road as there is room for, with equal margins at the kerbs.
 fn paint_zebra(stretch: &Curve, half: f64, strips: &mut Vec<Strip>) {
     let count = ((2.0 * half - STRIPE) / (2.0 * STRIPE)) as usize + 1;
     let first = -(count as f64 - 0.5) * STRIPE;

@@ -1,4 +1,4 @@
-//! The car under test: as programs place it and read it, and as it moves.
+//! The car under test: how programs place and read it, and how it moves.
 
 mod quantity;
 mod right_of_way;
@@ -17,28 +17,28 @@ use nalgebra::Vector2;
 use quantity::{Asked, Quantity};
 use std::rc::Rc;
 
-/// Speed in m/s below which a car stands.
+/// The speed in m/s below which the car counts as standing.
 const STANDING: f64 = 0.1;
 
-/// The car that the system under test drives, not placed yet: a [`Vehicle::BMW_320I`].
+/// The car that the system under test drives, not placed yet: a [`Vehicle::BMW_320I`] by default.
 #[derive(Debug, Clone)]
 pub struct AutonomousVehicle {
     vehicle: Vehicle,
     way: Path,
-    /// Whether it is just to go straight on, without an end.
+    /// True if the car is just to go straight on, without an end.
     endless: bool,
     start: f64,
     speed: f64,
 }
 
-/// What a run needs of the placed car.
+/// The data of the placed car that a run needs.
 #[derive(Debug, Clone)]
 pub(crate) struct EgoSetup {
     car: AutonomousVehicle,
     shown: Shown,
 }
 
-/// Its outputs.
+/// The outputs of the car.
 #[derive(Debug, Clone)]
 struct Shown {
     position: Output<Vector2<f64>>,
@@ -55,13 +55,13 @@ struct Shown {
 }
 
 impl EgoSetup {
-    /// The middle and the radius in metres of a disc around the car where it starts.
+    /// Returns the middle and the radius in metres of a disc around the car at its start.
     pub fn disc(&self) -> (Vector2<f64>, f64) {
         (self.car.start().position, 0.5 * (self.car.vehicle.length + self.car.vehicle.width))
     }
 }
 
-/// The placed car: its outputs.
+/// The placed car, whose outputs a program can read.
 #[derive(Debug, Clone)]
 pub struct Car {
     vehicle: Vehicle,
@@ -74,39 +74,39 @@ pub(crate) struct Ego {
     shown: Shown,
     pub dynamics: Box<dyn Dynamics>,
     pub control: Control,
-    /// Metres along its way.
+    /// The car's position along its way, in metres.
     at: f64,
-    /// How its acceleration ahead changed over the last tick, in m/s³.
+    /// The change of the car's acceleration ahead over the last tick, in m/s³.
     pub(super) jerk: f64,
-    /// For how many seconds it has been standing.
+    /// The seconds for which the car has been standing.
     pub(super) standing: f64,
 }
 
 impl AutonomousVehicle {
-    /// A car that stands at `start`, which is where its middle is, and is to go straight on.
+    /// Makes a car whose middle is at `start`, and which is to go straight on.
     pub fn at(start: Pose) -> Self {
         let ahead = Path::straight(start.position, start.position + start.forward());
         Self { endless: true, ..Self::along(ahead) }
     }
 
-    /// A car that stands at the beginning of a path, which is the way that it is to go.
+    /// Makes a car at the beginning of a path, which is the way that it is to go.
     pub fn along(way: Path) -> Self {
         Self { vehicle: Vehicle::BMW_320I, way, endless: false, start: 0.0, speed: 0.0 }
     }
 
-    /// How many metres along its way its middle is at first.
+    /// Sets where the car's middle starts: metres along its way.
     pub fn starting(mut self, at: f64) -> Self {
         self.start = at;
         self
     }
 
-    /// The speed in m/s at which it starts, and which its driver is told to keep.
+    /// Sets the speed in m/s at which the car starts, and which its driver is told to keep.
     pub fn speed(mut self, speed: f64) -> Self {
         self.speed = speed;
         self
     }
 
-    /// What it is made of, instead of a [`Vehicle::BMW_320I`].
+    /// Sets the vehicle, instead of a [`Vehicle::BMW_320I`].
     pub fn vehicle(mut self, vehicle: Vehicle) -> Self {
         self.vehicle = vehicle;
         self
@@ -157,109 +157,109 @@ impl Place for AutonomousVehicle {
 }
 
 impl Car {
-    /// Where its middle is.
+    /// Returns the position of the car's middle.
     pub fn position(&self) -> Stream<Vector2<f64>> {
         self.shown.position.stream()
     }
 
-    /// Where it points, in radians in (-π, π], counter-clockwise from x.
+    /// Returns the car's heading, in radians in (-π, π], counter-clockwise from x.
     pub fn heading(&self) -> Stream<f64> {
         self.shown.heading.stream()
     }
 
-    /// Its speed in m/s.
+    /// Returns the car's speed in m/s.
     pub fn speed(&self) -> Stream<f64> {
         self.shown.speed.stream()
     }
 
-    /// Its acceleration ahead in m/s², over the last tick.
+    /// Returns the car's acceleration ahead in m/s², over the last tick.
     pub fn acceleration(&self) -> Stream<f64> {
         self.shown.acceleration.stream()
     }
 
-    /// The length of the way it has come, in metres.
+    /// Returns the distance that the car has covered, in metres.
     pub fn travelled(&self) -> Stream<f64> {
         self.shown.travelled.stream()
     }
 
-    /// Metres of free space to the nearest other body that does not stand on the [`Roadside`](crate::Roadside). Once it touches one: minus the braking distance that
-    /// was missing, max(v²/(2 μ g), 0.001) with v the speed of one body relative to the other.
+    /// Returns the free space to the nearest other body in metres, without bodies on the [`Roadside`](crate::Roadside).
+    /// At a contact: minus the missing braking distance, max(v²/(2 μ g), 0.001), with v the relative speed.
     pub fn clearance(&self) -> Stream<f64> {
         self.shown.clearance.stream()
     }
 
-    /// Whether it touches another body.
+    /// Is true while the car touches another body.
     pub fn collides(&self) -> Stream<bool> {
         self.clearance().at_most(0.0)
     }
 
-    /// How far the line is ahead of its front bumper, in metres.
+    /// Returns how far the line is ahead of the car's front bumper, in metres.
     pub fn gap_along(&self, line: &Line) -> Stream<f64> {
         self.position().distance_to(line) - 0.5 * self.vehicle.length
     }
 
-    /// Its acceleration to the left in m/s².
+    /// Returns the car's acceleration to the left in m/s².
     pub fn lateral_acceleration(&self) -> Stream<f64> {
         self.asked(Quantity::LateralAcceleration)
     }
 
-    /// How fast it turns to the left, in rad/s.
+    /// Returns the car's yaw rate, to the left, in rad/s.
     pub fn yaw_rate(&self) -> Stream<f64> {
         self.asked(Quantity::YawRate)
     }
 
-    /// How its acceleration ahead changes, in m/s³.
+    /// Returns the rate at which the car's acceleration ahead changes, in m/s³.
     pub fn jerk(&self) -> Stream<f64> {
         self.asked(Quantity::Jerk)
     }
 
-    /// The greatest slip ratio of its wheels, either way: 0 where all roll, 1 where one is locked or spins on the spot.
+    /// Returns the greatest slip ratio of the wheels, either way: 0 if all roll, 1 if one is locked or spins in place.
     pub fn wheel_slip(&self) -> Stream<f64> {
         self.asked(Quantity::WheelSlip)
     }
 
-    /// The greatest slip angle of its wheels, to either side, in radians.
+    /// Returns the greatest slip angle of the car's wheels, to either side, in radians.
     pub fn slip_angle(&self) -> Stream<f64> {
         self.asked(Quantity::SlipAngle)
     }
 
-    /// How many of its wheels touch the road.
+    /// Returns the number of the car's wheels that touch the road.
     pub fn wheels_on_road(&self) -> Stream<f64> {
         self.asked(Quantity::WheelsOnRoad)
     }
 
-    /// Seconds until it meets another body if both keep their velocities, the least over all of them; infinite if none.
+    /// Returns the time to collision in seconds, the least over all other bodies; infinite without a collision course.
     pub fn time_to_collision(&self) -> Stream<f64> {
         self.asked(Quantity::TimeToCollision)
     }
 
-    /// Seconds that it takes at its speed to where the nearest body straight ahead is now; infinite without any.
+    /// Returns the time headway in seconds: the time to where the nearest body straight ahead is now, or infinity.
     pub fn headway(&self) -> Stream<f64> {
         self.asked(Quantity::Headway)
     }
 
-    /// Metres of its lane that are left beside it, on the side where fewer are; negative where it is over the edge.
+    /// Returns the metres of the lane that are left beside the car, on the narrower side; negative over the edge.
     pub fn lane_margin(&self) -> Stream<f64> {
         self.asked(Quantity::LaneMargin)
     }
 
-    /// Seconds until another that has the right of way comes to a place of an intersection where the car is: infinite
-    /// while the car is in nobody's way.
+    /// Returns the seconds until a road user with the right of way comes to the car's place in an intersection;
+    /// infinite while the car is in nobody's way.
     pub fn right_of_way(&self) -> Stream<f64> {
         self.asked(Quantity::RightOfWay)
     }
 
-    /// How far it is to the left of the way that it is to go, in metres.
+    /// Returns how far the car is to the left of the way that it is to go, in metres.
     pub fn way_offset(&self) -> Stream<f64> {
         self.asked(Quantity::WayOffset)
     }
 
-    /// For how many seconds it has been standing: 0 while it moves.
+    /// Returns the seconds for which the car has been standing: 0 while it moves.
     pub fn standing_time(&self) -> Stream<f64> {
         self.asked(Quantity::StandingTime)
     }
 
-    /// Metres to the end of the way that it is to go; infinite where it is just to go straight on.
+    /// Returns the metres to the end of the way that the car is to go; infinite if the car is just to go straight on.
     pub fn remaining(&self) -> Stream<f64> {
         self.asked(Quantity::Remaining)
     }
@@ -270,19 +270,19 @@ impl Car {
 }
 
 impl Ego {
-    /// The car as a model moves it.
+    /// Makes the car that a model moves.
     pub fn new(setup: &EgoSetup, model: VehicleModel) -> Self {
         let EgoSetup { car, shown } = setup.clone();
         let dynamics = model.build(&car.vehicle, car.start(), car.speed);
         Self { at: car.start, car, shown, dynamics, control: Control::default(), jerk: 0.0, standing: 0.0 }
     }
 
-    /// What its driver has to know beforehand.
+    /// Returns the briefing of the car's driver.
     pub fn briefing(&self) -> Briefing {
         Briefing { cruise_speed: self.car.speed, vehicle: self.car.vehicle }
     }
 
-    /// Its body where it is.
+    /// Returns the state of the car's body.
     pub fn body(&self) -> BodyState {
         let Vehicle { length, width, height, .. } = self.car.vehicle;
         let body = Body::block(Class::Car, length, width, height);
@@ -293,28 +293,28 @@ impl Ego {
         self.dynamics.state().pose()
     }
 
-    /// Its velocity over the ground in m/s.
+    /// Returns the car's velocity over the ground in m/s.
     pub fn velocity(&self) -> Vector2<f64> {
         self.pose().turn_to_plane(self.dynamics.state().velocity)
     }
 
-    /// What is left of the way that it is to go; none where it is just to go straight on.
+    /// Returns the rest of the way that the car is to go; `None` if the car is just to go straight on.
     pub fn plan(&self) -> Option<Path> {
         (!self.car.endless).then(|| self.car.way.piece(self.at, self.car.way.length()))
     }
 
-    /// How far it is to the left of its way, in metres.
+    /// Returns how far the car is to the left of its way, in metres.
     pub fn way_offset(&self) -> f64 {
         self.car.way.at(self.at).to_local(self.pose().position).y
     }
 
-    /// Metres to the end of its way; infinite where it is just to go straight on.
+    /// Returns the metres to the end of the car's way; infinite if the car is just to go straight on.
     pub fn remaining(&self) -> f64 {
         if self.car.endless { f64::INFINITY } else { self.car.way.length() - self.at }
     }
 
-    /// The lanes that it is on, with how many metres along each: those of its way, from its rear to its front, or where its
-    /// way knows none the nearest that leads where it points.
+    /// Returns the lanes that the car is on, with the car's position along each in metres: the lanes of its way between
+    /// its rear and its front. If the way knows no lanes there, it is the nearest lane in the car's direction.
     pub fn lanes<'n>(&self, network: &'n RoadNetwork) -> impl Iterator<Item = (LaneId, f64)> + use<'n> {
         let half = 0.5 * self.car.vehicle.length;
         let known = self.car.way.lanes(self.at - half, self.at + half);
@@ -324,12 +324,12 @@ impl Ego {
         lanes.map(move |lane| (lane, network.project_onto(lane, pose.position).s))
     }
 
-    /// Where it is as seen from where it began.
+    /// Returns the car's pose as seen from its start.
     pub fn odometry(&self) -> Pose {
         self.car.start().relative(&self.pose())
     }
 
-    /// Its way as it sees it.
+    /// Returns the car's way as the car sees it.
     pub fn way(&self) -> Way {
         let (pose, here) = (self.pose(), self.car.way.at(self.at));
         let ahead = std::array::from_fn(|i| {
@@ -340,7 +340,7 @@ impl Ego {
         Way { offset, heading: wrapped(pose.heading - here.heading), ahead }
     }
 
-    /// Shows its outputs; `clearance` as [`Car::clearance`] says, and the car as the first of the bodies.
+    /// Shows the car's outputs. `clearance` is the value of [`Car::clearance`], and the car is the first of the bodies.
     pub fn show(&self, clearance: f64, bodies: &[BodyState], network: &RoadNetwork, outputs: &mut Outputs<'_>) {
         let state = self.dynamics.state();
         outputs.set(&self.shown.position, state.position);

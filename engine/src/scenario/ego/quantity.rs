@@ -1,4 +1,4 @@
-//! What can be asked of the car under test besides what every trace records: measured only where a program asks for it.
+//! Quantities of the car under test that not every trace records. They are measured only if a program asks for them.
 
 use super::Ego;
 use super::right_of_way;
@@ -8,7 +8,7 @@ use crate::stream::Stream;
 use nalgebra::Vector2;
 use std::cell::RefCell;
 
-/// A quantity of the car, or of the car and what is around it.
+/// A quantity of the car, or of the car and its surroundings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
     LateralAcceleration,
@@ -52,7 +52,7 @@ impl Quantity {
         }
     }
 
-    /// Its value now, with the car as the first of the bodies.
+    /// Measures the quantity now, with the car as the first of the bodies.
     fn measure(self, ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 {
         let state = ego.dynamics.state();
         let wheels = || ego.dynamics.wheels().into_iter();
@@ -79,7 +79,7 @@ impl Asked {
         Self { wiring, outputs: RefCell::default() }
     }
 
-    /// The stream of a quantity, which is shown from now on.
+    /// Returns the stream of a quantity, which is shown from now on.
     pub fn stream(&self, quantity: Quantity) -> Stream<f64> {
         let mut outputs = self.outputs.borrow_mut();
         if let Some((_, output)) = outputs.iter().find(|(asked, _)| *asked == quantity) {
@@ -91,7 +91,7 @@ impl Asked {
         stream
     }
 
-    /// Shows all that has been asked for.
+    /// Shows all quantities that a program has asked for.
     pub fn show(&self, ego: &Ego, bodies: &[BodyState], network: &RoadNetwork, outputs: &mut Outputs<'_>) {
         for (quantity, output) in &*self.outputs.borrow() {
             outputs.set(output, quantity.measure(ego, bodies, network));
@@ -99,21 +99,21 @@ impl Asked {
     }
 }
 
-/// The least of what the car and each of the others make together; infinite without any.
+/// Returns the least value of `of` for the car and each other body; infinite if there is no other body.
 fn least(bodies: &[BodyState], of: fn(&BodyState, &BodyState) -> f64) -> f64 {
     let others = bodies[1..].iter().filter(|other| other.present);
     others.map(|other| of(&bodies[0], other)).fold(f64::INFINITY, f64::min)
 }
 
-/// Another body as seen from the car: its middle, and the halves of the box along the car's axes that encloses it, with
-/// those of the car added.
+/// Returns another body as seen from the car: its middle, and half the extent of the box along the car's axes that
+/// encloses it, plus half the car's extent.
 fn seen(car: &BodyState, other: &BodyState) -> (Vector2<f64>, Vector2<f64>) {
     let enclosing = other.body.outline.enclosing(other.pose.heading - car.pose.heading);
     (car.pose.to_local(other.pose.position), car.body.outline.half_extent() + enclosing)
 }
 
-/// Seconds until the boxes of the car and of another body meet if both go on with the velocities that they have;
-/// infinite if they will not, 0 where they do.
+/// Returns the seconds until the boxes of the car and of another body meet if both keep their velocities; infinite if
+/// they will not meet, 0 if they overlap.
 fn time_to_collision(car: &BodyState, other: &BodyState) -> f64 {
     let (middle, reach) = seen(car, other);
     let closing = car.pose.turn_to_local(other.velocity - car.velocity);
@@ -132,8 +132,8 @@ fn time_to_collision(car: &BodyState, other: &BodyState) -> f64 {
     if from <= to { from } else { f64::INFINITY }
 }
 
-/// Seconds that the car takes at its speed to where the body ahead of it is now: ahead is what its own box would run
-/// into if it went straight on.
+/// Returns the seconds that the car takes at its speed to where a body ahead is now. A body is ahead if the car's own
+/// box would run into it on a straight line.
 fn headway(car: &BodyState, other: &BodyState) -> f64 {
     let (middle, reach) = seen(car, other);
     let gap = middle.x - reach.x;
@@ -141,8 +141,8 @@ fn headway(car: &BodyState, other: &BodyState) -> f64 {
     if in_the_way { gap / car.velocity.norm() } else { f64::INFINITY }
 }
 
-/// How many metres of its lane are left beside the car, on the side where fewer are: of the nearest lane that leads its
-/// way. Negative where it is over the edge; minus its distance from the middle where no lane leads its way.
+/// Returns the metres of the lane that are left beside the car, on the narrower side; negative if the car is over the
+/// edge. The lane is the nearest in the car's direction; without one, it is minus the distance to the nearest lane.
 fn lane_margin(car: &BodyState, network: &RoadNetwork) -> f64 {
     let Some(seen) = network.project_along(&car.pose) else {
         return -network.project(car.pose.position).distance;

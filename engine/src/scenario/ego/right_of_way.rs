@@ -1,18 +1,18 @@
-//! Who has the right of way where lanes of an intersection cross or join, and how soon they are there.
+//! Finds who has the right of way where lanes of an intersection cross or join, and how soon they get there.
 
 use super::Ego;
 use crate::geometry::wrapped;
 use crate::object::BodyState;
 use crate::road::{LaneId, RoadNetwork};
 
-/// A body is on a lane whose middle is this near, in metres, and whose direction differs by no more than this, in radians.
+/// A body is on a lane whose middle is this near, in metres, and whose direction differs by at most this, in radians.
 const ON_LANE: (f64, f64) = (1.2, 0.6);
 
-/// Seconds until the first of the others that have the right of way comes to a place of an intersection where the car is;
-/// infinite where none does, 0 where one is there already.
+/// Returns the seconds until the first road user with the right of way comes to the car's place in an intersection;
+/// infinite if nobody does, 0 if somebody is there already.
 ///
-/// The places are the [conflicts](crate::road::Conflict) of the lanes that the car is on, those in which it gives way.
-/// Others count that are on the lane of the conflict or lead to it, and have not passed yet.
+/// The places are the [conflicts](crate::road::Conflict) of the car's lanes in which the car gives way. Other road
+/// users count if they are on the conflict's lane or on a lane that leads to it, and have not passed the conflict yet.
 pub(super) fn of(ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 {
     let (car, others) = (&bodies[0], &bodies[1..]);
     let half = car.body.outline.half_extent().x;
@@ -22,7 +22,7 @@ pub(super) fn of(ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 
         let within = here.conflicts.iter().filter(|c| c.gives_way && s + half > c.from && s - half < c.to);
         for conflict in within {
             let there = network.lane(conflict.with);
-            // The stretch of the other lane is the conflict as it is seen from there.
+            // The stretch of the other lane is the conflict as seen from that lane.
             let Some(theirs) = there.conflicts.iter().find(|theirs| theirs.with == lane) else { continue };
             let joins = here.successors.iter().any(|next| there.successors.contains(next));
             for other in others.iter().filter(|other| other.present) {
@@ -40,7 +40,7 @@ pub(super) fn of(ego: &Ego, bodies: &[BodyState], network: &RoadNetwork) -> f64 
     least
 }
 
-/// How many metres along a lane a body is that is on it; less than 0 on one that leads to it.
+/// Returns how many metres along a lane a body is; negative on a lane that leads to it, `None` elsewhere.
 fn along(other: &BodyState, lane: LaneId, network: &RoadNetwork) -> Option<f64> {
     let on = |lane: LaneId| {
         let seen = network.project_onto(lane, other.pose.position);

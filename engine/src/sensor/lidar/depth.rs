@@ -1,4 +1,4 @@
-//! A LiDAR from a rendered picture: what its beams hit is read from the distances that a camera at its place sees.
+//! A LiDAR from a depth image: its points are read from the distances that a camera at its place sees.
 
 use super::{Beam, LidarPoint, Scan};
 use crate::sensor::SensorError;
@@ -8,16 +8,16 @@ use nalgebra::Vector3;
 /// A camera without distortion that looks ahead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pinhole {
-    /// Columns and rows of its pictures.
+    /// The columns and rows of the camera's images.
     pub size: [usize; 2],
-    /// Focal lengths in pixels, across and down.
+    /// The focal lengths in pixels, across and down.
     pub focal: [f64; 2],
-    /// Where ahead is in the picture, in pixels from the upper left corner: a pixel's middle is half a pixel from its edge.
+    /// The place in the image that shows straight ahead, in pixels from the upper left corner of the upper left pixel.
     pub centre: [f64; 2],
 }
 
 impl Pinhole {
-    /// A camera with square pixels, whose pictures of this size have this opening angle across, in radians.
+    /// Makes a camera with square pixels, images of this size, and this opening angle across, in radians.
     pub fn new(size: [usize; 2], opening: f64) -> Self {
         let [width, height] = size.map(|pixels| pixels as f64);
         let focal = 0.5 * width / libm::tan(0.5 * opening);
@@ -34,7 +34,7 @@ impl Pinhole {
         Ok(())
     }
 
-    /// Column and row of the pixel that sees what lies in this direction (x ahead, y to the left, z up), if there is one.
+    /// Returns the column and row of the pixel that sees in a direction (x ahead, y to the left, z up), if any does.
     fn pixel(&self, direction: Vector3<f64>) -> Option<[usize; 2]> {
         if direction.x <= 0.0 {
             return None;
@@ -45,7 +45,7 @@ impl Pinhole {
         Some([inside(across, self.size[0])?, inside(down, self.size[1])?])
     }
 
-    /// The unit vector through the middle of a pixel.
+    /// Returns the unit vector through the middle of a pixel.
     fn direction(&self, [column, row]: [usize; 2]) -> Vector3<f64> {
         let left = (self.centre[0] - (column as f64 + 0.5)) / self.focal[0];
         let up = (self.centre[1] - (row as f64 + 0.5)) / self.focal[1];
@@ -53,15 +53,15 @@ impl Pinhole {
     }
 }
 
-/// What a LiDAR at the place of a camera sees by the camera's depth image, without noise: `depth` has the distance in metres
-/// from the camera to what each pixel sees (not its share ahead), row by row from the upper left corner, and something above
-/// `range` or no number where there is nothing. The intensity falls with `fading`, in 1/m.
+/// Makes the scan of a LiDAR at the place of a camera from the camera's depth image, without noise. `depth` has for
+/// each pixel the distance in metres from the camera to the surface (not its share ahead), row by row from the upper
+/// left corner; a pixel without a surface has a number above `range` or NaN. The intensity falls with `fading`, in 1/m.
 ///
 /// A beam gets the point in the middle of the pixel that it falls in. So points are on the surfaces as exactly as the
-/// distances are, and their directions are off by half of a pixel's at most. Beams out of the picture see nothing.
+/// distances are, and their directions are off by at most half a pixel. Beams outside the image see nothing.
 ///
 /// # Errors
-/// The camera cannot be, the image does not have its size, the range is none or the fading is no number from 0 on.
+/// The camera or the range is impossible, the image has not its size, or the fading is no number from 0 on.
 pub fn scan_of_depth(
     camera: &Pinhole,
     depth: &[f32],

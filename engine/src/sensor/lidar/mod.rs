@@ -1,16 +1,16 @@
-//! A scanning LiDAR: rings of beams around the car, and what they hit.
+//! A scanning LiDAR: rings of beams around the car, and the points that the beams hit.
 //!
-//! Bodies are upright boxes and cylinders from where they stand to their height, the ground is flat. A scan is taken at one
-//! moment: the car does not move while the beams go round. The car that carries the sensor is not hit.
+//! Bodies are upright boxes and cylinders from their altitude to their height; the ground is flat. A scan is taken at
+//! one moment: the car does not move while the beams go round. The beams do not hit the car that carries the sensor.
 //!
-//! What comes back has the intensity exp(-(a + 2 β) d) at the distance d, where a is the attenuation of clear air and β the
-//! extinction of fog and rain, which light passes on its way there and back. Weak echoes are lost: none from `sure` on, and below
-//! it the more the weaker, up to all of those of which nothing is left. Surfaces are all alike.
+//! An echo from the distance d has the intensity exp(-(a + 2 β) d). a is the attenuation of clear air, and β the
+//! extinction of fog and rain, which the light passes there and back. No echo with an intensity of `sure` or more is
+//! lost for its weakness. Below, the probability of a loss grows to 1 at an intensity of 0. All surfaces are alike.
 //!
-//! The beams are cast in 64 bits ([`scanner`]), not by parry, which computes in 32. Measured over a million beams each at
-//! 10, 50, 100 and 200 m that end in a body: parry's boxes are off by 0.18 mm at most, but without a bound where a beam
-//! grazes a face; its cylinders, which it finds by iteration, are off by up to 0.44 m, in one of 1,500 hits by more than
-//! 1 mm, and take 4 µs a beam.
+//! The beams are cast in 64 bits ([`scanner`]), not by parry, which computes in 32. Measured over a million beams each
+//! at 10, 50, 100 and 200 m that end in a body: parry's boxes are off by 0.18 mm at most, but without a bound if a beam
+//! grazes a face. Its cylinders, which it finds by iteration, are off by up to 0.44 m, in one of 1,500 hits by more
+//! than 1 mm, and take 4 µs a beam.
 
 mod depth;
 mod scanner;
@@ -23,43 +23,43 @@ use super::{Chance, Mount, Sensor, SensorView};
 use nalgebra::{Vector2, Vector3};
 use scanner::Scanner;
 
-/// How lists show this kind of sensor.
+/// The entry of this kind of sensor in lists.
 pub(super) const DESCRIPTOR: Descriptor =
     Descriptor { name: "lidar", about: "points where beams of light come back, with their intensity" };
 
 /// The steepest beam in radians, up or down: 85 degrees.
 const STEEPEST: f64 = 1.483_529_864_195_180_3;
 
-/// A LiDAR, not checked yet.
+/// The settings of a LiDAR, not checked yet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LidarSettings {
-    /// Where its middle is, and where its first column of beams looks.
+    /// The mounting of the sensor's middle, with the direction of its first column of beams.
     pub mount: Mount,
-    /// Seconds of one turn: between two scans.
+    /// The seconds of one turn, which is the time between two scans.
     pub period: f64,
-    /// How many beams are one above the other.
+    /// The number of channels: beams one above the other.
     pub channels: usize,
-    /// Where the lowest channel looks, in radians above the horizon. A single channel looks half way to the highest.
+    /// The elevation of the lowest channel, in radians above the horizon. A single channel is half way to the highest.
     pub lowest: f64,
-    /// Where the highest channel looks, in radians above the horizon; those in between are evenly spaced.
+    /// The elevation of the highest channel, in radians above the horizon. The other channels are evenly spaced.
     pub highest: f64,
-    /// How many times in a turn each channel fires.
+    /// The number of times that each channel fires in a turn.
     pub columns: usize,
-    /// Metres up to which it measures.
+    /// The greatest distance in metres that the sensor measures.
     pub range: f64,
-    /// Standard deviation of a distance in metres.
+    /// The standard deviation of a distance in metres.
     pub noise: f64,
-    /// By how much the intensity falls in clear air, in 1/m.
+    /// The attenuation of the intensity in clear air, in 1/m.
     pub attenuation: f64,
-    /// The intensity from which on no echo is lost; below, as many are lost as are missing to it in proportion.
+    /// The intensity from which on no echo is lost for its weakness. Below, the lost share is the missing share.
     pub sure: f64,
     /// The probability that an echo is lost whatever its intensity.
     pub loss: f64,
 }
 
 impl Default for LidarSettings {
-    /// The channels, field, rate and attenuation of the LiDAR of CARLA (32 from -30 to 10 degrees, ten turns a second,
-    /// 0.004 /m) on a roof, with 1,800 columns, a range of 100 m and a noise of 2 cm.
+    /// Returns the channels, field, rate and attenuation of the LiDAR of CARLA (32 from -30 to 10 degrees, ten turns a
+    /// second, 0.004 /m) on a roof, with 1,800 columns, a range of 100 m and a noise of 2 cm.
     fn default() -> Self {
         Self {
             mount: Mount::above(2.0),
@@ -77,17 +77,17 @@ impl Default for LidarSettings {
     }
 }
 
-/// Where a beam goes as seen from the sensor.
+/// The direction of a beam as seen from the sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beam {
-    /// Radians counter-clockwise from ahead.
+    /// The azimuth in radians, counter-clockwise from ahead.
     pub azimuth: f64,
-    /// Radians above the horizon.
+    /// The elevation in radians above the horizon.
     pub elevation: f64,
 }
 
 impl Beam {
-    /// The unit vector along it: x ahead, y to the left, z up.
+    /// Returns the unit vector along the beam: x ahead, y to the left, z up.
     pub fn direction(&self) -> Vector3<f64> {
         let (sin, cos) = libm::sincos(self.azimuth);
         let (up, along) = libm::sincos(self.elevation);
@@ -95,26 +95,26 @@ impl Beam {
     }
 }
 
-/// A place from which an echo came.
+/// A point from which an echo came.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LidarPoint {
-    /// Where it is as seen from the sensor: x ahead, y to the left, z up, in metres.
+    /// The position of the point as seen from the sensor: x ahead, y to the left, z up, in metres.
     pub position: Vector3<f32>,
-    /// How strong the echo is, from 0 to 1.
+    /// The strength of the echo, from 0 to 1.
     pub intensity: f32,
-    /// What it truly is of: 0 for the ground or where that is not known, else one more than the index of the body.
+    /// The true source of the echo: the index of the body plus one; 0 for the ground or an unknown source.
     pub id: u32,
 }
 
-/// A turn of a LiDAR.
+/// The points of one turn of a LiDAR.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scan {
-    /// The echoes, column by column from ahead counter-clockwise, and in each from the lowest channel up.
+    /// The echoes, column by column counter-clockwise from ahead, and in each column from the lowest channel up.
     pub points: Vec<LidarPoint>,
 }
 
 impl Scan {
-    /// The points as the KITTI data sets have them: x, y, z and intensity of each as little-endian 32-bit floats.
+    /// Returns the points in the format of the KITTI data sets: x, y, z and intensity as little-endian 32-bit floats.
     pub fn to_kitti(&self) -> Vec<u8> {
         let numbers = self.points.iter().flat_map(|point| {
             let [x, y, z] = point.position.into();
@@ -124,7 +124,7 @@ impl Scan {
     }
 }
 
-/// A LiDAR.
+/// A LiDAR, which measures points around the car.
 #[derive(Debug, Clone)]
 pub struct Lidar {
     settings: LidarSettings,
@@ -132,7 +132,7 @@ pub struct Lidar {
 }
 
 impl Lidar {
-    /// A LiDAR with these settings.
+    /// Makes a LiDAR with these settings.
     ///
     /// # Errors
     /// A setting is out of its range or no number, or the lowest of several channels is not below the highest.
@@ -157,7 +157,7 @@ impl Lidar {
         Ok(Self { scanner: Scanner::new(settings.columns, &elevations), settings })
     }
 
-    /// Where its beams go, in the order in which a scan has its points.
+    /// Returns the directions of the beams, in the order in which a scan has its points.
     pub fn beams(&self) -> impl Iterator<Item = Beam> + use<'_> {
         let azimuth = |column| scanner::azimuth(column, self.settings.columns);
         let column = move |column| {
@@ -167,7 +167,7 @@ impl Lidar {
         (0..self.settings.columns).flat_map(column)
     }
 
-    /// How likely an echo of this intensity is lost.
+    /// Returns the probability that an echo of this intensity is lost.
     fn loss(&self, intensity: f64) -> f64 {
         let LidarSettings { sure, loss, .. } = self.settings;
         let weak = if intensity < sure { 1.0 - intensity / sure } else { 0.0 };
@@ -175,7 +175,7 @@ impl Lidar {
     }
 }
 
-/// Where a channel looks, in radians above the horizon.
+/// Returns the elevation of a channel, in radians above the horizon.
 fn elevation(settings: &LidarSettings, channel: usize) -> f64 {
     let share = if settings.channels == 1 { 0.5 } else { channel as f64 / (settings.channels - 1) as f64 };
     settings.lowest + share * (settings.highest - settings.lowest)
@@ -198,7 +198,7 @@ impl Sensor for Lidar {
         let fading = attenuation + 2.0 * view.air.extinction;
         reading.points.clear();
         for echo in self.scanner.echoes() {
-            // Drawn for every beam, so that what is hit does not shift the noise of the others.
+            // The random numbers are drawn for every beam, so a hit does not change the noise of the other beams.
             let (luck, noise) = (chance.unit(), noise * chance.normal());
             let intensity = libm::exp(-fading * echo.distance);
             if echo.distance <= range && luck >= self.loss(intensity) {
@@ -209,7 +209,7 @@ impl Sensor for Lidar {
     }
 }
 
-/// The unit vector in the plane at an angle.
+/// Returns the unit vector in the plane at an angle.
 fn unit(angle: f64) -> Vector2<f64> {
     let (sin, cos) = libm::sincos(angle);
     Vector2::new(cos, sin)

@@ -1,8 +1,8 @@
-//! Casting the beams of a scan.
+//! Casts the beams of a scan.
 //!
-//! All bodies are upright prisms, and all beams of a column lie in one upright plane. So the outline of a body is cut once
-//! for a column, and a channel is left with the question at which heights its beam is between the two places. A body is
-//! asked of only by the columns between whose azimuths it lies: for beams from one place, that is a better broad phase than
+//! All bodies are upright prisms, and all beams of a column lie in one upright plane. So the outline of a body is cut
+//! only once for a column, and for each channel it remains to find the heights of its beam between the two cuts. Only
+//! the columns between a body's azimuths check the body: for beams from one place, that is a better broad phase than
 //! any tree.
 
 use super::unit;
@@ -11,18 +11,18 @@ use crate::object::{BodyState, Outline};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// Columns by which the interval of a body is widened on either side, against rounding.
+/// The number of columns by which the interval of a body is widened on either side, against rounding.
 const SLACK: f64 = 0.01;
 
-/// The beams, and the nearest that each has hit so far.
+/// The beams, and the nearest hit of each so far.
 #[derive(Debug, Clone)]
 pub(super) struct Scanner {
     channels: Vec<Channel>,
-    /// The unit vectors in the plane along which the columns look.
+    /// The unit vectors of the columns in the plane.
     columns: Vec<Vector2<f64>>,
-    /// Of each beam, column by column.
+    /// The nearest hit of each beam, column by column.
     nearest: Vec<Hit>,
-    /// How high the sensor is above the ground, and how far it sees, in metres.
+    /// The height of the sensor above the ground, and its range, in metres.
     height: f64,
     range: f64,
 }
@@ -32,33 +32,33 @@ pub(super) struct Scanner {
 struct Channel {
     cos: f64,
     sin: f64,
-    /// cos / sin: how far it goes along while it rises by a metre.
+    /// cos / sin: how far the beam goes along while it rises by a metre.
     along: f64,
 }
 
-/// How far away something is, and what.
+/// The distance and the id of something that was hit.
 #[derive(Debug, Clone, Copy)]
 struct Hit {
     distance: f64,
     id: u32,
 }
 
-/// What a beam has hit.
+/// The hit of a beam.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Echo {
     pub direction: Vector3<f64>,
-    /// In metres; infinite for nothing.
+    /// The distance in metres; infinite if the beam hit nothing.
     pub distance: f64,
     pub id: u32,
 }
 
-/// The azimuth of a column in radians.
+/// Returns the azimuth of a column in radians.
 pub(super) fn azimuth(column: usize, columns: usize) -> f64 {
     TAU * column as f64 / columns as f64
 }
 
 impl Scanner {
-    /// Evenly spaced columns, and channels with these elevations in radians.
+    /// Makes a scanner with evenly spaced columns, and channels with these elevations in radians.
     pub fn new(columns: usize, elevations: &[f64]) -> Self {
         let channel = |elevation: &f64| {
             let (sin, cos) = libm::sincos(*elevation);
@@ -86,7 +86,7 @@ impl Scanner {
         }
     }
 
-    /// Lets the beams of a sensor with this pose hit a body too.
+    /// Adds a body that the beams of a sensor with this pose can hit.
     pub fn add(&mut self, id: u32, state: &BodyState, sensor: &Pose) {
         let outline = &state.body.outline;
         let at = sensor.relative(&state.pose);
@@ -116,7 +116,7 @@ impl Scanner {
         }
     }
 
-    /// What the beams have hit, column by column.
+    /// Returns the hits of the beams, column by column.
     pub fn echoes(&self) -> impl Iterator<Item = Echo> + use<'_> {
         let beams = self.columns.iter().flat_map(|column| self.channels.iter().map(move |channel| (column, channel)));
         beams.zip(&self.nearest).map(|((column, channel), hit)| Echo {
@@ -128,8 +128,8 @@ impl Scanner {
 }
 
 impl Channel {
-    /// How far along the beam is at a height between two, both in metres from the sensor's: from and until, in metres along the
-    /// ground. Nowhere is from infinity until minus infinity.
+    /// Returns the start and the end of the beam's part between two heights, in metres along the ground. The heights
+    /// are in metres relative to the sensor. If there is no such part, it is infinity and minus infinity.
     fn between(&self, floor: f64, ceiling: f64) -> (f64, f64) {
         if self.sin > 0.0 {
             (floor * self.along, ceiling * self.along)
@@ -143,8 +143,8 @@ impl Channel {
     }
 }
 
-/// Between which azimuths an outline lies that stands `at` as seen from the sensor: in radians, the second not less than the
-/// first; all around where the sensor is over it.
+/// Returns the azimuths in radians between which an outline lies that stands `at` as seen from the sensor. The second
+/// is not less than the first; they span a full turn if the sensor is over the outline.
 fn azimuths(outline: &Outline, at: &Pose) -> (f64, f64) {
     let distance = at.position.norm();
     let middle = libm::atan2(at.position.y, at.position.x);
@@ -159,7 +159,7 @@ fn azimuths(outline: &Outline, at: &Pose) -> (f64, f64) {
             if sensor.x.abs() <= half.x && sensor.y.abs() <= half.y {
                 return (0.0, TAU);
             }
-            // From outside, all of it is less than half a turn from its middle.
+            // From outside, every part of the outline is less than half a turn from its middle.
             let (ahead, left) = (at.forward() * half.x, at.left() * half.y);
             let corners = [ahead + left, ahead - left, -ahead - left, -ahead + left].map(|corner| at.position + corner);
             let aside = corners.map(|corner| libm::atan2(at.position.perp(&corner), at.position.dot(&corner)));
@@ -170,7 +170,7 @@ fn azimuths(outline: &Outline, at: &Pose) -> (f64, f64) {
     }
 }
 
-/// Where the ray from the sensor in this direction enters an outline that stands `at`, and where it leaves, in metres.
+/// Returns the distances in metres at which the ray from the sensor enters and leaves an outline `at`, if it hits it.
 fn cut(outline: &Outline, at: &Pose, direction: Vector2<f64>) -> Option<(f64, f64)> {
     let (enters, leaves) = match *outline {
         Outline::Rectangle { .. } => {

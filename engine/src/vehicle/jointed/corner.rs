@@ -1,7 +1,7 @@
-//! A wheel of the jointed car: how it hangs on the chassis, and what chassis and road do to it.
+//! A wheel of the jointed car: its suspension, and the forces of chassis and road on it.
 //!
-//! The tyre is a stiff damper for the spin of its wheel, so that the spin is implicit in the force along it. Across the
-//! wheel the force is explicit, and slip is relative to a speed that is not below what makes this stable ([`Step::slow`]).
+//! The tyre is a stiff damper for the spin of its wheel, so the force along the wheel is implicit in the spin. Across
+//! the wheel the force is explicit, and slip is relative to a speed of at least [`Step::slow`], for stability.
 
 use super::super::tyre::Tyre;
 use super::{GRAVITY, ROLL_INERTIA, Vehicle, Wheel, apply, vector};
@@ -12,48 +12,48 @@ use rapier3d::prelude::{
     GenericJointBuilder, ImpulseJointHandle, JointAxesMask, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
 };
 
-/// Metres by which a tyre is compressed at rest (CommonRoad, vehicle 2: 158 kN/m under 2.9 kN).
+/// The compression of a tyre at rest, in metres (CommonRoad, vehicle 2: 158 kN/m under 2.9 kN).
 const COMPRESSED: f64 = 0.018;
-/// Stiffness of an anti-roll bar by that of a spring: it makes the body roll half as far, 5 degrees under 1 g, so that the
-/// car slides before it tips over.
+/// The stiffness of an anti-roll bar divided by that of a spring. It halves the roll of the body to 5 degrees under 1
+/// g, so that the car slides before it tips over.
 const ROLL_BAR: f64 = 0.5;
 
-/// A wheel and how it hangs on the chassis.
+/// A wheel and its suspension.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
     pub wheel: RigidBodyHandle,
     joint: ImpulseJointHandle,
-    /// The middle of the wheel at rest as seen from the chassis.
+    /// The middle of the wheel at rest, as seen from the chassis.
     at: Vector,
     pub front: bool,
-    /// What it carries at rest, in newtons, and what its spring carries of that.
+    /// The load on the wheel at rest, in newtons, and the part of it that the spring carries.
     rest: f64,
     sprung: f64,
-    /// N/m.
+    /// The stiffness of the spring, in N/m.
     spring: f64,
-    /// N s/m.
+    /// The damping of the damper, in N s/m.
     damper: f64,
-    /// How far it is turned to the left.
+    /// The rotation of the wheel to the left.
     turned: Rotation,
-    /// What it carries now, in newtons.
+    /// The present load on the wheel, in newtons.
     pub load: f64,
-    /// The force of the road across it, in newtons.
+    /// The force of the road across the wheel, in newtons.
     side: f64,
-    /// Its speeds in m/s along and across.
+    /// The speeds of the wheel in m/s, along and across.
     speed: Vector2<f64>,
     /// The speed of its tread in m/s.
     tread: f64,
 }
 
-/// What acts on a wheel about its axle, in N m.
+/// The torque on a wheel about its axle, in N m.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Torque {
     Engine(f64),
-    /// Against its turning, until it stops.
+    /// A torque against the wheel's rotation, until the wheel stops.
     Brake(f64),
 }
 
-/// What a step of the physics is done with, alike for all wheels.
+/// The data of a step of the physics, common to all wheels.
 pub(super) struct Step<'a> {
     pub vehicle: &'a Vehicle,
     pub chassis: Chassis,
@@ -63,9 +63,9 @@ pub(super) struct Step<'a> {
     slow: f64,
 }
 
-/// How the chassis stands and moves.
+/// The position and motion of the chassis.
 pub(super) struct Chassis {
-    /// Its middle at the height of the axles.
+    /// The frame of the chassis: its middle at the height of the axles.
     pub frame: Frame,
     centre: Vector,
     velocity: Vector,
@@ -73,7 +73,7 @@ pub(super) struct Chassis {
 }
 
 impl Corner {
-    /// A wheel of a car that goes straight ahead at `speed` m/s; `side` is 1 on its left and -1 on its right.
+    /// Makes a wheel of a car that goes straight ahead at `speed` m/s. `side` is 1 for the left and -1 for the right.
     pub fn new(
         physics: &mut PhysicsWorld,
         chassis: RigidBodyHandle,
@@ -117,20 +117,20 @@ impl Corner {
         }
     }
 
-    /// The longest step in seconds in which the wheel can hop between road and chassis and not blow up: of an explicit
-    /// spring `k` and damper `c` under a mass `m` that is `k dt² + 2 c dt = 4 m`, and this is half of that way.
+    /// Returns the longest step in seconds in which the wheel hops between road and chassis without diverging. The
+    /// limit of an explicit spring `k` and damper `c` under a mass `m` is `k dt² + 2 c dt = 4 m`; this takes `2 m`.
     pub fn longest_step(&self, vehicle: &Vehicle) -> f64 {
         let stiffness = (1.0 + 2.0 * ROLL_BAR) * self.spring + self.rest / COMPRESSED;
         let discriminant = self.damper * self.damper + 2.0 * stiffness * vehicle.wheel_mass;
         (discriminant.sqrt() - self.damper) / stiffness
     }
 
-    /// How far to the left of the car's middle it is, in metres.
+    /// Returns how far to the left of the car's middle the wheel is, in metres.
     pub fn left(&self) -> f64 {
         f64::from(self.at.y)
     }
 
-    /// Turns its axle so that it points `angle` radians to the left.
+    /// Turns the axle so that the wheel points `angle` radians to the left.
     pub fn turn(&mut self, physics: &mut PhysicsWorld, angle: f64) {
         let (sin, cos) = libm::sincos(0.5 * angle);
         self.turned = Rotation::from_xyzw(0.0, 0.0, sin as f32, cos as f32);
@@ -138,23 +138,23 @@ impl Corner {
         joint.data.local_frame1.rotation = self.turned;
     }
 
-    /// How much faster or slower its tread is than the road under it, by the speed of the road.
+    /// Returns the difference of the speeds of the tread and of the road under it, divided by the speed of the road.
     pub fn slip(&self, step: &Step) -> f64 {
         (self.tread - self.speed.x).abs() / self.speed.x.abs().max(step.slow)
     }
 
-    /// What the road can push along it, in newtons, beside what it pushes across.
+    /// Returns the force of the road along the wheel that is possible beside the force across it, in newtons.
     pub fn grip(&self, step: &Step) -> f64 {
         let limit = step.friction * self.load;
         (limit * limit - self.side * self.side).max(0.0).sqrt()
     }
 
-    /// How far up the wheel is from where it is at rest as seen from the chassis, in metres.
+    /// Returns how far the wheel is above its position at rest, as seen from the chassis, in metres.
     pub fn compression(&self, wheel: &RigidBody, chassis: &Chassis) -> f64 {
         f64::from((wheel.translation() - chassis.frame.translation).dot(chassis.up()))
     }
 
-    /// Sets what acts on the wheel in the next step, and returns what acts on the chassis, force and torque. `other` is
+    /// Sets force and torque on the wheel for the next step, and returns force and torque on the chassis. `other` is
     /// the compression of the spring on the other side of the car.
     pub fn push(&mut self, step: &Step, wheel: &mut RigidBody, torque: Torque, other: f64) -> (Vector, Vector) {
         let Step { vehicle, chassis, friction, dt, slow } = step;
@@ -175,7 +175,7 @@ impl Corner {
         let tyre = Tyre::new(vehicle.cornering_stiffness, *friction, self.load);
         let rolling = self.speed.x.abs().max(*slow);
         let slip = Vector2::new(self.speed.x - radius * spin, self.speed.y) / rolling;
-        // The damping of the tyre in N s/m, and the spin after the step if nothing but the road acts.
+        // The damping of the tyre in N s/m, and the spin after the step if only the road acts.
         let damping = tyre.secant(slip.norm()) / rolling;
         let inertia = vehicle.wheel_inertia / dt;
         let resistance = inertia + radius * radius * damping;
@@ -195,7 +195,7 @@ impl Corner {
         (spring, (at - chassis.centre).cross(spring) - turning)
     }
 
-    /// What there is to know about it.
+    /// Returns the state of the wheel.
     pub fn report(&self) -> Wheel {
         let faster = self.tread.abs().max(self.speed.x.abs());
         let slip = if faster > 0.0 { (self.tread - self.speed.x) / faster } else { 0.0 };
@@ -209,11 +209,11 @@ impl Corner {
 }
 
 impl<'a> Step<'a> {
-    /// A step of `dt` seconds on a road of this friction.
+    /// Makes a step of `dt` seconds on a road with this friction coefficient.
     ///
-    /// Against a speed across the wheels a tyre of the stiffness `C` by load is a damper that slows the car at the rate
-    /// `C g / v`, which an explicit step has to resolve; a push at the road moves the wheels further where it makes the
-    /// car roll, or turn, more than sway.
+    /// Against a speed across the wheels, a tyre with the stiffness `C` by load is a damper that slows the car at the
+    /// rate `C g / v`. An explicit step has to resolve this rate. A side force moves the wheels further if it makes the
+    /// car roll or turn than if it only makes the car sway.
     pub fn new(vehicle: &'a Vehicle, chassis: Chassis, friction: f64, dt: f64) -> Self {
         let height = vehicle.centre_of_gravity;
         let rolls =
@@ -225,23 +225,23 @@ impl<'a> Step<'a> {
 }
 
 impl Chassis {
-    /// How a body stands and moves.
+    /// Reads the position and motion of a body.
     pub fn from(body: &RigidBody) -> Self {
         Self { frame: *body.position(), centre: body.center_of_mass(), velocity: body.linvel(), turning: body.angvel() }
     }
 
-    /// Its vertical.
+    /// Returns the vertical axis of the chassis.
     pub fn up(&self) -> Vector {
         self.frame.rotation * Vector::Z
     }
 
-    /// The velocity of its point at a place.
+    /// Returns the velocity of the point of the chassis at a place.
     pub fn velocity_at(&self, place: Vector) -> Vector {
         self.velocity + self.turning.cross(place - self.centre)
     }
 }
 
-/// A direction in the ground plane, and the one to its left.
+/// Returns a direction in the ground plane, and the direction to its left.
 fn level(ahead: Vector) -> (Vector, Vector) {
     let ahead = Vector::new(ahead.x, ahead.y, 0.0).normalize();
     (ahead, Vector::new(-ahead.y, ahead.x, 0.0))

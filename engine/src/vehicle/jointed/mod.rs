@@ -1,19 +1,19 @@
 //! The model `jointed`: the paper's five bodies, a chassis and four wheels on joints, in a physics engine.
 //!
 //! A joint lets its wheel turn about the axle and move up and down, and turns the axle of a front wheel about the
-//! vertical. What acts on the bodies beside gravity is computed before each step: springs and dampers, engine and
-//! brakes, and the road, which pushes a wheel up as its tyre is compressed, and along and across as a brush tyre slips
-//! ([`corner`]).
+//! vertical. All forces except gravity are computed before each step: those of springs and dampers, of engine and
+//! brakes, and of the road. The road pushes a wheel up as its tyre is compressed, and along and across as a brush tyre
+//! slips ([`corner`]).
 //!
-//! The physics engine's own contacts are not used. A friction that sticks is a stiff constraint between the road and a
-//! light wheel, which its iterative solver hardly solves (a standing car crept by half a metre in a minute), and the
-//! point of contact turns with a wheel that spins fast, and brakes it. Joints alone are a star, and once round is enough.
+//! The contacts of the physics engine are not used. Static friction is a stiff constraint between road and light wheel,
+//! which its iterative solver hardly solves (a standing car crept by half a metre in a minute). The point of contact
+//! also turns with a fast wheel, and brakes it. The joints alone form a star: one iteration is enough.
 //!
-//! Brakes and engine know the load on each wheel and ask no more of it than the road gives (an anti-lock system and a
-//! traction control); a wheel that slips nevertheless is let go.
+//! Brakes and engine know the load on each wheel and ask for no more force than the road gives (an anti-lock system and
+//! a traction control). A wheel that slips nevertheless is released.
 //!
-//! The engine counts in 32 bits: all happens near the origin of a frame of its own, to which the car is brought back
-//! when it has gone some way.
+//! The physics engine computes in 32 bits. Therefore the car stays near the origin of a frame of its own: after some
+//! distance it is moved back to the origin.
 
 mod corner;
 
@@ -26,43 +26,43 @@ use rapier3d::dynamics::{MassProperties, RigidBody};
 use rapier3d::math::Vector;
 use rapier3d::prelude::{PhysicsWorld, RigidBodyBuilder, RigidBodyHandle};
 
-/// Part of the friction that brakes and engine use: the rest keeps a wheel from running away.
+/// The share of the friction that brakes and engine use. The rest keeps a wheel from running away.
 const USED: f64 = 0.995;
-/// Slip at which a wheel is let go.
+/// The slip at which a wheel is released.
 const LET_GO: f64 = 0.3;
-/// Moments of inertia of the body about its long and its cross axis, by the one about the vertical (CommonRoad, vehicle
-/// 2: 207 and 1566 by 1792 kg m²).
+/// The moments of inertia of the body about its long and its cross axis, divided by that about the vertical
+/// (CommonRoad, vehicle 2: 207 and 1566 by 1792 kg m²).
 const ROLL_INERTIA: f64 = 0.116;
 const PITCH_INERTIA: f64 = 0.874;
-/// What is left of the vertical of a car that has tipped over.
+/// The z component of the chassis's vertical axis below which the car counts as tipped over.
 const UPRIGHT: f32 = 0.5;
-/// Speeds in m/s and rad/s below which a car that brakes stands: what is left is its body rocking on locked wheels, which
-/// moves the frame and not the car.
+/// The speeds in m/s and rad/s below which a braking car stands. The remaining motion is that of the body on locked
+/// wheels, which moves the frame and not the car.
 const STANDS: f64 = 0.01;
-/// Metres from the origin at which the car is brought back to it.
+/// The distance in metres from the origin at which the car is moved back to it.
 const FAR: f32 = 32.0;
 
 /// A car as a chassis and four wheels on joints.
 ///
-/// It can tip over: in a bend where friction is higher than half of the track by the height of the centre of gravity, and
-/// at two thirds of that in the worst of spins, where the road pushes it to one side just after the other and the body
-/// rolls further than it would stand. Its body touches nothing, so that there the model ends: its state becomes no number.
+/// It can tip over: in a bend, if the friction exceeds half of the track divided by the height of the centre of
+/// gravity; in the worst spins at two thirds of that, if the road pushes it to both sides in turn and the body rolls
+/// further than in equilibrium. The body has no contacts, so the model ends there: its state becomes NaN.
 pub struct Jointed {
     vehicle: Vehicle,
     state: VehicleState,
     physics: PhysicsWorld,
     chassis: RigidBodyHandle,
     corners: [Corner; 4],
-    /// Seconds that a step of the physics takes at most.
+    /// The longest step of the physics, in seconds.
     piece: f64,
-    /// Where in the world the frame of the physics is.
+    /// The pose in the world of the frame of the physics.
     origin: Pose,
-    /// The velocity of the car's middle in that frame, in m/s.
+    /// The velocity of the car's middle in the frame of the physics, in m/s.
     drift: Vector2<f64>,
 }
 
 impl Jointed {
-    /// A car whose middle has the pose `start`, going straight ahead at `speed` m/s.
+    /// Makes a car whose middle has the pose `start`, going straight ahead at `speed` m/s.
     ///
     /// # Panics
     /// The vehicle has a [`Vehicle::flaw`].
@@ -81,7 +81,7 @@ impl Jointed {
         let chassis = physics.insert_body(chassis);
         let corners = [(true, 1.0), (true, -1.0), (false, 1.0), (false, -1.0)]
             .map(|(front, side)| Corner::new(&mut physics, chassis, vehicle, front, side, speed));
-        // Bodies know their centres of mass once the engine has seen them.
+        // The bodies know their centres of mass only after the engine has seen them.
         physics.integration_parameters.dt = 0.0;
         physics.step();
         let piece = corners.iter().map(|corner| corner.longest_step(vehicle)).fold(f64::INFINITY, f64::min);
@@ -112,7 +112,7 @@ impl Jointed {
         }
     }
 
-    /// Sets what acts on the bodies in the step to come.
+    /// Sets forces and torques on the bodies for the next step.
     fn push(&mut self, throttle: f64, friction: f64, dt: f64) {
         let chassis = Chassis::from(&self.physics.bodies[self.chassis]);
         let step = Step::new(&self.vehicle, chassis, friction, dt);
@@ -121,7 +121,7 @@ impl Jointed {
         let compressions = self.corners.map(|corner| corner.compression(&bodies[corner.wheel], &step.chassis));
         let (mut force, mut torque) = (Vector::ZERO, Vector::ZERO);
         for (i, corner) in self.corners.iter_mut().enumerate() {
-            // Left and right follow each other.
+            // The wheels on the left and on the right of an axle follow each other.
             let (push, turn) = corner.push(&step, &mut bodies[corner.wheel], torques[i], compressions[i ^ 1]);
             force += push;
             torque += turn;
@@ -129,10 +129,10 @@ impl Jointed {
         apply(&mut bodies[self.chassis], force, torque);
     }
 
-    /// What engine or brakes do to the wheels.
+    /// Returns the torques of engine or brakes on the wheels.
     ///
-    /// Each wheel that they act on gets the share of its load. Its torque turns the wheel faster, and through the road
-    /// the rest of the car, the other wheels with it.
+    /// Each wheel that they act on gets a share in proportion to its load. Its torque accelerates the wheel itself and,
+    /// through the road, the rest of the car with the other wheels.
     fn torques(&self, step: &Step, throttle: f64) -> [Torque; 4] {
         let vehicle = step.vehicle;
         let radius = vehicle.wheel_radius;
@@ -160,7 +160,7 @@ impl Jointed {
         })
     }
 
-    /// Reads how the car moves now.
+    /// Reads the present motion of the car.
     fn read(&mut self, throttle: f64, dt: f64) {
         let body = &self.physics.bodies[self.chassis];
         let chassis = Chassis::from(body);
@@ -178,7 +178,7 @@ impl Jointed {
             (velocity, yaw_rate) = (Vector2::zeros(), 0.0);
             self.origin = self.state.pose().then(&origin_from(&middle));
         } else {
-            // The engine has moved the bodies with the velocities that they have now.
+            // The engine has moved the bodies with their velocities after the step.
             self.origin = self.origin.then(&Pose { position: 0.5 * dt * (self.drift - drift), heading: 0.0 });
         }
         self.drift = drift;
@@ -195,7 +195,7 @@ impl Jointed {
         (state.position, state.velocity, state.yaw_rate) = (now.position, velocity, yaw_rate);
     }
 
-    /// Brings the car back to the origin of the frame that the physics counts in.
+    /// Moves the car back to the origin of the frame of the physics.
     fn bring_back(&mut self) {
         let at = self.physics.bodies[self.chassis].translation();
         if at.x.abs().max(at.y.abs()) < FAR {
@@ -240,7 +240,7 @@ impl Dynamics for Jointed {
     }
 }
 
-/// What is left of the car without its wheels, as seen from its middle at the height of its axles.
+/// Returns the mass and inertia of the car without its wheels, as seen from its middle at the height of its axles.
 fn chassis_mass(vehicle: &Vehicle) -> MassProperties {
     let wheels = 4.0 * vehicle.wheel_mass;
     let mass = vehicle.mass - wheels;
@@ -250,7 +250,7 @@ fn chassis_mass(vehicle: &Vehicle) -> MassProperties {
     MassProperties::new(vector(ahead, 0.0, above), mass as f32, vector(inertia.x, inertia.y, vehicle.body_inertia()))
 }
 
-/// Sets what acts on a body at its centre of mass in the next step.
+/// Sets force and torque at the centre of mass of a body for the next step.
 fn apply(body: &mut RigidBody, force: Vector, torque: Vector) {
     body.reset_forces(false);
     body.reset_torques(false);
@@ -258,7 +258,7 @@ fn apply(body: &mut RigidBody, force: Vector, torque: Vector) {
     body.add_torque(torque, false);
 }
 
-/// The origin of a frame as seen from what has the pose `local` in it.
+/// Returns the origin of a frame as seen from an object that has the pose `local` in the frame.
 fn origin_from(local: &Pose) -> Pose {
     Pose { position: local.to_local(Vector2::zeros()), heading: -local.heading }
 }

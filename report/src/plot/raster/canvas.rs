@@ -1,5 +1,5 @@
-//! What plotters draws on: lines, shapes and letters without stairs. Its own canvas of pixels moves every letter to a whole
-//! pixel, so that words come apart.
+//! The canvas on which plotters draws: lines, shapes and letters with smooth edges. It is used because plotters' own
+//! canvas moves every letter to a whole pixel, so that words come apart.
 
 use super::letters::letters;
 use super::{Look, fill, painted, stroke};
@@ -13,22 +13,22 @@ use plotters_backend::{
 use std::convert::Infallible;
 use tiny_skia::{Color, Paint, Path, PathBuilder, Pixmap, Rect, Transform};
 
-/// The size of a font that plotters means, over that of its em: the same as in its SVG.
+/// The size of a font as plotters counts it, over the font's em: the same ratio as in plotters' SVG.
 const PER_EM: f64 = 1.24;
-/// The height of a capital letter, and half of that of a small one, in ems.
+/// The height of a capital letter, and half the height of a small letter, in ems.
 const CAPITAL: f64 = 0.76;
 const HALF_SMALL: f64 = 0.27;
 
 type Done = Result<(), DrawingErrorKind<Infallible>>;
 
-/// Pixels that plotters draws on.
+/// The pixels that plotters draws on.
 pub(in crate::plot) struct Canvas<'a> {
     pixels: &'a mut Pixmap,
     font: FontRef<'static>,
 }
 
 impl<'a> Canvas<'a> {
-    /// Draws on these.
+    /// Makes a canvas on these pixels.
     pub fn on(pixels: &'a mut Pixmap) -> Self {
         Self { pixels, font: FontRef::try_from_slice(FONT).expect("the font in the program is a font") }
     }
@@ -45,7 +45,8 @@ impl<'a> Canvas<'a> {
     }
 }
 
-/// Lines of an odd width run through the middles of pixels, others between two: so they end where pixels do.
+/// Returns the path of a line. Lines of an odd width run through the middles of pixels, others between two pixels, so
+/// that their edges are edges of pixels.
 fn line(points: impl IntoIterator<Item = BackendCoord>, style: &impl BackendStyle) -> PathBuilder {
     polygon(points, 0.5 * (style.stroke_width() % 2) as f32)
 }
@@ -100,7 +101,7 @@ impl DrawingBackend for Canvas<'_> {
     fn draw_rect<S: BackendStyle>(&mut self, from: BackendCoord, to: BackendCoord, style: &S, filled: bool) -> Done {
         let corners = |to: BackendCoord| [from, (to.0, from.1), to, (from.0, to.1)];
         if filled {
-            // The pixel of the last corner is part of it.
+            // The pixel at the last corner is part of the rectangle.
             self.fill(closed(polygon(corners((to.0 + 1, to.1 + 1)), 0.0)), style.color())
         } else {
             self.stroke(closed(line(corners(to), style)), style)
@@ -141,7 +142,7 @@ impl DrawingBackend for Canvas<'_> {
     }
 }
 
-/// Pixels of a white sheet.
+/// Returns the pixels of a white sheet.
 pub(in crate::plot) fn sheet(width: u32, height: u32) -> Pixmap {
     let mut pixels = Pixmap::new(width, height).expect("a picture is not empty and fits into memory");
     pixels.fill(Color::WHITE);

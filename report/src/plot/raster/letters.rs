@@ -1,10 +1,10 @@
-//! The letters of texts as outlines, each where it belongs to a fraction of a pixel.
+//! Draws the letters of texts as outlines, placed to a fraction of a pixel.
 
 use ab_glyph::{Font, FontRef, OutlineCurve, Point};
 use paracosm_engine::picture::{Anchor, Pixel};
 use tiny_skia::{Path, PathBuilder};
 
-/// The outlines of the letters of a text that stands on its anchor, `size` pixels to the em.
+/// Returns the outlines of the letters of a text at its anchor, with `size` pixels to the em.
 pub(super) fn letters(font: &FontRef, text: &str, [x, y]: Pixel, anchor: Anchor, size: f64) -> Option<Path> {
     let scale = size as f32 / font.units_per_em()?;
     let glyphs: Vec<_> = text.chars().map(|letter| font.glyph_id(letter)).collect();
@@ -21,7 +21,7 @@ pub(super) fn letters(font: &FontRef, text: &str, [x, y]: Pixel, anchor: Anchor,
         let mut at = None;
         for curve in font.outline(glyph).into_iter().flat_map(|outline| outline.curves) {
             let (OutlineCurve::Line(from, _) | OutlineCurve::Quad(from, ..) | OutlineCurve::Cubic(from, ..)) = curve;
-            // Curves follow each other; where one begins elsewhere, so does a new part of the letter.
+            // Usually each curve begins where the last one ended. If it does not, a new part of the letter begins.
             if at != Some(from) {
                 path.move_to(place(from).0, place(from).1);
             }

@@ -1,4 +1,4 @@
-//! Pictures of worlds and runs as pixels. Here alone tiny-skia is named.
+//! Draws pictures of worlds and runs as pixels. This module alone uses tiny-skia.
 
 mod canvas;
 mod letters;
@@ -14,7 +14,7 @@ use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
 };
 
-/// A drawing as pixels, each `scale` times as wide and high as it says.
+/// Returns a drawing as pixels, with `scale` times the drawing's width and height.
 pub(super) fn rasterised(drawing: &Drawing, scale: f32) -> Pixmap {
     let [width, height] = [drawing.width, drawing.height].map(|length| (length as f32 * scale).round().max(1.0) as u32);
     let mut pixels = Pixmap::new(width, height).expect("a picture is not empty and fits into memory");
@@ -22,7 +22,7 @@ pub(super) fn rasterised(drawing: &Drawing, scale: f32) -> Pixmap {
     pixels
 }
 
-/// Draws over what is there.
+/// Draws over the existing pixels.
 pub(super) fn draw(pixels: &mut Pixmap, drawing: &Drawing, scale: f32) {
     let font = FontRef::try_from_slice(FONT).expect("the font in the program is a font");
     let zoom = Transform::from_scale(scale, scale);
@@ -49,16 +49,16 @@ pub(super) fn draw(pixels: &mut Pixmap, drawing: &Drawing, scale: f32) {
     }
 }
 
-/// The picture as the contents of a PNG file, at twice the size, so that it is sharp on any screen.
+/// Returns the drawing as the contents of a PNG file, at twice the size, so that it is sharp on any screen.
 ///
 /// # Errors
-/// The encoder fails.
+/// Returns an error if the encoder fails.
 pub fn drawing_png(drawing: &Drawing) -> Result<Vec<u8>, Box<dyn StdError + Send + Sync>> {
     let pixels = rasterised(drawing, super::PNG_SCALE as f32);
     super::encode_png(pixels.width(), pixels.height(), &opaque(&pixels))
 }
 
-/// Red, green and blue of every pixel of a picture that hides what is behind it.
+/// Returns red, green and blue of every pixel of a picture without transparent pixels.
 pub(super) fn opaque(pixels: &Pixmap) -> Vec<u8> {
     pixels.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect()
 }
@@ -71,7 +71,7 @@ fn painted(look: Look) -> Paint<'static> {
     paint
 }
 
-/// Nothing is drawn of what has no extent or goes beyond all numbers.
+/// Fills a path. A path without extent, or with coordinates that are not finite, is not drawn.
 fn fill(pixels: &mut Pixmap, path: Option<Path>, paint: &Paint, zoom: Transform) {
     if let Some(path) = path {
         pixels.fill_path(&path, paint, FillRule::Winding, zoom, None);
@@ -137,7 +137,7 @@ mod tests {
         Drawing { width: 40.0, height: 40.0, marks: [vec![background], marks].concat() }
     }
 
-    /// The colour of a pixel.
+    /// Returns the colour of a pixel.
     fn at(drawing: &Drawing, scale: u32, x: u32, y: u32) -> Vec<u8> {
         let first = 3 * (y * 40 * scale + x) as usize;
         opaque(&rasterised(drawing, scale as f32))[first..first + 3].to_vec()
@@ -161,7 +161,7 @@ mod tests {
         }
     }
 
-    /// How many pixels left and right of the middle are dark.
+    /// Returns the numbers of dark pixels left and right of the middle.
     fn dark(anchor: Anchor, text: &str) -> [usize; 2] {
         let text = text.to_owned();
         let text = PictureItem::Text { at: [20.0, 30.0], anchor, size: 12.0, colour: [0, 0, 0], halo: None, text };

@@ -1,33 +1,17 @@
 //! What drivers see while they drive, against what a recording of the same test shows.
 
+#[path = "../../../../campaign/src/simulator/tests/quiet_road.rs"]
+mod quiet_road;
+
 use super::super::{Developed, Film, Projector};
 use super::can_draw;
 use paracosm_campaign::{Campaign, Study, Trial, Worker};
 use paracosm_engine::driver::{Driver, Equipment, Fault, find};
 use paracosm_engine::sensor::{Image, Rig};
-use paracosm_engine::{
-    AutonomousVehicle, Briefing, Control, Environment, Monitor, Observation, Program, RoadSegment, Scenario,
-};
+use paracosm_engine::{Briefing, Control, Observation};
 use paracosm_render::{Stages, WantedImages};
+use quiet_road::QUIET;
 use std::sync::{Arc, Mutex};
-
-const QUIET: Program = Program::new("quiet-road", "a car alone on a road", quiet_road);
-
-fn quiet_road(s: &mut Scenario) {
-    let speed = s.interval("speed", 5.0..=15.0).unit("m/s");
-    let turned = s.interval("turned", -0.1..=0.1).unit("rad");
-    let fog = s.nominal("fog", 0.0..=1.0, 0.0);
-    let light = s.nominal("light", 0.0..=1.0, 1.0);
-    let rain = s.nominal("rain", 0.0..=1.0, 0.0);
-    let road = s.place(RoadSegment::new(200.0));
-    s.place(Environment::new().light(light).fog(fog).rain(rain));
-    let start = road.on_lane(1, 10.0);
-    let start = paracosm_engine::Pose { heading: start.heading + turned.value(), ..start };
-    let car = s.place(AutonomousVehicle::at(start).speed(speed.value()));
-    s.duration(3.0);
-    s.monitor(Monitor::lane_keeping(&car));
-    s.monitor(Monitor::progress(&car, 12.0));
-}
 
 fn study(changes: &[(&str, f64)]) -> Study {
     let study = Study::of(QUIET).driver("lane-camera").budget(7);

@@ -1,59 +1,60 @@
-//! The file around the pictures of a video: boxes of the ISO base media file format (ISO/IEC 14496-12), with H.264 as
-//! ISO/IEC 14496-15 stores it.
+//! Writes the parts of a video file around the pictures: boxes of the ISO base media file format (ISO/IEC 14496-12),
+//! with H.264 stored as in ISO/IEC 14496-15.
 //!
-//! All pictures lie one after the other in one box, `mdat`; `moov`, after it, says where and when each is.
+//! All pictures lie one after the other in one box, `mdat`. The box `moov` follows and says where and when each picture
+//! is.
 
 use std::num::TryFromIntError;
 
-/// Ticks of a file's clock in a second, as is usual for video.
+/// The ticks of the file's clock in a second, as is usual for video.
 const CLOCK: u32 = 90_000;
 
-/// What a file begins with: its kind, and the head of a box of pictures whose size is not known yet.
+/// The beginning of a file: its kind, and the head of the box of pictures, whose size is not known yet.
 pub(super) const HEADER: [u8; 48] = *b"\0\0\0\x20ftypisom\0\0\x02\0isomiso2avc1mp41\0\0\0\x01mdat\0\0\0\0\0\0\0\0";
 
-/// Where in the file the size of that box stands.
+/// The position in the file of the size of that box.
 pub(super) const MDAT_SIZE: u64 = 40;
-/// How long its head is.
+/// The length of that box's head.
 const MDAT_HEAD: u64 = 16;
 
 /// One picture.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Picture {
-    /// When it comes.
+    /// The time of the picture, in seconds.
     pub seconds: f64,
-    /// How long it is in the file.
+    /// The length of the picture in the file.
     pub bytes: u32,
-    /// Whether a player can begin with it.
+    /// True if a player can begin with this picture.
     pub is_key: bool,
 }
 
-/// The pictures of a film, and what a player has to know of them.
+/// The pictures of a film, and the facts about them that a player needs.
 pub(super) struct Track {
     size: [u32; 2],
     rate: f64,
-    /// How colours were divided into brightness and differences.
+    /// The code of the matrix that divided colours into brightness and colour differences.
     matrix: u16,
-    /// The parameter sets of H.264.
+    /// The sequence parameter set of H.264. The picture parameter set follows.
     pub sequence: Vec<u8>,
     pub parameters: Vec<u8>,
     pub pictures: Vec<Picture>,
 }
 
 impl Track {
-    /// No pictures yet of so many pixels across and down.
+    /// Makes a track without pictures, for pictures of this width and height in pixels.
     pub fn new(size: [u32; 2], rate: f64, matrix: u16) -> Self {
         Self { size, rate, matrix, sequence: Vec::new(), parameters: Vec::new(), pictures: Vec::new() }
     }
 
-    /// The size of the box of pictures, with its head.
+    /// Returns the size of the box of pictures, including its head.
     pub fn mdat_size(&self) -> u64 {
         MDAT_HEAD + self.pictures.iter().map(|picture| u64::from(picture.bytes)).sum::<u64>()
     }
 
-    /// The box `moov`.
+    /// Returns the box `moov`.
     ///
     /// # Errors
-    /// The film lasts longer than 13 hours, or has more than 4 billion pictures.
+    /// Returns an error if the film lasts longer than 13 hours, or has more than 4 billion pictures.
     pub fn contents(&self) -> Result<Vec<u8>, TryFromIntError> {
         let durations = self.durations()?;
         let duration = u32::try_from(durations.iter().map(|ticks| u64::from(*ticks)).sum::<u64>())?;
@@ -62,8 +63,8 @@ impl Track {
         Ok(container(b"moov", &[movie_header(duration), track]))
     }
 
-    /// How many ticks each picture is shown. Times are rounded and not what is between them, so that a film runs at the right
-    /// speed.
+    /// Returns for how many ticks each picture is shown. The times are rounded, not the differences between them, so
+    /// that a film runs at the right speed.
     fn durations(&self) -> Result<Vec<u32>, TryFromIntError> {
         let ticks = |seconds: f64| (seconds * f64::from(CLOCK)).round() as u64;
         let times = self.pictures.iter().map(|picture| ticks(picture.seconds));
@@ -74,19 +75,19 @@ impl Track {
 
     fn track_header(&self, duration: u32) -> Vec<u8> {
         let [width, height] = self.size.map(|pixels| pixels << 16);
-        // Shown and part of the film; made and changed nobody knows when; the first track.
+        // Flags: the track is enabled and part of the film. Words: no time of creation or of change; track number 1.
         let words = [0, 0, 1, 0, duration, 0, 0, 0, 0];
         versioned(b"tkhd", 3, &[&big(&words), &MATRIX, &big(&[width, height])])
     }
 
     fn media_header(&self, duration: u32) -> Vec<u8> {
-        // `und`: in no language.
+        // The language is `und`: undetermined.
         versioned(b"mdhd", 0, &[&big(&[0, 0, CLOCK, duration]), &[0x55, 0xC4, 0, 0]])
     }
 
     fn information(&self, durations: &[u32]) -> Result<Vec<u8>, TryFromIntError> {
         let video = versioned(b"vmhd", 1, &[&[0; 8]]);
-        // The pictures are in this very file.
+        // The pictures are in this same file.
         let here = versioned(b"dref", 0, &[&big(&[1]), &versioned(b"url ", 1, &[])]);
         let count = u32::try_from(self.pictures.len())?;
         let keys = self.pictures.iter().zip(1..).filter(|(picture, _)| picture.is_key).map(|(_, number)| number);
@@ -110,7 +111,7 @@ impl Track {
         Ok(container(b"minf", &[video, container(b"dinf", &[here]), container(b"stbl", &tables)]))
     }
 
-    /// What the pictures are coded in.
+    /// Returns the box that describes how the pictures are coded.
     fn description(&self) -> Vec<u8> {
         let [width, height] = self.size.map(|pixels| (pixels as u16).to_be_bytes());
         let [profile, constraints, level] = [1, 2, 3].map(|byte| self.sequence.get(byte).copied().unwrap_or_default());
@@ -119,21 +120,21 @@ impl Track {
         let units =
             [&[1, profile, constraints, level, 0xFF, 0xE1][..], &length(sequence), sequence, &[1], &length(parameters)];
         let coding = boxed(b"avcC", &[&units.concat(), parameters]);
-        // The colours of sRGB are those of BT.709; in the range of television.
+        // The colours of sRGB are those of BT.709; the values have the range of television.
         let colours = boxed(b"colr", &[b"nclx\0\x01\0\x01", &self.matrix.to_be_bytes(), &[0]]);
         let dots_per_inch = big(&[0x0048_0000, 0x0048_0000]);
-        // Six bytes and the first reference; sixteen that mean nothing; one picture a sample, of no name, 24 bits deep.
+        // Six reserved bytes and reference number 1; sixteen unused bytes; one picture a sample, no name, 24 bits deep.
         let head =
             [&[0, 0, 0, 0, 0, 0, 0, 1][..], &[0; 16], &width, &height, &dots_per_inch, &[0, 0, 0, 0, 0, 1], &[0; 32]];
         boxed(b"avc1", &[&head.concat(), &[0, 24, 0xFF, 0xFF], &coding, &colours])
     }
 }
 
-/// A picture is shown as it is, neither turned nor moved.
+/// The matrix of a picture that is neither turned nor moved.
 const MATRIX: [u8; 36] = *b"\0\x01\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x40\0\0\0";
 
 fn movie_header(duration: u32) -> Vec<u8> {
-    // At its own speed, silent but as loud as it is, and the next track would be the second.
+    // Normal speed; full volume, though there is no sound; the next track would have number 2.
     let words = [0, 0, CLOCK, duration, 0x0001_0000, 0x0100_0000, 0, 0];
     versioned(b"mvhd", 0, &[&big(&words), &MATRIX, &[0; 24], &big(&[2])])
 }
@@ -142,17 +143,17 @@ fn handler() -> Vec<u8> {
     versioned(b"hdlr", 0, &[&[0; 4], b"vide", &[0; 12], b"camera\0"])
 }
 
-/// A box of boxes.
+/// Returns a box that contains boxes.
 fn container(kind: &[u8; 4], boxes: &[Vec<u8>]) -> Vec<u8> {
     boxed(kind, &boxes.iter().map(Vec::as_slice).collect::<Vec<_>>())
 }
 
-/// A box that begins with a version, which is 0, and flags.
+/// Returns a box that begins with the version 0 and flags.
 fn versioned(kind: &[u8; 4], flags: u32, parts: &[&[u8]]) -> Vec<u8> {
     boxed(kind, &[&[&flags.to_be_bytes()[..]], parts].concat())
 }
 
-/// A box: its size, its kind, and what is in it.
+/// Returns a box, which consists of its size, its kind, and its contents.
 fn boxed(kind: &[u8; 4], parts: &[&[u8]]) -> Vec<u8> {
     let contents = parts.concat();
     [&(8 + contents.len() as u32).to_be_bytes()[..], kind, &contents].concat()

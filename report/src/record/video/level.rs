@@ -1,7 +1,7 @@
-//! What a player has to be capable of: the levels of H.264.
+//! Chooses the level of H.264, which says how much a player has to be capable of.
 
-/// A level's number, the macroblocks that a player can do in a second, and those that a picture may have (ITU-T H.264, table
-/// Lower levels allow too little data a second for pictures with noise.
+/// The levels: number, macroblocks a second that a player can decode, and macroblocks that a picture may have (ITU-T
+/// H.264, table A-1). Lower levels allow too little data a second for pictures with noise.
 const LEVELS: [(u8, f64, u32); 8] = [
     (40, 245_760.0, 8_192),
     (42, 522_240.0, 8_704),
@@ -13,8 +13,8 @@ const LEVELS: [(u8, f64, u32); 8] = [
     (62, 16_711_680.0, 139_264),
 ];
 
-/// The lowest level with pictures of so many pixels, so many a second; that of faster ones than any allows is the highest.
-/// `None` where pictures are too large for all.
+/// Returns the lowest level that allows pictures of this size at this rate. If the rate is too high for every level,
+/// the result is the highest level. `None` if the pictures are too large for all levels.
 pub(super) fn level([width, height]: [u32; 2], rate: f64) -> Option<u8> {
     let [across, down] = [width, height].map(|pixels| pixels.div_ceil(16));
     let fits = |most: u32| across * down <= most && across.max(down).pow(2) <= 8 * most;

@@ -1,7 +1,7 @@
-//! Films as MP4 files, which players and browsers show: H.264 in its constrained baseline profile, 4:2:0.
+//! Writes films as MP4 files, which players and browsers show: H.264 in its constrained baseline profile, 4:2:0.
 //!
-//! Pictures are compressed and written as they come, so that only their sizes and times are in memory; what a player reads
-//! first stands at the end of the file.
+//! Each picture is compressed and written as it comes, so that only the sizes and times of pictures are in memory. The
+//! box that a player reads first therefore stands at the end of the file.
 
 mod container;
 mod level;
@@ -20,9 +20,9 @@ use std::io::{Seek, SeekFrom, Write};
 
 type Failure = Box<dyn StdError + Send + Sync>;
 
-/// How coarse the compression is, from 0 to 51: nothing of it is to be seen yet.
+/// The strength of the compression, from 0 to 51. At this value its losses are not visible.
 const QUANTISER: u8 = 17;
-/// From how many pictures to the next a player can jump.
+/// The number of pictures from one key picture to the next; a player can jump to key pictures.
 const BETWEEN_KEYS: u32 = 50;
 
 /// A film that is written picture by picture.
@@ -34,11 +34,11 @@ pub(super) struct Video<W: Write + Seek> {
 }
 
 impl<W: Write + Seek> Video<W> {
-    /// A film of so many pixels across and down, with about so many pictures a second. Colours are stored for squares of two
-    /// pixels, so that an odd size is rounded up and the last pixels are repeated.
+    /// Begins a film of this width and height in pixels, with about `rate` pictures a second. Colours are stored for
+    /// squares of two by two pixels, so that an odd size is rounded up and the last pixels are repeated.
     ///
     /// # Errors
-    /// Pictures are larger than H.264 knows, or nothing can be written.
+    /// Returns an error if the pictures are larger than H.264 allows, or nothing can be written.
     pub fn begin(mut file: W, size: [u32; 2], rate: f64) -> Result<Self, Failure> {
         let planes = Planes::new(size);
         let [width, height] = planes.size();
@@ -60,10 +60,11 @@ impl<W: Write + Seek> Video<W> {
         Ok(Self { file, encoder, track: Track::new([width, height], rate, planes.matrix_code()), planes })
     }
 
-    /// Adds a picture that comes at this time, later than all before: red, green and blue of each pixel.
+    /// Adds a picture at this time, which is later than all earlier times. `rgb` holds red, green and blue of each
+    /// pixel.
     ///
     /// # Errors
-    /// Nothing can be written.
+    /// Returns an error if nothing can be written.
     pub fn show(&mut self, rgb: &[u8], seconds: f64) -> Result<(), Failure> {
         self.planes.take(rgb);
         let [width, height] = self.planes.size().map(|pixels| pixels as usize);
@@ -88,10 +89,10 @@ impl<W: Write + Seek> Video<W> {
         Ok(())
     }
 
-    /// Ends the film; its last picture is shown as long as one usually is.
+    /// Ends the film. The last picture is shown for the usual duration of one picture.
     ///
     /// # Errors
-    /// It lasts longer than a file can say, or nothing can be written.
+    /// Returns an error if the film is too long for the file format, or nothing can be written.
     pub fn end(mut self) -> Result<(), Failure> {
         self.file.write_all(&self.track.contents()?)?;
         self.file.seek(SeekFrom::Start(MDAT_SIZE))?;

@@ -1,12 +1,12 @@
-//! Pictures as video has them: brightness for each pixel, and colour for each square of four.
+//! Converts pictures to the planes of video: a brightness for each pixel, and a colour for each square of four pixels.
 
-/// From how many lines on players take a video that says nothing for one in the colours of HDTV.
+/// The number of lines from which on players assume the colours of HDTV if a video does not say which colours it has.
 const HIGH_DEFINITION: u32 = 720;
 
-/// The planes of one picture: brightness Y and the colour differences Cb and Cr, in the range of television (16 to 235 and
-/// 16 to 240).
+/// The planes of one picture: brightness Y and the colour differences Cb and Cr, in the range of television: 16 to 235
+/// for Y, 16 to 240 for Cb and Cr.
 pub(super) struct Planes {
-    /// Pixels across and down of what is shown, and of the picture, which are even.
+    /// The width and height in pixels that are shown. `size` holds those of the picture, which are even.
     shown: [usize; 2],
     size: [usize; 2],
     matrix: Matrix,
@@ -15,20 +15,21 @@ pub(super) struct Planes {
     cr: Vec<u8>,
 }
 
-/// How much red and blue are part of the brightness; the rest is green.
+/// The shares of red and blue in the brightness; the rest is green.
 struct Matrix {
     red: f32,
     blue: f32,
-    /// What it is called in files (ITU-T H.273, table 4).
+    /// The number that stands for the matrix in files (ITU-T H.273, table 4).
     code: u16,
 }
 
-/// ITU-R BT.601 and BT.709. Players that look at nothing but the size choose between them in the same way.
+/// The matrices of ITU-R BT.601 and of BT.709. Players that look only at the size choose between the two in the same
+/// way.
 const STANDARD: Matrix = Matrix { red: 0.299, blue: 0.114, code: 6 };
 const HIGH: Matrix = Matrix { red: 0.2126, blue: 0.0722, code: 1 };
 
 impl Planes {
-    /// Those of a picture of so many pixels across and down.
+    /// Makes the planes of a picture of this width and height in pixels.
     pub fn new(shown: [u32; 2]) -> Self {
         let matrix = if shown[1] < HIGH_DEFINITION { STANDARD } else { HIGH };
         let shown = shown.map(|pixels| pixels as usize);
@@ -37,22 +38,23 @@ impl Planes {
         Self { shown, size, matrix, y: vec![0; pixels], cb: vec![0; pixels / 4], cr: vec![0; pixels / 4] }
     }
 
-    /// Pixels across and down.
+    /// Returns the width and height of the picture in pixels, which are even.
     pub fn size(&self) -> [u32; 2] {
         self.size.map(|pixels| pixels as u32)
     }
 
-    /// What files call the matrix.
+    /// Returns the number that stands for the matrix in files.
     pub fn matrix_code(&self) -> u16 {
         self.matrix.code
     }
 
-    /// Y, Cb and Cr.
+    /// Returns the planes Y, Cb and Cr.
     pub fn all(&self) -> [&[u8]; 3] {
         [&self.y, &self.cb, &self.cr]
     }
 
-    /// Takes a picture: red, green and blue of each pixel. What is left of an even size is like what is beside it.
+    /// Takes a picture, given as red, green and blue of each pixel. Pixels beyond an odd width or height repeat their
+    /// neighbours.
     pub fn take(&mut self, rgb: &[u8]) {
         let Matrix { red, blue, .. } = self.matrix;
         let [across, down] = self.shown;

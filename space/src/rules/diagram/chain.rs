@@ -1,28 +1,28 @@
-//! A diagram as a Markov chain whose paths are equally probable.
+//! A diagram as a Markov chain. The chain draws all tests with the same probability.
 //!
-//! Where each half of a node's segment is taken with the share that the tests beyond it have of those beyond the node,
-//! all tests come with the same probability (Knuth, *The Art of Computer Programming* 4A, 7.1.4, on random solutions).
-//! The same shares add up to the probability of any combination of classes.
+//! A node chooses each half with this probability: the number of tests through the half, divided by the number of
+//! tests through the node. Then all tests are equally probable (Knuth, *The Art of Computer Programming* 4A, 7.1.4, on
+//! random solutions). The same numbers give the probability of any combination of classes.
 
 use super::{Bits, Diagram, NONE};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Uniformly random paths of a diagram that is not empty, a level counting as much as any other.
+/// Random paths of a diagram that is not empty. All choices of levels are equally probable.
 #[derive(Debug)]
 pub(in crate::rules) struct Chain {
     diagram: Arc<Diagram>,
-    /// For each turn, how many levels there are before each class, and in the end how many there are.
+    /// For each turn, the number of levels before each class, and at last the number of all levels.
     before: Vec<Vec<usize>>,
-    /// For each node, the probabilities of the lower and of the upper half.
+    /// For each node, the probabilities of the lower and the upper half.
     halves: Vec<[f64; 2]>,
 }
 
-/// A number that may be too small for a float: the first times two to the power of the second.
+/// A number that may be too small for a float: the first number times two to the power of the second.
 type Scaled = (f64, i32);
 
 impl Chain {
-    /// The chain of a diagram whose members have classes of so many levels.
+    /// Makes the chain of a diagram. `sizes` has the number of levels in each class of each member.
     pub(in crate::rules) fn new(diagram: Arc<Diagram>, sizes: &[Vec<usize>]) -> Self {
         let before = |&place: &usize| {
             let ends = sizes[place].iter().scan(0, |end, size| {
@@ -33,7 +33,8 @@ impl Chain {
         };
         let before = diagram.order.iter().map(before).collect();
         let mut chain = Self { before, halves: vec![[0.0; 2]; diagram.nodes.len()], diagram };
-        // How many of the choices from a node on keep the clauses, as a share of all: what is not asked is of no matter.
+        // The share of the choices below a node that keep the clauses. Members that a path skips do not change the
+        // share.
         let mut kept: Vec<Scaled> = vec![(1.0, 0); chain.halves.len()];
         for node in (0..chain.end()).rev() {
             let (segment, children) = (chain.diagram.segment(node), chain.diagram.nodes[node]);
@@ -58,7 +59,7 @@ impl Chain {
         self.halves.len() - 1
     }
 
-    /// The levels of consecutive classes, by their positions among the member's levels in the order of the classes.
+    /// Returns the levels of consecutive classes, as positions among the member's levels in the order of the classes.
     fn levels(&self, turn: usize, classes: &Range<usize>) -> Range<usize> {
         self.before[turn][classes.start]..self.before[turn][classes.end]
     }
@@ -67,8 +68,9 @@ impl Chain {
         0..self.diagram.classes[turn]
     }
 
-    /// What a random path leaves open of each member: levels that are equally probable, by their positions among the
-    /// member's levels in the order of the classes. `share` gives numbers from 0 to below 1.
+    /// Draws a random path, and returns the levels of each member that it leaves open. These levels are equally
+    /// probable. They are given as positions among the member's levels in the order of the classes. `share` gives
+    /// random numbers from 0 to below 1.
     pub(in crate::rules) fn draw(&self, mut share: impl FnMut() -> f64) -> Vec<Range<usize>> {
         let Diagram { order, nodes, .. } = &*self.diagram;
         let mut drawn = vec![0..0; order.len()];
@@ -88,11 +90,11 @@ impl Chain {
         drawn
     }
 
-    /// For each member and class, how probable it is that a path has it and the fixed classes.
+    /// Returns, for each member and class, the probability that a path has this class and the fixed classes.
     pub(in crate::rules) fn joint(&self, fixed: &[Option<usize>]) -> Vec<Vec<f64>> {
         let Diagram { order, .. } = &*self.diagram;
         let turn = |node: usize| self.diagram.segment(node).turn;
-        // How probable it is to come to each node by fixed classes.
+        // The probability of reaching each node with the fixed classes.
         let mut reached = vec![0.0; self.halves.len()];
         reached[0] = self.agree(0..turn(0), fixed);
         let mut leads = Bits::new(self.halves.len());
@@ -120,7 +122,7 @@ impl Chain {
                 }),
             }
         };
-        // How probable it is to go on from each node by fixed classes, and to come to members without being asked.
+        // The probabilities of going on from each node with the fixed classes, and of skipping each member on the way.
         let mut on = vec![0.0; self.halves.len()];
         on[self.end()] = 1.0;
         let mut unasked = vec![0.0; order.len()];
@@ -143,8 +145,8 @@ impl Chain {
         joint
     }
 
-    /// Calls with the children of a node that fixed classes lead to, with the classes on the way, and how probable it is
-    /// to go there with all that is fixed before the child.
+    /// Calls `call` with each child of a node that the fixed classes lead to, the classes on the way, and a
+    /// probability. It is the probability of going to the child with all classes that are fixed before the child.
     fn each_branch(&self, node: usize, fixed: &[Option<usize>], mut call: impl FnMut(usize, Range<usize>, f64)) {
         let segment = self.diagram.segment(node);
         self.diagram.each_branch(node, fixed, |child, half| {
@@ -159,12 +161,12 @@ impl Chain {
         });
     }
 
-    /// How probable it is that members of which all is open have the fixed classes.
+    /// Returns the probability that skipped members, for which all classes are open, have the fixed classes.
     fn agree(&self, turns: Range<usize>, fixed: &[Option<usize>]) -> f64 {
         turns.map(|turn| self.agrees(turn, &self.all_classes(turn), fixed)).product()
     }
 
-    /// How probable it is that a member of one of these classes has the fixed one.
+    /// Returns the probability that a member with one of these classes has the fixed class.
     fn agrees(&self, turn: usize, classes: &Range<usize>, fixed: &[Option<usize>]) -> f64 {
         fixed[self.diagram.order[turn]].map_or(1.0, |class| {
             self.levels(turn, &(class..class + 1)).len() as f64 / self.levels(turn, classes).len() as f64

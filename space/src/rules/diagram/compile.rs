@@ -1,35 +1,35 @@
-//! Clauses compiled into the nodes of a decision diagram.
+//! Compiles clauses into the nodes of a decision diagram.
 //!
-//! The clauses become diagrams, and these are joined two by two (Bryant, *Graph-based algorithms for Boolean
-//! function manipulation*, IEEE Transactions on Computers 35, 1986): first those whose first members are late in
-//! the order, so that what is joined already says all of the members from there on.
+//! Each clause becomes a diagram, and the diagrams are joined in pairs (Bryant, *Graph-based algorithms for Boolean
+//! function manipulation*, IEEE Transactions on Computers 35, 1986). Clauses whose first members are late in the order
+//! come first. So the joined diagram is already complete for all members from there on.
 
 use super::super::classes::ClassClause;
 use super::{NONE, Segment};
 use std::collections::HashMap;
 
-/// The number of nodes, those dropped on the way among them, with which a diagram is not given up.
+/// The greatest number of nodes, including nodes that are dropped later. With more, the diagram is given up.
 const MOST_NODES: usize = 1 << 20;
 
-/// The longest path: as deep goes the recursion.
+/// The greatest length of a path. The recursion is as deep as a path is long.
 const LONGEST: usize = 1 << 12;
 
-/// Where the clauses are kept.
+/// The mark of the end of a path, where all clauses are kept.
 const END: u32 = u32::MAX - 1;
 
-/// A choice between the halves of a segment.
+/// A choice between the two halves of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Node {
-    /// The position of the segment.
+    /// The position of the segment in the list of segments.
     pub(super) segment: u32,
-    /// The children, or [`NONE`].
+    /// The children: positions of nodes, [`NONE`] or `END`.
     pub(super) low: u32,
     pub(super) high: u32,
 }
 
-/// The nodes of the clauses' diagram in the order of their segments, and one for the end that has the last
-/// segment; no nodes at all where nothing keeps the clauses. `turn` says where a parameter stands in the order. None
-/// if there are too many.
+/// Returns the nodes of the diagram in the order of their segments. The last node is the end and has the last segment.
+/// The list is empty if nothing keeps the clauses. `turn` gives the position of a parameter in the order. `None` if
+/// there are too many nodes.
 pub(super) fn nodes(
     segments: &[Segment],
     classes: &[usize],
@@ -63,13 +63,13 @@ pub(super) fn nodes(
     Some(table.reached(root, segments.len() as u32 - 1))
 }
 
-/// All nodes so far, each once.
+/// All nodes so far, each of them once.
 struct Table {
     /// The first segment of each member.
     first: Vec<u32>,
     nodes: Vec<Node>,
     number: HashMap<Node, u32>,
-    /// What pairs of nodes have been joined to.
+    /// The results of joining pairs of nodes.
     joined: HashMap<(u32, u32), u32>,
     steps: usize,
 }
@@ -86,12 +86,12 @@ impl Table {
         })
     }
 
-    /// The diagram of a clause; the literals stand in the order of their members.
+    /// Makes the diagram of a clause. The literals have to be in the order of their members.
     fn clause(&mut self, literals: &[(usize, &[bool])]) -> u32 {
         literals.iter().rev().fold(NONE, |otherwise, (turn, holds)| self.literal(self.first[*turn], holds, otherwise))
     }
 
-    /// The end where the class of the segment is one of those marked.
+    /// Makes a diagram that leads to the end if the class is a marked one, and to `otherwise` if not.
     fn literal(&mut self, segment: u32, holds: &[bool], otherwise: u32) -> u32 {
         match holds {
             [true] => END,
@@ -105,7 +105,7 @@ impl Table {
         }
     }
 
-    /// Where all of these lead to the end.
+    /// Joins diagrams: the result leads to the end if all of them do.
     fn join_all(&mut self, mut all: Vec<u32>) -> Option<u32> {
         while all.len() > 1 {
             all = all
@@ -116,7 +116,7 @@ impl Table {
         Some(all.pop().unwrap_or(END))
     }
 
-    /// Where both lead to the end; none after too many nodes.
+    /// Joins two diagrams: the result leads to the end if both do. `None` if there are too many nodes or steps.
     fn join(&mut self, a: u32, b: u32) -> Option<u32> {
         match (a.min(b), a.max(b)) {
             (a, b) if a == b => Some(a),
@@ -144,7 +144,7 @@ impl Table {
         }
     }
 
-    /// The nodes that are reached from the root, in the order of their segments, and the end if it is.
+    /// Returns the nodes that the root reaches, in the order of their segments, and the end unless nothing reaches it.
     fn reached(&self, root: u32, end: u32) -> Vec<Node> {
         let mut kept = vec![false; self.nodes.len()];
         let mut stack = vec![root];

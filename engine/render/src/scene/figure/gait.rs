@@ -1,7 +1,8 @@
-//! How people walk: limbs that swing by the way that they have come, and further the faster they go.
+//! Animates walking people: their limbs swing with the distance they have walked, and farther at higher speed.
 //!
-//! A leg swings about the hip as a sine of the way, and its knee bends while it comes forward; arms swing against legs. The hips
-//! are as high as the lower of the two soles needs. A walk is therefore a function of the state of the run.
+//! A leg swings about the hip as a sine of the distance. The knee bends while the leg comes forward, and the arms swing
+//! against the legs. The hips are as high as the lower of the two soles requires. A walk is therefore a function of the
+//! state of the run.
 
 use super::{CHILD, Figure};
 use crate::mesh::models::Models;
@@ -10,28 +11,28 @@ use crate::scene::Instance;
 use nalgebra::{Isometry3, Vector3};
 use std::f32::consts::{PI, TAU};
 
-/// How far a leg swings in a walk, in radians from the middle, and how much further in a run.
+/// The greatest swing of a leg in a walk, in radians from the middle, and the additional swing in a run.
 const SWING: f32 = 0.45;
 const RUN: f32 = 0.25;
-/// Speeds in m/s at which a person of 1.8 m walks at a good pace, and from which on, and up to which, it runs.
+/// Speeds in m/s of a person of 1.8 m: a brisk walking pace, and the range over which walking turns into running.
 const PACE: f32 = 1.4;
 const RUNS: [f32; 2] = [2.0, 4.5];
-/// The length of two steps by the height: at a good pace the soles do not slide.
+/// The length of two steps as a share of the height: at a brisk pace the soles do not slide.
 const STRIDE: f32 = 0.89;
-/// How far the knee bends by how far the leg swings, and how far the arm swings by it.
+/// The bend of the knee and the swing of the arm, relative to the swing of the leg.
 const KNEE: f32 = 2.0;
 const ARM: f32 = 0.8;
-/// A person that is slower than this faces as its pose says, a faster one where it goes, in m/s.
+/// A person slower than this faces the heading of the pose, a faster one the direction of motion, in m/s.
 const STANDS: f64 = 0.05;
 
-/// A leg: how far it is swung forward, and how far its knee is bent, in radians.
+/// The angles of a leg: the forward swing, and the bend of the knee, in radians.
 #[derive(Debug, Clone, Copy)]
 struct Leg {
     hip: f32,
     knee: f32,
 }
 
-/// The parts of a person.
+/// Adds the parts of a person to the scene.
 pub(super) fn walker(figure: &Figure<'_>, models: &Models, scene: &mut Vec<Instance>) {
     let velocity = figure.state.velocity;
     let speed = velocity.norm();
@@ -43,7 +44,7 @@ pub(super) fn walker(figure: &Figure<'_>, models: &Models, scene: &mut Vec<Insta
     let height = figure.size[2];
     let [x, y, z] = [0, 1, 2].map(|axis| figure.size[axis] / SIZE[axis]);
     let swing = swing(speed as f32 * SIZE[2] / height);
-    // In 64 bits: the way may be long.
+    // In 64 bits, because the distance may be long.
     let steps = figure.state.travelled / f64::from(STRIDE * height);
     let phase = TAU * (steps - steps.floor()) as f32;
     let legs = [phase, phase + PI].map(|phase| leg(phase, swing));
@@ -61,7 +62,7 @@ pub(super) fn walker(figure: &Figure<'_>, models: &Models, scene: &mut Vec<Insta
     }
 }
 
-/// How far legs swing at a speed in m/s of a person of 1.8 m.
+/// Returns the swing of the legs of a person of 1.8 m at a speed in m/s.
 fn swing(speed: f32) -> f32 {
     let run = (speed - RUNS[0]) / (RUNS[1] - RUNS[0]);
     SWING * (speed / PACE).min(1.0) + RUN * run.clamp(0.0, 1.0)
@@ -72,13 +73,13 @@ fn leg(phase: f32, swing: f32) -> Leg {
     Leg { hip: swing * sin, knee: KNEE * swing * cos.max(0.0) }
 }
 
-/// A joint at a point, whose limb is swung forward by an angle.
+/// Returns the pose of a joint at a point whose limb is swung forward by an angle.
 fn forward(joint: Vector3<f32>, angle: f32) -> Isometry3<f32> {
     Isometry3::new(joint, Vector3::y() * -angle)
 }
 
 impl Leg {
-    /// How far its lowest point is below the hip, of a person scaled by `x` and `z`.
+    /// Returns how far the lowest point of the leg is below the hip, for a person scaled by `x` and `z`.
     fn reach(&self, x: f32, z: f32) -> f32 {
         let (thigh, (sin, cos)) = (libm::cosf(self.hip), libm::sincosf(self.hip - self.knee));
         let sole = SOLE.map(|along| SHIN * z * cos - along * x * sin);
